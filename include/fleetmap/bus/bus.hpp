@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/time.hpp"
+
+namespace fleetmap::bus {
+
+/// The three DDS domains of a robot.
+enum class Link : std::uint8_t { kOnboard, kLongRange, kShortRange };
+const char* to_string(Link link);
+
+/// A stream of messages of one IDL type. Two topics with the same link and name must have the same type and profile.
+struct Topic {
+  Link link = Link::kOnboard;
+  std::string name;     ///< as on the wire: "rt/points", "fleetmap/node"
+  std::string type;     ///< IDL type as on the wire: "sensor_msgs::msg::dds_::PointCloud2_"
+  std::string profile;  ///< names the data writer and data reader profiles in qos/<link>.xml
+};
+
+/// Counters of one topic since the bus was made.
+struct TopicStats {
+  std::string topic;
+  Link link = Link::kOnboard;
+  std::uint64_t sent_messages = 0;
+  std::uint64_t sent_bytes = 0;  ///< CDR payload, once per publish
+  std::uint64_t received_messages = 0;
+  std::uint64_t received_bytes = 0;
+  std::uint64_t dropped_messages = 0;  ///< by a full queue, here
+};
+
+/// Cancels its subscription or timer when destroyed.
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(std::function<void()> cancel) : cancel_(std::move(cancel)) {}
+  Handle(Handle&& other) noexcept : cancel_(std::exchange(other.cancel_, nullptr)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    if (this != &other) {
+      reset();
+      cancel_ = std::exchange(other.cancel_, nullptr);
+    }
+    return *this;
+  }
+  ~Handle() { reset(); }
+  void reset() {
+    if (auto cancel = std::exchange(cancel_, nullptr)) cancel();
+  }
+
+ private:
+  std::function<void()> cancel_;
+};
+
+/// What a robot's components see of the world: topics of CDR-encoded IDL messages, a clock, timers and a place for
+/// long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all members are called
+/// from that thread, except where said. Messages published by a robot are delivered to its own subscribers on the
+/// onboard link only.
+class Bus {
+ public:
+  using OnMessage = std::function<void(const Bytes& cdr)>;
+
+  virtual ~Bus() = default;
+
+  virtual Stamp now() const = 0;
+
+  /// Hands `cdr` (with its encapsulation header) to the link. Never blocks: what does not fit is dropped and counted.
+  virtual void publish(const Topic& topic, const Bytes& cdr) = 0;
+  [[nodiscard]] virtual Handle subscribe(const Topic& topic, OnMessage on_message) = 0;
+
+  /// Calls `callback` at now() + period, and again every period, until the handle goes.
+  [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
+
+  /// Runs `work` off the callback thread, then `done` on it. Work items of one robot run in order, one at a time.
+  /// In virtual time both run at the same instant, so results do not depend on the machine.
+  virtual void offload(std::function<void()> work, std::function<void()> done) = 0;
+
+  virtual std::vector<TopicStats> stats() const = 0;
+};
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::exchange {
+
+// ---- long range -----------------------------------------------------------------------------------------------
+
+/// Answer of Alg. 2: `from` found its own `ours` within `radius` of the node `theirs` of `to`.
+struct ProximityMatch {
+  AgentId from;
+  AgentId to;
+  NodeId theirs;
+  NodeId ours;
+  double distance = 0.0;  ///< m, haversine
+  double radius = 0.0;    ///< m, r^i of Eq. 1
+};
+
+/// A piece of one encoded spherized cloud, small enough for one UDP datagram.
+struct CloudFragment {
+  static constexpr std::size_t kMaxPayload = 1100;
+  AgentId from;
+  AgentId to;
+  NodeId node;               ///< the cloud is centred on this node of `from`
+  ContentHash cloud_hash{};  ///< of the whole encoded cloud
+  std::uint32_t total_bytes = 0;
+  std::uint16_t index = 0;  ///< this piece starts at index * kMaxPayload
+  std::uint16_t count = 0;
+  Bytes payload;
+};
+
+/// `from` asks `to` for pieces of a cloud; no index means the whole.
+struct CloudRequest {
+  AgentId from;
+  AgentId to;
+  NodeId node;
+  std::vector<std::uint16_t> missing;
+};
+
+/// Items [first, end) that `agent` made.
+struct Range {
+  AgentId agent;
+  std::uint32_t first = 0;
+  std::uint32_t end = 0;
+  bool operator==(const Range&) const = default;
+};
+
+/// What `from` holds. Sent from time to time, so that whoever lacks something asks for it.
+struct Digest {
+  AgentId from;
+  std::vector<Range> nodes;
+  std::vector<Range> alignments;
+};
+
+/// `from` asks `to` for items that the digest of `to` offered.
+struct ItemRequest {
+  AgentId from;
+  AgentId to;
+  std::vector<Range> nodes;
+  std::vector<Range> alignments;
+};
+
+/// How `from` is doing, for people and for planning.
+struct AgentStatus {
+  AgentId from;
+  Stamp stamp;
+  GeoPoint position;
+  float heading = 0.0f;             ///< rad, counter-clockwise from east
+  float position_stddev = 0.0f;     ///< m, horizontal
+  float battery = -1.0f;            ///< [0, 1], negative when unknown
+  std::uint32_t nodes = 0;          ///< held, all agents
+  std::uint32_t alignments = 0;     ///< held, all agents
+  std::uint32_t submaps = 0;        ///< held, all agents
+  std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
+};
+
+// ---- short range ----------------------------------------------------------------------------------------------
+
+/// Which submaps `from` holds whole.
+struct SubmapDigest {
+  AgentId from;
+  std::vector<Range> submaps;
+};
+
+/// `from` asks `to` for bytes [offset, offset + length) of an encoded submap.
+struct SubmapRequest {
+  AgentId from;
+  AgentId to;
+  NodeId node;
+  std::uint32_t offset = 0;
+  std::uint32_t length = 0;
+};
+
+struct SubmapChunk {
+  static constexpr std::size_t kMaxPayload = 8192;
+  AgentId from;
+  AgentId to;
+  NodeId node;
+  std::uint32_t offset = 0;
+  std::uint32_t total_bytes = 0;
+  Bytes payload;
+};
+
+using Message = std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment, Digest,
+                             ItemRequest, AgentStatus, SubmapDigest, SubmapRequest, SubmapChunk>;
+
+}  // namespace fleetmap::exchange
