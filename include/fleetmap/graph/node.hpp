@@ -8,16 +8,17 @@
 
 namespace fleetmap::graph {
 
-/// A frozen place of one agent: (G, O) of the paper's Alg. 1, a submap, and a vertex of the fleet graph. Never
-/// changes once made, and holds exactly what fits on the wire, so that every agent computes with the same numbers.
+/// A frozen place of one agent: (G, O) of the paper's Alg. 1, a submap, and a vertex of the fleet graph.
+/// Never changes once made, and holds exactly what fits on the wire, so that every agent computes with the
+/// same numbers.
 struct Node {
   NodeId id;
   Stamp stamp;
-  GlobalPose G;                          ///< T_enu_base at `stamp`, with covariance
-  Pose T_odom_base = Pose::Identity();   ///< O: base_link in the agent's odometry frame at `stamp`
+  GlobalPose G;                         ///< T_enu_base at `stamp`, with covariance
+  Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
-  std::uint32_t submap_bytes = 0;        ///< size of the encoded submap
+  std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
 };
 
 }  // namespace fleetmap::graph

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Installs with apt what is missing to build and test fleetmap on Debian 12. Needs root, directly or through sudo.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache clang-format default-jre-headless
+  fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
+  libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev libceres-dev
+  libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
+  libsqlite3-dev libssl-dev liblzma-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+[ "${#missing[@]}" -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "install these as root first: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "installing: ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::graph {
+
+/// Where every node lies in the site's ENU frame. A function of the set of nodes and alignments alone, so
+/// agents that hold the same set hold the same placement, bit for bit, in whatever order the items arrived.
+struct Placement {
+  std::map<NodeId, Pose> T_enu_node;
+  std::map<AgentId, Pose> T_enu_odom;
+  /// Agents whose maps are tied together by alignments; the others lie where their GPS says.
+  std::vector<std::vector<AgentId>> components;
+  /// The alignments that tie them.
+  std::vector<Alignment> used;
+};
+
+struct PaperPlacementConfig {
+  double max_rmse = kGoodRmse;         ///< m, alignments with a larger E_ij do not count
+  double gps_correlation_time = 60.0;  ///< s, fixes closer in time than this share their error
+};
+
+/// The paper's scheme (mode `paper`): one rigid transform per pair of agents, that of the alignment with the
+/// least E_ij; each connected group of agents is then laid on its nodes' global poses G by least squares.
+Placement place_by_least_rmse(std::span<const Node> nodes, std::span<const Alignment> alignments,
+                              const LocalFrame& site, const PaperPlacementConfig& config = {});
+
+/// Least-squares T_enu_odom of nodes whose odometry poses are given in one common frame, weighted by the
+/// covariance of G. Errors of one agent closer in time than `gps_correlation_time` count as one.
+/// `T_common_node` runs parallel to `nodes`; `nodes` must not be empty.
+Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_common_node,
+                         const LocalFrame& site, double gps_correlation_time);
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,137 @@
+// The libraries' arrows, as docs/architecture.md draws them: a file of a library includes only what its row
+// allows.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fleetmap {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::set<std::string>> kDirectArrows = {
+    {"core", {}},
+    {"geometry", {"core"}},
+    {"sensor", {"geometry"}},
+    {"cloud", {"geometry"}},
+    {"odometry", {"cloud", "sensor"}},
+    {"localization", {"geometry", "sensor"}},
+    {"place", {"geometry"}},
+    {"registration", {"cloud"}},
+    {"graph", {"geometry"}},
+    {"store", {"cloud", "graph"}},
+    {"exchange", {"store", "place"}},
+    {"bus", {"core"}},
+    {"wire", {"exchange", "sensor", "bus"}},
+    {"recording", {"wire"}},
+    {"agent", {"odometry", "localization", "registration", "exchange", "wire"}},
+    {"config", {"agent", "recording"}},
+    {"apps", {"config", "recording", "agent", "bus_dds"}},
+};
+
+/// Third-party headers that only the named places may include.
+const std::map<std::string, std::set<std::string>> kConfined = {
+    {"^<(fastdds|fastrtps)/", {"src/bus/dds"}},
+    {"^<fastcdr/", {"src/wire"}},
+    {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},
+    {"^<pcl/", {"src/cloud"}},
+    {"^<draco/", {"src/cloud"}},
+    {"^<sqlite3", {"src/store", "src/recording"}},
+    {"^<GeographicLib/", {"src/geometry"}},
+};
+
+/// What a library may include: its arrows and everything those may include.
+std::set<std::string> allowed(const std::string& library) {
+  std::set<std::string> all{library};
+  for (const std::string& next : kDirectArrows.at(library)) {
+    if (!kDirectArrows.contains(next)) continue;
+    all.merge(allowed(next));
+  }
+  return all;
+}
+
+struct Include {
+  std::string file;  ///< relative to the top
+  int line = 0;
+  std::string target;  ///< with its quotes or brackets
+};
+
+std::vector<Include> includes_of(const fs::path& file, const fs::path& top) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"][^>"]+[>"]))");
+  std::vector<Include> found;
+  std::ifstream in(file);
+  std::string text;
+  for (int line = 1; std::getline(in, text); ++line) {
+    std::smatch match;
+    if (std::regex_search(text, match, kInclude))
+      found.push_back({fs::relative(file, top).string(), line, match[1]});
+  }
+  return found;
+}
+
+std::vector<Include> all_includes() {
+  const fs::path top = FLEETMAP_SOURCE_DIR;
+  std::vector<Include> found;
+  for (const char* root : {"include/fleetmap", "src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(top / root)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".hpp" && extension != ".cpp" && extension != ".h") continue;
+      const auto more = includes_of(entry.path(), top);
+      found.insert(found.end(), more.begin(), more.end());
+    }
+  }
+  return found;
+}
+
+std::string library_of(const std::string& file) {
+  const std::string prefix = file.starts_with("include/") ? "include/fleetmap/" : "src/";
+  return file.substr(prefix.size(), file.find('/', prefix.size()) - prefix.size());
+}
+
+TEST(IncludeArrows, EveryLibraryHasARow) {
+  const auto includes = all_includes();
+  ASSERT_GT(includes.size(), 100u) << "the scan found hardly any include: is FLEETMAP_SOURCE_DIR right?";
+  for (const Include& include : includes) {
+    EXPECT_TRUE(kDirectArrows.contains(library_of(include.file)))
+        << include.file << " belongs to no known library";
+  }
+}
+
+TEST(IncludeArrows, FleetmapIncludesFollowTheArrows) {
+  for (const Include& include : all_includes()) {
+    const std::string prefix = "\"fleetmap/";
+    if (!include.target.starts_with(prefix)) continue;
+    const std::string to =
+        include.target.substr(prefix.size(), include.target.find('/', prefix.size()) - prefix.size());
+    const std::string from = library_of(include.file);
+    EXPECT_TRUE(allowed(from).contains(to))
+        << include.file << ":" << include.line << ": " << from << " may not include " << to;
+  }
+}
+
+TEST(IncludeArrows, ThirdPartyHeadersStayWhereTheyBelong) {
+  for (const Include& include : all_includes()) {
+    for (const auto& [pattern, places] : kConfined) {
+      if (!std::regex_search(include.target, std::regex(pattern))) continue;
+      bool at_home = false;
+      for (const std::string& place : places) at_home |= include.file.starts_with(place);
+      EXPECT_TRUE(at_home) << include.file << ":" << include.line << ": " << include.target;
+    }
+  }
+}
+
+TEST(IncludeArrows, PublicHeadersAreIncludedByTheirFullName) {
+  for (const Include& include : all_includes()) {
+    if (!include.file.starts_with("include/") || include.target.front() != '"') continue;
+    EXPECT_TRUE(include.target.starts_with("\"fleetmap/")) << include.file << ":" << include.line;
+  }
+}
+
+}  // namespace
+}  // namespace fleetmap
