@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+
+namespace fleetmap::cloud {
+
+/// What stands for the points of one voxel.
+enum class VoxelPoint {
+  first,    ///< the first point that fell into it: a merged map does not move when more submaps come
+  centroid  ///< the mean of all points in it
+};
+
+/// Merges clouds of one frame into one, with one point per voxel. The result depends only on the points and
+/// their order: voxels appear in the order in which they were first hit.
+class VoxelMerger {
+ public:
+  /// `voxel_m` is the edge of a voxel in m; where it is not positive and finite every point is its own voxel.
+  explicit VoxelMerger(float voxel_m, VoxelPoint keep = VoxelPoint::first);
+
+  /// Returns how many voxels `cloud` is the first to hit. Non-finite points, and points more than 2^53 voxels
+  /// from the origin, are refused and counted.
+  std::size_t add(const PointCloud& cloud);
+  /// One point per voxel. It has intensities if every cloud added had them.
+  PointCloud cloud() const;
+  std::size_t voxels() const { return sums_.size(); }
+  std::size_t refused() const { return refused_; }
+
+ private:
+  using Key = std::array<std::int64_t, 3>;
+  struct Sum {
+    Eigen::Vector3d xyz;
+    double intensity;
+    std::uint32_t count;
+  };
+  bool add_point(const Eigen::Vector3f& point, float intensity);
+  std::size_t slot_of(const Key& key) const;
+  void grow(std::size_t slots);
+
+  double voxel_m_;
+  VoxelPoint keep_;
+  bool all_intensities_ = true;
+  std::size_t refused_ = 0;
+  std::vector<Key> keys_;
+  std::vector<Sum> sums_;
+  std::vector<std::uint32_t> slots_;  ///< open addressing: 1 + index into keys_ and sums_, 0 where free
+};
+
+/// The centroid of the points of each voxel, in the order in which the voxels were first hit. Points as in
+/// VoxelMerger::add are refused (left out).
+PointCloud voxel_downsample(const PointCloud& cloud, float voxel_m);
+
+}  // namespace fleetmap::cloud

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/voxel_grid.hpp"
+
+namespace fleetmap::cloud {
+namespace {
+
+constexpr double kGoodEnough = 0.97;  // of the budget: finer voxels would gain next to nothing
+
+struct Trial {
+  double log_voxel;
+  double log_bytes;
+};
+
+Result<FittedCloud> encode_at(const PointCloud& cloud, double voxel_m, const FitConfig& config) {
+  FittedCloud fitted;
+  fitted.voxel_m = static_cast<float>(voxel_m);
+  fitted.resolution_m = voxel_m / config.voxel_over_resolution;
+  auto bytes =
+      encode(voxel_downsample(cloud, fitted.voxel_m), {fitted.resolution_m, config.encode_intensities});
+  if (!bytes) return failure(bytes.error().message);
+  fitted.bytes = std::move(*bytes);
+  return fitted;
+}
+
+/// Where a straight line through the two trials (bytes are close to a power of the voxel's edge) meets the
+/// target, kept well inside the bracket so that the bracket always shrinks.
+double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log_bytes) {
+  const double width = fits.log_voxel - too_big.log_voxel;
+  const double drop = too_big.log_bytes - fits.log_bytes;
+  const double along = drop > 1e-9 ? (too_big.log_bytes - target_log_bytes) / drop : 0.5;
+  return too_big.log_voxel + std::clamp(along, 0.05, 0.95) * width;
+}
+
+}  // namespace
+
+Status FitConfig::validate() const {
+  if (max_bytes < 64) return failure("max_bytes must be at least 64");
+  if (!std::isfinite(min_voxel_m) || min_voxel_m < 1e-4f)
+    return failure("min_voxel_m must be at least 0.0001 m");
+  if (!std::isfinite(max_voxel_m) || max_voxel_m < min_voxel_m) {
+    return failure("max_voxel_m must be at least min_voxel_m");
+  }
+  if (!(voxel_over_resolution >= 1.0 && voxel_over_resolution <= 100.0)) {
+    return failure("voxel_over_resolution must be in [1, 100]");
+  }
+  if (max_encodings < 3) return failure("max_encodings must be at least 3");
+  return {};
+}
+
+Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& config) {
+  if (auto valid = config.validate(); !valid) return failure(valid.error().message);
+  const auto log_bytes = [](const FittedCloud& fitted) {
+    return std::log(static_cast<double>(fitted.bytes.size()));
+  };
+  const double target = std::log(0.985 * static_cast<double>(config.max_bytes));
+
+  auto tried = encode_at(cloud, static_cast<double>(config.min_voxel_m), config);
+  if (!tried) return tried;
+  int encodings = 1;
+  std::optional<FittedCloud> best;
+  Trial too_big{std::log(static_cast<double>(config.min_voxel_m)), log_bytes(*tried)};
+  Trial fits{std::log(static_cast<double>(config.max_voxel_m)), 0.0};
+  if (tried->bytes.size() <= config.max_bytes) best = std::move(*tried);
+
+  // The next voxel after a first miss: bytes fall with its square on surfaces.
+  double log_voxel = too_big.log_voxel + 0.5 * (too_big.log_bytes - target);
+  while (encodings < config.max_encodings &&
+         !(best &&
+           (best->voxel_m == config.min_voxel_m || log_bytes(*best) >= target + std::log(kGoodEnough)))) {
+    const bool last_chance = !best && encodings + 1 == config.max_encodings;
+    log_voxel = last_chance ? fits.log_voxel : std::min(log_voxel, fits.log_voxel);
+    tried = encode_at(cloud, std::exp(log_voxel), config);
+    if (!tried) return tried;
+    ++encodings;
+    const Trial trial{log_voxel, log_bytes(*tried)};
+    if (tried->bytes.size() <= config.max_bytes) {
+      fits = trial;
+      best = std::move(*tried);
+    } else {
+      if (log_voxel >= std::log(static_cast<double>(config.max_voxel_m))) break;
+      too_big = trial;
+    }
+    log_voxel =
+        best ? next_log_voxel(too_big, fits, target) : too_big.log_voxel + 0.6 * (too_big.log_bytes - target);
+  }
+  if (!best) {
+    return failure("cloud encoding: even voxels of " + std::to_string(config.max_voxel_m) +
+                   " m need more than " + std::to_string(config.max_bytes) + " bytes");
+  }
+  auto decoded = decode(best->bytes);
+  if (!decoded) return failure(decoded.error().message);
+  best->decoded = std::move(*decoded);
+  best->encodings = encodings;
+  return std::move(*best);
+}
+
+}  // namespace fleetmap::cloud
