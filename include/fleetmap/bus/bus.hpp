@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <utility>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/core/bytes.hpp"
@@ -15,7 +15,8 @@ namespace fleetmap::bus {
 enum class Link : std::uint8_t { kOnboard, kLongRange, kShortRange };
 const char* to_string(Link link);
 
-/// A stream of messages of one IDL type. Two topics with the same link and name must have the same type and profile.
+/// A stream of messages of one IDL type. Two topics with the same link and name must have the same type and
+/// profile.
 struct Topic {
   Link link = Link::kOnboard;
   std::string name;     ///< as on the wire: "rt/points", "fleetmap/node"
@@ -56,10 +57,10 @@ class Handle {
   std::function<void()> cancel_;
 };
 
-/// What a robot's components see of the world: topics of CDR-encoded IDL messages, a clock, timers and a place for
-/// long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all members are called
-/// from that thread, except where said. Messages published by a robot are delivered to its own subscribers on the
-/// onboard link only.
+/// What a robot's components see of the world: topics of CDR-encoded IDL messages, a clock, timers and a
+/// place for long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all
+/// members are called from that thread, except where said. Messages published by a robot are delivered to its
+/// own subscribers on the onboard link only.
 class Bus {
  public:
   using OnMessage = std::function<void(const Bytes& cdr)>;
@@ -68,15 +69,20 @@ class Bus {
 
   virtual Stamp now() const = 0;
 
-  /// Hands `cdr` (with its encapsulation header) to the link. Never blocks: what does not fit is dropped and counted.
+  /// Makes the sending end of `topic` ready (discovery takes a moment), so that the first message finds its
+  /// readers.
+  virtual void advertise(const Topic& topic) { static_cast<void>(topic); }
+
+  /// Hands `cdr` (with its encapsulation header) to the link. Never blocks: what does not fit is dropped and
+  /// counted.
   virtual void publish(const Topic& topic, const Bytes& cdr) = 0;
   [[nodiscard]] virtual Handle subscribe(const Topic& topic, OnMessage on_message) = 0;
 
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
   [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
 
-  /// Runs `work` off the callback thread, then `done` on it. Work items of one robot run in order, one at a time.
-  /// In virtual time both run at the same instant, so results do not depend on the machine.
+  /// Runs `work` off the callback thread, then `done` on it. Work items of one robot run in order, one at a
+  /// time. In virtual time both run at the same instant, so results do not depend on the machine.
   virtual void offload(std::function<void()> work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;
