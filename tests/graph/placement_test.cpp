@@ -127,6 +127,31 @@ TEST(Placement, SameSetSamePlacementWhateverTheOrder) {
   }
 }
 
+TEST(Placement, RestartedAgentIsAFrameOfItsOwnUntilAlignedWithItself) {
+  Fleet fleet(6);
+  fleet.add_agent("r1", 2.0);
+  const Pose T_before_after = make_pose(rotation_from_rpy(0.0, 0.0, 1.0), Eigen::Vector3d(4.0, -7.0, 0.5));
+  for (Node& node : fleet.nodes) {
+    if (node.id.seq < 15) continue;
+    node.session = 1;
+    node.T_odom_base = T_before_after.inverse() * node.T_odom_base;
+  }
+  EXPECT_EQ(place_by_least_rmse(fleet.nodes, {}, fleet.site).components.size(), 2u);
+
+  const Node before = fleet.node("r1", 10);
+  const Node after = fleet.node("r1", 20);
+  Alignment alignment{.i = before.id, .j = after.id, .computed_by = before.id.agent};
+  alignment.T_i_j = before.T_odom_base.inverse() * T_before_after * after.T_odom_base;
+  alignment.rmse = 0.1;
+  const Placement placement = place_by_least_rmse(fleet.nodes, std::vector{alignment}, fleet.site);
+  EXPECT_EQ(placement.components.size(), 1u);
+  const Pose placed = placement.T_enu_node.at(fleet.node("r1", 0).id).inverse() *
+                      placement.T_enu_node.at(fleet.node("r1", 29).id);
+  const Pose truth =
+      fleet.node("r1", 0).T_odom_base.inverse() * T_before_after * fleet.node("r1", 29).T_odom_base;
+  EXPECT_LT(distance(placed, truth), 1e-6);
+}
+
 TEST(Placement, AlignmentOfAnUnknownNodeWaits) {
   Fleet fleet(5);
   fleet.add_agent("r1", 1.0);

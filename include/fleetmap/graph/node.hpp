@@ -8,11 +8,19 @@
 
 namespace fleetmap::graph {
 
+/// An odometry frame: each start of an agent's program begins a new one.
+struct FrameId {
+  AgentId agent;
+  std::uint8_t session = 0;  ///< counts the starts of the agent, modulo 256
+  auto operator<=>(const FrameId&) const = default;
+};
+
 /// A frozen place of one agent: (G, O) of the paper's Alg. 1, a submap, and a vertex of the fleet graph.
 /// Never changes once made, and holds exactly what fits on the wire, so that every agent computes with the
 /// same numbers.
 struct Node {
   NodeId id;
+  std::uint8_t session = 0;  ///< the odometry frame of O is that of FrameId{id.agent, session}
   Stamp stamp;
   GlobalPose G;                         ///< T_enu_base at `stamp`, with covariance
   Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`

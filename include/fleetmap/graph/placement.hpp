@@ -16,9 +16,9 @@ namespace fleetmap::graph {
 /// agents that hold the same set hold the same placement, bit for bit, in whatever order the items arrived.
 struct Placement {
   std::map<NodeId, Pose> T_enu_node;
-  std::map<AgentId, Pose> T_enu_odom;
-  /// Agents whose maps are tied together by alignments; the others lie where their GPS says.
-  std::vector<std::vector<AgentId>> components;
+  std::map<FrameId, Pose> T_enu_odom;
+  /// Odometry frames that alignments tie together; each group lies where its nodes' GPS says.
+  std::vector<std::vector<FrameId>> components;
   /// The alignments that tie them.
   std::vector<Alignment> used;
 };
