@@ -27,11 +27,20 @@ class AgentId {
   std::string name_;
 };
 
-/// A node (and so its submap and its graph vertex): the seq-th that `agent` froze, counted from 0 without gaps.
+/// A node (and so its submap and its graph vertex): the seq-th that `agent` froze, counted from 0 without
+/// gaps.
 struct NodeId {
   AgentId agent;
   std::uint32_t seq = 0;
   auto operator<=>(const NodeId&) const = default;
+};
+
+/// Items (nodes, submaps or alignments) [first, end) that `agent` made.
+struct SeqRange {
+  AgentId agent;
+  std::uint32_t first = 0;
+  std::uint32_t end = 0;
+  bool operator==(const SeqRange&) const = default;
 };
 
 /// "r1/17"
@@ -41,7 +50,9 @@ std::string to_string(const NodeId& id);
 
 template <>
 struct std::hash<fleetmap::AgentId> {
-  std::size_t operator()(const fleetmap::AgentId& id) const noexcept { return std::hash<std::string>{}(id.str()); }
+  std::size_t operator()(const fleetmap::AgentId& id) const noexcept {
+    return std::hash<std::string>{}(id.str());
+  }
 };
 template <>
 struct std::hash<fleetmap::NodeId> {

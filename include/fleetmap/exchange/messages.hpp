@@ -13,7 +13,8 @@
 
 namespace fleetmap::exchange {
 
-// ---- long range -----------------------------------------------------------------------------------------------
+// ---- long range
+// -----------------------------------------------------------------------------------------------
 
 /// Answer of Alg. 2: `from` found its own `ours` within `radius` of the node `theirs` of `to`.
 struct ProximityMatch {
@@ -46,13 +47,7 @@ struct CloudRequest {
   std::vector<std::uint16_t> missing;
 };
 
-/// Items [first, end) that `agent` made.
-struct Range {
-  AgentId agent;
-  std::uint32_t first = 0;
-  std::uint32_t end = 0;
-  bool operator==(const Range&) const = default;
-};
+using Range = SeqRange;
 
 /// What `from` holds. Sent from time to time, so that whoever lacks something asks for it.
 struct Digest {
@@ -83,7 +78,8 @@ struct AgentStatus {
   std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
 };
 
-// ---- short range ----------------------------------------------------------------------------------------------
+// ---- short range
+// ----------------------------------------------------------------------------------------------
 
 /// Which submaps `from` holds whole.
 struct SubmapDigest {
@@ -110,7 +106,7 @@ struct SubmapChunk {
   Bytes payload;
 };
 
-using Message = std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment, Digest,
-                             ItemRequest, AgentStatus, SubmapDigest, SubmapRequest, SubmapChunk>;
+using Message = std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment,
+                             Digest, ItemRequest, AgentStatus, SubmapDigest, SubmapRequest, SubmapChunk>;
 
 }  // namespace fleetmap::exchange

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::store {
+
+/// Decoded submap of a node, in base_link of that node.
+using SubmapLoader = std::function<Result<cloud::PointCloud>(const NodeId&)>;
+
+struct MergeConfig {
+  double voxel_m = 0.1;    ///< m, edge of the grid in the site's frame; one point is kept in each voxel
+  bool centroids = false;  ///< the mean of a voxel's points rather than the first of them
+  Status validate() const;
+};
+
+struct MergedMap {
+  cloud::PointCloud cloud;         ///< in the frame of the poses (ENU of the site's origin)
+  std::size_t submaps = 0;         ///< merged
+  std::size_t points_in = 0;       ///< before de-duplication
+  std::size_t points_refused = 0;  ///< not finite, or absurdly far away
+  std::vector<NodeId> unreadable;  ///< submaps that the loader could not give; left out
+};
+
+/// The whole map: every submap put where `T_enu_node` says, one point a voxel. Submaps are loaded one by one
+/// in the order of their NodeId, so equal poses and submaps give the same map byte for byte on every agent,
+/// and memory stays within that of the merged map and one submap.
+MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& load,
+                const MergeConfig& config);
+
+}  // namespace fleetmap::store

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+#include "fleetmap/store/seq_set.hpp"
+
+namespace fleetmap::store {
+
+/// (computed_by, seq) of an alignment.
+struct AlignmentId {
+  AgentId computed_by;
+  std::uint32_t seq = 0;
+  auto operator<=>(const AlignmentId&) const = default;
+};
+
+struct StoreConfig {
+  std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
+  std::uint32_t max_seq = 10'000'000;         ///< items of one agent; larger sequence numbers are refused
+  bool sync_own_items = true;  ///< own nodes and alignments survive a power cut too (one disk sync each)
+  Status validate() const;
+};
+
+/// What became of an item that was put.
+enum class Put : std::uint8_t {
+  kAdded,     ///< committed: a kill -9 from now on does not lose it
+  kKnown,     ///< held already, the same; nothing changed
+  kConflict,  ///< another item is held under this name; refused and counted
+  kInvalid    ///< breaks a rule of its type (not finite, too large, unknown node, wrong hash); refused and
+              ///< counted
+};
+
+struct StoreStats {
+  std::uint64_t added = 0;
+  std::uint64_t known = 0;
+  std::uint64_t conflicts = 0;
+  std::uint64_t invalid = 0;
+  std::uint64_t bad_submaps = 0;  ///< complete downloads whose content hash was wrong; dropped
+  std::uint64_t lost_submaps =
+      0;  ///< submaps that were damaged on disk; dropped, so that they are fetched again
+};
+
+/// The agent's durable set of immutable items: nodes, alignments, encoded submaps; also submaps that are half
+/// downloaded, and named values of the agent (site origin, counters). One SQLite file in WAL mode.
+///
+/// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
+/// items are also synced to the disk: after a power cut the agent must not give a second item a name that it
+/// has already told the others. Items of others are not; a power cut may lose the last of them, and the
+/// digests fetch them again.
+///
+/// Nodes and alignments are held in memory as well; submaps stay on disk. One thread at a time. A Result that
+/// fails means that the file failed (disk full, I/O error, corrupt); the set in memory is then unchanged.
+class Store {
+ public:
+  /// Bytes of one piece of a download; the last of a submap may be shorter.
+  static constexpr std::uint32_t kChunkBytes = 8192;
+
+  /// Opens or makes the store of `self`. Fails with what to do when the file is no store, is corrupt, is of a
+  /// newer version, belongs to another agent, or is open in another process for writing.
+  static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
+                            const StoreConfig& config = {});
+  /// Opens any agent's store to look at it; a running agent does not mind. Puts fail.
+  static Result<Store> open_read_only(const std::filesystem::path& path);
+
+  Store(Store&&) noexcept;
+  Store& operator=(Store&&) noexcept;
+  ~Store();
+
+  const AgentId& self() const;
+
+  /// Not for own nodes: those come with their submap.
+  Result<Put> put_node(const graph::Node& node);
+  /// An own node and its submap, both or none. kInvalid unless the node's hash and size name `submap`.
+  Result<Put> put_node_with_submap(const graph::Node& node, ByteView submap);
+  Result<Put> put_alignment(const graph::Alignment& alignment);
+  /// A whole submap of a held node. kInvalid when its size or hash is not the node's.
+  Result<Put> put_submap(const NodeId& id, ByteView encoded);
+  /// Bytes [chunk * kChunkBytes, ...) of a held node's submap; they survive a restart. The last missing one
+  /// completes the submap, or, if its hash is then wrong, drops all chunks and gives kInvalid.
+  Result<Put> put_submap_chunk(const NodeId& id, std::uint32_t chunk, ByteView bytes);
+
+  const graph::Node* node(const NodeId& id) const;  ///< null when not held
+  const graph::Alignment* alignment(const AlignmentId& id) const;
+  const std::map<NodeId, graph::Node>& nodes() const;
+  const std::map<AlignmentId, graph::Alignment>& alignments() const;
+  /// The nodes held of `range`, in order.
+  std::vector<const graph::Node*> nodes_from(const SeqRange& range) const;
+  /// A submap of no bytes is held as soon as its node is.
+  bool has_submap(const NodeId& id) const;
+  /// Reads from disk and checks the hash. A damaged submap is dropped, counted and gives an Error.
+  Result<Bytes> submap(const NodeId& id);
+  /// Bytes [offset, offset + length) of a held submap, cut at its end; the hash is not checked.
+  Result<Bytes> submap_part(const NodeId& id, std::uint32_t offset, std::uint32_t length) const;
+  /// Chunks of a node's submap that are not held, in order; empty when all are or the node is unknown.
+  std::vector<std::uint32_t> missing_chunks(const NodeId& id) const;
+  /// Nodes whose submap is held in part.
+  std::vector<NodeId> partial_submaps() const;
+
+  const SeqSet& node_set() const;
+  const SeqSet& alignment_set() const;
+  const SeqSet& submap_set() const;
+  /// Sequence number of the next own node and alignment.
+  std::uint32_t next_node_seq() const;
+  std::uint32_t next_alignment_seq() const;
+
+  Result<std::optional<Bytes>> meta(std::string_view key) const;
+  Status set_meta(std::string_view key, ByteView value);
+
+  const StoreStats& stats() const;
+  const std::filesystem::path& path() const;
+
+ private:
+  struct State;
+  explicit Store(std::unique_ptr<State> state);
+  Result<Put> insert_node(const graph::Node& node, const ByteView* submap);
+  Status complete_submap(const graph::Node& node, ByteView encoded);
+  Result<Put> finish_download(const graph::Node& node);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fleetmap::store

@@ -1,0 +1,34 @@
+#include "fleetmap/store/map_merge.hpp"
+
+#include <cmath>
+
+#include "fleetmap/cloud/voxel_grid.hpp"
+
+namespace fleetmap::store {
+
+Status MergeConfig::validate() const {
+  if (!(voxel_m > 0.0) || !std::isfinite(voxel_m)) return failure("merge.voxel_m must be positive");
+  return {};
+}
+
+MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& load,
+                const MergeConfig& config) {
+  cloud::VoxelMerger merger(static_cast<float>(config.voxel_m),
+                            config.centroids ? cloud::VoxelPoint::centroid : cloud::VoxelPoint::first);
+  MergedMap map;
+  for (const auto& [id, T_enu] : T_enu_node) {
+    const auto submap = load(id);
+    if (!submap || !all_finite(T_enu)) {
+      map.unreadable.push_back(id);
+      continue;
+    }
+    ++map.submaps;
+    map.points_in += submap->size();
+    merger.add(cloud::transformed(*submap, T_enu));
+  }
+  map.points_refused = merger.refused();
+  map.cloud = merger.cloud();
+  return map;
+}
+
+}  // namespace fleetmap::store

@@ -1,0 +1,471 @@
+#include "fleetmap/store/store.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "database.hpp"
+#include "file_lock.hpp"
+#include "item_codec.hpp"
+#include "schema.hpp"
+
+namespace fleetmap::store {
+namespace {
+
+/// Which chunks of one submap are on disk.
+struct Partial {
+  std::vector<bool> held;
+  std::uint32_t missing = 0;
+};
+
+std::uint32_t chunk_count(const graph::Node& node) {
+  return node.submap_bytes / Store::kChunkBytes + (node.submap_bytes % Store::kChunkBytes != 0);
+}
+
+std::uint32_t chunk_size(const graph::Node& node, std::uint32_t chunk) {
+  return std::min(Store::kChunkBytes, node.submap_bytes - chunk * Store::kChunkBytes);
+}
+
+bool valid(const graph::Node& node, const StoreConfig& config) {
+  return !node.id.agent.empty() && node.id.seq < config.max_seq && is_valid(node.G.position) &&
+         node.G.q_enu_base.coeffs().allFinite() && node.G.covariance.allFinite() &&
+         all_finite(node.T_odom_base) && node.submap_bytes <= config.max_submap_bytes;
+}
+
+bool valid(const graph::Alignment& a, const StoreConfig& config) {
+  return !a.computed_by.empty() && !a.i.agent.empty() && !a.j.agent.empty() && a.i != a.j &&
+         a.seq < config.max_seq && a.i.seq < config.max_seq && a.j.seq < config.max_seq &&
+         all_finite(a.T_i_j) && a.covariance.allFinite() && std::isfinite(a.rmse) &&
+         std::isfinite(a.inlier_fraction);
+}
+
+std::uint32_t end_of(const SeqSet& set, const AgentId& agent) {
+  std::uint32_t end = 0;
+  for (const SeqRange& range : set.ranges()) {
+    if (range.agent == agent) end = std::max(end, range.end);
+  }
+  return end;
+}
+
+}  // namespace
+
+Status StoreConfig::validate() const {
+  if (max_submap_bytes == 0 || max_submap_bytes > (1u << 30)) {
+    return failure("store.max_submap_bytes must be in 1 .. 2^30");
+  }
+  if (max_seq == 0 || max_seq == UINT32_MAX) return failure("store.max_seq must be in 1 .. 2^32 - 2");
+  return {};
+}
+
+struct Store::State {
+  std::filesystem::path path;
+  AgentId self;
+  StoreConfig config;
+  FileLock lock;
+  std::optional<Database> db;
+  bool read_only = false;
+  std::map<NodeId, graph::Node> nodes;
+  std::map<AlignmentId, graph::Alignment> alignments;
+  SeqSet node_set;
+  SeqSet alignment_set;
+  SeqSet submap_set;
+  std::map<NodeId, Partial> partials;
+  StoreStats stats;
+
+  Status load();
+  Status load_items();
+  Status load_submap_names();
+  Partial& partial(const graph::Node& node);
+  /// Runs one statement whose first two parameters are agent and seq.
+  Status run(std::string_view sql, const AgentId& agent, std::uint32_t seq, const ByteView* blob = nullptr);
+  Status sync(bool full);
+  Put count(Put put);
+};
+
+Put Store::State::count(Put put) {
+  switch (put) {
+    case Put::kAdded:
+      ++stats.added;
+      break;
+    case Put::kKnown:
+      ++stats.known;
+      break;
+    case Put::kConflict:
+      ++stats.conflicts;
+      break;
+    case Put::kInvalid:
+      ++stats.invalid;
+      break;
+  }
+  return put;
+}
+
+Status Store::State::run(std::string_view sql, const AgentId& agent, std::uint32_t seq,
+                         const ByteView* blob) {
+  auto statement = db->prepare(sql);
+  if (!statement) return tl::unexpected(statement.error());
+  statement->bind(1, agent.str()).bind(2, std::int64_t{seq});
+  if (blob) statement->bind(3, *blob);
+  return statement->run();
+}
+
+Status Store::State::sync(bool full) {
+  return db->execute(full ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+}
+
+Status Store::State::load_items() {
+  const auto damaged = [this](const char* table) {
+    return failure(path.string() + ": a row of table '" + table +
+                   "' is damaged; move the file away to start an "
+                   "empty store, the others' items come back over the links");
+  };
+  auto node_rows = db->prepare("SELECT agent, seq, item FROM node");
+  if (!node_rows) return tl::unexpected(node_rows.error());
+  for (auto row = node_rows->step();; row = node_rows->step()) {
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) break;
+    const auto node = decode_node(node_rows->blob(2));
+    if (!node || node->id.agent.str() != node_rows->text(0) || node->id.seq != node_rows->integer(1) ||
+        !valid(*node, config)) {
+      return damaged("node");
+    }
+    node_set.insert(node->id.agent, node->id.seq);
+    if (node->submap_bytes == 0) submap_set.insert(node->id.agent, node->id.seq);
+    nodes.emplace(node->id, *node);
+  }
+  auto rows = db->prepare("SELECT agent, seq, item FROM alignment");
+  if (!rows) return tl::unexpected(rows.error());
+  for (auto row = rows->step();; row = rows->step()) {
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return {};
+    const auto item = decode_alignment(rows->blob(2));
+    if (!item || item->computed_by.str() != rows->text(0) || item->seq != rows->integer(1) ||
+        !valid(*item, config)) {
+      return damaged("alignment");
+    }
+    alignment_set.insert(item->computed_by, item->seq);
+    alignments.emplace(AlignmentId{item->computed_by, item->seq}, *item);
+  }
+}
+
+Status Store::State::load_submap_names() {
+  auto rows =
+      db->prepare("SELECT agent, seq, -1 FROM submap UNION ALL SELECT agent, seq, chunk FROM submap_chunk");
+  if (!rows) return tl::unexpected(rows.error());
+  for (auto row = rows->step();; row = rows->step()) {
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return {};
+    const auto agent = AgentId::parse(rows->text(0));
+    const auto seq = rows->integer(1);
+    const auto chunk = rows->integer(2);
+    if (!agent || seq < 0 || seq >= config.max_seq) continue;
+    const auto node = nodes.find({*agent, static_cast<std::uint32_t>(seq)});
+    if (node == nodes.end()) continue;
+    if (chunk < 0) {
+      submap_set.insert(*agent, node->first.seq);
+    } else if (chunk < chunk_count(node->second)) {
+      Partial& held = partial(node->second);
+      if (!held.held[static_cast<std::size_t>(chunk)]) --held.missing;
+      held.held[static_cast<std::size_t>(chunk)] = true;
+    }
+  }
+}
+
+Status Store::State::load() {
+  if (auto status = load_items(); !status) return status;
+  return load_submap_names();
+}
+
+Partial& Store::State::partial(const graph::Node& node) {
+  const auto [it, fresh] = partials.try_emplace(node.id);
+  if (fresh) {
+    it->second.missing = chunk_count(node);
+    it->second.held.assign(it->second.missing, false);
+  }
+  return it->second;
+}
+
+Store::Store(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+Store::~Store() = default;
+
+Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self, const StoreConfig& config) {
+  if (auto status = config.validate(); !status) return tl::unexpected(status.error());
+  if (self.empty()) return failure(path.string() + ": a store needs the id of its agent");
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->self = self;
+  state->config = config;
+  auto lock = FileLock::acquire(path);
+  if (!lock) return tl::unexpected(lock.error());
+  state->lock = std::move(*lock);
+  auto db = Database::open(path, false);
+  if (!db) return tl::unexpected(db.error());
+  state->db.emplace(std::move(*db));
+  if (auto status = prepare_schema(*state->db, path, self); !status) return tl::unexpected(status.error());
+  if (auto status = state->db->execute("PRAGMA journal_mode = WAL"); !status)
+    return tl::unexpected(status.error());
+  if (auto status = state->sync(false); !status) return tl::unexpected(status.error());
+  if (auto status = state->load(); !status) return tl::unexpected(status.error());
+  Store store(std::move(state));
+  // The process may have died between the last chunk of a download and its completion.
+  for (const NodeId& id : store.partial_submaps()) {
+    if (!store.missing_chunks(id).empty()) continue;
+    if (const auto put = store.finish_download(*store.node(id)); !put) return tl::unexpected(put.error());
+  }
+  return store;
+}
+
+Result<Store> Store::open_read_only(const std::filesystem::path& path) {
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->read_only = true;
+  auto db = Database::open(path, true);
+  if (!db) return tl::unexpected(db.error());
+  state->db.emplace(std::move(*db));
+  const auto owner = check_schema(*state->db, path);
+  if (!owner) return tl::unexpected(owner.error());
+  state->self = *owner;
+  if (auto status = state->load(); !status) return tl::unexpected(status.error());
+  return Store(std::move(state));
+}
+
+const AgentId& Store::self() const { return state_->self; }
+
+Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) {
+  State& s = *state_;
+  const bool submap_fits =
+      !submap || (submap->size() == node.submap_bytes && content_hash(*submap) == node.submap_hash);
+  if (!valid(node, s.config) || !submap_fits) return s.count(Put::kInvalid);
+  const Bytes item = encode(node);
+  if (const auto held = s.nodes.find(node.id); held != s.nodes.end()) {
+    return s.count(encode(held->second) == item ? Put::kKnown : Put::kConflict);
+  }
+  const bool own = node.id.agent == s.self && s.config.sync_own_items;
+  if (own) {
+    if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
+  }
+  const auto insert = [&]() -> Status {
+    auto transaction = Transaction::begin(*s.db);
+    if (!transaction) return tl::unexpected(transaction.error());
+    const ByteView row(item);
+    if (auto status = s.run("INSERT INTO node VALUES(?, ?, ?)", node.id.agent, node.id.seq, &row); !status) {
+      return status;
+    }
+    if (submap && !submap->empty()) {
+      auto status =
+          s.run("INSERT OR REPLACE INTO submap VALUES(?, ?, ?)", node.id.agent, node.id.seq, submap);
+      if (!status) return status;
+    }
+    return transaction->commit();
+  };
+  const Status inserted = insert();
+  if (own) {
+    if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
+  }
+  if (!inserted) return tl::unexpected(inserted.error());
+  s.nodes.emplace(node.id, node);
+  s.node_set.insert(node.id.agent, node.id.seq);
+  if (submap || node.submap_bytes == 0) s.submap_set.insert(node.id.agent, node.id.seq);
+  return s.count(Put::kAdded);
+}
+
+Result<Put> Store::put_node(const graph::Node& node) { return insert_node(node, nullptr); }
+
+Result<Put> Store::put_node_with_submap(const graph::Node& node, ByteView submap) {
+  return insert_node(node, &submap);
+}
+
+Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
+  State& s = *state_;
+  if (!valid(alignment, s.config)) return s.count(Put::kInvalid);
+  const AlignmentId id{alignment.computed_by, alignment.seq};
+  const Bytes item = encode(alignment);
+  if (const auto held = s.alignments.find(id); held != s.alignments.end()) {
+    return s.count(encode(held->second) == item ? Put::kKnown : Put::kConflict);
+  }
+  const bool own = alignment.computed_by == s.self && s.config.sync_own_items;
+  if (own) {
+    if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
+  }
+  const ByteView row(item);
+  const Status inserted = s.run("INSERT INTO alignment VALUES(?, ?, ?)", id.computed_by, id.seq, &row);
+  if (own) {
+    if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
+  }
+  if (!inserted) return tl::unexpected(inserted.error());
+  s.alignments.emplace(id, alignment);
+  s.alignment_set.insert(id.computed_by, id.seq);
+  return s.count(Put::kAdded);
+}
+
+Status Store::complete_submap(const graph::Node& node, ByteView encoded) {
+  State& s = *state_;
+  auto transaction = Transaction::begin(*s.db);
+  if (!transaction) return tl::unexpected(transaction.error());
+  const auto& [agent, seq] = node.id;
+  if (auto status = s.run("INSERT OR REPLACE INTO submap VALUES(?, ?, ?)", agent, seq, &encoded); !status)
+    return status;
+  if (auto status = s.run("DELETE FROM submap_chunk WHERE agent = ? AND seq = ?", agent, seq); !status)
+    return status;
+  if (auto status = transaction->commit(); !status) return status;
+  s.partials.erase(node.id);
+  s.submap_set.insert(agent, seq);
+  return {};
+}
+
+Result<Put> Store::put_submap(const NodeId& id, ByteView encoded) {
+  State& s = *state_;
+  const graph::Node* held = node(id);
+  if (!held || encoded.size() != held->submap_bytes || content_hash(encoded) != held->submap_hash) {
+    return s.count(Put::kInvalid);
+  }
+  if (has_submap(id)) return s.count(Put::kKnown);
+  if (auto status = complete_submap(*held, encoded); !status) return tl::unexpected(status.error());
+  return s.count(Put::kAdded);
+}
+
+Result<Put> Store::put_submap_chunk(const NodeId& id, std::uint32_t chunk, ByteView bytes) {
+  State& s = *state_;
+  const graph::Node* held = node(id);
+  if (!held || chunk >= chunk_count(*held) || bytes.size() != chunk_size(*held, chunk))
+    return s.count(Put::kInvalid);
+  if (has_submap(id)) return s.count(Put::kKnown);
+  if (const auto it = s.partials.find(id); it != s.partials.end() && it->second.held[chunk]) {
+    return s.count(Put::kKnown);
+  }
+  auto insert = s.db->prepare("INSERT OR REPLACE INTO submap_chunk VALUES(?, ?, ?, ?)");
+  if (!insert) return tl::unexpected(insert.error());
+  insert->bind(1, id.agent.str()).bind(2, std::int64_t{id.seq}).bind(3, std::int64_t{chunk}).bind(4, bytes);
+  if (auto status = insert->run(); !status) return tl::unexpected(status.error());
+  Partial& partial = s.partial(*held);
+  partial.held[chunk] = true;
+  if (--partial.missing == 0) return finish_download(*held);
+  return s.count(Put::kAdded);
+}
+
+Result<Put> Store::finish_download(const graph::Node& node) {
+  State& s = *state_;
+  auto rows = s.db->prepare("SELECT bytes FROM submap_chunk WHERE agent = ? AND seq = ? ORDER BY chunk");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, node.id.agent.str()).bind(2, std::int64_t{node.id.seq});
+  Bytes encoded;
+  encoded.reserve(node.submap_bytes);
+  for (auto row = rows->step();; row = rows->step()) {
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) break;
+    const ByteView piece = rows->blob(0);
+    encoded.insert(encoded.end(), piece.begin(), piece.end());
+  }
+  if (encoded.size() == node.submap_bytes && content_hash(encoded) == node.submap_hash) {
+    if (auto status = complete_submap(node, encoded); !status) return tl::unexpected(status.error());
+    return s.count(Put::kAdded);
+  }
+  auto status = s.run("DELETE FROM submap_chunk WHERE agent = ? AND seq = ?", node.id.agent, node.id.seq);
+  if (!status) return tl::unexpected(status.error());
+  s.partials.erase(node.id);
+  ++s.stats.bad_submaps;
+  return s.count(Put::kInvalid);
+}
+
+const graph::Node* Store::node(const NodeId& id) const {
+  const auto it = state_->nodes.find(id);
+  return it == state_->nodes.end() ? nullptr : &it->second;
+}
+
+const graph::Alignment* Store::alignment(const AlignmentId& id) const {
+  const auto it = state_->alignments.find(id);
+  return it == state_->alignments.end() ? nullptr : &it->second;
+}
+
+const std::map<NodeId, graph::Node>& Store::nodes() const { return state_->nodes; }
+const std::map<AlignmentId, graph::Alignment>& Store::alignments() const { return state_->alignments; }
+
+std::vector<const graph::Node*> Store::nodes_from(const SeqRange& range) const {
+  std::vector<const graph::Node*> found;
+  const auto& nodes = state_->nodes;
+  for (auto it = nodes.lower_bound({range.agent, range.first});
+       it != nodes.end() && it->first.agent == range.agent && it->first.seq < range.end; ++it) {
+    found.push_back(&it->second);
+  }
+  return found;
+}
+
+bool Store::has_submap(const NodeId& id) const { return state_->submap_set.contains(id.agent, id.seq); }
+
+Result<Bytes> Store::submap(const NodeId& id) {
+  const graph::Node* held = node(id);
+  if (!held || !has_submap(id)) return failure("submap of node " + to_string(id) + " is not held");
+  auto bytes = submap_part(id, 0, held->submap_bytes);
+  if (bytes && bytes->size() == held->submap_bytes && content_hash(*bytes) == held->submap_hash) return bytes;
+  if (!bytes) return bytes;
+  State& s = *state_;
+  if (!s.read_only) {
+    const auto status = s.run("DELETE FROM submap WHERE agent = ? AND seq = ?", id.agent, id.seq);
+    if (!status) return tl::unexpected(status.error());
+  }
+  s.submap_set.erase(id.agent, id.seq);
+  ++s.stats.lost_submaps;
+  return failure(s.path.string() + ": submap of node " + to_string(id) +
+                 " is damaged on disk; it was dropped");
+}
+
+Result<Bytes> Store::submap_part(const NodeId& id, std::uint32_t offset, std::uint32_t length) const {
+  const graph::Node* held = node(id);
+  if (!held || !has_submap(id)) return failure("submap of node " + to_string(id) + " is not held");
+  if (offset >= held->submap_bytes) return Bytes{};
+  auto rows = state_->db->prepare("SELECT substr(bytes, ?3, ?4) FROM submap WHERE agent = ?1 AND seq = ?2");
+  if (!rows) return tl::unexpected(rows.error());
+  rows->bind(1, id.agent.str()).bind(2, std::int64_t{id.seq});
+  rows->bind(3, std::int64_t{offset} + 1).bind(4, std::int64_t{length});
+  const auto row = rows->step();
+  if (!row) return tl::unexpected(row.error());
+  const ByteView bytes = *row ? rows->blob(0) : ByteView();
+  return Bytes(bytes.begin(), bytes.end());
+}
+
+std::vector<std::uint32_t> Store::missing_chunks(const NodeId& id) const {
+  std::vector<std::uint32_t> missing;
+  const graph::Node* held = node(id);
+  if (!held || has_submap(id)) return missing;
+  const auto partial = state_->partials.find(id);
+  for (std::uint32_t chunk = 0; chunk < chunk_count(*held); ++chunk) {
+    if (partial == state_->partials.end() || !partial->second.held[chunk]) missing.push_back(chunk);
+  }
+  return missing;
+}
+
+std::vector<NodeId> Store::partial_submaps() const {
+  std::vector<NodeId> ids;
+  for (const auto& [id, partial] : state_->partials) ids.push_back(id);
+  return ids;
+}
+
+const SeqSet& Store::node_set() const { return state_->node_set; }
+const SeqSet& Store::alignment_set() const { return state_->alignment_set; }
+const SeqSet& Store::submap_set() const { return state_->submap_set; }
+std::uint32_t Store::next_node_seq() const { return end_of(state_->node_set, state_->self); }
+std::uint32_t Store::next_alignment_seq() const { return end_of(state_->alignment_set, state_->self); }
+
+Result<std::optional<Bytes>> Store::meta(std::string_view key) const {
+  auto rows = state_->db->prepare("SELECT value FROM meta WHERE key = ?");
+  if (!rows) return tl::unexpected(rows.error());
+  const auto row = rows->bind(1, key).step();
+  if (!row) return tl::unexpected(row.error());
+  if (!*row) return std::optional<Bytes>();
+  const ByteView value = rows->blob(0);
+  return std::optional<Bytes>(Bytes(value.begin(), value.end()));
+}
+
+Status Store::set_meta(std::string_view key, ByteView value) {
+  if (key == "self") return failure("store: the owner of a store cannot be changed");
+  auto statement = state_->db->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+  if (!statement) return tl::unexpected(statement.error());
+  return statement->bind(1, key).bind(2, value).run();
+}
+
+const StoreStats& Store::stats() const { return state_->stats; }
+const std::filesystem::path& Store::path() const { return state_->path; }
+
+}  // namespace fleetmap::store

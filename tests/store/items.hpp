@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <random>
+#include <string>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::testing {
+
+inline AgentId agent(const std::string& name) { return AgentId::parse(name).value(); }
+
+/// A folder of its own that goes with the object.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "fleetmap_test_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline Bytes random_bytes(std::size_t size, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  Bytes bytes(size);
+  for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+/// A node with awkward numbers (all depend on `seed`), `east_m` metres east of a fixed place.
+inline graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Bytes& submap,
+                             double east_m = 0.0, std::uint32_t seed = 1) {
+  std::mt19937 random(seed + seq);
+  std::normal_distribution<double> normal;
+  graph::Node node;
+  node.id = {agent, seq};
+  node.stamp = stamp_from_ns(1'700'000'000'000'000'000 + static_cast<std::int64_t>(seq) * 1'000'000'007);
+  node.G.stamp = node.stamp;
+  node.G.position = geo_point_from_degrees(49.0, 8.4, 110.0 + normal(random));
+  node.G.position.longitude += east_m / (kMeanEarthRadius * std::cos(node.G.position.latitude));
+  node.G.q_enu_base = Eigen::Quaterniond(so3_exp({normal(random), normal(random), normal(random)}));
+  for (int k = 0; k < 36; ++k) node.G.covariance.data()[k] = normal(random);
+  node.T_odom_base =
+      se3_exp(Vector6d{normal(random), normal(random), normal(random), 0.1, 0.2, normal(random)});
+  node.submap_hash = content_hash(submap);
+  node.submap_bytes = static_cast<std::uint32_t>(submap.size());
+  return node;
+}
+
+inline graph::Alignment make_alignment(const NodeId& i, const NodeId& j, const AgentId& by, std::uint32_t seq,
+                                       double rmse = 0.2) {
+  graph::Alignment alignment;
+  alignment.i = i;
+  alignment.j = j;
+  alignment.computed_by = by;
+  alignment.seq = seq;
+  alignment.T_i_j = se3_exp(Vector6d{1.0 / 3.0, -2.0 / 7.0, 1e-9, 0.1, -0.2, 0.3});
+  alignment.rmse = rmse;
+  alignment.inlier_fraction = 0.7;
+  alignment.covariance = 1e-4 / 3.0 * Matrix6d::Identity();
+  return alignment;
+}
+
+}  // namespace fleetmap::testing

@@ -1,0 +1,231 @@
+#include "fleetmap/store/store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <fstream>
+
+#include "store/items.hpp"
+
+namespace fleetmap::store {
+namespace {
+
+using testing::agent;
+using ::testing::HasSubstr;
+using testing::make_alignment;
+using testing::make_node;
+using testing::random_bytes;
+using testing::ScratchFolder;
+
+const AgentId kSelf = agent("r1");
+const AgentId kPeer = agent("r2");
+
+void run_sql(const std::filesystem::path& path, const char* sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
+  const ScratchFolder folder;
+  const Bytes submap = random_bytes(30'000, 3);
+  const auto node = make_node(kSelf, 0, submap);
+  const auto alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2);
+  {
+    auto store = Store::open(folder / "store.db", kSelf).value();
+    EXPECT_EQ(store.put_node_with_submap(node, submap).value(), Put::kAdded);
+    EXPECT_EQ(store.put_alignment(alignment).value(), Put::kAdded);
+    ASSERT_TRUE(store.set_meta("boots", random_bytes(3, 1)));
+  }
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  const auto* held = store.node({kSelf, 0});
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->stamp, node.stamp);
+  EXPECT_EQ(held->G.position, node.G.position);
+  EXPECT_EQ(held->G.q_enu_base.coeffs(), node.G.q_enu_base.coeffs());
+  EXPECT_EQ(held->G.covariance, node.G.covariance);
+  EXPECT_EQ(held->T_odom_base.matrix(), node.T_odom_base.matrix());
+  EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
+  const auto* held_alignment = store.alignment({kPeer, 2});
+  ASSERT_TRUE(held_alignment);
+  EXPECT_EQ(held_alignment->T_i_j.matrix(), alignment.T_i_j.matrix());
+  EXPECT_EQ(held_alignment->covariance, alignment.covariance);
+  EXPECT_EQ(store.meta("boots").value(), random_bytes(3, 1));
+  EXPECT_EQ(store.meta("absent").value(), std::nullopt);
+  EXPECT_EQ(store.next_node_seq(), 1u);
+  EXPECT_EQ(store.next_alignment_seq(), 0u);
+  // The same again is known, also after the round trip over the disk; something else is a conflict.
+  EXPECT_EQ(store.put_node_with_submap(node, submap).value(), Put::kKnown);
+  EXPECT_EQ(store.put_alignment(alignment).value(), Put::kKnown);
+  auto other = node;
+  other.G.position.altitude = std::nextafter(other.G.position.altitude, 1e9);
+  EXPECT_EQ(store.put_node(other).value(), Put::kConflict);
+  auto other_alignment = alignment;
+  other_alignment.rmse += 1e-12;
+  EXPECT_EQ(store.put_alignment(other_alignment).value(), Put::kConflict);
+  EXPECT_EQ(store.node({kSelf, 0})->G.position, node.G.position);
+  EXPECT_EQ(store.stats().conflicts, 2u);
+}
+
+TEST(Store, refuses_and_counts_what_breaks_a_rule) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  const Bytes submap = random_bytes(100, 1);
+  auto node = make_node(kPeer, 0, submap);
+  node.G.covariance(2, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  node = make_node(kPeer, UINT32_MAX, submap);
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  node = make_node(kPeer, 0, submap);
+  node.submap_bytes = UINT32_MAX;
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  EXPECT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), random_bytes(100, 2)).value(),
+            Put::kInvalid);
+  EXPECT_EQ(store.put_node(graph::Node{}).value(), Put::kInvalid);
+  EXPECT_EQ(store.put_submap({kPeer, 0}, submap).value(), Put::kInvalid);  // no such node
+  EXPECT_EQ(store.put_alignment(make_alignment({kPeer, 1}, {kPeer, 1}, kPeer, 0)).value(), Put::kInvalid);
+  EXPECT_TRUE(store.nodes().empty());
+  EXPECT_TRUE(store.alignments().empty());
+  EXPECT_EQ(store.stats().invalid, 7u);
+}
+
+TEST(Store, keeps_the_chunks_of_a_download_over_a_restart) {
+  const ScratchFolder folder;
+  const Bytes submap = random_bytes(3 * Store::kChunkBytes + 5, 1);
+  const NodeId id{kPeer, 0};
+  const auto chunk = [&](std::uint32_t index) {
+    const ByteView all(submap);
+    const std::size_t offset = index * Store::kChunkBytes;
+    return all.subspan(offset, std::min<std::size_t>(Store::kChunkBytes, all.size() - offset));
+  };
+  {
+    auto store = Store::open(folder / "store.db", kSelf).value();
+    ASSERT_EQ(store.put_node(make_node(kPeer, 0, submap)).value(), Put::kAdded);
+    EXPECT_EQ(store.missing_chunks(id), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(store.put_submap_chunk(id, 3, chunk(3)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_submap_chunk(id, 1, chunk(1)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_submap_chunk(id, 1, chunk(1)).value(), Put::kKnown);
+    EXPECT_EQ(store.put_submap_chunk(id, 4, chunk(3)).value(), Put::kInvalid);
+    EXPECT_EQ(store.put_submap_chunk(id, 0, chunk(3)).value(), Put::kInvalid);
+    EXPECT_FALSE(store.has_submap(id));
+  }
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  EXPECT_EQ(store.partial_submaps(), std::vector<NodeId>{id});
+  EXPECT_EQ(store.missing_chunks(id), (std::vector<std::uint32_t>{0, 2}));
+  ASSERT_EQ(store.put_submap_chunk(id, 0, chunk(0)).value(), Put::kAdded);
+  EXPECT_EQ(store.put_submap_chunk(id, 2, chunk(2)).value(), Put::kAdded);
+  EXPECT_TRUE(store.has_submap(id));
+  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_EQ(store.submap_part(id, Store::kChunkBytes, 10).value(),
+            Bytes(&submap[Store::kChunkBytes], &submap[Store::kChunkBytes + 10]));
+  EXPECT_TRUE(store.partial_submaps().empty());
+}
+
+TEST(Store, drops_a_download_with_the_wrong_content) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  const Bytes submap = random_bytes(Store::kChunkBytes + 7, 1);
+  const NodeId id{kPeer, 0};
+  ASSERT_EQ(store.put_node(make_node(kPeer, 0, submap)).value(), Put::kAdded);
+  ASSERT_EQ(store.put_submap_chunk(id, 0, random_bytes(Store::kChunkBytes, 9)).value(), Put::kAdded);
+  EXPECT_EQ(store.put_submap_chunk(id, 1, ByteView(submap).subspan(Store::kChunkBytes)).value(),
+            Put::kInvalid);
+  EXPECT_EQ(store.stats().bad_submaps, 1u);
+  EXPECT_EQ(store.missing_chunks(id).size(), 2u);
+  EXPECT_EQ(store.put_submap(id, submap).value(), Put::kAdded);
+  EXPECT_EQ(store.submap(id).value(), submap);
+}
+
+TEST(Store, drops_a_submap_that_the_disk_damaged) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  const Bytes submap = random_bytes(5000, 1);
+  {
+    auto store = Store::open(path, kSelf).value();
+    ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), submap).value(), Put::kAdded);
+  }
+  run_sql(path, "UPDATE submap SET bytes = zeroblob(5000)");
+  auto store = Store::open(path, kSelf).value();
+  const auto read = store.submap({kSelf, 0});
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("damaged"));
+  EXPECT_FALSE(store.has_submap({kSelf, 0}));
+  EXPECT_EQ(store.missing_chunks({kSelf, 0}).size(), 1u);
+  EXPECT_EQ(store.put_submap({kSelf, 0}, submap).value(), Put::kAdded);
+}
+
+TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
+  const ScratchFolder folder;
+  const auto refusal = [&](const std::string& name) {
+    const auto store = Store::open(folder / name, kSelf);
+    return store ? std::string("opened") : store.error().message;
+  };
+  std::ofstream(folder / "text.db") << std::string(5000, 'x');
+  EXPECT_THAT(refusal("text.db"), HasSubstr("no database"));
+  run_sql(folder / "foreign.db", "CREATE TABLE song(name TEXT)");
+  EXPECT_THAT(refusal("foreign.db"), HasSubstr("not a fleetmap store"));
+  ASSERT_TRUE(Store::open(folder / "newer.db", kSelf));
+  run_sql(folder / "newer.db", "PRAGMA user_version = 2");
+  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 2"));
+  ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
+  EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
+  EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));
+}
+
+TEST(Store, says_so_when_its_pages_are_damaged) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  {
+    auto store = Store::open(path, kSelf).value();
+    for (std::uint32_t seq = 0; seq < 200; ++seq) {
+      ASSERT_EQ(store.put_node(make_node(kPeer, seq, random_bytes(10, seq))).value(), Put::kAdded);
+    }
+  }
+  const auto size = std::filesystem::file_size(path);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  for (std::uintmax_t at = 8192; at < size; at += 64) {
+    file.seekp(static_cast<std::streamoff>(at));
+    file.write("\xff\xff\xff\xff\xff\xff\xff\xff", 8);
+  }
+  file.close();
+  const auto store = Store::open(path, kSelf);
+  ASSERT_FALSE(store);
+  EXPECT_THAT(store.error().message, HasSubstr("damaged"));
+  std::filesystem::resize_file(path, size / 2 + 100);
+  EXPECT_FALSE(Store::open(path, kSelf));
+}
+
+TEST(Store, has_one_writer_and_any_number_of_readers) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  auto store = Store::open(path, kSelf).value();
+  ASSERT_EQ(store.put_node(make_node(kPeer, 7, Bytes{})).value(), Put::kAdded);
+  EXPECT_TRUE(store.has_submap({kPeer, 7}));
+  const auto second = Store::open(path, kSelf);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().message, HasSubstr("another process"));
+  auto reader = Store::open_read_only(path).value();
+  EXPECT_EQ(reader.self(), kSelf);
+  EXPECT_EQ(reader.nodes().size(), 1u);
+  EXPECT_FALSE(reader.put_node(make_node(kPeer, 8, Bytes{})));
+  EXPECT_EQ(reader.nodes().size(), 1u);
+  EXPECT_FALSE(Store::open_read_only(folder / "absent.db"));
+}
+
+TEST(Store, names_nodes_by_ranges) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  for (const std::uint32_t seq : {0u, 1u, 2u, 5u}) {
+    ASSERT_EQ(store.put_node(make_node(kPeer, seq, Bytes{})).value(), Put::kAdded);
+  }
+  EXPECT_EQ(store.node_set().ranges(), (std::vector<SeqRange>{{kPeer, 0, 3}, {kPeer, 5, 6}}));
+  const auto found = store.nodes_from({kPeer, 2, 100});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0]->id.seq, 2u);
+  EXPECT_EQ(found[1]->id.seq, 5u);
+}
+
+}  // namespace
+}  // namespace fleetmap::store
