@@ -1,0 +1,95 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::bus {
+
+/// The profiles that qos/<link>.xml must define, each as a data writer and as a data reader.
+const std::vector<std::string>& profiles_of(Link link);
+
+/// What differs from run to run on one link; everything else is policy and lives in qos/<link>.xml.
+struct DdsLinkConfig {
+  bool enabled = true;       ///< a link that is not: publishing counts as dropped, subscribing is silent
+  std::uint32_t domain = 0;  ///< DDS domain id in [0, 230]
+  /// IPv4 address of the own interface to use, and no other. Empty: the loopback onboard, every interface on
+  /// radios.
+  std::string address = {};
+  /// Where others may be: "10.0.0.2" or "10.0.0.2:7412". Empty: as the profile says, or else this machine.
+  std::vector<std::string> peers = {};
+  std::uint32_t participants_per_peer =
+      0;                                ///< how many participant ids to try on a peer; 0: as the profile says
+  std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
+  std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
+  bool shared_memory = true;            ///< false leaves out the profile's shared memory transports
+};
+
+struct DdsBusConfig {
+  AgentId agent;
+  std::filesystem::path qos_directory;  ///< holds onboard.xml, long_range.xml, short_range.xml
+  DdsLinkConfig onboard{.domain = 0};
+  DdsLinkConfig long_range{.domain = 1};
+  DdsLinkConfig short_range{.domain = 2};
+  /// Names the field and the rule that it breaks.
+  Status validate() const;
+};
+
+/// A robot's Bus over Fast DDS: a participant per enabled link.
+///
+/// The thread that is in `run` or `run_until` is the bus's callback thread. Messages that arrive meanwhile or
+/// before wait in bounded queues. Members may be called from that thread, or from any one thread while nobody
+/// runs the bus (to wire components up); `post`, `stop`, `publish`, `matches` and `stats` from any thread. A
+/// topic that names a profile which its link's file lacks, or one name with two types, is a bug and throws
+/// std::logic_error.
+class DdsBus final : public Bus {
+ public:
+  /// Fails with file, line, profile and remedy if the profiles are not as they should be, and with link and
+  /// reason if a participant cannot be made (address that this machine has not, ports taken).
+  static Result<std::unique_ptr<DdsBus>> create(const DdsBusConfig& config);
+  /// Finishes the work item under way; work, messages and callbacks that wait are let go.
+  ~DdsBus() override;
+
+  Stamp now() const override;
+  void advertise(const Topic& topic) override;
+  void publish(const Topic& topic, const Bytes& cdr) override;
+  [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
+  [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
+  void offload(std::function<void()> work, std::function<void()> done) override;
+  std::vector<TopicStats> stats() const override;
+
+  /// Runs `callback` on the callback thread.
+  void post(std::function<void()> callback);
+
+  /// Runs callbacks until `stop()`, which may have been called already.
+  void run();
+  /// Runs callbacks until `stop` is set, for instance by a signal handler, or `stop()` is called; looks at
+  /// the flag after each callback and every 100 ms.
+  void run_until(const std::atomic<bool>& stop);
+  /// Runs callbacks until `done()`, which is asked before the first and after each; false if `timeout` came
+  /// first.
+  bool run_until(const std::function<bool()>& done, Duration timeout);
+  void stop();
+
+  /// Counterparts on other participants (onboard: on this one as well) of this bus's ends of a topic.
+  struct Matches {
+    std::size_t readers = 0;  ///< that our writer has found
+    std::size_t writers = 0;  ///< that our reader has found
+  };
+  Matches matches(const Topic& topic) const;
+
+ private:
+  struct State;
+  explicit DdsBus(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fleetmap::bus

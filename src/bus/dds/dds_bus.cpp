@@ -1,0 +1,158 @@
+#include "fleetmap/bus/dds_bus.hpp"
+
+#include <array>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "dds_link.hpp"
+#include "executor.hpp"
+#include "participant_qos.hpp"
+#include "qos_file.hpp"
+#include "worker.hpp"
+
+namespace fleetmap::bus {
+namespace {
+
+constexpr std::array kLinks = {Link::kOnboard, Link::kLongRange, Link::kShortRange};
+constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
+
+const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
+  switch (link) {
+    case Link::kLongRange:
+      return config.long_range;
+    case Link::kShortRange:
+      return config.short_range;
+    case Link::kOnboard:
+      break;
+  }
+  return config.onboard;
+}
+
+}  // namespace
+
+const std::vector<std::string>& profiles_of(Link link) {
+  static const std::vector<std::string> onboard = {"sensor", "state"};
+  static const std::vector<std::string> long_range = {"small", "cloud"};
+  static const std::vector<std::string> short_range = {"control", "bulk"};
+  return link == Link::kOnboard ? onboard : link == Link::kLongRange ? long_range : short_range;
+}
+
+Status DdsBusConfig::validate() const {
+  if (agent.empty()) return failure("agent must have a name");
+  for (const Link link : kLinks) {
+    const DdsLinkConfig& own = config_of(*this, link);
+    if (!own.enabled) continue;
+    if (auto status = bus::validate(own, to_string(link)); !status) return status;
+    for (const Link other : kLinks) {
+      const bool clash =
+          other < link && config_of(*this, other).enabled && config_of(*this, other).domain == own.domain;
+      if (clash)
+        return failure(std::string(to_string(link)) + ".domain must differ from " + to_string(other) + "'s");
+    }
+  }
+  return {};
+}
+
+struct DdsBus::State {
+  std::shared_ptr<Executor> executor = std::make_shared<Executor>();
+  std::map<Link, std::shared_ptr<DdsLink>> links;
+  std::mutex disabled_mutex;  ///< guards disabled
+  std::map<std::pair<Link, std::string>, TopicStats> disabled;
+  Worker worker{executor};
+
+  DdsLink* link(const Topic& topic) const {
+    const auto entry = links.find(topic.link);
+    return entry == links.end() ? nullptr : entry->second.get();
+  }
+};
+
+Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
+  if (auto status = config.validate(); !status) return tl::unexpected(status.error());
+  auto state = std::make_unique<State>();
+  for (const Link link : kLinks) {
+    const DdsLinkConfig& own = config_of(config, link);
+    if (!own.enabled) continue;
+    auto qos = load_qos_file(config.qos_directory, link);
+    if (!qos) return tl::unexpected(qos.error());
+    auto made = DdsLink::create(link, own, config.agent, *std::move(qos), state->executor);
+    if (!made) return tl::unexpected(made.error());
+    state->links[link] = *std::move(made);
+  }
+  return std::unique_ptr<DdsBus>(new DdsBus(std::move(state)));
+}
+
+DdsBus::DdsBus(std::unique_ptr<State> state) : state_(std::move(state)) {}
+DdsBus::~DdsBus() = default;
+
+Stamp DdsBus::now() const { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
+
+void DdsBus::advertise(const Topic& topic) {
+  if (auto* link = state_->link(topic)) link->advertise(topic);
+}
+
+void DdsBus::publish(const Topic& topic, const Bytes& cdr) {
+  if (auto* link = state_->link(topic)) {
+    link->publish(topic, cdr);
+    return;
+  }
+  const std::scoped_lock lock(state_->disabled_mutex);
+  TopicStats& stats = state_->disabled[{topic.link, topic.name}];
+  stats.topic = topic.name;
+  stats.link = topic.link;
+  ++stats.sent_messages;
+  stats.sent_bytes += cdr.size();
+  ++stats.dropped_messages;
+}
+
+Handle DdsBus::subscribe(const Topic& topic, OnMessage on_message) {
+  auto* link = state_->link(topic);
+  return link ? link->subscribe(topic, std::move(on_message)) : Handle();
+}
+
+Handle DdsBus::every(Duration period, std::function<void()> callback) {
+  if (period <= Duration::zero()) throw std::logic_error("a timer's period must be > 0");
+  return Handle(state_->executor->add_timer(period, std::move(callback)));
+}
+
+void DdsBus::offload(std::function<void()> work, std::function<void()> done) {
+  state_->worker.add(std::move(work), std::move(done));
+}
+
+std::vector<TopicStats> DdsBus::stats() const {
+  std::vector<TopicStats> all;
+  for (const auto& [link, made] : state_->links) made->add_stats(all);
+  const std::scoped_lock lock(state_->disabled_mutex);
+  for (const auto& [key, stats] : state_->disabled) all.push_back(stats);
+  return all;
+}
+
+void DdsBus::post(std::function<void()> callback) { state_->executor->post(std::move(callback)); }
+
+void DdsBus::run() {
+  while (!state_->executor->stopped()) state_->executor->run_one(Executor::Clock::time_point::max());
+}
+
+void DdsBus::run_until(const std::atomic<bool>& stop) {
+  while (!stop && !state_->executor->stopped()) {
+    state_->executor->run_one(Executor::Clock::now() + kFlagPeriod);
+  }
+}
+
+bool DdsBus::run_until(const std::function<bool()>& done, Duration timeout) {
+  const auto deadline = Executor::Clock::now() + timeout;
+  while (!done()) {
+    if (!state_->executor->run_one(deadline)) return done();
+  }
+  return true;
+}
+
+void DdsBus::stop() { state_->executor->stop(); }
+
+DdsBus::Matches DdsBus::matches(const Topic& topic) const {
+  const auto* link = state_->link(topic);
+  return link ? link->matches(topic) : Matches{};
+}
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "fleetmap/core/time.hpp"
+
+namespace fleetmap::bus {
+
+/// Runs posted callbacks and timers, one after the other, on the thread that asks it to.
+class Executor {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// From any thread.
+  void post(std::function<void()> callback);
+  void stop();
+  bool stopped() const;
+
+  /// Calls back every `period` (> 0) until the returned function is called, on the callback thread.
+  std::function<void()> add_timer(Duration period, std::function<void()> callback);
+
+  /// Runs what is due next, waiting for it until `deadline` at the longest; false if nothing came or it is
+  /// stopped.
+  bool run_one(Clock::time_point deadline);
+
+ private:
+  struct Timer {
+    Duration period;
+    std::function<void()> callback;
+    bool active = true;  ///< callback thread only
+  };
+
+  std::function<void()> take_due(Clock::time_point now);
+
+  mutable std::mutex mutex_;  ///< guards all below
+  std::condition_variable changed_;
+  std::deque<std::function<void()>> posted_;
+  std::multimap<Clock::time_point, std::shared_ptr<Timer>> timers_;
+  bool stopped_ = false;
+};
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fleetmap/bus/bus.hpp"
+
+namespace fleetmap::bus {
+
+/// Messages of one topic between Fast DDS's threads, which put, and the callback thread, which takes. Bounded
+/// in messages and bytes; the oldest gives way and is counted.
+class Inbox {
+ public:
+  Inbox(std::size_t max_messages, std::size_t max_bytes)
+      : max_messages_(max_messages), max_bytes_(max_bytes) {}
+
+  void put(Bytes cdr) {
+    const std::scoped_lock lock(mutex_);
+    bytes_ += cdr.size();
+    messages_.push_back(std::move(cdr));
+    while (messages_.size() > max_messages_ || (bytes_ > max_bytes_ && messages_.size() > 1)) {
+      bytes_ -= messages_.front().size();
+      messages_.pop_front();
+      ++dropped_;
+    }
+  }
+  std::optional<Bytes> take() {
+    const std::scoped_lock lock(mutex_);
+    if (messages_.empty()) return std::nullopt;
+    std::optional<Bytes> oldest(std::move(messages_.front()));
+    messages_.pop_front();
+    bytes_ -= oldest->size();
+    ++taken_messages_;
+    taken_bytes_ += oldest->size();
+    return oldest;
+  }
+  void add_to(TopicStats& stats) const {
+    const std::scoped_lock lock(mutex_);
+    stats.received_messages += taken_messages_;
+    stats.received_bytes += taken_bytes_;
+    stats.dropped_messages += dropped_;
+  }
+
+ private:
+  const std::size_t max_messages_;
+  const std::size_t max_bytes_;
+  mutable std::mutex mutex_;  ///< guards all below
+  std::deque<Bytes> messages_;
+  std::size_t bytes_ = 0;
+  std::uint64_t dropped_ = 0;
+  std::uint64_t taken_messages_ = 0;
+  std::uint64_t taken_bytes_ = 0;
+};
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <string>
+
+#include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::bus {
+
+Status validate(const DdsLinkConfig& config, const std::string& link);
+
+/// Puts a run's settings (own address, peers, name, shared memory or not) on top of a participant profile.
+void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
+           eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::bus {
+
+/// A checked profile file whose profiles Fast DDS knows, under names of their own.
+struct QosFile {
+  std::filesystem::path path;
+  std::string prefix;              ///< put before every name: Fast DDS has one table of profiles per process
+  std::set<std::string> profiles;  ///< that have both a data writer and a data reader, without prefix
+
+  /// What Fast DDS calls `profile` of this file.
+  std::string registered(const std::string& profile) const { return prefix + profile; }
+};
+
+/// Reads <directory>/<link>.xml, checks it, and gives its profiles to Fast DDS under a prefix made from the
+/// file's content, so that several buses in one process may use the same file or different ones. The file
+/// must have a participant profile named as the link, and a data writer and a data reader profile for every
+/// name of `profiles_of(link)`. Errors name file, line, profile and remedy.
+Result<QosFile> load_qos_file(const std::filesystem::path& directory, Link link);
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,41 @@
+#include "worker.hpp"
+
+#include <utility>
+
+namespace fleetmap::bus {
+
+Worker::Worker(std::shared_ptr<Executor> executor)
+    : executor_(std::move(executor)), thread_([this] { loop(); }) {}
+
+Worker::~Worker() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void Worker::add(std::function<void()> work, std::function<void()> done) {
+  {
+    const std::scoped_lock lock(mutex_);
+    items_.push_back({std::move(work), std::move(done)});
+  }
+  changed_.notify_one();
+}
+
+void Worker::loop() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stopping_ || !items_.empty(); });
+    if (stopping_) return;
+    Item item = std::move(items_.front());
+    items_.pop_front();
+    lock.unlock();
+    item.work();
+    executor_->post(std::move(item.done));
+    lock.lock();
+  }
+}
+
+}  // namespace fleetmap::bus

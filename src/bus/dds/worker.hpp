@@ -1,0 +1,40 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "executor.hpp"
+
+namespace fleetmap::bus {
+
+/// One thread that does work items in order and posts what follows each.
+class Worker {
+ public:
+  explicit Worker(std::shared_ptr<Executor> executor);
+  /// Waits for the item under way; the others are let go.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void add(std::function<void()> work, std::function<void()> done);
+
+ private:
+  struct Item {
+    std::function<void()> work;
+    std::function<void()> done;
+  };
+  void loop();
+
+  std::shared_ptr<Executor> executor_;
+  std::mutex mutex_;  ///< guards items_ and stopping_
+  std::condition_variable changed_;
+  std::deque<Item> items_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace fleetmap::bus
