@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/geometry/global_pose.hpp"
+
+/// The fleet's messages as bytes: a 4-byte encapsulation header, then XCDR1, little-endian, of the IDL types
+/// in idl/. Decoding accepts both byte orders, never allocates much more than the bytes it is given, and
+/// refuses, with a reason, whatever could not have been encoded here: another schema version, bad agent
+/// names, non-finite or out-of-range numbers, pieces outside of their whole.
+namespace fleetmap::wire {
+
+/// First octet of every type of module fleetmap. Raised when a member changes.
+inline constexpr std::uint8_t kSchemaVersion = 1;
+
+// Bounds that the IDL and decoding share.
+inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one spherized cloud
+inline constexpr std::size_t kMaxRanges = 256;               ///< in a Digest or ItemRequest, per kind
+inline constexpr std::size_t kMaxSubmapRanges = 1'024;       ///< in a SubmapDigest
+inline constexpr std::size_t kMaxMissing = 256;              ///< in a CloudRequest
+inline constexpr std::uint32_t kMaxSeq = (1u << 24) - 1;     ///< of nodes and alignments
+inline constexpr std::uint32_t kMaxSubmapBytes = 64u << 20;  ///< of one encoded submap
+
+/// One spherized cloud (Alg. 3), whole; it travels in CloudFragments.
+struct SpherizedCloud {
+  NodeId node;               ///< points are in base_link of this node
+  double radius = 0.0;       ///< m, r_o
+  double voxel = 0.0;        ///< m, edge of the voxels that the points were reduced to
+  std::uint32_t points = 0;  ///< in the payload
+  Bytes payload;             ///< Draco, at most kMaxCloudPayload
+};
+/// What encode() adds to the payload of a SpherizedCloud, in bytes.
+inline constexpr std::size_t kSpherizedCloudOverhead = 36;
+/// Most bytes of an encoded cloud that CloudFragments can carry.
+inline constexpr std::size_t kMaxEncodedCloud = kMaxCloudPayload + kSpherizedCloudOverhead;
+
+/// Node and Alignment are rounded to what fits on the wire (see the IDL for the steps). Digest, ItemRequest,
+/// CloudRequest and SubmapDigest carry their first kMax... entries: what is cut off is offered or asked for
+/// again later. Payloads beyond the type's bound are a bug of the caller and are cut, which their hash then
+/// shows.
+Bytes encode(const graph::Node& node);
+Bytes encode(const graph::Alignment& alignment);
+Bytes encode(const exchange::ProximityMatch& match);
+Bytes encode(const exchange::CloudFragment& fragment);
+Bytes encode(const exchange::CloudRequest& request);
+Bytes encode(const exchange::Digest& digest);
+Bytes encode(const exchange::ItemRequest& request);
+Bytes encode(const exchange::AgentStatus& status);
+Bytes encode(const exchange::SubmapDigest& digest);
+Bytes encode(const exchange::SubmapRequest& request);
+Bytes encode(const exchange::SubmapChunk& chunk);
+Bytes encode(const exchange::Message& message);
+Bytes encode(const GlobalPose& pose);
+Bytes encode(const SpherizedCloud& cloud);
+
+/// T is any type with an encode() above except exchange::Message. Errors say which type and why.
+template <class T>
+Result<T> decode(ByteView cdr);
+
+template <>
+Result<graph::Node> decode(ByteView cdr);
+template <>
+Result<graph::Alignment> decode(ByteView cdr);
+template <>
+Result<exchange::ProximityMatch> decode(ByteView cdr);
+template <>
+Result<exchange::CloudFragment> decode(ByteView cdr);
+template <>
+Result<exchange::CloudRequest> decode(ByteView cdr);
+template <>
+Result<exchange::Digest> decode(ByteView cdr);
+template <>
+Result<exchange::ItemRequest> decode(ByteView cdr);
+template <>
+Result<exchange::AgentStatus> decode(ByteView cdr);
+template <>
+Result<exchange::SubmapDigest> decode(ByteView cdr);
+template <>
+Result<exchange::SubmapRequest> decode(ByteView cdr);
+template <>
+Result<exchange::SubmapChunk> decode(ByteView cdr);
+template <>
+Result<GlobalPose> decode(ByteView cdr);
+template <>
+Result<SpherizedCloud> decode(ByteView cdr);
+
+/// Decodes a message of the fleet that came in on `topic`, by the topic's type.
+Result<exchange::Message> decode_message(const bus::Topic& topic, ByteView cdr);
+
+/// The value that every receiver of `node` will hold. Its owner must keep this one too, so that the whole
+/// fleet computes with the same numbers; rounding it again changes nothing. Of G's covariance remain the
+/// position's variances and east-north covariance, the mean variance of the tilts, and the yaw's. Fails when
+/// `node` could not be decoded (non-finite pose, position off the Earth, ...).
+Result<graph::Node> quantised(const graph::Node& node);
+/// Likewise for an alignment.
+Result<graph::Alignment> quantised(const graph::Alignment& alignment);
+
+}  // namespace fleetmap::wire

@@ -1,0 +1,225 @@
+#include <algorithm>
+
+#include "cdr.hpp"
+#include "fields.hpp"
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap_long_range.h"
+#include "type_names.hpp"
+
+namespace fleetmap::wire {
+namespace {
+
+constexpr double kMaxMetres = 2.1e7;  // half the way round the Earth
+
+/// The bytes of piece `index` of a cloud of `total` bytes.
+std::size_t piece_size(std::uint32_t total, std::uint16_t index) {
+  const std::size_t first = index * exchange::CloudFragment::kMaxPayload;
+  return first >= total ? 0 : std::min<std::size_t>(exchange::CloudFragment::kMaxPayload, total - first);
+}
+
+}  // namespace
+
+Bytes encode(const exchange::ProximityMatch& match) {
+  msg::ProximityMatch out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(match.from));
+  out.recipient(agent_name(match.to));
+  out.theirs(node_ref(match.theirs));
+  out.ours(node_ref(match.ours));
+  out.distance(to_float(match.distance));
+  out.radius(to_float(match.radius));
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::ProximityMatch> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::ProximityMatch>(cdr, type_name::kProximityMatch);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kProximityMatch);
+  exchange::ProximityMatch match;
+  match.from = check.agent(in->sender(), "sender");
+  match.to = check.agent(in->recipient(), "recipient");
+  match.theirs = check.node(in->theirs(), "theirs");
+  match.ours = check.node(in->ours(), "ours");
+  match.distance = check.size(static_cast<double>(in->distance()), kMaxMetres, "distance");
+  match.radius = check.size(static_cast<double>(in->radius()), kMaxMetres, "radius");
+  return check.finish(match);
+}
+
+Bytes encode(const SpherizedCloud& cloud) {
+  msg::SpherizedCloud out;
+  out.schema(kSchemaVersion);
+  out.node(node_ref(cloud.node));
+  out.radius(to_float(cloud.radius));
+  out.voxel(to_float(cloud.voxel));
+  out.points(cloud.points);
+  out.payload(bounded(cloud.payload, kMaxCloudPayload));
+  return to_cdr(out);
+}
+
+template <>
+Result<SpherizedCloud> decode(ByteView cdr) {
+  auto in = fleet_type_from_cdr<msg::SpherizedCloud>(cdr, type_name::kSpherizedCloud);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kSpherizedCloud);
+  SpherizedCloud cloud;
+  cloud.node = check.node(in->node(), "node");
+  cloud.radius = check.size(static_cast<double>(in->radius()), 1e4, "radius");
+  cloud.voxel = check.size(static_cast<double>(in->voxel()), 1e4, "voxel");
+  cloud.points = in->points();
+  check.require(in->payload().size() <= kMaxCloudPayload, "payload is beyond 25000 bytes");
+  // Draco never packs 255 points into a byte; more is a decompression bomb.
+  check.require(cloud.points <= 255 * in->payload().size(), "points are more than the payload can hold");
+  cloud.payload = std::move(in->payload());
+  return check.finish(std::move(cloud));
+}
+
+Bytes encode(const exchange::CloudFragment& fragment) {
+  msg::CloudFragment out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(fragment.from));
+  out.recipient(agent_name(fragment.to));
+  out.node(node_ref(fragment.node));
+  out.cloud_hash(fragment.cloud_hash);
+  out.total_bytes(fragment.total_bytes);
+  out.index(fragment.index);
+  out.count(fragment.count);
+  out.payload(bounded(fragment.payload, exchange::CloudFragment::kMaxPayload));
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::CloudFragment> decode(ByteView cdr) {
+  auto in = fleet_type_from_cdr<msg::CloudFragment>(cdr, type_name::kCloudFragment);
+  if (!in) return tl::unexpected(in.error());
+  constexpr std::size_t kPiece = exchange::CloudFragment::kMaxPayload;
+  FieldCheck check(type_name::kCloudFragment);
+  exchange::CloudFragment fragment;
+  fragment.from = check.agent(in->sender(), "sender");
+  fragment.to = check.agent(in->recipient(), "recipient");
+  fragment.node = check.node(in->node(), "node");
+  fragment.cloud_hash = in->cloud_hash();
+  fragment.total_bytes = in->total_bytes();
+  fragment.index = in->index();
+  fragment.count = in->count();
+  check.require(fragment.total_bytes > 0 && fragment.total_bytes <= kMaxEncodedCloud,
+                "total_bytes is 0 or more than a cloud can have");
+  check.require(fragment.count == (fragment.total_bytes + kPiece - 1) / kPiece,
+                "count does not fit total_bytes");
+  check.require(fragment.index < fragment.count, "index is not below count");
+  check.require(in->payload().size() == piece_size(fragment.total_bytes, fragment.index),
+                "payload does not have the length of its piece");
+  fragment.payload = std::move(in->payload());
+  return check.finish(std::move(fragment));
+}
+
+Bytes encode(const exchange::CloudRequest& request) {
+  msg::CloudRequest out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(request.from));
+  out.recipient(agent_name(request.to));
+  out.node(node_ref(request.node));
+  out.missing({request.missing.begin(), request.missing.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                                      request.missing.size(), kMaxMissing))});
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::CloudRequest> decode(ByteView cdr) {
+  auto in = fleet_type_from_cdr<msg::CloudRequest>(cdr, type_name::kCloudRequest);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kCloudRequest);
+  exchange::CloudRequest request;
+  request.from = check.agent(in->sender(), "sender");
+  request.to = check.agent(in->recipient(), "recipient");
+  request.node = check.node(in->node(), "node");
+  check.require(in->missing().size() <= kMaxMissing, "missing has more than 256 entries");
+  request.missing = std::move(in->missing());
+  return check.finish(std::move(request));
+}
+
+Bytes encode(const exchange::Digest& digest) {
+  msg::Digest out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(digest.from));
+  out.nodes(ranges(digest.nodes, kMaxRanges));
+  out.alignments(ranges(digest.alignments, kMaxRanges));
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::Digest> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::Digest>(cdr, type_name::kDigest);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kDigest);
+  exchange::Digest digest;
+  digest.from = check.agent(in->sender(), "sender");
+  digest.nodes = check.ranges(in->nodes(), kMaxRanges, "nodes");
+  digest.alignments = check.ranges(in->alignments(), kMaxRanges, "alignments");
+  return check.finish(std::move(digest));
+}
+
+Bytes encode(const exchange::ItemRequest& request) {
+  msg::ItemRequest out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(request.from));
+  out.recipient(agent_name(request.to));
+  out.nodes(ranges(request.nodes, kMaxRanges));
+  out.alignments(ranges(request.alignments, kMaxRanges));
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::ItemRequest> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::ItemRequest>(cdr, type_name::kItemRequest);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kItemRequest);
+  exchange::ItemRequest request;
+  request.from = check.agent(in->sender(), "sender");
+  request.to = check.agent(in->recipient(), "recipient");
+  request.nodes = check.ranges(in->nodes(), kMaxRanges, "nodes");
+  request.alignments = check.ranges(in->alignments(), kMaxRanges, "alignments");
+  return check.finish(std::move(request));
+}
+
+Bytes encode(const exchange::AgentStatus& status) {
+  msg::AgentStatus out;
+  out.schema(kSchemaVersion);
+  out.sender(agent_name(status.from));
+  out.stamp(to_ns(status.stamp));
+  out.latitude(status.position.latitude);
+  out.longitude(status.position.longitude);
+  out.altitude(to_float(status.position.altitude));
+  out.heading(status.heading);
+  out.position_stddev(to_float(static_cast<double>(status.position_stddev)));
+  out.battery(status.battery);
+  out.nodes(status.nodes);
+  out.alignments(status.alignments);
+  out.submaps(status.submaps);
+  out.backlog_bytes(status.backlog_bytes);
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::AgentStatus> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::AgentStatus>(cdr, type_name::kAgentStatus);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kAgentStatus);
+  exchange::AgentStatus status;
+  status.from = check.agent(in->sender(), "sender");
+  status.stamp = check.stamp(in->stamp());
+  status.position = check.position(in->latitude(), in->longitude(), static_cast<double>(in->altitude()));
+  check.within(static_cast<double>(in->heading()), 10.0, "heading");
+  check.size(static_cast<double>(in->position_stddev()), 3.5e38, "position_stddev");
+  check.within(static_cast<double>(in->battery()), 1.0, "battery");
+  status.heading = in->heading();
+  status.position_stddev = in->position_stddev();
+  status.battery = in->battery();
+  status.nodes = in->nodes();
+  status.alignments = in->alignments();
+  status.submaps = in->submaps();
+  status.backlog_bytes = in->backlog_bytes();
+  return check.finish(status);
+}
+
+}  // namespace fleetmap::wire

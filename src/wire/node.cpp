@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+
+#include "cdr.hpp"
+#include "fields.hpp"
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap_long_range.h"
+#include "type_names.hpp"
+
+namespace fleetmap::wire {
+namespace {
+
+constexpr LogScale<std::uint8_t> kAngleStddev{1e-4, 16.0};        // rad; steps of 4.4 %, up to 6.2 rad
+constexpr LogScale<std::uint16_t> kPositionStddev{1e-4, 2048.0};  // m; steps of 0.03 %, up to 430 km
+constexpr double kCorrelationUnit = 1.0 / 127.0;
+constexpr double kMaxCorrelation = 126.0 / 127.0;  // keeps the covariance invertible after rounding
+
+/// What a node keeps of G's covariance, in codes.
+void write_covariance(const Matrix6d& C, msg::Node& out) {
+  std::array<std::uint16_t, 3> stddev{};
+  for (int axis = 0; axis < 3; ++axis) {
+    stddev[static_cast<std::size_t>(axis)] = kPositionStddev.encode(std::sqrt(C(axis, axis)));
+  }
+  const double product = kPositionStddev.decode(stddev[0]) * kPositionStddev.decode(stddev[1]);
+  const double correlation = std::isfinite(C(0, 1)) ? C(0, 1) / product : 0.0;
+  out.position_stddev(stddev);
+  out.correlation_en(static_cast<std::int8_t>(
+      std::lround(std::clamp(correlation, -kMaxCorrelation, kMaxCorrelation) / kCorrelationUnit)));
+  out.tilt_stddev(kAngleStddev.encode(std::sqrt(0.5 * (C(3, 3) + C(4, 4)))));
+  out.yaw_stddev(kAngleStddev.encode(std::sqrt(C(5, 5))));
+}
+
+Matrix6d read_covariance(const msg::Node& in, FieldCheck& check) {
+  Vector6d stddev;
+  for (int axis = 0; axis < 3; ++axis) {
+    stddev(axis) = kPositionStddev.decode(in.position_stddev()[static_cast<std::size_t>(axis)]);
+  }
+  stddev(3) = stddev(4) = kAngleStddev.decode(in.tilt_stddev());
+  stddev(5) = kAngleStddev.decode(in.yaw_stddev());
+  const double correlation = in.correlation_en() * kCorrelationUnit;
+  check.require(std::abs(correlation) <= kMaxCorrelation + kCorrelationUnit,
+                "correlation_en is beyond 0.998");
+  Matrix6d C = stddev.cwiseAbs2().asDiagonal();
+  C(0, 1) = C(1, 0) = correlation * stddev(0) * stddev(1);
+  return C;
+}
+
+}  // namespace
+
+Bytes encode(const graph::Node& node) {
+  msg::Node out;
+  out.schema(kSchemaVersion);
+  out.agent(agent_name(node.id.agent));
+  out.seq(node.id.seq);
+  out.session(node.session);
+  out.stamp(to_ns(node.stamp));
+  out.latitude(node.G.position.latitude);
+  out.longitude(node.G.position.longitude);
+  out.altitude(to_float(node.G.position.altitude));
+  out.attitude(encode_rotation<std::int16_t>(node.G.q_enu_base.normalized().toRotationMatrix()));
+  write_covariance(node.G.covariance, out);
+  out.odom_translation(to_floats(node.T_odom_base.translation()));
+  out.odom_rotation(encode_rotation<std::int16_t>(node.T_odom_base.linear()));
+  out.submap_hash(node.submap_hash);
+  out.submap_bytes(node.submap_bytes);
+  return to_cdr(out);
+}
+
+template <>
+Result<graph::Node> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::Node>(cdr, type_name::kNode);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kNode);
+  graph::Node node;
+  node.id = check.node(in->agent(), in->seq(), "agent");
+  node.session = in->session();
+  node.stamp = node.G.stamp = check.stamp(in->stamp());
+  node.G.position = check.position(in->latitude(), in->longitude(), static_cast<double>(in->altitude()));
+  node.G.q_enu_base = decode_rotation(in->attitude(), check, "attitude is not a rotation vector within pi");
+  node.G.covariance = read_covariance(*in, check);
+  node.T_odom_base = make_pose(
+      decode_rotation(in->odom_rotation(), check, "odom_rotation is not a rotation vector within pi"),
+      check.translation(in->odom_translation(), "odom_translation"));
+  node.submap_hash = in->submap_hash();
+  node.submap_bytes = in->submap_bytes();
+  check.require(node.submap_bytes <= kMaxSubmapBytes, "submap_bytes is beyond 64 MiB");
+  return check.finish(node);
+}
+
+Result<graph::Node> quantised(const graph::Node& node) { return decode<graph::Node>(encode(node)); }
+
+}  // namespace fleetmap::wire

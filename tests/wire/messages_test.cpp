@@ -1,0 +1,176 @@
+#include "fleetmap/wire/messages.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "fleetmap/wire/topics.hpp"
+#include "random_messages.hpp"
+
+namespace fleetmap::wire {
+namespace {
+
+using ::testing::HasSubstr;
+using wire::testing::cloud_fragment;
+using wire::testing::id;
+using wire::testing::node_id;
+using wire::testing::RandomMessages;
+using wire::testing::submap_chunk;
+
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return so3_log(a.transpose() * b).norm();
+}
+
+TEST(Wire, DecodingAndEncodingAgainGivesTheSameBytes) {
+  RandomMessages random(1);
+  for (int k = 0; k < 300; ++k) {
+    for (const exchange::Message& message : random.one_of_each()) {
+      const Bytes bytes = encode(message);
+      const auto decoded = decode_message(topic_of(message), bytes);
+      ASSERT_TRUE(decoded) << decoded.error().message;
+      EXPECT_EQ(decoded->index(), message.index());
+      EXPECT_EQ(encode(*decoded), bytes) << topic_of(message).type << " round " << k;
+    }
+    const Bytes pose = encode(random.global_pose());
+    EXPECT_EQ(encode(*decode<GlobalPose>(pose)), pose);
+    const Bytes cloud = encode(random.cloud());
+    EXPECT_EQ(encode(*decode<SpherizedCloud>(cloud)), cloud);
+  }
+}
+
+TEST(Wire, NodeKeepsItsMeaningWithinTheStepsOfTheWire) {
+  RandomMessages random(2);
+  for (int k = 0; k < 300; ++k) {
+    const graph::Node node = random.node();
+    const auto received = decode<graph::Node>(encode(node));
+    ASSERT_TRUE(received) << received.error().message;
+    EXPECT_EQ(received->id, node.id);
+    EXPECT_EQ(received->session, node.session);
+    EXPECT_EQ(received->stamp, node.stamp);
+    EXPECT_EQ(received->G.stamp, node.stamp);
+    EXPECT_EQ(received->G.position.latitude, node.G.position.latitude);
+    EXPECT_EQ(received->G.position.longitude, node.G.position.longitude);
+    EXPECT_NEAR(received->G.position.altitude, node.G.position.altitude, 1e-3);
+    // Three codes of pi / 32767 each off by at most one half, and one more next to half a turn.
+    EXPECT_LT(angle_between(received->G.q_enu_base.toRotationMatrix(), node.G.q_enu_base.toRotationMatrix()),
+              3e-4);
+    EXPECT_LT(angle_between(received->T_odom_base.linear(), node.T_odom_base.linear()), 3e-4);
+    EXPECT_LT((received->T_odom_base.translation() - node.T_odom_base.translation()).norm(), 2e-4);
+    EXPECT_EQ(received->submap_hash, node.submap_hash);
+    EXPECT_EQ(received->submap_bytes, node.submap_bytes);
+    const Matrix6d &C = node.G.covariance, &R = received->G.covariance;
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(R(axis, axis) / C(axis, axis), 1.0, 1e-3);
+    EXPECT_NEAR(R(0, 1), C(0, 1), 9e-3 * std::sqrt(C(0, 0) * C(1, 1)));
+    EXPECT_NEAR(R(3, 3) / (0.5 * (C(3, 3) + C(4, 4))), 1.0, 0.045);
+    EXPECT_NEAR(R(5, 5) / C(5, 5), 1.0, 0.045);
+    EXPECT_GT(R.llt().matrixL().determinant(), 0.0);
+  }
+}
+
+TEST(Wire, AlignmentKeepsItsMeaningWithinFloat) {
+  RandomMessages random(3);
+  for (int k = 0; k < 300; ++k) {
+    const graph::Alignment alignment = random.alignment();
+    const auto received = decode<graph::Alignment>(encode(alignment));
+    ASSERT_TRUE(received) << received.error().message;
+    EXPECT_EQ(received->i, alignment.i);
+    EXPECT_EQ(received->j, alignment.j);
+    EXPECT_EQ(received->computed_by, alignment.computed_by);
+    EXPECT_EQ(received->seq, alignment.seq);
+    EXPECT_LT(angle_between(received->T_i_j.linear(), alignment.T_i_j.linear()), 4e-6);
+    EXPECT_LT((received->T_i_j.translation() - alignment.T_i_j.translation()).norm(), 2e-4);
+    EXPECT_NEAR(received->rmse, alignment.rmse, 1e-6);
+    EXPECT_NEAR(received->inlier_fraction, alignment.inlier_fraction, 1e-6);
+    EXPECT_LT((received->covariance - alignment.covariance).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
+TEST(Wire, HalfATurnAboutAnyAxisIsRoundedOnceAndForAll) {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0),
+        Eigen::Vector3d(0.6, 0.8, 0), Eigen::Vector3d(-0.48, 0.6, 0.64)}) {
+    graph::Node node;
+    node.id = {id("r1"), 0};
+    node.T_odom_base.linear() = so3_exp(std::numbers::pi * axis);
+    node.G.q_enu_base = Eigen::Quaterniond(so3_exp(-std::numbers::pi * axis));
+    const auto once = quantised(node);
+    ASSERT_TRUE(once) << once.error().message;
+    EXPECT_EQ(encode(*quantised(*once)), encode(*once));
+    EXPECT_LT(angle_between(once->T_odom_base.linear(), node.T_odom_base.linear()), 3e-4);
+  }
+}
+
+TEST(Wire, QuantisedIsWhatReceiversHold) {
+  RandomMessages random(4);
+  const graph::Node node = *quantised(random.node());
+  const graph::Node received = *decode<graph::Node>(encode(node));
+  EXPECT_TRUE(received.T_odom_base.isApprox(node.T_odom_base, 1e-15));
+  EXPECT_EQ(received.G.position, node.G.position);
+  EXPECT_TRUE(received.G.covariance.isApprox(node.G.covariance, 1e-12));
+  graph::Node broken = node;
+  broken.T_odom_base.translation().x() = std::nan("");
+  EXPECT_THAT(quantised(broken).error().message, HasSubstr("odom_translation is not finite"));
+  broken = node;
+  broken.T_odom_base.linear()(0, 0) = std::nan("");
+  EXPECT_THAT(quantised(broken).error().message, HasSubstr("odom_rotation is not a rotation vector"));
+  broken = node;
+  broken.G.position.latitude = 2.0;
+  EXPECT_THAT(quantised(broken).error().message, HasSubstr("position is not on Earth"));
+}
+
+TEST(Wire, UnknownUncertaintyBecomesTheLargest) {
+  graph::Node node;
+  node.id = {id("r1"), 0};
+  node.G.covariance.setConstant(std::nan(""));
+  const auto received = quantised(node);
+  ASSERT_TRUE(received) << received.error().message;
+  EXPECT_GT(received->G.covariance(0, 0), 1e10);
+  EXPECT_EQ(received->G.covariance(0, 1), 0.0);
+  EXPECT_GT(received->G.covariance(5, 5), 30.0);
+}
+
+TEST(Wire, SizesOnTheWire) {
+  RandomMessages random(5);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_EQ(encode(random.node()).size(), 99u);
+    EXPECT_EQ(encode(random.alignment()).size(), 160u);
+  }
+  const auto full = cloud_fragment(25000, 0, 23, 1100);
+  EXPECT_EQ(encode(full).size(), 1164u);
+  const auto chunk = submap_chunk(0, 100000, 8192);
+  EXPECT_EQ(encode(chunk).size(), 8240u);
+  EXPECT_EQ(encode(exchange::ProximityMatch{}).size(), 56u);
+  EXPECT_EQ(encode(exchange::CloudRequest{}).size(), 40u);
+  EXPECT_EQ(encode(exchange::AgentStatus{}).size(), 76u);
+  EXPECT_EQ(encode(exchange::SubmapRequest{}).size(), 44u);
+  const exchange::Range range{id("r1"), 0, 9};
+  EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}}).size(), 24u + 3 * 16u);
+  EXPECT_EQ(encode(exchange::SubmapDigest{id("r1"), {range, range}}).size(), 20u + 2 * 16u);
+  EXPECT_EQ(encode(SpherizedCloud{node_id("r1", 1), 20, 0.1, 9, Bytes(kMaxCloudPayload)}).size(),
+            kMaxEncodedCloud);
+}
+
+TEST(Wire, LongListsAreCutToTheirBoundAndStillReadable) {
+  exchange::Digest digest{id("r1"), {}, {}};
+  for (std::uint32_t k = 0; k < 1000; ++k) digest.nodes.push_back({id("r2"), 2 * k, 2 * k + 1});
+  const auto received = decode<exchange::Digest>(encode(digest));
+  ASSERT_TRUE(received) << received.error().message;
+  ASSERT_EQ(received->nodes.size(), kMaxRanges);
+  EXPECT_EQ(received->nodes.back(), digest.nodes[kMaxRanges - 1]);
+}
+
+TEST(Wire, BothByteOrdersAreRead) {
+  exchange::SubmapRequest request{id("r1"), id("r2"), node_id("r3", 7), 1000, 2000};
+  Bytes bytes = encode(request);
+  bytes[1] = 0;  // big-endian
+  for (const std::size_t at : {32u, 36u, 40u}) std::reverse(bytes.begin() + at, bytes.begin() + at + 4);
+  const auto received = decode<exchange::SubmapRequest>(bytes);
+  ASSERT_TRUE(received) << received.error().message;
+  EXPECT_EQ(received->node, request.node);
+  EXPECT_EQ(received->offset, 1000u);
+  EXPECT_EQ(received->length, 2000u);
+}
+
+}  // namespace
+}  // namespace fleetmap::wire

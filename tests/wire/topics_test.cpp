@@ -1,0 +1,55 @@
+#include "fleetmap/wire/topics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "random_messages.hpp"
+
+namespace fleetmap::wire {
+namespace {
+
+using wire::testing::RandomMessages;
+
+TEST(Topics, EveryMessageToAnAgentReachesItsInboxAndOnlyOnce) {
+  RandomMessages random(21);
+  const AgentId self = *AgentId::parse("r2");
+  const auto inbox = inbox_topics(self);
+  std::set<std::string> names;
+  for (const auto& topic : inbox) EXPECT_TRUE(names.insert(topic.name).second) << topic.name;
+  std::set<std::string> used;
+  for (exchange::Message message : random.one_of_each()) {
+    std::visit(
+        [&](auto& m) {
+          if constexpr (requires { m.to; }) m.to = self;
+        },
+        message);
+    const bus::Topic topic = topic_of(message);
+    EXPECT_EQ(names.count(topic.name), 1u) << topic.name;
+    used.insert(topic.name);
+  }
+  EXPECT_EQ(used, names);
+}
+
+TEST(Topics, AddressedMessagesOnlyReachTheirRecipient) {
+  const AgentId r1 = *AgentId::parse("r1");
+  const exchange::CloudFragment fragment{r1, r1, {r1, 0}, {}, 1, 0, 1, {}};
+  EXPECT_EQ(topic_of(fragment).name, "fleetmap/cloud_fragment/r1");
+  EXPECT_EQ(topic_of(fragment).profile, "cloud");
+  EXPECT_EQ(topic_of(fragment).link, bus::Link::kLongRange);
+  for (const auto& topic : inbox_topics(*AgentId::parse("r2")))
+    EXPECT_NE(topic.name, topic_of(fragment).name);
+}
+
+TEST(Topics, RosNamesAreThoseOfRos2) {
+  EXPECT_EQ(topics::points().name, "rt/points");
+  EXPECT_EQ(topics::points().type, "sensor_msgs::msg::dds_::PointCloud2_");
+  EXPECT_EQ(topics::fix().type, "sensor_msgs::msg::dds_::NavSatFix_");
+  EXPECT_EQ(topics::imu().type, "sensor_msgs::msg::dds_::Imu_");
+  EXPECT_EQ(topics::odometry().type, "nav_msgs::msg::dds_::Odometry_");
+  EXPECT_EQ(topics::cmd_vel().type, "geometry_msgs::msg::dds_::Twist_");
+}
+
+}  // namespace
+}  // namespace fleetmap::wire
