@@ -1,0 +1,63 @@
+#include "fleetmap/cloud/normals.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace fleetmap::cloud {
+namespace {
+
+constexpr std::size_t kMaxNeighbors = 64;
+
+/// Covariance of the neighbours about their mean, relative to `origin` so that floats far from zero do no
+/// harm.
+Eigen::Matrix3d covariance_of(const PointCloud& cloud, std::span<const Neighbor> neighbors,
+                              const Eigen::Vector3f& origin) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Neighbor& neighbor : neighbors) {
+    const Eigen::Vector3d d = (cloud.points[neighbor.index] - origin).cast<double>();
+    sum += d;
+    squares += d * d.transpose();
+  }
+  const auto n = static_cast<double>(neighbors.size());
+  return squares / n - (sum / n) * (sum / n).transpose();
+}
+
+}  // namespace
+
+Status NormalConfig::validate() const {
+  if (neighbors < 3 || neighbors > kMaxNeighbors) return failure("neighbors must be in [3, 64]");
+  if (min_neighbors < 3 || min_neighbors > neighbors)
+    return failure("min_neighbors must be in [3, neighbors]");
+  if (!(max_radius_m > 0.0f)) return failure("max_radius_m must be positive");
+  return {};
+}
+
+Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config) {
+  Normals result;
+  result.normals.assign(cloud.size(), Eigen::Vector3f::Zero());
+  result.variations.assign(cloud.size(), 1.0f);
+  std::array<Neighbor, kMaxNeighbors> buffer;
+  const std::span<Neighbor> wanted(buffer.data(), std::min(config.neighbors, kMaxNeighbors));
+  const float squared_radius = config.max_radius_m * config.max_radius_m;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::size_t found = tree.knn(cloud.points[i], wanted);
+    while (found > 0 && wanted[found - 1].squared_distance > squared_radius) --found;
+    if (found < std::max<std::size_t>(3, config.min_neighbors)) continue;
+    solver.computeDirect(covariance_of(cloud, wanted.first(found), cloud.points[i]));
+    const Eigen::Vector3d eigenvalues = solver.eigenvalues().cwiseMax(0.0);
+    // On a line (or a single spot) any perpendicular is an eigenvector: there is no normal to speak of.
+    if (!(eigenvalues[1] > 1e-4 * eigenvalues[2])) continue;
+    Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+    if (normal.dot(config.viewpoint - cloud.points[i]) < 0.0f) normal = -normal;
+    result.normals[i] = normal;
+    result.variations[i] = static_cast<float>(eigenvalues[0] / eigenvalues.sum());
+  }
+  return result;
+}
+
+}  // namespace fleetmap::cloud
