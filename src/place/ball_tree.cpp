@@ -11,6 +11,9 @@ constexpr double kMostLopsided = 0.7;
 /// ...provided that the parent has grown this much since it was last built. Equal coordinates can forbid an
 /// even split, and without this condition such a subtree would be rebuilt at every insert.
 constexpr double kGrowthBeforeRebuild = 1.5;
+/// A subtree that has grown this much is rebuilt even if balanced: its planes were chosen when a robot had
+/// driven one row, and cut the field that has come since into strips, whose balls overlap.
+constexpr double kGrowthAtRebuild = 2.0;
 /// Leaves are built this full, to leave room for what comes.
 constexpr std::size_t kBuiltLeafSize = 10;
 
@@ -178,7 +181,7 @@ std::size_t BallTree::insert(const GeoPoint& point) {
     const Node& node = nodes_[id];
     if (id == leaf || node.places < kGrowthBeforeRebuild * node.built) continue;
     const auto larger = std::max(nodes_[node.child].places, nodes_[node.child + 1].places);
-    if (larger > kMostLopsided * node.places) {
+    if (larger > kMostLopsided * node.places || node.places >= kGrowthAtRebuild * node.built) {
       rebuild(id);
       break;
     }

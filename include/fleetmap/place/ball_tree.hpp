@@ -24,8 +24,8 @@ struct Neighbor {
 ///
 /// Inside, places are unit vectors and distances chords: the chord grows with the great-circle distance, so
 /// the order is the same, and balls in space need no trigonometry. Leaves split when full, and a subtree that
-/// has grown lopsided is rebuilt, which keeps the cost of an insert at O(log^2 n), amortised, in any order of
-/// insertion.
+/// has doubled or grown lopsided is rebuilt, which keeps the cost of an insert at O(log^2 n), amortised, in
+/// any order of insertion.
 class BallTree {
  public:
   /// What insert() returns for a point that is not on Earth.
