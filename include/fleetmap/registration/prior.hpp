@@ -1,0 +1,20 @@
+#pragma once
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::registration {
+
+/// What is known of the relative pose before looking at the points (from both robots' G).
+struct Prior {
+  Pose T_target_source = Pose::Identity();
+  double sigma_translation_m = 5.0;  ///< m, per axis
+  double sigma_yaw_rad = 0.2;        ///< rad, about the target's z axis
+  double sigma_tilt_rad = 0.1;       ///< rad, about each of its x and y axes
+  Status validate() const;
+};
+
+/// Whether `T_target_source` lies within `sigmas` of the prior in translation (norm), yaw and tilt.
+bool agrees(const Prior& prior, const Pose& T_target_source, double sigmas);
+
+}  // namespace fleetmap::registration

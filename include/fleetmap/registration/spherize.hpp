@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/ground.hpp"
+#include "fleetmap/cloud/outliers.hpp"
+#include "fleetmap/cloud/point_cloud.hpp"
+
+namespace fleetmap::registration {
+
+struct SpherizeConfig {
+  float radius_m = 40.0f;  ///< m, r_o of the paper: points further from the node are left out
+  float voxel_m = 0.1f;    ///< m, thinning before anything else
+  bool remove_ground = true;
+  /// m, the ground is kept, thinned to this, because it alone holds height and tilt where all else is
+  /// upright; 0 keeps none of it, as in the paper.
+  float ground_voxel_m = 0.0f;
+  cloud::GroundConfig ground;  ///< its `up` is that of the call
+  cloud::OutlierConfig outliers;
+  cloud::FitConfig fit;  ///< byte budget; its min_voxel_m is raised to voxel_m
+  Status validate() const;
+};
+
+/// M^s of the paper (Alg. 3), ready for the long-range link.
+struct SpherizedCloud {
+  Bytes bytes;  ///< what is sent: at most fit.max_bytes
+  cloud::PointCloud
+      decoded;  ///< what the receiver sees: register with this, so that both sides hold the same points
+  float voxel_m = 0.0f;       ///< m, of the final thinning
+  double resolution_m = 0.0;  ///< m, of the coding
+  std::size_t points_in = 0;
+  std::size_t refused = 0;   ///< non-finite
+  std::size_t in_ball = 0;   ///< within radius_m
+  std::size_t thinned = 0;   ///< after voxel_m
+  std::size_t ground = 0;    ///< removed as ground
+  std::size_t outliers = 0;  ///< removed as outliers
+  std::size_t encoded = 0;   ///< points in `bytes`
+};
+
+/// `map_in_node_frame` is in the frame of the node (O at the origin); `up` points against gravity in that
+/// frame. Fails on a bad config and where nothing fits the byte budget; a cloud of which nothing remains is
+/// encoded as an empty one.
+Result<SpherizedCloud> spherize(const cloud::PointCloud& map_in_node_frame, const Eigen::Vector3f& up,
+                                const SpherizeConfig& config);
+
+}  // namespace fleetmap::registration

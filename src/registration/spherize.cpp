@@ -1,0 +1,78 @@
+#include "fleetmap/registration/spherize.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fleetmap/cloud/voxel_grid.hpp"
+
+namespace fleetmap::registration {
+
+using cloud::PointCloud;
+
+namespace {
+
+PointCloud ball_of(const PointCloud& map, float radius_m, SpherizedCloud& counts) {
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (!map.points[i].allFinite()) {
+      ++counts.refused;
+    } else if (map.points[i].squaredNorm() <= radius_m * radius_m) {
+      inside.push_back(i);
+    }
+  }
+  counts.points_in = map.size();
+  counts.in_ball = inside.size();
+  return select(map, inside);
+}
+
+}  // namespace
+
+Status SpherizeConfig::validate() const {
+  if (!(radius_m > 0.0f) || !std::isfinite(radius_m)) return failure("spherize radius_m must be positive");
+  if (!(voxel_m > 0.0f) || !std::isfinite(voxel_m)) return failure("spherize voxel_m must be positive");
+  if (!(ground_voxel_m >= 0.0f)) return failure("spherize ground_voxel_m must not be negative");
+  for (const Status& part : {ground.validate(), outliers.validate(), fit.validate()}) {
+    if (!part) return failure("spherize: " + part.error().message);
+  }
+  return {};
+}
+
+Result<SpherizedCloud> spherize(const PointCloud& map_in_node_frame, const Eigen::Vector3f& up,
+                                const SpherizeConfig& config) {
+  cloud::GroundConfig ground = config.ground;
+  ground.up = up;
+  if (auto valid = config.validate(); !valid) return failure(valid.error().message);
+  if (auto valid = ground.validate(); !valid) return failure("spherize: " + valid.error().message);
+
+  SpherizedCloud spherized;
+  PointCloud points =
+      voxel_downsample(ball_of(map_in_node_frame, config.radius_m, spherized), config.voxel_m);
+  spherized.thinned = points.size();
+  PointCloud sparse_ground;
+  if (config.remove_ground) {
+    const cloud::GroundSplit split = split_ground(points, ground);
+    if (config.ground_voxel_m > 0.0f) {
+      sparse_ground = voxel_downsample(select(points, split.ground), config.ground_voxel_m);
+    }
+    points = select(points, split.kept);
+    spherized.ground = split.ground.size();
+  }
+  const cloud::OutlierSplit split = split_outliers(points, config.outliers);
+  points = select(points, split.kept);
+  spherized.outliers = split.removed.size();
+  append(points, sparse_ground);
+
+  cloud::FitConfig fit = config.fit;
+  fit.min_voxel_m = std::max(fit.min_voxel_m, config.voxel_m);
+  fit.max_voxel_m = std::max(fit.max_voxel_m, fit.min_voxel_m);
+  auto fitted = encode_within(points, fit);
+  if (!fitted) return failure("spherize: " + fitted.error().message);
+  spherized.bytes = std::move(fitted->bytes);
+  spherized.decoded = std::move(fitted->decoded);
+  spherized.voxel_m = fitted->voxel_m;
+  spherized.resolution_m = fitted->resolution_m;
+  spherized.encoded = spherized.decoded.size();
+  return spherized;
+}
+
+}  // namespace fleetmap::registration
