@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace fleetmap::odometry {
+
+/// Integer cell of a cubic lattice, packed in 64 bits (21 bits an axis: +-10^6 cells, more than any robot
+/// drives).
+using CellKey = std::uint64_t;
+
+inline CellKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::int64_t kBias = 1 << 20;
+  constexpr std::uint64_t kMask = (1u << 21) - 1;
+  return (static_cast<std::uint64_t>(x + kBias) & kMask) << 42 |
+         (static_cast<std::uint64_t>(y + kBias) & kMask) << 21 |
+         (static_cast<std::uint64_t>(z + kBias) & kMask);
+}
+
+/// std::floor without the library call that SSE2 needs.
+inline std::int64_t fast_floor(double value) {
+  const auto truncated = static_cast<std::int64_t>(value);
+  return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
+}
+
+/// Open-addressing map from cells to dense indices 0, 1, 2, ... in order of insertion.
+class FlatIndex {
+ public:
+  static constexpr std::uint32_t kAbsent = 0xffffffff;
+
+  FlatIndex() { slots_.resize(kInitialSlots); }
+
+  std::uint32_t size() const { return size_; }
+
+  /// Index of `key`, or kAbsent.
+  std::uint32_t find(CellKey key) const {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
+      const Slot& slot = slots_[i];
+      if (slot.epoch != epoch_) return kAbsent;
+      if (slot.key == key) return slot.index;
+    }
+  }
+
+  /// Index of `key`; a new one equals size() before the call.
+  std::uint32_t insert(CellKey key) {
+    if (2 * std::size_t{size_} >= slots_.size()) grow();
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
+      Slot& slot = slots_[i];
+      if (slot.epoch == epoch_) {
+        if (slot.key == key) return slot.index;
+        continue;
+      }
+      slot = {key, size_, epoch_};
+      return size_++;
+    }
+  }
+
+  /// Forgets all cells in constant time.
+  void clear() {
+    size_ = 0;
+    if (++epoch_ == 0) {  // wrapped: stale slots would look alive
+      slots_.assign(slots_.size(), Slot{});
+      epoch_ = 1;
+    }
+  }
+
+ private:
+  struct Slot {
+    CellKey key = 0;
+    std::uint32_t index = 0;
+    std::uint32_t epoch = 0;  ///< the slot is taken if this equals epoch_
+  };
+  static constexpr std::size_t kInitialSlots = 1 << 12;
+
+  static std::size_t hash(CellKey key) {
+    key *= 0x9e3779b97f4a7c15ull;
+    return static_cast<std::size_t>(key ^ key >> 32);
+  }
+
+  void grow() {
+    std::vector<Slot> old(slots_.size() * 2);
+    old.swap(slots_);
+    const std::size_t mask = slots_.size() - 1;
+    for (const Slot& slot : old) {
+      if (slot.epoch != epoch_) continue;
+      std::size_t i = hash(slot.key) & mask;
+      while (slots_[i].epoch == epoch_) i = (i + 1) & mask;
+      slots_[i] = slot;
+    }
+  }
+
+  std::vector<Slot> slots_;
+  std::uint32_t size_ = 0;
+  std::uint32_t epoch_ = 1;
+};
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/odometry/lidar_model.hpp"
+#include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/sensor/samples.hpp"
+#include "fleetmap/sensor/scan.hpp"
+
+namespace fleetmap::odometry {
+
+/// What one scan told.
+struct OdometryUpdate {
+  Stamp stamp;  ///< Scan::stamp, wherever in the sweep it lies (LidarModel::stamp_phase for scans without
+                ///< times)
+  /// base_link at `stamp` in the odometry frame O, which is base_link at the first scan's stamp. Never jumps.
+  Pose T_odom_base = Pose::Identity();
+  /// Of the motion since the previous update, [m, rad] in base_link at `stamp`: T <- T exp(d). Sums of these
+  /// (moved by adjoint()) are the covariance of the motion over many scans.
+  Matrix6d covariance = Matrix6d::Zero();
+  Vector6d twist = Vector6d::Zero();  ///< of base_link in base_link, mean over the sweep, [m/s, rad/s]
+  /// All valid returns within L_max in base_link at `stamp`, motion compensated, with intensity.
+  cloud::PointCloud points;
+
+  std::size_t edges = 0;         ///< edge features matched
+  std::size_t planes = 0;        ///< plane features matched
+  double inlier_fraction = 0.0;  ///< of the matched features
+  double residual_rms = 0.0;     ///< m, of the inliers
+  int iterations = 0;
+  /// Directions of the pose [m, rad x mean range] that the scene did not constrain (columns, the first
+  /// `degenerate_count`); there the pose follows the motion prior and the covariance is large.
+  int degenerate_count = 0;
+  Matrix6d degenerate_directions = Matrix6d::Zero();
+  /// The scan did not fit the map; the pose is the prediction and the covariance says so.
+  bool lost = false;
+};
+
+/// Loam's running totals since it was built.
+struct LoamCounters {
+  std::uint64_t scans = 0;           ///< handed to add_scan()
+  std::uint64_t updates = 0;         ///< that gave an update
+  std::uint64_t refused_time = 0;    ///< not later than the scan before
+  std::uint64_t refused_points = 0;  ///< empty, or too few usable points
+  std::uint64_t lost = 0;            ///< updates that are predictions
+  std::uint64_t map_restarts = 0;    ///< new local maps after being lost for long
+  std::uint64_t clock_resets = 0;    ///< the clock went backwards and stayed there
+  std::uint64_t points_non_finite = 0;
+  std::uint64_t points_out_of_range = 0;
+  std::uint64_t points_bad_time = 0;
+  std::uint64_t rings_ignored = 0;  ///< scans whose ring field contradicts their points
+  std::uint64_t times_ignored = 0;  ///< scans whose times cannot be theirs
+  std::uint64_t imu_dropped = 0;    ///< samples: not finite, or out of order
+  std::uint64_t wheel_dropped = 0;
+};
+
+/// LiDAR odometry and mapping, scan to local map. After Zhang and Singh, LOAM (RSS 2014): edge and plane
+/// features along each ring, motion compensation, Gauss-Newton on point-to-line and point-to-plane distances;
+/// pose and velocity of each sweep are estimated together. Without rings every surface point is a plane
+/// candidate. Not thread safe; one object per robot.
+class Loam {
+ public:
+  /// A configuration that breaks a rule makes every add_scan() fail with that rule; validate() first.
+  Loam(LoamConfig config, LidarModel model);
+  ~Loam();
+  Loam(Loam&&) noexcept;
+  Loam& operator=(Loam&&) noexcept;
+
+  /// Optional. Samples should reach past the end of a scan before that scan is added.
+  void add_imu(const sensor::Imu& imu);
+  void add_wheel(const sensor::Wheel& wheel);
+
+  /// Fails, and changes nothing but the counters, on scans with too few usable points or going back in time.
+  Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
+
+  const LoamCounters& counters() const;
+
+ private:
+  class Pipeline;
+  std::unique_ptr<Pipeline> pipeline_;
+};
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::odometry {
+
+/// Everything that can be set of the odometry. The defaults fit ground robots and cars, VLP-16 to HDL-64E.
+struct LoamConfig {
+  // Sensor.
+  double max_range = 40.0;               ///< m, L_max of the paper: farther returns are dropped
+  double min_range = 0.7;                ///< m, nearer returns are the robot itself
+  Pose T_base_lidar = Pose::Identity();  ///< LiDAR frame to base_link
+  double range_noise = 0.03;             ///< m, 1 sigma of one return
+
+  // Features.
+  double feature_half_width = 0.3;    ///< m of surface looked at on either side of a point
+  double plane_max_deviation = 0.05;  ///< m, off the chord of its ring: flatter is a plane point
+  double edge_min_deviation = 0.08;   ///< m, off the chord of its ring: sharper may be an edge point
+  double edge_min_angle = 0.5;        ///< rad, bend of the ring at an edge point
+  double match_spacing = 0.4;         ///< m, one plane point per cube of this size is matched
+  double insert_spacing = 0.2;        ///< m, one plane point per cube of this size enters the map
+
+  // Local map.
+  double fine_resolution = 0.5;    ///< m, step of the map's finer windows (each twice as wide)
+  double coarse_resolution = 1.5;  ///< m, step of the coarser windows, for sparse places and large errors
+  double map_radius = 60.0;        ///< m around the robot; what lies farther is forgotten
+  double keyframe_distance = 0.3;  ///< m, a scan enters the map after this motion ...
+  double keyframe_angle = 0.1;     ///< ... or this turn, rad
+
+  // Motion: velocity changes as white noise on acceleration.
+  double linear_acceleration = 1.5;   ///< m/s^2, 1 sigma over 0.1 s
+  double angular_acceleration = 3.0;  ///< rad/s^2, 1 sigma over 0.1 s
+  double initial_speed = 10.0;        ///< m/s, 1 sigma at the first scan
+  double initial_turn_rate = 1.0;     ///< rad/s, 1 sigma at the first scan
+  bool deskew = true;                 ///< compensate the motion during a scan
+
+  // Optional priors; used whenever samples arrive.
+  Eigen::Quaterniond q_base_imu = Eigen::Quaterniond::Identity();  ///< rotation, IMU frame to base_link
+  double gyro_noise = 0.02;        ///< rad/s, 1 sigma of the mean rate over a scan, bias removed
+  double wheel_speed_noise = 0.1;  ///< m/s, 1 sigma at standstill; 5 % of the speed are added
+  double wheel_yaw_noise = 0.1;    ///< rad/s, 1 sigma
+
+  // Matching.
+  int max_iterations = 12;
+  double edge_noise = 0.1;             ///< m, 1 sigma of an edge point about its edge
+  double min_inlier_fraction = 0.3;    ///< of the matched points; below it a scan counts as lost
+  int min_matches = 60;                ///< fewer matched points count as lost
+  int lost_scans_before_restart = 10;  ///< so many lost scans in a row start a new local map
+
+  // Output.
+  /// Information of a scan is divided by this: neighbouring points err together (map, calibration,
+  /// incidence).
+  double information_deflation = 40.0;
+
+  /// Fails with the field's name and the rule that it breaks.
+  Status validate() const;
+};
+
+}  // namespace fleetmap::odometry

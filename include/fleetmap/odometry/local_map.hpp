@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "fleetmap/odometry/flat_index.hpp"
+#include "fleetmap/odometry/loam_config.hpp"
+
+namespace fleetmap::odometry {
+
+enum class Shape : std::uint8_t {
+  kUnknown,  ///< too few points to tell, or they only show one line of a surface
+  kPlane,
+  kLine,
+  kScatter,  ///< enough points, but neither plane nor line
+};
+
+/// The points of one cubic window as a Gaussian, and what surface it shows.
+struct SurfaceWindow {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< m, of the window, map frame
+  float count = 0.0f;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();  ///< of positions about `center`
+  Eigen::Matrix<float, 6, 1> square =
+      Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz about `center`
+  bool stale = true;                       ///< points came in since the fields below were computed
+
+  Shape shape = Shape::kUnknown;
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();        ///< about `center`
+  Eigen::Vector3f direction = Eigen::Vector3f::UnitZ();  ///< normal of a plane, direction of a line
+  float thickness = 0.0f;                                ///< m^2, variance across the plane or line
+  float angle_variance = 0.0f;  ///< rad^2, of the direction: thickness / (count * spread)
+};
+
+/// Windows of edge length 2h on a lattice of step h: each point lies in eight of them, and near the middle of
+/// one, so a lookup costs one hash probe and no surface is cut by a cell border.
+class SurfaceGrid {
+ public:
+  /// `step` is h in m; `linear` grids look for lines, the others for planes (and upright lines).
+  SurfaceGrid(double step, bool linear, double max_thickness);
+
+  void add(const Eigen::Vector3d& point);
+  /// The window whose middle is nearest to `point`, or null. Valid until the next add() or prune().
+  const SurfaceWindow* at(const Eigen::Vector3d& point);
+  /// Forgets the windows farther than `radius` from `center`.
+  void prune(const Eigen::Vector3d& center, double radius);
+  void clear();
+  std::size_t size() const { return windows_.size(); }
+
+ private:
+  void refresh(SurfaceWindow& window) const;
+
+  double step_, inverse_step_;
+  bool linear_;
+  double max_thickness_;
+  FlatIndex index_;
+  std::vector<SurfaceWindow> windows_;
+};
+
+/// What the robot has seen around it: surfaces at two scales, and edges.
+class LocalMap {
+ public:
+  explicit LocalMap(const LoamConfig& config);
+
+  void add_surface(const Eigen::Vector3d& point);
+  void add_edge(const Eigen::Vector3d& point);
+  /// A plane or upright line near `point`: from the finer windows where they hold enough points, else from
+  /// the coarser ones; null where there is none.
+  const SurfaceWindow* surface_at(const Eigen::Vector3d& point);
+  /// An edge near `point`, or null.
+  const SurfaceWindow* edge_at(const Eigen::Vector3d& point);
+  void prune(const Eigen::Vector3d& center, double radius);
+  void clear();
+  bool empty() const { return coarse_.size() == 0; }
+
+ private:
+  SurfaceGrid fine_, coarse_, edges_;
+};
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+#include "fleetmap/core/time.hpp"
+
+namespace fleetmap::odometry {
+
+/// The last samples of a rate (gyro: rad/s; wheels: m/s and rad/s), linear in between. Bounded.
+class RateHistory {
+ public:
+  /// False, and the sample is dropped, if it is not finite or not later than the last one. A sample more than
+  /// a second earlier means that the clock was set: the history starts anew.
+  bool add(Stamp stamp, const Eigen::Vector3d& rate);
+  /// Mean over [from, to], by the trapezoid rule; the outermost samples are held for at most `hold`.
+  /// Empty if the samples do not cover the interval.
+  std::optional<Eigen::Vector3d> mean(Stamp from, Stamp to, Duration hold) const;
+  /// Rotation from the body at `from` to the body at `to` for angular rates minus `bias`. Empty as for
+  /// mean().
+  std::optional<Eigen::Matrix3d> rotation(Stamp from, Stamp to, const Eigen::Vector3d& bias,
+                                          Duration hold) const;
+  std::size_t size() const { return samples_.size(); }
+
+ private:
+  struct Sample {
+    Stamp stamp;
+    Eigen::Vector3d rate;
+  };
+  bool covers(Stamp from, Stamp to, Duration hold) const;
+  Eigen::Vector3d at(Stamp stamp) const;
+
+  std::deque<Sample> samples_;
+};
+
+}  // namespace fleetmap::odometry

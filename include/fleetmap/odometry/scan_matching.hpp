@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "fleetmap/odometry/deskew.hpp"
+#include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/odometry/local_map.hpp"
+#include "fleetmap/odometry/motion_prior.hpp"
+
+namespace fleetmap::odometry {
+
+/// A feature in base_link at its moment of firing.
+struct FeaturePoint {
+  Eigen::Vector3f position;  ///< m
+  float time = 0.0f;         ///< s after the sweep's reference instant
+};
+
+struct MatchResult {
+  MotionState state;
+  /// Information of [pose, twist] at `state` from the points alone, degenerate directions removed.
+  Matrix12d lidar_information = Matrix12d::Zero();
+  Matrix12d prior_information = Matrix12d::Zero();
+  std::size_t planes = 0;        ///< plane features with a surface in the map
+  std::size_t edges = 0;         ///< edge features with an edge in the map
+  double inlier_fraction = 0.0;  ///< of these, the share that lies within 3 sigma
+  double rms = 0.0;              ///< m, of the inliers' distances to their surfaces and edges
+  int degenerate_count = 0;
+  /// Unit pose directions [m, m, m, and rotation times the scene's mean range] that the scene does not
+  /// constrain: the first `degenerate_count` columns. There the state follows the prior.
+  Matrix6d degenerate_directions = Matrix6d::Zero();
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Pose and velocity of a sweep that best lay its features on the map: Gauss-Newton on point-to-plane and
+/// point-to-line distances and the motion prior. Each surface counts by its flatness: the variance of a
+/// distance is that of the return, of the surface's thickness and of its normal. Robust against moving
+/// objects (Geman-McClure, annealed). Directions that the surfaces' normals do not determine beyond their own
+/// noise are left to the prior (after Zhang, Kaess and Singh, ICRA 2016).
+class ScanMatcher {
+ public:
+  explicit ScanMatcher(const LoamConfig& config);
+
+  /// `initial_error` m: how far off `start` may be at the distance of typical surfaces.
+  MatchResult align(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+                    LocalMap& map, const MotionPrior& prior, const MotionState& start, double initial_error);
+
+ private:
+  struct TimeBin {
+    std::array<double, 21> H;  ///< upper triangle of the pose part
+    Vector6d g;
+  };
+  struct Sums {
+    double weight = 0, spurious = 0, range = 0, inlier_square = 0;
+    std::size_t points = 0, inliers = 0, planes = 0, edges = 0;
+  };
+  static constexpr int kTimeBins = 16;
+
+  void linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+                 LocalMap& map, const MotionState& state, double slack);
+  void add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base, double residual,
+               double weight);
+  NormalEquations collect() const;
+  void find_degeneracy(const Matrix12d& H, MatchResult& result) const;
+
+  LoamConfig config_;
+  std::array<TimeBin, kTimeBins> bins_;
+  double half_span_ = 0.0;
+  Sums sums_;
+};
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,340 @@
+#include "fleetmap/odometry/loam.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <string>
+
+#include "fleetmap/odometry/deskew.hpp"
+#include "fleetmap/odometry/features.hpp"
+#include "fleetmap/odometry/local_map.hpp"
+#include "fleetmap/odometry/rate_history.hpp"
+#include "fleetmap/odometry/scan_matching.hpp"
+#include "fleetmap/odometry/sweep.hpp"
+#include "fleetmap/odometry/thinning.hpp"
+
+namespace fleetmap::odometry {
+namespace {
+
+constexpr double kFirstError = 1.5;      // m, how far off the start may be while the velocity is unknown
+constexpr double kUsualError = 0.3;      // m, at a nominal period
+constexpr int kClockResetScans = 3;      // scans in the past until the clock is believed
+constexpr double kClockResetJump = 1.0;  // s
+constexpr double kGap = 0.35;            // s between scans from which on "it stood still" is tried as well
+constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
+constexpr double kBiasGain = 0.02;
+
+}  // namespace
+
+class Loam::Pipeline {
+ public:
+  Pipeline(LoamConfig config, const LidarModel& model)
+      : config_(std::move(config)),
+        status_(check(config_, model)),
+        builder_(config_, model),
+        extractor_(config_),
+        match_thinning_(config_.match_spacing),
+        insert_thinning_(config_.insert_spacing),
+        map_(config_),
+        matcher_(config_) {}
+
+  void add_imu(const sensor::Imu& imu) {
+    counters_.imu_dropped += !gyro_.add(imu.stamp, config_.q_base_imu * imu.angular_velocity);
+  }
+  void add_wheel(const sensor::Wheel& wheel) {
+    const double yaw_rate = wheel.yaw_rate.value_or(0.0);
+    const bool taken = wheels_.add(wheel.stamp, {wheel.forward_speed, yaw_rate, wheel.yaw_rate ? 1.0 : 0.0});
+    counters_.wheel_dropped += !taken;
+  }
+
+  Result<OdometryUpdate> add_scan(const sensor::Scan& scan) {
+    if (!status_) return tl::unexpected(status_.error());
+    ++counters_.scans;
+    if (Status in_order = check_time(scan.stamp); !in_order) return tl::unexpected(in_order.error());
+    const Sweep& sweep = builder_.build(scan);
+    count_defects();
+    pick_features(sweep);
+    if (static_cast<int>(match_planes_.size() + match_edges_.size()) < config_.min_matches)
+      return refuse_points(scan);
+
+    const Stamp reference = sweep.stamp + from_seconds(sweep.reference_offset);
+    OdometryUpdate update;
+    if (!started_) {
+      start(sweep, reference, update);
+    } else {
+      const MatchResult match = estimate(sweep, reference);
+      settle(match, sweep, reference, update);
+    }
+    last_stamp_ = scan.stamp;
+    describe(sweep, update);
+    ++counters_.updates;
+    return update;
+  }
+
+  const LoamCounters& counters() const { return counters_; }
+
+ private:
+  static Status check(const LoamConfig& config, const LidarModel& model) {
+    if (Status status = config.validate(); !status) return status;
+    return model.validate();
+  }
+  Status check_time(Stamp stamp);
+  tl::unexpected<Error> refuse_points(const sensor::Scan& scan);
+  void count_defects();
+  void pick_features(const Sweep& sweep);
+  void start(const Sweep& sweep, Stamp reference, OdometryUpdate& update);
+  MatchResult estimate(const Sweep& sweep, Stamp reference);
+  MotionPrior make_prior(const Sweep& sweep, Stamp reference, double dt) const;
+  MatchResult straighten_first_scan(const Sweep& sweep, const MatchResult& match, double dt,
+                                    const MotionPrior& prior);
+  void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
+  void learn_gyro_bias(const MatchResult& match, const Sweep& sweep, Stamp reference);
+  void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+              const MotionState& state);
+  void describe(const Sweep& sweep, OdometryUpdate& update) const;
+
+  LoamConfig config_;
+  Status status_;
+  SweepBuilder builder_;
+  FeatureExtractor extractor_;
+  Thinning match_thinning_, insert_thinning_;
+  LocalMap map_;
+  ScanMatcher matcher_;
+  RateHistory gyro_, wheels_;
+  Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
+  int bias_samples_ = 0;
+
+  std::vector<FeaturePoint> match_planes_, match_edges_, insert_planes_;
+  std::vector<FeaturePoint> first_planes_, first_edges_;  ///< of the first scan, until its motion is known
+  double first_reference_offset_ = 0.0;
+
+  bool started_ = false;
+  bool velocity_known_ = false;
+  MotionState state_;  ///< of the last scan at its reference instant
+  Stamp reference_, last_stamp_;
+  Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
+  int lost_in_a_row_ = 0;
+  int in_the_past_ = 0;
+  LoamCounters counters_;
+};
+
+Status Loam::Pipeline::check_time(Stamp stamp) {
+  if (!started_ || stamp > last_stamp_) {
+    in_the_past_ = 0;
+    return {};
+  }
+  const double back = to_seconds(last_stamp_ - stamp);
+  if (back > kClockResetJump && ++in_the_past_ >= kClockResetScans) {
+    ++counters_.clock_resets;
+    in_the_past_ = 0;
+    reference_ += stamp - last_stamp_ - from_seconds(2.0 * kGap);  // an unknown time has passed
+    return {};
+  }
+  ++counters_.refused_time;
+  return failure("odometry: scan at " + std::to_string(to_seconds(stamp)) + " s is " + std::to_string(back) +
+                 " s before the last one; skipped");
+}
+
+tl::unexpected<Error> Loam::Pipeline::refuse_points(const sensor::Scan& scan) {
+  ++counters_.refused_points;
+  return failure("odometry: scan at " + std::to_string(to_seconds(scan.stamp)) + " s has " +
+                 std::to_string(scan.points.size()) + " points, of which only " +
+                 std::to_string(match_planes_.size() + match_edges_.size()) + " distinct features within " +
+                 std::to_string(config_.max_range) + " m; skipped");
+}
+
+void Loam::Pipeline::count_defects() {
+  const SweepDefects& defects = builder_.defects();
+  counters_.points_non_finite += defects.non_finite;
+  counters_.points_out_of_range += defects.out_of_range;
+  counters_.points_bad_time += defects.bad_times;
+  counters_.rings_ignored += defects.rings_ignored;
+  counters_.times_ignored += defects.times_ignored;
+}
+
+/// Evenly spread features: without thinning the nearest surfaces would outvote all others.
+void Loam::Pipeline::pick_features(const Sweep& sweep) {
+  const Features& features = extractor_.extract(sweep);
+  match_planes_.clear();
+  match_edges_.clear();
+  insert_planes_.clear();
+  match_thinning_.clear();
+  insert_thinning_.clear();
+  for (const std::uint32_t i : features.planes) {
+    const SweepPoint& p = sweep.points[i];
+    if (!insert_thinning_.first_in_cube(p.position)) continue;
+    const float time = config_.deskew ? p.time : 0.0f;
+    insert_planes_.push_back({p.position, time});
+    if (match_thinning_.first_in_cube(p.position)) match_planes_.push_back({p.position, time});
+  }
+  for (const std::uint32_t i : features.edges) {
+    match_edges_.push_back({sweep.points[i].position, config_.deskew ? sweep.points[i].time : 0.0f});
+  }
+}
+
+void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& update) {
+  started_ = true;
+  velocity_known_ = false;
+  reference_ = reference;
+  first_reference_offset_ = sweep.reference_offset;
+  first_planes_ = insert_planes_;
+  first_edges_ = match_edges_;
+  insert(insert_planes_, match_edges_, state_);
+  update.T_odom_base = state_.T_odom_base;
+}
+
+/// Pose and velocity of the sweep against the map.
+MatchResult Loam::Pipeline::estimate(const Sweep& sweep, Stamp reference) {
+  const double dt = std::max(1e-3, to_seconds(reference - reference_));
+  const MotionPrior prior = make_prior(sweep, reference, dt);
+  const double error =
+      velocity_known_ && lost_in_a_row_ == 0 ? std::min(kFirstError, kUsualError * dt / 0.1) : kFirstError;
+  MatchResult best = matcher_.align(match_planes_, match_edges_, map_, prior, prior.predicted(), error);
+  if (dt > kGap || lost_in_a_row_ > 0) {
+    const MotionState still{state_.T_odom_base, Vector6d::Zero()};
+    const MatchResult other = matcher_.align(match_planes_, match_edges_, map_, prior, still, error);
+    if (other.inlier_fraction > best.inlier_fraction) best = other;
+  }
+  return velocity_known_ ? best : straighten_first_scan(sweep, best, dt, prior);
+}
+
+MotionPrior Loam::Pipeline::make_prior(const Sweep& sweep, Stamp reference, double dt) const {
+  MotionPrior prior(config_, state_, dt, velocity_known_);
+  double half = 0.0;
+  for (const FeaturePoint& p : match_planes_) half = std::max(half, std::abs(static_cast<double>(p.time)));
+  const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
+  if (const auto rate = gyro_.mean(from, to, kHold)) {
+    prior.set_gyro_rate(*rate - gyro_bias_, config_.gyro_noise);
+  }
+  if (const auto R = gyro_.rotation(reference_, reference, gyro_bias_, kHold)) {
+    prior.set_gyro_rotation(*R, config_.gyro_noise * dt);
+  }
+  if (const auto wheel = wheels_.mean(from, to, kHold)) {
+    prior.set_forward_speed(wheel->x(), config_.wheel_speed_noise + 0.05 * std::abs(wheel->x()));
+    if (wheel->z() > 0.99) prior.set_yaw_rate(wheel->y(), config_.wheel_yaw_noise);
+  }
+  static_cast<void>(sweep);
+  return prior;
+}
+
+/// The first scan entered the map as if the robot stood still. Now that the velocity is known it enters
+/// again, motion compensated, and the second scan is matched to that.
+MatchResult Loam::Pipeline::straighten_first_scan(const Sweep& sweep, const MatchResult& match, double dt,
+                                                  const MotionPrior& prior) {
+  static_cast<void>(sweep);
+  static_cast<void>(prior);
+  MatchResult result = match;
+  for (int round = 0; round < 2; ++round) {
+    MotionState first;
+    first.twist = result.state.twist;
+    first.T_odom_base = state_.T_odom_base;
+    if (counters_.updates == 1) first.T_odom_base = se3_exp(first_reference_offset_ * first.twist);
+    map_.clear();
+    insert(first_planes_, first_edges_, first);
+    MotionPrior again(config_, first, dt, false);
+    const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist};
+    result = matcher_.align(match_planes_, match_edges_, map_, again, start, kUsualError);
+    state_ = first;
+  }
+  return result;
+}
+
+/// Believes the match or calls the scan lost; moves on; feeds the map.
+void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp reference,
+                            OdometryUpdate& update) {
+  const double dt = std::max(1e-3, to_seconds(reference - reference_));
+  const auto matched = static_cast<int>(match.planes + match.edges);
+  update.lost = matched < config_.min_matches || match.inlier_fraction < config_.min_inlier_fraction;
+  MotionState now = match.state;
+  if (update.lost) now = make_prior(sweep, reference, dt).predicted();
+
+  // At the stamp: T exp(s twist), s seconds from the reference instant; d_stamp = Ad d_pose + s d_twist.
+  const double s = -sweep.reference_offset;
+  const Pose T_reference_stamp = se3_exp(s * now.twist);
+  Matrix12d information = match.prior_information;
+  if (!update.lost) information += match.lidar_information / config_.information_deflation;
+  Eigen::Matrix<double, 6, 12> M;
+  M << adjoint(T_reference_stamp.inverse()), s * Matrix6d::Identity();
+  update.covariance = M * information.ldlt().solve(M.transpose());
+  update.covariance = (0.5 * (update.covariance + update.covariance.transpose())).eval();
+  update.T_odom_base = now.T_odom_base * T_reference_stamp;
+  update.twist = now.twist;
+  update.edges = match.edges;
+  update.planes = match.planes;
+  update.inlier_fraction = match.inlier_fraction;
+  update.residual_rms = match.rms;
+  update.iterations = match.iterations;
+  update.degenerate_count = match.degenerate_count;
+  update.degenerate_directions = match.degenerate_directions;
+
+  counters_.lost += update.lost;
+  lost_in_a_row_ = update.lost ? lost_in_a_row_ + 1 : 0;
+  if (!update.lost) learn_gyro_bias(match, sweep, reference);
+  velocity_known_ = velocity_known_ || !update.lost;
+  state_ = now;
+  reference_ = reference;
+  const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart;
+  if (restart) {
+    ++counters_.map_restarts;
+    lost_in_a_row_ = 0;
+    map_.clear();
+  }
+  const Pose moved = keyframe_.inverse() * now.T_odom_base;
+  const bool keyframe = moved.translation().norm() > config_.keyframe_distance ||
+                        so3_log(moved.linear()).norm() > config_.keyframe_angle;
+  if (restart || (keyframe && !update.lost)) insert(insert_planes_, match_edges_, now);
+}
+
+/// The gyro's bias is what it says more than the LiDAR sees, over some seconds.
+void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, const Sweep& sweep, Stamp reference) {
+  static_cast<void>(sweep);
+  if (match.degenerate_count > 0 || !velocity_known_) return;
+  const double dt = to_seconds(reference - reference_);
+  const auto R = gyro_.rotation(reference_, reference, Eigen::Vector3d::Zero(), kHold);
+  if (!R || dt > kGap) return;
+  const Eigen::Matrix3d R_lidar = state_.T_odom_base.linear().transpose() * match.state.T_odom_base.linear();
+  const Eigen::Vector3d bias = so3_log(R_lidar.transpose() * *R) / dt;
+  const double gain = std::max(kBiasGain, 1.0 / (++bias_samples_ + 10.0));
+  gyro_bias_ += gain * (bias - gyro_bias_);
+}
+
+void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+                            const MotionState& state) {
+  const ConstantTwist twist(state.twist);
+  auto in_odom = [&](const FeaturePoint& p) -> Eigen::Vector3d {
+    return state.T_odom_base * twist.at_reference(p.position, p.time).cast<double>();
+  };
+  for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p));
+  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p));
+  keyframe_ = state.T_odom_base;
+  if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {
+    map_.prune(keyframe_.translation(), config_.map_radius);
+    pruned_at_ = keyframe_;
+  }
+}
+
+void Loam::Pipeline::describe(const Sweep& sweep, OdometryUpdate& update) const {
+  update.stamp = sweep.stamp;
+  const ConstantTwist twist(update.twist);
+  const Eigen::Isometry3f T_stamp_reference = se3_exp(sweep.reference_offset * update.twist).cast<float>();
+  update.points.points.resize(sweep.points.size());
+  update.points.intensities.resize(sweep.points.size());
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const SweepPoint& p = sweep.points[i];
+    const Eigen::Vector3f at_reference = config_.deskew ? twist.at_reference(p.position, p.time) : p.position;
+    update.points.points[i] = T_stamp_reference * at_reference;
+    update.points.intensities[i] = p.intensity;
+  }
+}
+
+Loam::Loam(LoamConfig config, LidarModel model)
+    : pipeline_(std::make_unique<Pipeline>(std::move(config), model)) {}
+Loam::~Loam() = default;
+Loam::Loam(Loam&&) noexcept = default;
+Loam& Loam::operator=(Loam&&) noexcept = default;
+
+void Loam::add_imu(const sensor::Imu& imu) { pipeline_->add_imu(imu); }
+void Loam::add_wheel(const sensor::Wheel& wheel) { pipeline_->add_wheel(wheel); }
+Result<OdometryUpdate> Loam::add_scan(const sensor::Scan& scan) { return pipeline_->add_scan(scan); }
+const LoamCounters& Loam::counters() const { return pipeline_->counters(); }
+
+}  // namespace fleetmap::odometry

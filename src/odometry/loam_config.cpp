@@ -1,0 +1,67 @@
+#include "fleetmap/odometry/loam_config.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace fleetmap::odometry {
+namespace {
+
+struct Bound {
+  const char* field;
+  double value;
+  double low;
+  double high;
+};
+
+}  // namespace
+
+Status LoamConfig::validate() const {
+  const std::array bounds{
+      Bound{"min_range", min_range, 0.0, 100.0},
+      Bound{"max_range", max_range, 1.0, 1000.0},
+      Bound{"range_noise", range_noise, 1e-4, 1.0},
+      Bound{"feature_half_width", feature_half_width, 0.01, 5.0},
+      Bound{"plane_max_deviation", plane_max_deviation, 1e-3, 1.0},
+      Bound{"edge_min_deviation", edge_min_deviation, 1e-3, 1.0},
+      Bound{"edge_min_angle", edge_min_angle, 0.01, 3.0},
+      Bound{"match_spacing", match_spacing, 0.02, 10.0},
+      Bound{"insert_spacing", insert_spacing, 0.02, 10.0},
+      Bound{"fine_resolution", fine_resolution, 0.05, 10.0},
+      Bound{"coarse_resolution", coarse_resolution, 0.05, 30.0},
+      Bound{"map_radius", map_radius, max_range, 2000.0},
+      Bound{"keyframe_distance", keyframe_distance, 0.0, 10.0},
+      Bound{"keyframe_angle", keyframe_angle, 0.0, 3.2},
+      Bound{"linear_acceleration", linear_acceleration, 1e-3, 1000.0},
+      Bound{"angular_acceleration", angular_acceleration, 1e-3, 1000.0},
+      Bound{"initial_speed", initial_speed, 1e-3, 1000.0},
+      Bound{"initial_turn_rate", initial_turn_rate, 1e-3, 100.0},
+      Bound{"gyro_noise", gyro_noise, 1e-5, 10.0},
+      Bound{"wheel_speed_noise", wheel_speed_noise, 1e-4, 100.0},
+      Bound{"wheel_yaw_noise", wheel_yaw_noise, 1e-4, 100.0},
+      Bound{"max_iterations", static_cast<double>(max_iterations), 1, 100},
+      Bound{"edge_noise", edge_noise, 1e-3, 10.0},
+      Bound{"min_inlier_fraction", min_inlier_fraction, 0.0, 1.0},
+      Bound{"min_matches", static_cast<double>(min_matches), 6, 1e6},
+      Bound{"lost_scans_before_restart", static_cast<double>(lost_scans_before_restart), 1, 1e6},
+      Bound{"information_deflation", information_deflation, 1.0, 1e6},
+  };
+  for (const Bound& bound : bounds) {
+    if (!(bound.value >= bound.low && bound.value <= bound.high)) {
+      return failure(std::string("odometry.") + bound.field + ": must be " + std::to_string(bound.low) +
+                     " to " + std::to_string(bound.high) + ", is " + std::to_string(bound.value));
+    }
+  }
+  if (!(min_range < max_range)) return failure("odometry.min_range: must be less than max_range");
+  if (!(coarse_resolution > fine_resolution)) {
+    return failure("odometry.coarse_resolution: must be greater than fine_resolution");
+  }
+  if (!all_finite(T_base_lidar) || std::abs(T_base_lidar.linear().determinant() - 1.0) > 1e-3) {
+    return failure("odometry.T_base_lidar: must be a rigid transform");
+  }
+  if (!(std::abs(q_base_imu.norm() - 1.0) < 1e-3))
+    return failure("odometry.q_base_imu: must be a unit quaternion");
+  return {};
+}
+
+}  // namespace fleetmap::odometry

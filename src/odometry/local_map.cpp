@@ -1,0 +1,157 @@
+#include "fleetmap/odometry/local_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace fleetmap::odometry {
+namespace {
+
+/// Windows stop taking points here: what was seen first, with the least drift, stays the anchor.
+constexpr float kMaxCount = 250.0f;
+constexpr float kMinPlaneCount = 7.0f;
+constexpr float kMinLineCount = 4.0f;
+/// Across over along variance: flatter is a plane.
+constexpr double kPlaneRatio = 0.08;
+constexpr double kLineRatio = 0.05;
+/// Least extent (1 sigma) along both axes of a plane, as a share of h: one ring on a floor is no plane.
+constexpr double kMinExtent = 0.12;
+constexpr double kUpright = 0.9;
+
+}  // namespace
+
+SurfaceGrid::SurfaceGrid(double step, bool linear, double max_thickness)
+    : step_(step), inverse_step_(1.0 / step), linear_(linear), max_thickness_(max_thickness) {}
+
+void SurfaceGrid::add(const Eigen::Vector3d& point) {
+  const Eigen::Vector3d scaled = point * inverse_step_;
+  const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
+  for (int corner = 0; corner < 8; ++corner) {
+    // Window w covers the cells w - 1 and w; its middle is the lattice point w.
+    const std::int64_t w[3] = {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
+    const std::uint32_t i = index_.insert(pack_cell(w[0], w[1], w[2]));
+    if (i == windows_.size()) {
+      windows_.emplace_back();
+      windows_[i].center = step_ * Eigen::Vector3d(static_cast<double>(w[0]), static_cast<double>(w[1]),
+                                                   static_cast<double>(w[2]));
+    }
+    SurfaceWindow& window = windows_[i];
+    if (window.count >= kMaxCount) continue;
+    const Eigen::Vector3f d = (point - window.center).cast<float>();
+    window.count += 1.0f;
+    window.sum += d;
+    window.square[0] += d.x() * d.x();
+    window.square[1] += d.x() * d.y();
+    window.square[2] += d.x() * d.z();
+    window.square[3] += d.y() * d.y();
+    window.square[4] += d.y() * d.z();
+    window.square[5] += d.z() * d.z();
+    window.stale = true;
+  }
+}
+
+const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point) {
+  const Eigen::Vector3d scaled = point * inverse_step_;
+  const std::uint32_t i = index_.find(
+      pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5), fast_floor(scaled.z() + 0.5)));
+  if (i == FlatIndex::kAbsent) return nullptr;
+  SurfaceWindow& window = windows_[i];
+  if (window.stale) refresh(window);
+  return &window;
+}
+
+void SurfaceGrid::refresh(SurfaceWindow& window) const {
+  window.stale = false;
+  window.shape = Shape::kUnknown;
+  if (window.count < (linear_ ? kMinLineCount : kMinPlaneCount)) return;
+  const double n = window.count;
+  const Eigen::Vector3d mean = window.sum.cast<double>() / n;
+  const auto& q = window.square;
+  Eigen::Matrix3d S;
+  S << q[0], q[1], q[2], q[1], q[3], q[4], q[2], q[4], q[5];
+  S = S / n - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(S);
+  const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(1e-7);
+  window.mean = mean.cast<float>();
+  const double thick2 = max_thickness_ * max_thickness_;
+  const double extent2 = kMinExtent * kMinExtent * step_ * step_;
+  auto settle = [&](Shape shape, int axis, double across, double along) {
+    window.shape = shape;
+    window.direction = solver.eigenvectors().col(axis).cast<float>();
+    window.thickness = static_cast<float>(across);
+    window.angle_variance = static_cast<float>(across / (n * along));
+  };
+  const bool line = l[1] < kLineRatio * l[2] && l[1] < thick2 && l[2] > extent2;
+  if (linear_) {
+    if (line) settle(Shape::kLine, 2, l[1], l[2]);
+    return;
+  }
+  if (l[1] > extent2) {
+    if (l[0] < kPlaneRatio * l[1] && l[0] < thick2) {
+      settle(Shape::kPlane, 0, l[0], l[1]);
+    } else {
+      window.shape = Shape::kScatter;
+    }
+  } else if (line && std::abs(solver.eigenvectors()(2, 2)) > kUpright) {
+    settle(Shape::kLine, 2, l[1], l[2]);  // a post: LiDARs draw level lines on surfaces, hardly upright ones
+  }
+}
+
+void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
+  std::vector<SurfaceWindow> kept;
+  kept.reserve(windows_.size());
+  for (const SurfaceWindow& window : windows_) {
+    if ((window.center - center).squaredNorm() < radius * radius) kept.push_back(window);
+  }
+  windows_.swap(kept);
+  index_.clear();
+  for (const SurfaceWindow& window : windows_) {
+    const Eigen::Vector3d w = window.center * inverse_step_;
+    index_.insert(pack_cell(std::llround(w.x()), std::llround(w.y()), std::llround(w.z())));
+  }
+}
+
+void SurfaceGrid::clear() {
+  index_.clear();
+  windows_.clear();
+}
+
+LocalMap::LocalMap(const LoamConfig& config)
+    : fine_(config.fine_resolution, false, std::max(0.08, 3.0 * config.range_noise)),
+      coarse_(config.coarse_resolution, false, std::max(0.15, 4.0 * config.range_noise)),
+      edges_(config.fine_resolution, true, config.edge_noise) {}
+
+void LocalMap::add_surface(const Eigen::Vector3d& point) {
+  fine_.add(point);
+  coarse_.add(point);
+}
+
+void LocalMap::add_edge(const Eigen::Vector3d& point) { edges_.add(point); }
+
+const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point) {
+  const SurfaceWindow* fine = fine_.at(point);
+  if (fine != nullptr && fine->shape != Shape::kUnknown)
+    return fine->shape == Shape::kScatter ? nullptr : fine;
+  const SurfaceWindow* coarse = coarse_.at(point);
+  if (coarse != nullptr && coarse->shape == Shape::kPlane) return coarse;
+  return nullptr;
+}
+
+const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point) {
+  const SurfaceWindow* edge = edges_.at(point);
+  return edge != nullptr && edge->shape == Shape::kLine ? edge : nullptr;
+}
+
+void LocalMap::prune(const Eigen::Vector3d& center, double radius) {
+  fine_.prune(center, radius);
+  coarse_.prune(center, radius);
+  edges_.prune(center, radius);
+}
+
+void LocalMap::clear() {
+  fine_.clear();
+  coarse_.clear();
+  edges_.clear();
+}
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,89 @@
+#include "fleetmap/odometry/rate_history.hpp"
+
+#include <algorithm>
+
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::odometry {
+namespace {
+
+constexpr std::size_t kMaxSamples = 8192;
+constexpr Duration kClockJump = std::chrono::seconds(1);
+constexpr Duration kMaxGap = std::chrono::milliseconds(500);  // between samples that still cover an interval
+
+}  // namespace
+
+bool RateHistory::add(Stamp stamp, const Eigen::Vector3d& rate) {
+  if (!rate.allFinite()) return false;
+  if (!samples_.empty() && stamp <= samples_.back().stamp) {
+    if (samples_.back().stamp - stamp < kClockJump) return false;
+    samples_.clear();
+  }
+  samples_.push_back({stamp, rate});
+  if (samples_.size() > kMaxSamples) samples_.pop_front();
+  return true;
+}
+
+bool RateHistory::covers(Stamp from, Stamp to, Duration hold) const {
+  if (samples_.empty() || samples_.front().stamp > from + hold || samples_.back().stamp < to - hold)
+    return false;
+  const auto first = std::lower_bound(samples_.begin(), samples_.end(), from,
+                                      [](const Sample& s, Stamp stamp) { return s.stamp < stamp; });
+  for (auto it = first; it != samples_.end() && it->stamp < to; ++it) {
+    const auto next = std::next(it);
+    if (next != samples_.end() && next->stamp - it->stamp > kMaxGap) return false;
+  }
+  return true;
+}
+
+Eigen::Vector3d RateHistory::at(Stamp stamp) const {
+  const auto after = std::lower_bound(samples_.begin(), samples_.end(), stamp,
+                                      [](const Sample& s, Stamp t) { return s.stamp < t; });
+  if (after == samples_.begin()) return after->rate;
+  if (after == samples_.end()) return samples_.back().rate;
+  const auto before = std::prev(after);
+  const double alpha = to_seconds(stamp - before->stamp) / to_seconds(after->stamp - before->stamp);
+  return (1.0 - alpha) * before->rate + alpha * after->rate;
+}
+
+std::optional<Eigen::Vector3d> RateHistory::mean(Stamp from, Stamp to, Duration hold) const {
+  if (!covers(from, to, hold)) return std::nullopt;
+  if (to <= from) return at(from);
+  Eigen::Vector3d integral = Eigen::Vector3d::Zero();
+  Stamp stamp = from;
+  Eigen::Vector3d rate = at(from);
+  auto advance = [&](Stamp next, const Eigen::Vector3d& next_rate) {
+    integral += 0.5 * to_seconds(next - stamp) * (rate + next_rate);
+    stamp = next;
+    rate = next_rate;
+  };
+  for (auto it = std::upper_bound(samples_.begin(), samples_.end(), from,
+                                  [](Stamp t, const Sample&s) { return t < s.stamp; });
+       it != samples_.end() && it->stamp < to; ++it) {
+    advance(it->stamp, it->rate);
+  }
+  advance(to, at(to));
+  return integral / to_seconds(to - from);
+}
+
+std::optional<Eigen::Matrix3d> RateHistory::rotation(Stamp from, Stamp to, const Eigen::Vector3d& bias,
+                                                     Duration hold) const {
+  if (!covers(from, to, hold)) return std::nullopt;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Stamp stamp = from;
+  Eigen::Vector3d rate = at(from);
+  auto advance = [&](Stamp next, const Eigen::Vector3d& next_rate) {
+    R = R * so3_exp(to_seconds(next - stamp) * (0.5 * (rate + next_rate) - bias));
+    stamp = next;
+    rate = next_rate;
+  };
+  for (auto it = std::upper_bound(samples_.begin(), samples_.end(), from,
+                                  [](Stamp t, const Sample&s) { return t < s.stamp; });
+       it != samples_.end() && it->stamp < to; ++it) {
+    advance(it->stamp, it->rate);
+  }
+  advance(to, at(to));
+  return R;
+}
+
+}  // namespace fleetmap::odometry

@@ -1,0 +1,177 @@
+#include "fleetmap/odometry/scan_matching.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace fleetmap::odometry {
+namespace {
+
+constexpr double kStepTranslation = 5e-4;  // m, a smaller step ends the iteration
+constexpr double kStepRotation = 2e-5;     // rad
+constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
+constexpr double kFinalSlack = 0.02;       // m
+/// A direction is degenerate if its information is within this factor of what noisy normals feign ...
+constexpr double kSpuriousFactor = 4.0;
+/// ... or below this share of a direction that all surfaces face.
+constexpr double kMinShare = 5e-4;
+
+double square(double value) { return value * value; }
+
+double longest_time(const std::vector<FeaturePoint>& points, double longest) {
+  for (const FeaturePoint& p : points) longest = std::max(longest, std::abs(static_cast<double>(p.time)));
+  return longest;
+}
+
+}  // namespace
+
+ScanMatcher::ScanMatcher(const LoamConfig& config) : config_(config) {}
+
+MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
+                               const std::vector<FeaturePoint>& edges, LocalMap& map,
+                               const MotionPrior& prior, const MotionState& start, double initial_error) {
+  MatchResult result;
+  result.state = start;
+  half_span_ = longest_time(edges, longest_time(planes, 1e-6));
+  double slack = initial_error;
+  for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
+    linearise(planes, edges, map, result.state, slack);
+    NormalEquations lidar = collect();
+    find_degeneracy(lidar.H, result);
+    const NormalEquations known = prior.linearised(result.state);
+    if (result.degenerate_count > 0) {
+      const double range = sums_.range / std::max(1.0, sums_.weight);
+      Vector6d scale;
+      scale << 1, 1, 1, 1 / range, 1 / range, 1 / range;
+      const auto V = result.degenerate_directions.leftCols(result.degenerate_count);
+      const Matrix6d keep =
+          scale.asDiagonal() * (Matrix6d::Identity() - V * V.transpose()) * scale.cwiseInverse().asDiagonal();
+      Matrix12d K = Matrix12d::Zero();
+      K.topLeftCorner<6, 6>() = K.bottomRightCorner<6, 6>() = keep;
+      lidar.H = K.transpose() * lidar.H * K;
+      lidar.g = K.transpose() * lidar.g;
+    }
+    const Vector12d step = -(lidar.H + known.H).ldlt().solve(lidar.g + known.g);
+    if (!step.allFinite()) break;
+    result.state.T_odom_base = result.state.T_odom_base * se3_exp(step.head<6>());
+    result.state.twist += step.tail<6>();
+    result.lidar_information = lidar.H;
+    result.prior_information = known.H;
+    if (slack <= kFinalSlack && step.head<3>().norm() < kStepTranslation &&
+        step.segment<3>(3).norm() < kStepRotation) {
+      result.converged = true;
+      break;
+    }
+    slack = std::max(slack * kAnnealing, 0.99 * kFinalSlack);
+  }
+  result.state.T_odom_base.linear() =
+      Eigen::Quaterniond(result.state.T_odom_base.linear()).normalized().toRotationMatrix();
+  result.planes = sums_.planes;
+  result.edges = sums_.edges;
+  result.inlier_fraction =
+      static_cast<double>(sums_.inliers) / static_cast<double>(std::max<std::size_t>(1, sums_.points));
+  result.rms = std::sqrt(sums_.inlier_square / static_cast<double>(std::max<std::size_t>(1, sums_.inliers)));
+  return result;
+}
+
+void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
+                            LocalMap& map, const MotionState& state, double slack) {
+  for (TimeBin& bin : bins_) {
+    bin.H.fill(0.0);
+    bin.g.setZero();
+  }
+  sums_ = {};
+  const ConstantTwist twist(state.twist);
+  const Eigen::Matrix3d R = state.T_odom_base.linear();
+  const Eigen::Vector3d t = state.T_odom_base.translation();
+  const double bins_per_second = kTimeBins / (2.0 * half_span_);
+  const double return_variance = square(config_.range_noise);
+
+  auto visit = [&](const FeaturePoint& feature, bool edge) {
+    const Eigen::Vector3d p = twist.at_reference(feature.position, feature.time).cast<double>();
+    const Eigen::Vector3d q = R * p + t;
+    const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q);
+    if (window == nullptr) return;
+    const Eigen::Vector3d offset = q - window->center - window->mean.cast<double>();
+    const Eigen::Vector3d direction = window->direction.cast<double>();
+    const double distance2 = offset.squaredNorm();
+    const double variance = (edge ? square(config_.edge_noise) : return_variance) + window->thickness +
+                            distance2 * window->angle_variance;
+    const double along = direction.dot(offset);
+    const bool plane = window->shape == Shape::kPlane;
+    const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
+    // Geman-McClure; the slack lets far surfaces pull while the state is still off.
+    const double kernel = 9.0 * variance + slack * slack;
+    const double weight = square(kernel / (kernel + residual2)) / variance;
+    const int slot =
+        std::clamp(static_cast<int>((feature.time + half_span_) * bins_per_second), 0, kTimeBins - 1);
+    TimeBin& bin = bins_[static_cast<std::size_t>(slot)];
+    if (plane) {
+      add_row(bin, p, R.transpose() * direction, along, weight);
+      sums_.spurious += weight * window->angle_variance;
+    } else {
+      const Eigen::Vector3d u = direction.unitOrthogonal();
+      const Eigen::Vector3d v = direction.cross(u);
+      add_row(bin, p, R.transpose() * u, u.dot(offset), weight);
+      add_row(bin, p, R.transpose() * v, v.dot(offset), weight);
+    }
+    sums_.weight += weight;
+    sums_.range += weight * p.norm();
+    ++sums_.points;
+    ++(edge ? sums_.edges : sums_.planes);
+    if (residual2 < 9.0 * variance) {
+      ++sums_.inliers;
+      sums_.inlier_square += residual2;
+    }
+  };
+  for (const FeaturePoint& feature : planes) visit(feature, false);
+  for (const FeaturePoint& feature : edges) visit(feature, true);
+}
+
+void ScanMatcher::add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base,
+                          double residual, double weight) {
+  const Eigen::Vector3d torque = p.cross(normal_base);
+  const double J[6] = {normal_base.x(), normal_base.y(), normal_base.z(), torque.x(), torque.y(), torque.z()};
+  std::size_t k = 0;
+  for (int i = 0; i < 6; ++i) {
+    const double wj = weight * J[i];
+    bin.g[i] += wj * residual;
+    for (int j = i; j < 6; ++j) bin.H[k++] += wj * J[j];
+  }
+}
+
+/// A point fired s seconds after the reference instant moves with d_pose + s d_twist.
+NormalEquations ScanMatcher::collect() const {
+  NormalEquations total;
+  for (int b = 0; b < kTimeBins; ++b) {
+    const TimeBin& bin = bins_[static_cast<std::size_t>(b)];
+    const double s = ((b + 0.5) / kTimeBins * 2.0 - 1.0) * half_span_;
+    Matrix6d A;
+    std::size_t k = 0;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) A(i, j) = A(j, i) = bin.H[k++];
+    }
+    total.H.topLeftCorner<6, 6>() += A;
+    total.H.topRightCorner<6, 6>() += s * A;
+    total.H.bottomRightCorner<6, 6>() += s * s * A;
+    total.g.head<6>() += bin.g;
+    total.g.tail<6>() += s * bin.g;
+  }
+  total.H.bottomLeftCorner<6, 6>() = total.H.topRightCorner<6, 6>().transpose();
+  return total;
+}
+
+void ScanMatcher::find_degeneracy(const Matrix12d& H, MatchResult& result) const {
+  const double weight = std::max(1.0, sums_.weight);
+  const double range = std::max(1e-3, sums_.range / weight);
+  Vector6d scale;
+  scale << 1, 1, 1, 1 / range, 1 / range, 1 / range;
+  const Matrix6d share = scale.asDiagonal() * H.topLeftCorner<6, 6>() * scale.asDiagonal() / weight;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(share);
+  const double limit = kMinShare + kSpuriousFactor * sums_.spurious / weight;
+  result.degenerate_count = static_cast<int>((solver.eigenvalues().array() < limit).count());
+  result.degenerate_directions = solver.eigenvectors();
+}
+
+}  // namespace fleetmap::odometry
