@@ -93,6 +93,7 @@ class Reader {
 Bytes encode(const graph::Node& node) {
   Writer w;
   w.id(node.id);
+  w.value(node.session);
   w.value(to_ns(node.stamp));
   w.value(to_ns(node.G.stamp));
   w.value(node.G.position.latitude);
@@ -123,6 +124,7 @@ std::optional<graph::Node> decode_node(ByteView bytes) {
   Reader r(bytes);
   graph::Node node;
   node.id = r.id();
+  node.session = r.value<std::uint8_t>();
   node.stamp = stamp_from_ns(r.value<std::int64_t>());
   node.G.stamp = stamp_from_ns(r.value<std::int64_t>());
   node.G.position.latitude = r.value<double>();

@@ -42,6 +42,7 @@ inline graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Byte
   std::normal_distribution<double> normal;
   graph::Node node;
   node.id = {agent, seq};
+  node.session = static_cast<std::uint8_t>(seed);
   node.stamp = stamp_from_ns(1'700'000'000'000'000'000 + static_cast<std::int64_t>(seq) * 1'000'000'007);
   node.G.stamp = node.stamp;
   node.G.position = geo_point_from_degrees(49.0, 8.4, 110.0 + normal(random));

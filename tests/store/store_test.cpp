@@ -42,6 +42,7 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   auto store = Store::open(folder / "store.db", kSelf).value();
   const auto* held = store.node({kSelf, 0});
   ASSERT_TRUE(held);
+  EXPECT_EQ(held->session, node.session);
   EXPECT_EQ(held->stamp, node.stamp);
   EXPECT_EQ(held->G.position, node.G.position);
   EXPECT_EQ(held->G.q_enu_base.coeffs(), node.G.q_enu_base.coeffs());

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/place/ball_tree.hpp"
+#include "fleetmap/place/proximity_search.hpp"
+
+namespace fleetmap::exchange {
+
+struct EncounterConfig {
+  place::ProximityConfig proximity;  ///< r^i of Eq. 1
+  double spacing_m = 10.0;           ///< m between encounters of the same two agents
+  double spacing_aligned_m = 20.0;   ///< m, the same once the two have a good alignment (E_ij <= 0.4)
+  double spacing_failed_m =
+      5.0;  ///< m from an encounter whose registration was rejected or whose cloud got lost
+  Duration settle = Duration::zero();  ///< s between finding an encounter and asking for its cloud (the
+                                       ///< submaps around a fresh node are still being made)
+  Duration retry_after =
+      std::chrono::seconds(60);   ///< s until a failed pair is tried again, with fuller clouds
+  int max_attempts = 2;           ///< of one pair of nodes
+  std::size_t max_active = 2;     ///< clouds asked for and not yet registered
+  std::size_t max_waiting = 256;  ///< encounters found and not begun; the oldest gives way
+  Duration peer_timeout = std::chrono::seconds(60);  ///< s, an agent not heard for so long is not asked
+  int match_repeats = 3;  ///< a match is sent so often unless the peer shows that it knows
+  Duration match_period = std::chrono::seconds(3);  ///< s
+  bool stop_when_peer_aligned =
+      true;  ///< a good alignment of the same two nodes by the peer ends our own attempt
+  Status validate() const;
+};
+
+/// Our node and the peer's. Both ends find the same pair from the same nodes.
+struct NodePair {
+  NodeId ours;
+  NodeId theirs;
+  auto operator<=>(const NodePair&) const = default;
+};
+
+struct EncounterStats {
+  std::uint64_t found = 0;      ///< pairs within r^i
+  std::uint64_t redundant = 0;  ///< of these, too near to another encounter to be worth its bytes
+  std::uint64_t begun = 0;      ///< clouds asked for
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t lost = 0;  ///< the cloud never came
+  std::uint64_t settled_by_peer = 0;
+  std::uint64_t crowded_out = 0;  ///< gave way when too many waited
+};
+
+/// Decides which nodes of two agents are worth registering (Alg. 2, and what the paper leaves open: how
+/// often).
+///
+/// A node of a peer arrives: our nearest node within r^i is its partner. A node of our own is made: each
+/// peer's nearest node is its partner; the peer, receiving our node, finds the same. Pairs closer than the
+/// spacing to one that is under way or done are left out. Should the two ends still begin different pairs at
+/// one place (a node was lost on the way), the match messages show it and the smaller pair wins on both
+/// sides.
+class Encounters {
+ public:
+  Encounters(const AgentId& self, const EncounterConfig& config);
+
+  /// A node became known, in any order, also at start from the store.
+  void on_node(const graph::Node& node, Stamp now);
+  /// An alignment became known, whoever computed it.
+  void on_alignment(const graph::Alignment& alignment, Stamp now);
+  void on_match(const ProximityMatch& match, Stamp now);
+  /// Any message came from `peer`.
+  void on_heard(const AgentId& peer, Stamp now);
+  /// `peer` asked for the cloud of our node: it knows of the encounter.
+  void on_cloud_request(const AgentId& peer, const NodeId& ours);
+  /// The cloud of `theirs` came: the pairs to register now.
+  std::vector<NodePair> on_cloud(const NodeId& theirs);
+  void on_cloud_lost(const NodeId& theirs, Stamp now);
+  /// Our registration of the pair was turned down. (An accepted one shows as on_alignment.)
+  void on_rejected(const NodePair& pair, Stamp now);
+
+  struct Due {
+    std::vector<ProximityMatch> matches;
+    std::vector<NodeId> wanted;       ///< clouds to ask for
+    std::vector<NodePair> withdrawn;  ///< no longer worth the bytes of either cloud
+  };
+  Due tick(Stamp now);
+
+  /// Nothing is under way or about to be.
+  bool idle(Stamp now) const;
+  bool has_good_alignment(const AgentId& peer) const { return aligned_.contains(peer); }
+  const EncounterStats& stats() const { return stats_; }
+
+ private:
+  enum class Phase : std::uint8_t { kWaiting, kAsked, kRegistering, kDone, kFailed };
+  struct Encounter {
+    Phase phase = Phase::kWaiting;
+    Stamp not_before;  ///< of asking
+    int attempts = 0;
+    double distance = 0.0;  ///< m
+    double radius = 0.0;    ///< m
+    int matches_sent = 0;
+    Stamp next_match;
+    bool known_to_peer = false;
+  };
+  struct Track {
+    place::BallTree tree;
+    std::vector<NodeId> ids;  ///< by index in the tree
+  };
+  void find(const graph::Node& node, const AgentId& other, Stamp now);
+  void begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer);
+  /// Another encounter makes this one redundant; `waiver` is left out of account.
+  bool redundant(const NodePair& pair, const NodePair* waiver = nullptr) const;
+  double spacing(const Encounter& other, const AgentId& peer) const;
+  std::vector<NodePair> rivals(const NodePair& pair) const;
+  void fail(Encounter& encounter, Stamp now);
+  void crowd_out();
+  void ask(Due& due, Stamp now);
+  void announce(Due& due, Stamp now);
+  bool retryable(const NodePair& pair, const Encounter& encounter) const;
+  bool heard(const AgentId& peer, Stamp now) const;
+
+  AgentId self_;
+  EncounterConfig config_;
+  std::map<AgentId, Track> tracks_;
+  std::map<NodeId, GeoPoint> places_;
+  std::map<NodePair, Encounter> encounters_;
+  std::set<AgentId> aligned_;
+  std::map<AgentId, Stamp> heard_;
+  std::vector<NodePair> withdrawn_;
+  EncounterStats stats_;
+};
+
+}  // namespace fleetmap::exchange

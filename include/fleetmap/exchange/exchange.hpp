@@ -1,0 +1,179 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <variant>
+#include <vector>
+
+#include "fleetmap/exchange/cloud_transfer.hpp"
+#include "fleetmap/exchange/encounters.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/exchange/reconcile.hpp"
+#include "fleetmap/exchange/routing.hpp"
+#include "fleetmap/exchange/send_queue.hpp"
+#include "fleetmap/exchange/submap_transfer.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::exchange {
+
+struct ExchangeConfig {
+  std::vector<AgentId> fleet;  ///< every agent, this one too; messages and items of others are refused
+  LongRangeConfig long_range;
+  CloudTransferConfig clouds;
+  EncounterConfig encounters;
+  ReconcileConfig reconcile;
+  SubmapTransferConfig submaps;
+  Duration status_period = std::chrono::seconds(5);
+  /// Bytes of a message as the bus publishes it (CDR with its encapsulation header).
+  std::function<std::size_t(const Message&)> payload_size;
+  Status validate(const AgentId& self) const;
+};
+
+// ---- what the agent hears
+// ------------------------------------------------------------------------------------------
+
+/// A node of another agent (or an own one, given back by others after our store was lost) is in the store.
+struct NodeAdded {
+  NodeId id;
+};
+struct AlignmentAdded {
+  store::AlignmentId id;
+};
+/// The whole submap of a node is in the store.
+struct SubmapAdded {
+  NodeId id;
+};
+/// `to` wants the spherized cloud around our node: answer with provide_cloud() or decline_cloud().
+struct CloudNeeded {
+  NodeId node;
+  AgentId to;
+};
+/// Register this cloud (of pair.theirs) with that of pair.ours: answer with on_own_alignment() or
+/// on_rejected().
+struct CloudArrived {
+  NodePair pair;
+  Bytes cloud;
+};
+struct PeerStatus {
+  AgentStatus status;
+};
+/// Another item came under a name that is taken; it was refused. Two robots with one name, or a store that
+/// was lost.
+struct ItemConflict {
+  NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
+  bool alignment = false;
+};
+/// The store's file failed; nothing that failed was accepted.
+struct StoreFailed {
+  Error error;
+};
+/// Everything known of is held. Comes again when more became known and was completed.
+struct MapComplete {
+  std::size_t nodes = 0;
+  std::size_t alignments = 0;
+};
+using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
+                           ItemConflict, StoreFailed, MapComplete>;
+
+struct ExchangeStats {
+  SendQueueStats long_range;
+  CloudSenderStats cloud_sender;
+  CloudReceiverStats cloud_receiver;
+  EncounterStats encounters;
+  ReconcileStats reconcile;
+  SubmapReceiverStats submap_receiver;
+  SubmapSenderStats submap_sender;
+  std::uint64_t strangers = 0;     ///< messages and items of agents that are not of the fleet, and own echoes
+  std::uint64_t bad_requests = 0;  ///< for clouds of nodes that are not ours
+};
+
+/// All that one agent says to the others and hears from them, as a state machine: messages and time in,
+/// messages and events out. Call tick() at 10 Hz or more (50 Hz while submaps flow), then take_events().
+class Exchange {
+ public:
+  /// `store` outlives this. Begins from what the store holds; unfinished encounters are found again.
+  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, Stamp now);
+
+  /// An own node with its encoded submap: stored, then told to all. The node must be what the wire makes of
+  /// it (decode(encode(node))), so that all agents hold equal items. kConflict: the name is taken.
+  Result<store::Put> on_own_node(const graph::Node& node, ByteView submap, Stamp now);
+  /// An accepted registration of ours; the same rule as for nodes.
+  Result<store::Put> on_own_alignment(const graph::Alignment& alignment, Stamp now);
+  /// A registration of ours that was turned down.
+  void on_rejected(const NodePair& pair, Stamp now);
+  /// Answers CloudNeeded. Fails when the cloud is larger than the budget.
+  Status provide_cloud(const NodeId& node, Bytes cloud, Stamp now);
+  void decline_cloud(const NodeId& node);
+  /// What the next status messages say of position, heading and battery; counters are filled in.
+  void set_status(const AgentStatus& status) { status_ = status; }
+
+  void on_message(const Message& message, Stamp now);
+  std::vector<Outgoing> tick(Stamp now);
+  std::vector<Event> take_events();
+
+  /// Every node, alignment and submap that any agent has told of is held.
+  bool complete() const;
+  /// Every other agent of the fleet has told that it holds the nodes and alignments that we hold.
+  bool fleet_caught_up() const;
+  /// Nothing waits to be sent, fetched or registered.
+  bool idle(Stamp now) const;
+  ExchangeStats stats() const;
+  const SendQueue& queue() const { return queue_; }
+  /// Agents whose short-range link was heard of late.
+  std::vector<AgentId> peers_in_reach(Stamp now) const { return submap_receiver_.peers_in_reach(now); }
+
+ private:
+  Exchange(const ExchangeConfig& config, store::Store& store, Stamp now);
+  bool member(const AgentId& agent) const { return fleet_.contains(agent); }
+  bool admit(const Message& message, Stamp now);
+  void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment);
+
+  void handle(const graph::Node& node, Stamp now);
+  void handle(const graph::Alignment& alignment, Stamp now);
+  void handle(const ProximityMatch& match, Stamp now);
+  void handle(const CloudFragment& fragment, Stamp now);
+  void handle(const CloudRequest& request, Stamp now);
+  void handle(const Digest& digest, Stamp now);
+  void handle(const ItemRequest& request, Stamp now);
+  void handle(const AgentStatus& status, Stamp now);
+  void handle(const SubmapDigest& digest, Stamp now);
+  void handle(const SubmapRequest& request, Stamp now);
+  void handle(const SubmapChunk& chunk, Stamp now);
+
+  void send_fragments(std::vector<CloudFragment> fragments);
+  void tick_encounters(Stamp now);
+  void tick_clouds(Stamp now);
+  void tick_items(Stamp now);
+  void tick_status(Stamp now);
+  void tick_short_range(std::vector<Outgoing>& out, Stamp now);
+  void note_completion();
+
+  struct Needed {
+    std::set<AgentId> by;
+    Stamp told;  ///< when the agent last heard of it
+  };
+
+  ExchangeConfig config_;
+  store::Store* store_;
+  AgentId self_;
+  std::set<AgentId> fleet_;
+  SendQueue queue_;
+  CloudSender cloud_sender_;
+  CloudReceiver cloud_receiver_;
+  Encounters encounters_;
+  Reconcile reconcile_;
+  SubmapReceiver submap_receiver_;
+  SubmapSender submap_sender_;
+  std::map<NodeId, Needed> needed_;
+  AgentStatus status_;
+  std::optional<Stamp> next_status_;
+  bool was_complete_ = false;
+  std::vector<Event> events_;
+  std::uint64_t strangers_ = 0;
+  std::uint64_t bad_requests_ = 0;
+};
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::exchange {
+
+struct ReconcileConfig {
+  Duration digest_min_period = std::chrono::seconds(4);   ///< between digests while what is held changes
+  Duration digest_max_period = std::chrono::seconds(30);  ///< doubles up to this while nothing changes
+  Duration grace =
+      std::chrono::milliseconds(500);  ///< an item offered is asked for only if it has not come by itself
+  Duration timeout =
+      std::chrono::seconds(8);  ///< of a request that brings nothing; then another agent is asked
+  Duration peer_timeout = std::chrono::seconds(90);  ///< an agent not heard for so long is not asked
+  std::size_t max_ranges = 28;         ///< in each list of a digest or request, so that it fits one datagram
+  std::uint32_t max_items = 48;        ///< asked for at once of one agent
+  std::uint32_t max_seq = 10'000'000;  ///< ranges beyond are refused
+  Status validate() const;
+};
+
+struct ReconcileStats {
+  std::uint64_t digests_sent = 0;
+  std::uint64_t digests_heard = 0;
+  std::uint64_t requests_sent = 0;
+  std::uint64_t requests_served = 0;
+  std::uint64_t items_served = 0;
+  std::uint64_t timeouts = 0;
+  std::uint64_t hostile = 0;  ///< ranges that are reversed or beyond max_seq
+};
+
+/// Makes the sets of nodes and alignments of all agents equal, whatever was lost: agents tell from time to
+/// time what they hold, and whoever lacks something asks one of those who have it, its maker or not.
+class Reconcile {
+ public:
+  Reconcile(const AgentId& self, const ReconcileConfig& config);
+
+  void on_digest(const Digest& digest, const store::Store& store, Stamp now);
+  void on_heard(const AgentId& peer, Stamp now);
+  /// A node or alignment was added to the store.
+  void on_item(Stamp now);
+
+  struct Items {
+    std::vector<const graph::Node*> nodes;
+    std::vector<const graph::Alignment*> alignments;
+  };
+  /// What is held of what `request` asks for, at most max_items.
+  Items answer(const ItemRequest& request, const store::Store& store);
+
+  struct Due {
+    std::optional<Digest> digest;
+    std::vector<ItemRequest> requests;
+  };
+  Due tick(const store::Store& store, Stamp now);
+
+  /// Everything that any agent has told of is held.
+  bool complete(const store::Store& store) const;
+  /// `peer` has told that it holds all that we hold.
+  bool caught_up(const AgentId& peer, const store::Store& store) const;
+  const ReconcileStats& stats() const { return stats_; }
+
+ private:
+  struct Offer {
+    store::SeqSet nodes;
+    store::SeqSet alignments;
+    Stamp since;           ///< when it was first seen to have what we lack
+    bool lacking = false;  ///< it has what we lack
+  };
+  struct Pending {
+    store::SeqSet nodes;
+    store::SeqSet alignments;
+    std::uint64_t left = 0;
+    Stamp deadline;
+  };
+  struct Peer {
+    Offer offer;
+    std::optional<Pending> pending;
+    Stamp heard;
+    Stamp resting_until;  ///< after a request that brought nothing
+    Duration rest = Duration::zero();
+  };
+  store::SeqSet accepted(const std::vector<Range>& ranges);
+  void settle_pending(Peer& peer, const store::Store& store, Stamp now);
+  std::optional<ItemRequest> ask(const AgentId& name, Peer& peer, const store::Store& store, Stamp now);
+  Digest make_digest(const store::Store& store);
+
+  AgentId self_;
+  ReconcileConfig config_;
+  std::map<AgentId, Peer> peers_;
+  Duration period_;
+  std::optional<Stamp> next_digest_;
+  std::optional<Stamp> last_digest_;
+  std::size_t next_range_ = 0;  ///< where the next digest begins when not all ranges fit
+  ReconcileStats stats_;
+};
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "fleetmap/exchange/messages.hpp"
+
+namespace fleetmap::exchange {
+
+/// The link that a message goes over.
+enum class Reach : std::uint8_t { kLongRange, kShortRange };
+
+/// A message that is due now.
+struct Outgoing {
+  Reach reach = Reach::kLongRange;
+  /// The one agent that it is for; nothing means everyone in reach.
+  std::optional<AgentId> to;
+  Message message;
+};
+
+Reach reach_of(const Message& message);
+/// Who sent it; nothing for nodes and alignments, which any agent may pass on.
+std::optional<AgentId> sender_of(const Message& message);
+/// Whom it is for; nothing when it is for everyone.
+std::optional<AgentId> recipient_of(const Message& message);
+
+}  // namespace fleetmap::exchange

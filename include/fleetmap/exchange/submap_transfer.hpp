@@ -1,0 +1,149 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/exchange/token_bucket.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::exchange {
+
+struct SubmapTransferConfig {
+  double bytes_per_second = 1'875'000;  ///< B/s that this agent sends at most: a link of 15 Mbit/s
+  double burst_bytes = 131'072;         ///< B; at least bytes_per_second times the time between two ticks
+  std::size_t overhead_bytes = 272;     ///< B a chunk: headers of its six IP fragments, UDP and RTPS
+  std::uint32_t window_bytes =
+      262'144;  ///< B asked for and not yet here, of one peer: bandwidth times delay and more
+  std::uint32_t request_bytes = 65'536;  ///< B asked for by one message at most
+  Duration digest_period = std::chrono::seconds(1);
+  Duration peer_timeout = std::chrono::seconds(4);        ///< s, a peer not heard for so long is out of reach
+  Duration min_timeout = std::chrono::milliseconds(300);  ///< of a chunk; the measured delay raises it
+  Duration max_timeout = std::chrono::seconds(3);
+  std::size_t max_ranges = 64;  ///< in a digest
+  std::size_t max_queued_chunks =
+      256;  ///< waiting for one peer; more requests are dropped and asked for again
+  std::uint32_t max_seq = 10'000'000;
+  Status validate() const;
+};
+
+struct SubmapReceiverStats {
+  std::uint64_t requests = 0;
+  std::uint64_t chunks = 0;      ///< that brought something new
+  std::uint64_t duplicates = 0;  ///< held already
+  std::uint64_t timeouts = 0;    ///< chunks asked for again
+  std::uint64_t hostile = 0;     ///< chunks and ranges that contradict the node or the rules
+  std::uint64_t bad_hash = 0;    ///< whole submaps with the wrong content
+  std::uint64_t submaps = 0;     ///< completed
+};
+
+/// Fetches the submaps that this agent lacks from whoever is within reach and has them, maker or not. Keeps a
+/// window of chunks under way to each peer; never asks two peers for one chunk at the same time; goes on
+/// where it stopped.
+class SubmapReceiver {
+ public:
+  SubmapReceiver(const AgentId& self, const SubmapTransferConfig& config);
+
+  void on_digest(const SubmapDigest& digest, Stamp now);
+  /// Any short-range message came from `peer`.
+  void on_heard(const AgentId& peer, Stamp now);
+  /// The completed submap, if `chunk` was its last. An Error is the store's.
+  Result<std::optional<NodeId>> on_chunk(const SubmapChunk& chunk, store::Store& store, Stamp now);
+  std::vector<SubmapRequest> tick(const store::Store& store, Stamp now);
+
+  bool in_reach(const AgentId& peer, Stamp now) const;
+  std::vector<AgentId> peers_in_reach(Stamp now) const;
+  /// Nothing is under way, and no peer in reach has what we lack.
+  bool idle(const store::Store& store, Stamp now) const;
+  const SubmapReceiverStats& stats() const { return stats_; }
+
+ private:
+  struct Flight {
+    std::uint32_t bytes = 0;
+    Stamp sent;
+    Stamp deadline;
+  };
+  struct Peer {
+    store::SeqSet holds;
+    Stamp heard;
+    std::uint64_t bytes_out = 0;  ///< asked for and not yet here
+    double delay = 0.0;           ///< s, smoothed, from request to chunk
+    double spread = 0.0;          ///< s, its smoothed deviation
+    Stamp last_chunk;
+  };
+  struct Download {
+    AgentId peer;  ///< one submap comes from one peer at a time, so that a wrong one is known by its source
+    std::map<std::uint32_t, Flight> flights;  ///< by chunk
+  };
+  Duration timeout(const Peer& peer) const;
+  void expire(const store::Store& store, Stamp now);
+  void stop(std::map<NodeId, Download>::iterator download);
+  bool has_room(Stamp now) const;
+  bool assign(const store::Store& store, const NodeId& id, Stamp now);
+  void fill(const store::Store& store, const NodeId& id, Download& download, Stamp now,
+            std::vector<SubmapRequest>& requests);
+  std::vector<NodeId> missing(const store::Store& store) const;
+  bool may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const;
+  static std::uint32_t chunk_bytes(const graph::Node& node, std::uint32_t chunk);
+
+  AgentId self_;
+  SubmapTransferConfig config_;
+  std::map<AgentId, Peer> peers_;
+  std::map<NodeId, Download> downloads_;
+  std::map<NodeId, std::set<AgentId>> sources_;      ///< who has given chunks of a submap that is not whole
+  std::set<std::pair<NodeId, AgentId>> distrusted_;  ///< gave a submap with the wrong content
+  SubmapReceiverStats stats_;
+};
+
+struct SubmapSenderStats {
+  std::uint64_t requests = 0;
+  std::uint64_t refused = 0;  ///< requests for what is not held or does not exist
+  std::uint64_t dropped = 0;  ///< chunks that did not fit the queue
+  std::uint64_t chunks = 0;
+  std::uint64_t bytes = 0;  ///< payload sent
+};
+
+/// Serves held submaps to the agents that ask, in turns, at the rate of the link.
+class SubmapSender {
+ public:
+  SubmapSender(const AgentId& self, const SubmapTransferConfig& config);
+
+  /// Sent every digest_period, so that agents in reach notice each other.
+  std::optional<SubmapDigest> digest(const store::Store& store, Stamp now);
+  void on_request(const SubmapRequest& request, const store::Store& store);
+  /// Chunks that may go at `now`. Reads from `store`; a damaged submap is dropped by it.
+  std::vector<SubmapChunk> tick(store::Store& store, Stamp now);
+
+  bool idle() const { return queues_.empty(); }
+  const SubmapSenderStats& stats() const { return stats_; }
+
+ private:
+  struct Piece {
+    NodeId node;
+    std::uint32_t chunk = 0;
+    auto operator<=>(const Piece&) const = default;
+  };
+  struct Queue {
+    std::deque<Piece> pieces;
+    std::set<Piece> queued;
+  };
+  const Bytes* load(store::Store& store, const NodeId& id);
+
+  AgentId self_;
+  SubmapTransferConfig config_;
+  TokenBucket bucket_;
+  std::map<AgentId, Queue> queues_;
+  AgentId last_served_;
+  std::map<NodeId, Bytes> loaded_;  ///< the few submaps being sent
+  std::optional<Stamp> next_digest_;
+  std::size_t next_range_ = 0;
+  SubmapSenderStats stats_;
+};
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,268 @@
+#include "fleetmap/exchange/encounters.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fleetmap::exchange {
+
+Status EncounterConfig::validate() const {
+  if (auto status = proximity.validate(); !status) return status;
+  if (!(spacing_m >= 0.0) || !(spacing_aligned_m >= 0.0) || !(spacing_failed_m >= 0.0)) {
+    return failure("encounters.spacing_m, spacing_aligned_m and spacing_failed_m must not be negative");
+  }
+  if (settle < Duration::zero() || retry_after < Duration::zero()) {
+    return failure("encounters.settle and retry_after must not be negative");
+  }
+  if (max_attempts < 1 || max_active == 0 || max_waiting == 0) {
+    return failure("encounters.max_attempts, max_active and max_waiting must be at least 1");
+  }
+  if (peer_timeout <= Duration::zero() || match_period <= Duration::zero() || match_repeats < 0) {
+    return failure("encounters.peer_timeout and match_period must be positive, match_repeats not negative");
+  }
+  return {};
+}
+
+Encounters::Encounters(const AgentId& self, const EncounterConfig& config) : self_(self), config_(config) {}
+
+void Encounters::on_node(const graph::Node& node, Stamp now) {
+  if (!places_.emplace(node.id, node.G.position).second) return;
+  Track& track = tracks_[node.id.agent];
+  if (track.tree.insert(node.G.position) == place::BallTree::kRefused) return;
+  track.ids.push_back(node.id);
+  if (node.id.agent != self_) {
+    find(node, self_, now);
+    return;
+  }
+  for (const auto& [agent, peer_track] : tracks_) {
+    if (agent != self_) find(node, agent, now);
+  }
+}
+
+void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) {
+  const auto track = tracks_.find(other);
+  if (track == tracks_.end()) return;
+  const double radius = place::search_radius(node.G.covariance, config_.proximity);
+  const auto nearest = place::nearest_within(track->second.tree, node.G.position, radius);
+  if (!nearest) return;
+  ++stats_.found;
+  const NodeId partner = track->second.ids[nearest->index];
+  const NodePair pair = other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner};
+  if (encounters_.contains(pair)) return;
+  if (redundant(pair)) {
+    ++stats_.redundant;
+    return;
+  }
+  begin(pair, nearest->distance, radius, now, false);
+}
+
+void Encounters::begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer) {
+  Encounter encounter;
+  encounter.not_before = now + config_.settle;
+  encounter.distance = distance;
+  encounter.radius = radius;
+  encounter.next_match = now;
+  encounter.known_to_peer = known_to_peer;
+  encounters_.emplace(pair, encounter);
+  crowd_out();
+}
+
+double Encounters::spacing(const Encounter& other, const AgentId& peer) const {
+  if (other.phase == Phase::kFailed) return config_.spacing_failed_m;
+  return aligned_.contains(peer) ? std::max(config_.spacing_m, config_.spacing_aligned_m) : config_.spacing_m;
+}
+
+bool Encounters::redundant(const NodePair& pair, const NodePair* waiver) const {
+  const auto ours = places_.find(pair.ours);
+  const auto theirs = places_.find(pair.theirs);
+  if (ours == places_.end() || theirs == places_.end()) return false;
+  return std::ranges::any_of(encounters_, [&](const auto& entry) {
+    const auto& [other, encounter] = entry;
+    if (other == pair || other.theirs.agent != pair.theirs.agent || (waiver && other == *waiver))
+      return false;
+    const double limit = spacing(encounter, pair.theirs.agent);
+    const auto other_ours = places_.find(other.ours);
+    const auto other_theirs = places_.find(other.theirs);
+    return other_ours != places_.end() && other_theirs != places_.end() &&
+           haversine_distance(ours->second, other_ours->second) < limit &&
+           haversine_distance(theirs->second, other_theirs->second) < limit;
+  });
+}
+
+std::vector<NodePair> Encounters::rivals(const NodePair& pair) const {
+  std::vector<NodePair> rivals;
+  for (const auto& [other, encounter] : encounters_) {
+    const bool under_way = encounter.phase == Phase::kWaiting || encounter.phase == Phase::kAsked;
+    if (!under_way || encounter.known_to_peer || other.theirs.agent != pair.theirs.agent) continue;
+    if (redundant(pair) && !redundant(pair, &other)) rivals.push_back(other);
+  }
+  return rivals;
+}
+
+void Encounters::on_match(const ProximityMatch& match, Stamp now) {
+  const NodePair pair{match.theirs, match.ours};  // the sender's "ours" is our "theirs"
+  if (match.to != self_ || pair.ours.agent != self_ || pair.theirs.agent != match.from) return;
+  if (const auto known = encounters_.find(pair); known != encounters_.end()) {
+    known->second.known_to_peer = true;
+    return;
+  }
+  // Without both nodes there is nothing to compare; when the missing one comes it makes the encounter by
+  // itself.
+  if (!places_.contains(pair.ours) || !places_.contains(pair.theirs)) return;
+  if (!(match.distance <= config_.proximity.max_radius)) return;
+  ++stats_.found;
+  if (redundant(pair)) {
+    // Both ends compare the two pairs in the same order, so both keep the same one.
+    const auto order = [](const NodePair& p) { return std::minmax(p.ours, p.theirs); };
+    for (const NodePair& rival : rivals(pair)) {
+      if (order(rival) < order(pair)) continue;
+      withdrawn_.push_back(rival);
+      encounters_.erase(rival);
+    }
+  }
+  if (redundant(pair)) {
+    ++stats_.redundant;
+    return;
+  }
+  begin(pair, match.distance, match.radius, now, true);
+}
+
+void Encounters::on_heard(const AgentId& peer, Stamp now) { heard_[peer] = now; }
+
+bool Encounters::heard(const AgentId& peer, Stamp now) const {
+  const auto it = heard_.find(peer);
+  return it != heard_.end() && now - it->second <= config_.peer_timeout;
+}
+
+void Encounters::on_cloud_request(const AgentId& peer, const NodeId& ours) {
+  for (auto& [pair, encounter] : encounters_) {
+    if (pair.ours == ours && pair.theirs.agent == peer) encounter.known_to_peer = true;
+  }
+}
+
+void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
+  const bool first_is_ours = alignment.i.agent == self_;
+  if (first_is_ours == (alignment.j.agent == self_)) return;  // between others, or within our own track
+  const NodePair pair =
+      first_is_ours ? NodePair{alignment.i, alignment.j} : NodePair{alignment.j, alignment.i};
+  const bool good = alignment.rmse <= graph::kGoodRmse;
+  if (good) aligned_.insert(pair.theirs.agent);
+  const bool by_us = alignment.computed_by == self_;
+  if (!by_us && !(good && config_.stop_when_peer_aligned)) return;
+  Encounter& encounter = encounters_[pair];  // one from before a restart, or one that the peer alone had
+  if (encounter.phase == Phase::kDone) return;
+  if (by_us) {
+    ++stats_.accepted;
+  } else if (encounter.phase == Phase::kRegistering) {
+    return;  // the bytes are spent: our own result is welcome as well
+  } else {
+    ++stats_.settled_by_peer;
+    withdrawn_.push_back(pair);
+  }
+  encounter.phase = Phase::kDone;
+}
+
+std::vector<NodePair> Encounters::on_cloud(const NodeId& theirs) {
+  std::vector<NodePair> pairs;
+  for (auto& [pair, encounter] : encounters_) {
+    if (pair.theirs != theirs || encounter.phase != Phase::kAsked) continue;
+    encounter.phase = Phase::kRegistering;
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+void Encounters::fail(Encounter& encounter, Stamp now) {
+  encounter.phase = Phase::kFailed;
+  encounter.not_before = now + config_.retry_after;
+}
+
+void Encounters::on_cloud_lost(const NodeId& theirs, Stamp now) {
+  for (auto& [pair, encounter] : encounters_) {
+    if (pair.theirs != theirs || encounter.phase != Phase::kAsked) continue;
+    ++stats_.lost;
+    fail(encounter, now);
+  }
+}
+
+void Encounters::on_rejected(const NodePair& pair, Stamp now) {
+  const auto it = encounters_.find(pair);
+  if (it == encounters_.end() || it->second.phase != Phase::kRegistering) return;
+  ++stats_.rejected;
+  fail(it->second, now);
+}
+
+void Encounters::crowd_out() {
+  std::size_t waiting = 0;
+  auto oldest = encounters_.end();
+  for (auto it = encounters_.begin(); it != encounters_.end(); ++it) {
+    if (it->second.phase != Phase::kWaiting) continue;
+    ++waiting;
+    if (oldest == encounters_.end() || it->second.not_before < oldest->second.not_before) oldest = it;
+  }
+  if (waiting <= config_.max_waiting) return;
+  encounters_.erase(oldest);
+  ++stats_.crowded_out;
+}
+
+bool Encounters::retryable(const NodePair& pair, const Encounter& encounter) const {
+  return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !redundant(pair);
+}
+
+void Encounters::ask(Due& due, Stamp now) {
+  std::size_t active = 0;
+  // Agents without a good alignment first, then the newest place: its agents are still near each other.
+  using Rank = std::tuple<bool, std::int64_t, NodePair>;
+  std::vector<Rank> ready;
+  for (const auto& [pair, encounter] : encounters_) {
+    active += encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
+    const bool may = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
+    if (!may || now < encounter.not_before || !heard(pair.theirs.agent, now)) continue;
+    ready.emplace_back(aligned_.contains(pair.theirs.agent), -to_ns(encounter.not_before), pair);
+  }
+  std::ranges::sort(ready);
+  for (const auto& [aligned, age, pair] : ready) {
+    if (active >= config_.max_active) return;
+    Encounter& encounter = encounters_.at(pair);
+    // Others may have been done since, and the spacing grows with the first good alignment.
+    if (encounter.phase == Phase::kWaiting && !encounter.known_to_peer && redundant(pair)) {
+      ++stats_.redundant;
+      encounters_.erase(pair);
+      continue;
+    }
+    encounter.phase = Phase::kAsked;
+    ++encounter.attempts;
+    ++stats_.begun;
+    ++active;
+    due.wanted.push_back(pair.theirs);
+  }
+}
+
+void Encounters::announce(Due& due, Stamp now) {
+  for (auto& [pair, encounter] : encounters_) {
+    if (encounter.phase != Phase::kAsked || encounter.known_to_peer) continue;
+    if (encounter.matches_sent >= config_.match_repeats || now < encounter.next_match) continue;
+    ++encounter.matches_sent;
+    encounter.next_match = now + config_.match_period;
+    due.matches.push_back(
+        {self_, pair.theirs.agent, pair.theirs, pair.ours, encounter.distance, encounter.radius});
+  }
+}
+
+Encounters::Due Encounters::tick(Stamp now) {
+  Due due;
+  ask(due, now);
+  announce(due, now);
+  std::swap(due.withdrawn, withdrawn_);
+  return due;
+}
+
+bool Encounters::idle(Stamp now) const {
+  return std::ranges::none_of(encounters_, [&](const auto& entry) {
+    const auto& [pair, encounter] = entry;
+    const bool busy = encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
+    const bool about_to = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
+    return busy || (about_to && heard(pair.theirs.agent, now));
+  });
+}
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,314 @@
+#include "fleetmap/exchange/exchange.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetmap::exchange {
+namespace {
+
+using store::Put;
+
+}  // namespace
+
+Status ExchangeConfig::validate(const AgentId& self) const {
+  if (std::ranges::count(fleet, self) != 1) {
+    return failure("exchange.fleet must name this agent '" + self.str() + "' once");
+  }
+  const std::set<AgentId> names(fleet.begin(), fleet.end());
+  if (names.size() != fleet.size() || names.contains(AgentId{})) {
+    return failure("exchange.fleet must name every agent once");
+  }
+  if (!payload_size) return failure("exchange.payload_size must be set");
+  if (status_period <= Duration::zero()) return failure("exchange.status_period must be positive");
+  if (encounters.max_active > clouds.max_receiving) {
+    return failure("encounters.max_active must be at most cloud_transfer.max_receiving");
+  }
+  for (const Status& status : {long_range.validate(), clouds.validate(), encounters.validate(),
+                               reconcile.validate(), submaps.validate()}) {
+    if (!status) return status;
+  }
+  return {};
+}
+
+Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
+  if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
+  return Exchange(config, store, now);
+}
+
+Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
+    : config_(config),
+      store_(&store),
+      self_(store.self()),
+      fleet_(config.fleet.begin(), config.fleet.end()),
+      queue_(config.long_range, config.fleet.size(), config.payload_size),
+      cloud_sender_(self_, config.clouds),
+      cloud_receiver_(self_, config.clouds),
+      encounters_(self_, config.encounters),
+      reconcile_(self_, config.reconcile),
+      submap_receiver_(self_, config.submaps),
+      submap_sender_(self_, config.submaps) {
+  status_.position = GeoPoint{};
+  for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
+  for (const auto& [id, node] : store.nodes()) encounters_.on_node(node, now);
+}
+
+// ---- from the agent
+// ------------------------------------------------------------------------------------------------
+
+Result<Put> Exchange::on_own_node(const graph::Node& node, ByteView submap, Stamp now) {
+  const auto put = store_->put_node_with_submap(node, submap);
+  if (!put || *put != Put::kAdded) return put;
+  queue_.push(Priority::kNews, node);
+  reconcile_.on_item(now);
+  encounters_.on_node(node, now);
+  return put;
+}
+
+Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp now) {
+  const auto put = store_->put_alignment(alignment);
+  if (!put || *put != Put::kAdded) return put;
+  queue_.push(Priority::kNews, alignment);
+  reconcile_.on_item(now);
+  encounters_.on_alignment(alignment, now);
+  if (alignment.rmse <= graph::kGoodRmse && config_.encounters.stop_when_peer_aligned) {
+    // The peer will stop asking when it hears of this.
+    const bool i_is_ours = alignment.i.agent == self_;
+    queue_.cancel_cloud(i_is_ours ? alignment.j.agent : alignment.i.agent,
+                        i_is_ours ? alignment.i : alignment.j);
+  }
+  return put;
+}
+
+void Exchange::on_rejected(const NodePair& pair, Stamp now) { encounters_.on_rejected(pair, now); }
+
+Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {
+  const auto needed = needed_.find(node);
+  const std::set<AgentId> recipients = needed == needed_.end() ? std::set<AgentId>() : needed->second.by;
+  if (needed != needed_.end()) needed_.erase(needed);
+  if (auto status = cloud_sender_.offer(node, std::move(cloud), now); !status) return status;
+  for (const AgentId& recipient : recipients) {
+    if (auto fragments = cloud_sender_.answer({recipient, self_, node, {}}, now)) {
+      send_fragments(std::move(*fragments));
+    }
+  }
+  return {};
+}
+
+void Exchange::decline_cloud(const NodeId& node) { needed_.erase(node); }
+
+std::vector<Event> Exchange::take_events() { return std::exchange(events_, {}); }
+
+// ---- from the links
+// ------------------------------------------------------------------------------------------------
+
+bool Exchange::admit(const Message& message, Stamp now) {
+  const auto sender = sender_of(message);
+  if (!sender) return true;  // a node or alignment: its maker is checked instead
+  if (*sender == self_ || !member(*sender)) {
+    ++strangers_;
+    return false;
+  }
+  const auto recipient = recipient_of(message);
+  if (reach_of(message) == Reach::kShortRange) {
+    submap_receiver_.on_heard(*sender, now);
+  } else {
+    reconcile_.on_heard(*sender, now);
+    encounters_.on_heard(*sender, now);
+  }
+  return !recipient || *recipient == self_;
+}
+
+void Exchange::on_message(const Message& message, Stamp now) {
+  if (!admit(message, now)) return;
+  std::visit([&](const auto& m) { handle(m, now); }, message);
+}
+
+void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& id, bool alignment) {
+  if (!put) {
+    events_.push_back(StoreFailed{put.error()});
+  } else if (*put == Put::kAdded) {
+    events_.push_back(added);
+  } else if (*put == Put::kConflict) {
+    events_.push_back(ItemConflict{id, alignment});
+  }
+}
+
+void Exchange::handle(const graph::Node& node, Stamp now) {
+  if (!member(node.id.agent)) {
+    ++strangers_;
+    return;
+  }
+  const auto put = store_->put_node(node);
+  on_put(put, NodeAdded{node.id}, node.id, false);
+  if (!put || *put != Put::kAdded) return;
+  reconcile_.on_item(now);
+  encounters_.on_node(node, now);
+}
+
+void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
+  if (!member(alignment.computed_by) || !member(alignment.i.agent) || !member(alignment.j.agent)) {
+    ++strangers_;
+    return;
+  }
+  const auto put = store_->put_alignment(alignment);
+  const NodeId name{alignment.computed_by, alignment.seq};
+  on_put(put, AlignmentAdded{{alignment.computed_by, alignment.seq}}, name, true);
+  if (!put || *put != Put::kAdded) return;
+  reconcile_.on_item(now);
+  encounters_.on_alignment(alignment, now);
+}
+
+void Exchange::handle(const ProximityMatch& match, Stamp now) { encounters_.on_match(match, now); }
+
+void Exchange::handle(const CloudFragment& fragment, Stamp now) {
+  auto cloud = cloud_receiver_.add(fragment, now);
+  if (!cloud) return;
+  for (const NodePair& pair : encounters_.on_cloud(fragment.node))
+    events_.push_back(CloudArrived{pair, *cloud});
+}
+
+void Exchange::handle(const CloudRequest& request, Stamp now) {
+  if (request.node.agent != self_ || !store_->node(request.node)) {
+    ++bad_requests_;
+    return;
+  }
+  encounters_.on_cloud_request(request.from, request.node);
+  if (auto fragments = cloud_sender_.answer(request, now)) {
+    send_fragments(std::move(*fragments));
+    return;
+  }
+  const auto [needed, fresh] = needed_.try_emplace(request.node);
+  needed->second.by.insert(request.from);
+  if (!fresh && now - needed->second.told < config_.clouds.first_timeout) return;
+  needed->second.told = now;
+  events_.push_back(CloudNeeded{request.node, request.from});
+}
+
+void Exchange::handle(const Digest& digest, Stamp now) {
+  Digest known{digest.from, {}, {}};
+  const auto keep = [&](const std::vector<Range>& from, std::vector<Range>& to) {
+    std::ranges::copy_if(from, std::back_inserter(to),
+                         [&](const Range& range) { return member(range.agent); });
+    strangers_ += from.size() - to.size();
+  };
+  keep(digest.nodes, known.nodes);
+  keep(digest.alignments, known.alignments);
+  reconcile_.on_digest(known, *store_, now);
+}
+
+void Exchange::handle(const ItemRequest& request, Stamp) {
+  const auto items = reconcile_.answer(request, *store_);
+  for (const auto* node : items.nodes) queue_.push(Priority::kBackfill, *node, request.from);
+  for (const auto* alignment : items.alignments) queue_.push(Priority::kBackfill, *alignment, request.from);
+}
+
+void Exchange::handle(const AgentStatus& status, Stamp) { events_.push_back(PeerStatus{status}); }
+
+void Exchange::handle(const SubmapDigest& digest, Stamp now) { submap_receiver_.on_digest(digest, now); }
+
+void Exchange::handle(const SubmapRequest& request, Stamp) { submap_sender_.on_request(request, *store_); }
+
+void Exchange::handle(const SubmapChunk& chunk, Stamp now) {
+  const auto whole = submap_receiver_.on_chunk(chunk, *store_, now);
+  if (!whole) {
+    events_.push_back(StoreFailed{whole.error()});
+  } else if (*whole) {
+    events_.push_back(SubmapAdded{**whole});
+  }
+}
+
+// ---- in time
+// -------------------------------------------------------------------------------------------------------
+
+void Exchange::send_fragments(std::vector<CloudFragment> fragments) {
+  for (CloudFragment& fragment : fragments) queue_.push(Priority::kCloud, std::move(fragment));
+}
+
+void Exchange::tick_encounters(Stamp now) {
+  auto due = encounters_.tick(now);
+  for (const NodePair& pair : due.withdrawn) {
+    cloud_receiver_.cancel(pair.theirs);
+    queue_.cancel_cloud(pair.theirs.agent, pair.ours);
+  }
+  for (ProximityMatch& match : due.matches) queue_.push(Priority::kControl, std::move(match));
+  for (const NodeId& node : due.wanted) {
+    if (!cloud_receiver_.want(node, now)) encounters_.on_cloud_lost(node, now);
+  }
+}
+
+void Exchange::tick_clouds(Stamp now) {
+  auto due = cloud_receiver_.tick(now);
+  for (CloudRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
+  for (const NodeId& node : due.given_up) encounters_.on_cloud_lost(node, now);
+}
+
+void Exchange::tick_items(Stamp now) {
+  auto due = reconcile_.tick(*store_, now);
+  for (ItemRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
+  if (due.digest) queue_.push(Priority::kState, std::move(*due.digest));
+}
+
+void Exchange::tick_status(Stamp now) {
+  if (next_status_ && now < *next_status_) return;
+  next_status_ = now + config_.status_period;
+  AgentStatus status = status_;
+  status.from = self_;
+  status.stamp = now;
+  status.nodes = static_cast<std::uint32_t>(store_->node_set().size());
+  status.alignments = static_cast<std::uint32_t>(store_->alignment_set().size());
+  status.submaps = static_cast<std::uint32_t>(store_->submap_set().size());
+  status.backlog_bytes = static_cast<std::uint32_t>(queue_.backlog_bytes());
+  queue_.push(Priority::kState, std::move(status));
+}
+
+void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
+  const auto send = [&](Message message) {
+    const auto to = recipient_of(message);
+    out.push_back({Reach::kShortRange, to, std::move(message)});
+  };
+  if (auto digest = submap_sender_.digest(*store_, now)) send(std::move(*digest));
+  for (SubmapRequest& request : submap_receiver_.tick(*store_, now)) send(std::move(request));
+  for (SubmapChunk& chunk : submap_sender_.tick(*store_, now)) send(std::move(chunk));
+}
+
+void Exchange::note_completion() {
+  const bool is_complete = complete();
+  if (is_complete && !was_complete_)
+    events_.push_back(MapComplete{store_->nodes().size(), store_->alignments().size()});
+  was_complete_ = is_complete;
+}
+
+std::vector<Outgoing> Exchange::tick(Stamp now) {
+  tick_encounters(now);
+  tick_clouds(now);
+  tick_items(now);
+  tick_status(now);
+  std::vector<Outgoing> out = queue_.take(now);
+  tick_short_range(out, now);
+  note_completion();
+  return out;
+}
+
+bool Exchange::complete() const {
+  return reconcile_.complete(*store_) && store_->submap_set().includes(store_->node_set());
+}
+
+bool Exchange::fleet_caught_up() const {
+  return std::ranges::all_of(
+      fleet_, [&](const AgentId& agent) { return agent == self_ || reconcile_.caught_up(agent, *store_); });
+}
+
+bool Exchange::idle(Stamp now) const {
+  const bool sent = queue_.size(Priority::kControl) == 0 && queue_.size(Priority::kNews) == 0 &&
+                    queue_.size(Priority::kBackfill) == 0 && queue_.size(Priority::kCloud) == 0;
+  return sent && needed_.empty() && cloud_receiver_.idle() && encounters_.idle(now) &&
+         submap_receiver_.idle(*store_, now) && submap_sender_.idle();
+}
+
+ExchangeStats Exchange::stats() const {
+  return {queue_.stats(),     cloud_sender_.stats(),    cloud_receiver_.stats(), encounters_.stats(),
+          reconcile_.stats(), submap_receiver_.stats(), submap_sender_.stats(),  strangers_,
+          bad_requests_};
+}
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,210 @@
+#include "fleetmap/exchange/reconcile.hpp"
+
+#include <algorithm>
+
+namespace fleetmap::exchange {
+namespace {
+
+using store::SeqSet;
+
+std::uint64_t count(const std::vector<SeqRange>& ranges) {
+  std::uint64_t items = 0;
+  for (const SeqRange& range : ranges) items += range.end - range.first;
+  return items;
+}
+
+/// At most `limit` of `ranges`, from the `start`-th on, going round.
+std::vector<SeqRange> window(const std::vector<SeqRange>& ranges, std::size_t start, std::size_t limit) {
+  std::vector<SeqRange> taken;
+  for (std::size_t k = 0; k < std::min(limit, ranges.size()); ++k)
+    taken.push_back(ranges[(start + k) % ranges.size()]);
+  return taken;
+}
+
+SeqSet joined(SeqSet a, const SeqSet& b) {
+  for (const SeqRange& range : b.ranges()) a.insert(range);
+  return a;
+}
+
+/// A set that a hostile agent filled with holes starts anew.
+SeqSet joined_bounded(SeqSet a, const SeqSet& b) {
+  constexpr std::size_t kMaxIntervals = 8192;
+  SeqSet both = joined(std::move(a), b);
+  return both.ranges().size() > kMaxIntervals ? b : both;
+}
+
+}  // namespace
+
+Status ReconcileConfig::validate() const {
+  if (digest_min_period <= Duration::zero() || digest_max_period < digest_min_period) {
+    return failure("reconcile.digest_min_period must be positive and at most digest_max_period");
+  }
+  if (grace < Duration::zero()) return failure("reconcile.grace must not be negative");
+  if (timeout <= Duration::zero() || peer_timeout <= Duration::zero()) {
+    return failure("reconcile.timeout and peer_timeout must be positive");
+  }
+  if (max_ranges == 0 || max_ranges > 256) return failure("reconcile.max_ranges must be in 1 .. 256");
+  if (max_items == 0) return failure("reconcile.max_items must be at least 1");
+  return {};
+}
+
+Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
+    : self_(self), config_(config), period_(config.digest_min_period) {}
+
+SeqSet Reconcile::accepted(const std::vector<Range>& ranges) {
+  SeqSet set;
+  for (const Range& range : ranges) {
+    if (range.agent.empty() || range.first >= range.end || range.end > config_.max_seq) {
+      ++stats_.hostile;
+    } else {
+      set.insert(range);
+    }
+  }
+  return set;
+}
+
+void Reconcile::on_heard(const AgentId& peer, Stamp now) { peers_[peer].heard = now; }
+
+void Reconcile::on_item(Stamp now) {
+  period_ = config_.digest_min_period;
+  if (last_digest_)
+    next_digest_ = std::min(next_digest_.value_or(now), std::max(now, *last_digest_ + period_));
+}
+
+void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp now) {
+  if (digest.from == self_ || digest.from.empty()) return;
+  ++stats_.digests_heard;
+  Peer& peer = peers_[digest.from];
+  peer.heard = now;
+  // Items never go away, so what an agent once told stays true; a digest may show only a part.
+  const SeqSet nodes = accepted(digest.nodes);
+  const SeqSet alignments = accepted(digest.alignments);
+  peer.offer.nodes = joined_bounded(std::move(peer.offer.nodes), nodes);
+  peer.offer.alignments = joined_bounded(std::move(peer.offer.alignments), alignments);
+  const bool lacking =
+      !store.node_set().includes(peer.offer.nodes) || !store.alignment_set().includes(peer.offer.alignments);
+  if (lacking && !peer.offer.lacking) peer.offer.since = now;
+  peer.offer.lacking = lacking;
+  peer.resting_until = now;
+  // Whoever lacks something hears our digest soon.
+  if (!nodes.includes(store.node_set()) || !alignments.includes(store.alignment_set())) on_item(now);
+}
+
+Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Store& store) {
+  Items items;
+  if (request.to != self_) return items;
+  ++stats_.requests_served;
+  std::uint32_t left = config_.max_items;
+  for (const SeqRange& range : accepted(request.nodes).ranges()) {
+    for (auto it = store.nodes().lower_bound({range.agent, range.first});
+         it != store.nodes().end() && it->first.agent == range.agent && it->first.seq < range.end && left > 0;
+         ++it, --left) {
+      items.nodes.push_back(&it->second);
+    }
+  }
+  for (const SeqRange& range : accepted(request.alignments).ranges()) {
+    const auto& alignments = store.alignments();
+    for (auto it = alignments.lower_bound({range.agent, range.first});
+         it != alignments.end() && it->first.computed_by == range.agent && it->first.seq < range.end &&
+         left > 0;
+         ++it, --left) {
+      items.alignments.push_back(&it->second);
+    }
+  }
+  stats_.items_served += items.nodes.size() + items.alignments.size();
+  return items;
+}
+
+void Reconcile::settle_pending(Peer& peer, const store::Store& store, Stamp now) {
+  if (!peer.pending) return;
+  Pending& pending = *peer.pending;
+  const std::uint64_t left =
+      count(pending.nodes.minus(store.node_set())) + count(pending.alignments.minus(store.alignment_set()));
+  if (left == 0) {
+    peer.pending.reset();
+    peer.rest = Duration::zero();
+  } else if (left < pending.left) {
+    pending.left = left;
+    pending.deadline = now + config_.timeout;
+  } else if (now >= pending.deadline) {
+    ++stats_.timeouts;
+    peer.pending.reset();
+    // Another agent may have the same; this one waits longer every time it brings nothing, until its next
+    // digest.
+    peer.rest = std::min(std::max(2 * peer.rest, config_.grace), config_.digest_max_period);
+    peer.resting_until = now + peer.rest;
+  }
+}
+
+std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const store::Store& store,
+                                          Stamp now) {
+  const Offer& offer = peer.offer;
+  if (peer.pending || !offer.lacking || now < offer.since + config_.grace || now < peer.resting_until)
+    return {};
+  if (now - peer.heard > config_.peer_timeout) return {};
+  SeqSet known_nodes = store.node_set();
+  SeqSet known_alignments = store.alignment_set();
+  for (const auto& [other, other_peer] : peers_) {
+    if (!other_peer.pending) continue;
+    known_nodes = joined(std::move(known_nodes), other_peer.pending->nodes);
+    known_alignments = joined(std::move(known_alignments), other_peer.pending->alignments);
+  }
+  ItemRequest request{self_, name, {}, {}};
+  request.nodes = window(offer.nodes.minus(known_nodes, config_.max_items), 0, config_.max_ranges);
+  const std::uint64_t rest = config_.max_items - count(request.nodes);
+  request.alignments = window(offer.alignments.minus(known_alignments, rest), 0, config_.max_ranges);
+  if (request.nodes.empty() && request.alignments.empty()) return {};
+  Pending pending{SeqSet(request.nodes), SeqSet(request.alignments), 0, now + config_.timeout};
+  pending.left = pending.nodes.size() + pending.alignments.size();
+  peer.pending = std::move(pending);
+  ++stats_.requests_sent;
+  return request;
+}
+
+Digest Reconcile::make_digest(const store::Store& store) {
+  Digest digest{self_, {}, {}};
+  const auto nodes = store.node_set().ranges();
+  const auto alignments = store.alignment_set().ranges();
+  digest.nodes = window(nodes, next_range_, config_.max_ranges);
+  digest.alignments = window(alignments, next_range_, config_.max_ranges);
+  next_range_ = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
+                    ? (next_range_ + config_.max_ranges) % std::max(nodes.size(), alignments.size())
+                    : 0;
+  return digest;
+}
+
+Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
+  Due due;
+  if (!next_digest_ || now >= *next_digest_) {
+    due.digest = make_digest(store);
+    ++stats_.digests_sent;
+    last_digest_ = now;
+    next_digest_ = now + period_;
+    period_ = std::min(2 * period_, config_.digest_max_period);
+  }
+  for (auto& [name, peer] : peers_) {
+    settle_pending(peer, store, now);
+    if (!peer.offer.lacking) continue;
+    peer.offer.lacking = !store.node_set().includes(peer.offer.nodes) ||
+                         !store.alignment_set().includes(peer.offer.alignments);
+  }
+  for (auto& [name, peer] : peers_) {
+    if (auto request = ask(name, peer, store, now)) due.requests.push_back(std::move(*request));
+  }
+  return due;
+}
+
+bool Reconcile::complete(const store::Store& store) const {
+  return std::ranges::all_of(peers_, [&](const auto& entry) {
+    const Offer& offer = entry.second.offer;
+    return store.node_set().includes(offer.nodes) && store.alignment_set().includes(offer.alignments);
+  });
+}
+
+bool Reconcile::caught_up(const AgentId& name, const store::Store& store) const {
+  const auto peer = peers_.find(name);
+  return peer != peers_.end() && peer->second.offer.nodes.includes(store.node_set()) &&
+         peer->second.offer.alignments.includes(store.alignment_set());
+}
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fleetmap/exchange/submap_transfer.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
+static_assert(kChunk == SubmapChunk::kMaxPayload);
+
+}  // namespace
+
+Status SubmapTransferConfig::validate() const {
+  if (!(bytes_per_second > 0.0) || !std::isfinite(bytes_per_second)) {
+    return failure("submap_transfer.bytes_per_second must be positive");
+  }
+  if (!(burst_bytes >= kChunk) || !std::isfinite(burst_bytes)) {
+    return failure("submap_transfer.burst_bytes must be at least " + std::to_string(kChunk));
+  }
+  if (window_bytes < kChunk || request_bytes < kChunk) {
+    return failure("submap_transfer.window_bytes and request_bytes must be at least " +
+                   std::to_string(kChunk));
+  }
+  if (digest_period <= Duration::zero() || peer_timeout <= digest_period) {
+    return failure("submap_transfer.digest_period must be positive and less than peer_timeout");
+  }
+  if (min_timeout <= Duration::zero() || max_timeout < min_timeout) {
+    return failure("submap_transfer.min_timeout must be positive and at most max_timeout");
+  }
+  if (max_ranges == 0 || max_ranges > 1024) return failure("submap_transfer.max_ranges must be in 1 .. 1024");
+  if (max_queued_chunks == 0) return failure("submap_transfer.max_queued_chunks must be at least 1");
+  return {};
+}
+
+SubmapReceiver::SubmapReceiver(const AgentId& self, const SubmapTransferConfig& config)
+    : self_(self), config_(config) {}
+
+std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t chunk) {
+  return std::min(kChunk, node.submap_bytes - chunk * kChunk);
+}
+
+void SubmapReceiver::on_heard(const AgentId& peer, Stamp now) { peers_[peer].heard = now; }
+
+void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
+  Peer& peer = peers_[digest.from];
+  peer.heard = now;
+  for (const Range& range : digest.submaps) {
+    if (range.agent.empty() || range.first >= range.end || range.end > config_.max_seq) {
+      ++stats_.hostile;
+    } else {
+      peer.holds.insert(range);
+    }
+  }
+}
+
+bool SubmapReceiver::in_reach(const AgentId& name, Stamp now) const {
+  const auto peer = peers_.find(name);
+  return peer != peers_.end() && now - peer->second.heard <= config_.peer_timeout;
+}
+
+std::vector<AgentId> SubmapReceiver::peers_in_reach(Stamp now) const {
+  std::vector<AgentId> names;
+  for (const auto& [name, peer] : peers_) {
+    if (in_reach(name, now)) names.push_back(name);
+  }
+  return names;
+}
+
+Duration SubmapReceiver::timeout(const Peer& peer) const {
+  return std::clamp(from_seconds(peer.delay + 4.0 * peer.spread), config_.min_timeout, config_.max_timeout);
+}
+
+Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk, store::Store& store,
+                                                       Stamp now) {
+  const graph::Node* node = store.node(chunk.node);
+  const std::uint32_t index = chunk.offset / kChunk;
+  if (!node || chunk.to != self_ || chunk.total_bytes != node->submap_bytes || chunk.offset % kChunk != 0 ||
+      chunk.offset >= node->submap_bytes || chunk.payload.size() != chunk_bytes(*node, index) ||
+      distrusted_.contains({chunk.node, chunk.from})) {
+    ++stats_.hostile;
+    return std::optional<NodeId>();
+  }
+  Peer& peer = peers_[chunk.from];
+  peer.last_chunk = now;
+  if (const auto download = downloads_.find(chunk.node); download != downloads_.end()) {
+    const auto flight = download->second.flights.find(index);
+    if (flight != download->second.flights.end() && download->second.peer == chunk.from) {
+      const double delay = to_seconds(now - flight->second.sent);
+      peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
+      peer.delay += 0.125 * (delay - peer.delay);
+      peer.bytes_out -= flight->second.bytes;
+      download->second.flights.erase(flight);
+    }
+  }
+  const std::uint64_t bad_before = store.stats().bad_submaps;
+  const auto put = store.put_submap_chunk(chunk.node, index, chunk.payload);
+  if (!put) return tl::unexpected(put.error());
+  if (*put == store::Put::kKnown) ++stats_.duplicates;
+  if (*put == store::Put::kAdded) {
+    ++stats_.chunks;
+    sources_[chunk.node].insert(chunk.from);
+  }
+  const bool wrong = store.stats().bad_submaps > bad_before;
+  if (wrong) {
+    ++stats_.bad_hash;
+    sources_[chunk.node].insert(chunk.from);
+    // With one source its guilt is plain; with several the next download, from one peer alone, will tell.
+    if (sources_[chunk.node].size() == 1) distrusted_.insert({chunk.node, chunk.from});
+  }
+  const bool whole = *put == store::Put::kAdded && store.has_submap(chunk.node);
+  if (whole || wrong) {
+    sources_.erase(chunk.node);
+    if (const auto download = downloads_.find(chunk.node); download != downloads_.end()) stop(download);
+  }
+  if (!whole) return std::optional<NodeId>();
+  ++stats_.submaps;
+  return std::optional<NodeId>(chunk.node);
+}
+
+void SubmapReceiver::stop(std::map<NodeId, Download>::iterator download) {
+  // Bytes still on their way no longer count against the window.
+  Peer& peer = peers_[download->second.peer];
+  for (const auto& [chunk, flight] : download->second.flights) peer.bytes_out -= flight.bytes;
+  downloads_.erase(download);
+}
+
+void SubmapReceiver::expire(const store::Store& store, Stamp now) {
+  for (auto it = downloads_.begin(); it != downloads_.end();) {
+    const auto current = it++;
+    Download& download = current->second;
+    Peer& peer = peers_[download.peer];
+    if (!in_reach(download.peer, now) || store.has_submap(current->first)) {
+      stop(current);
+      continue;
+    }
+    for (auto flight = download.flights.begin(); flight != download.flights.end();) {
+      // Chunks come in turn: as long as others arrive, this one may still be queued at the peer.
+      const Stamp deadline = std::max(flight->second.deadline, peer.last_chunk + timeout(peer) / 2);
+      if (now < deadline) {
+        ++flight;
+        continue;
+      }
+      ++stats_.timeouts;
+      peer.bytes_out -= flight->second.bytes;
+      flight = download.flights.erase(flight);
+    }
+  }
+}
+
+std::vector<NodeId> SubmapReceiver::missing(const store::Store& store) const {
+  // What is begun is finished first.
+  std::vector<NodeId> ids = store.partial_submaps();
+  for (const SeqRange& range : store.node_set().minus(store.submap_set())) {
+    for (std::uint32_t seq = range.first; seq < range.end; ++seq) {
+      const NodeId id{range.agent, seq};
+      if (!std::ranges::binary_search(ids.begin(), ids.end(), id)) ids.push_back(id);
+      if (ids.size() >= 4096) return ids;
+    }
+  }
+  return ids;
+}
+
+bool SubmapReceiver::may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const {
+  return in_reach(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusted_.contains({id, name});
+}
+
+bool SubmapReceiver::has_room(Stamp now) const {
+  return std::ranges::any_of(peers_, [&](const auto& entry) {
+    return in_reach(entry.first, now) && entry.second.bytes_out + kChunk <= config_.window_bytes;
+  });
+}
+
+bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp now) {
+  if (downloads_.contains(id) || store.has_submap(id)) return false;
+  const AgentId* best = nullptr;
+  for (const auto& [name, peer] : peers_) {
+    if (!may_serve(name, peer, id, now) || peer.bytes_out + kChunk > config_.window_bytes) continue;
+    if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
+  }
+  if (!best) return false;
+  downloads_[id].peer = *best;
+  return true;
+}
+
+void SubmapReceiver::fill(const store::Store& store, const NodeId& id, Download& download, Stamp now,
+                          std::vector<SubmapRequest>& requests) {
+  const graph::Node& node = *store.node(id);
+  Peer& peer = peers_[download.peer];
+  for (const std::uint32_t chunk : store.missing_chunks(id)) {
+    if (download.flights.contains(chunk)) continue;
+    const std::uint32_t bytes = chunk_bytes(node, chunk);
+    if (peer.bytes_out + bytes > config_.window_bytes) return;
+    peer.bytes_out += bytes;
+    download.flights[chunk] = {bytes, now, now + timeout(peer)};
+    const bool extends = !requests.empty() && requests.back().node == id &&
+                         requests.back().to == download.peer &&
+                         requests.back().offset + requests.back().length == chunk * kChunk &&
+                         requests.back().length + bytes <= config_.request_bytes;
+    if (extends) {
+      requests.back().length += bytes;
+    } else {
+      requests.push_back({self_, download.peer, id, chunk * kChunk, bytes});
+    }
+  }
+}
+
+std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp now) {
+  expire(store, now);
+  std::vector<SubmapRequest> requests;
+  for (auto& [id, download] : downloads_) fill(store, id, download, now, requests);
+  if (has_room(now) && store.submap_set().size() < store.node_set().size()) {
+    for (const NodeId& id : missing(store)) {
+      if (assign(store, id, now)) fill(store, id, downloads_.at(id), now, requests);
+    }
+  }
+  stats_.requests += requests.size();
+  return requests;
+}
+
+bool SubmapReceiver::idle(const store::Store& store, Stamp now) const {
+  if (!downloads_.empty()) return false;
+  return std::ranges::none_of(missing(store), [&](const NodeId& id) {
+    return std::ranges::any_of(peers_,
+                               [&](const auto& peer) { return may_serve(peer.first, peer.second, id, now); });
+  });
+}
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,189 @@
+#include "fleetmap/exchange/encounters.hpp"
+
+#include <gtest/gtest.h>
+
+#include "store/items.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+using testing::agent;
+
+const AgentId kA = agent("a");
+const AgentId kB = agent("b");
+const Stamp kStart = stamp_from_ns(1'000'000'000);
+
+/// Search radius r_min = 20 m.
+graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {
+  auto node = testing::make_node(agent, seq, Bytes{}, east_m);
+  node.G.covariance = 0.01 * Matrix6d::Identity();
+  return node;
+}
+
+NodePair mirrored(const NodePair& pair) { return {pair.theirs, pair.ours}; }
+
+TEST(Encounters, begin_with_the_nearest_own_node_within_the_radius_of_eq_1) {
+  Encounters a(kA, {});
+  a.on_heard(kB, kStart);
+  for (std::uint32_t seq = 0; seq < 5; ++seq) a.on_node(node_at(kA, seq, 5.0 * seq), kStart);
+  a.on_node(node_at(kB, 0, 41.0), kStart);  // 21 m from the nearest
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  EXPECT_TRUE(a.idle(kStart));
+  a.on_node(node_at(kB, 1, 38.0), kStart);
+  const auto due = a.tick(kStart);
+  EXPECT_EQ(due.wanted, (std::vector<NodeId>{{kB, 1}}));
+  ASSERT_EQ(due.matches.size(), 1u);
+  EXPECT_EQ(due.matches[0].theirs, (NodeId{kB, 1}));
+  EXPECT_EQ(due.matches[0].ours, (NodeId{kA, 4}));
+  EXPECT_NEAR(due.matches[0].distance, 18.0, 0.1);
+  EXPECT_DOUBLE_EQ(due.matches[0].radius, 20.0);
+  EXPECT_FALSE(a.idle(kStart));
+  EXPECT_EQ(a.on_cloud({kB, 1}), (std::vector<NodePair>{{{kA, 4}, {kB, 1}}}));
+}
+
+TEST(Encounters, are_the_same_on_both_ends_without_talk) {
+  Encounters a(kA, {});
+  Encounters b(kB, {});
+  a.on_heard(kB, kStart);
+  b.on_heard(kA, kStart);
+  std::set<NodeId> a_wants;
+  std::set<NodeId> b_wants;
+  Stamp now = kStart;
+  std::vector<NodePair> pairs;
+  for (std::uint32_t seq = 0; seq < 60; ++seq) {
+    const auto node_a = node_at(kA, seq, 2.0 * seq);
+    const auto node_b = node_at(kB, seq, 120.0 - 2.0 * seq);
+    for (const auto& node : {node_a, node_b}) {
+      a.on_node(node, now);
+      b.on_node(node, now);
+    }
+    for (const auto& id : a.tick(now).wanted) {
+      a_wants.insert(id);
+      for (const auto& pair : a.on_cloud(id)) {
+        pairs.push_back(pair);
+        a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq), now);
+        // b computes the mirrored pair.
+        for (const auto& wanted : b.tick(now).wanted) b_wants.insert(wanted);
+        ASSERT_EQ(b.on_cloud(pair.ours), std::vector<NodePair>{mirrored(pair)});
+        b.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kB, seq), now);
+      }
+    }
+    now += std::chrono::seconds(2);
+  }
+  EXPECT_GE(pairs.size(), 2u);
+  EXPECT_LE(pairs.size(), 10u);  // 120 m passed: no pair for every node
+  EXPECT_EQ(a.stats().begun, b.stats().begun);
+  EXPECT_TRUE(a.has_good_alignment(kB));
+}
+
+TEST(Encounters, of_one_place_are_not_repeated_until_the_spacing_is_left) {
+  EncounterConfig config;
+  config.spacing_aligned_m = 20.0;
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  for (std::uint32_t seq = 0; seq < 50; ++seq) a.on_node(node_at(kA, seq, 1.0 * seq), kStart);
+  std::vector<std::uint32_t> begun;
+  for (std::uint32_t seq = 0; seq < 50; ++seq) {
+    a.on_node(node_at(kB, seq, 1.0 * seq), kStart);
+    for (const auto& id : a.tick(kStart).wanted) {
+      begun.push_back(id.seq);
+      for (const auto& pair : a.on_cloud(id)) {
+        a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq, 0.3), kStart);
+      }
+    }
+  }
+  ASSERT_EQ(begun.size(), 3u);
+  for (std::size_t k = 1; k < begun.size(); ++k) EXPECT_GE(begun[k] - begun[k - 1], 20u);
+}
+
+TEST(Encounters, that_were_rejected_are_tried_again_later_and_not_for_ever) {
+  EncounterConfig config;
+  Encounters a(kA, config);
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  a.on_node(node_at(kB, 0, 1.0), kStart);
+  std::vector<Stamp> begun;
+  for (Stamp now = kStart; now < kStart + std::chrono::minutes(10); now += std::chrono::seconds(1)) {
+    a.on_heard(kB, now);
+    for (const auto& id : a.tick(now).wanted) {
+      begun.push_back(now);
+      for (const auto& pair : a.on_cloud(id)) a.on_rejected(pair, now);
+    }
+  }
+  ASSERT_EQ(begun.size(), 2u);
+  EXPECT_GE(begun[1] - begun[0], config.retry_after);
+  EXPECT_EQ(a.stats().rejected, 2u);
+  EXPECT_TRUE(a.idle(kStart + std::chrono::minutes(10)));
+}
+
+TEST(Encounters, wait_for_an_agent_that_is_not_there) {
+  Encounters a(kA, {});
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  a.on_node(node_at(kB, 0, 1.0), kStart);  // passed on by a third
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  EXPECT_TRUE(a.idle(kStart));
+  const Stamp later = kStart + std::chrono::hours(1);
+  a.on_heard(kB, later);
+  EXPECT_EQ(a.tick(later).wanted.size(), 1u);
+}
+
+TEST(Encounters, keep_the_smaller_pair_when_the_two_ends_chose_different_ones) {
+  // a never got b/1, b never got a/1.
+  Encounters a(kA, {});
+  Encounters b(kB, {});
+  a.on_heard(kB, kStart);
+  b.on_heard(kA, kStart);
+  const auto a0 = node_at(kA, 0, 0.0), a1 = node_at(kA, 1, 3.0), b0 = node_at(kB, 0, 3.5),
+             b1 = node_at(kB, 1, 0.5);
+  for (const auto& node : {a0, a1, b0}) a.on_node(node, kStart);
+  for (const auto& node : {b1, a0, b0}) b.on_node(node, kStart);
+  auto from_a = a.tick(kStart);
+  auto from_b = b.tick(kStart);
+  ASSERT_EQ(from_a.matches.size(), 1u);
+  ASSERT_EQ(from_b.matches.size(), 1u);
+  ASSERT_NE(from_a.matches[0].ours, from_b.matches[0].theirs);
+  a.on_node(b1, kStart);
+  b.on_node(a1, kStart);
+  a.on_match(from_b.matches[0], kStart);
+  b.on_match(from_a.matches[0], kStart);
+  // Exactly one side gave way, and both now hold the same pair.
+  const auto gave_way_a = a.tick(kStart).withdrawn;
+  const auto gave_way_b = b.tick(kStart).withdrawn;
+  ASSERT_EQ(gave_way_a.size() + gave_way_b.size(), 1u);
+  const NodePair kept = gave_way_a.empty() ? NodePair{from_a.matches[0].ours, from_a.matches[0].theirs}
+                                           : NodePair{from_b.matches[0].theirs, from_b.matches[0].ours};
+  EXPECT_EQ(a.on_cloud(kept.theirs), std::vector<NodePair>{kept});
+  EXPECT_EQ(b.on_cloud(kept.ours), std::vector<NodePair>{mirrored(kept)});
+}
+
+TEST(Encounters, end_when_the_peer_has_aligned_the_pair) {
+  for (const bool stop : {true, false}) {
+    EncounterConfig config;
+    config.stop_when_peer_aligned = stop;
+    Encounters a(kA, config);
+    a.on_heard(kB, kStart);
+    a.on_node(node_at(kA, 0, 0.0), kStart);
+    a.on_node(node_at(kB, 0, 1.0), kStart);
+    ASSERT_EQ(a.tick(kStart).wanted.size(), 1u);
+    a.on_alignment(testing::make_alignment({kA, 0}, {kB, 0}, kB, 0, 0.2), kStart);
+    EXPECT_EQ(a.tick(kStart).withdrawn.size(), stop ? 1u : 0u);
+    EXPECT_EQ(a.on_cloud({kB, 0}).size(), stop ? 0u : 1u);
+  }
+}
+
+TEST(Encounters, ignore_matches_that_make_no_sense) {
+  Encounters a(kA, {});
+  a.on_heard(kB, kStart);
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  a.on_node(node_at(kB, 7, 1000.0), kStart);
+  a.on_match({kB, kA, {kA, 0}, {kB, 9}, 1.0, 20.0}, kStart);          // of a node nobody knows
+  a.on_match({kB, kA, {kA, 5}, {kB, 7}, 1.0, 20.0}, kStart);          // of a node that we never made
+  a.on_match({kB, kA, {kB, 7}, {kA, 0}, 1.0, 20.0}, kStart);          // the wrong way round
+  a.on_match({kB, agent("c"), {kA, 0}, {kB, 7}, 1.0, 20.0}, kStart);  // for another
+  a.on_match({kB, kA, {kA, 0}, {kB, 7}, 1e9, 20.0}, kStart);          // too far
+  a.on_match({kB, kA, {kA, 0}, {kB, 7}, std::nan(""), 20.0}, kStart);
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  EXPECT_TRUE(a.idle(kStart));
+}
+
+}  // namespace
+}  // namespace fleetmap::exchange

@@ -1,0 +1,268 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "exchange/sim_fleet.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+using testing::agent;
+using testing::SimFleet;
+
+const std::vector<std::string> kThree{"r1", "r2", "r3"};
+
+/// Three robots on parallel tracks 8 m apart, a node every 2 s and 4 m.
+void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m = 0.0) {
+  for (int k = 0; k < nodes; ++k) {
+    double offset = 0.0;
+    for (const auto& name : names) fleet.add_node(name, start_m + 4.0 * k + (offset += 1.0));
+    fleet.run_for(std::chrono::seconds(2));
+  }
+}
+
+bool settled(const SimFleet& fleet, std::size_t nodes) {
+  return fleet.equal_sets(nodes) && fleet.all([&](const auto& robot) {
+    return robot.exchange->fleet_caught_up() && robot.exchange->queue().size(Priority::kCloud) == 0;
+  });
+}
+
+/// The most wire bytes that all agents together sent in any window beginning at a message.
+double worst_excess(const SimFleet& fleet, Duration window, double rate) {
+  double worst = -1e18;
+  std::deque<const SimFleet::Sent*> inside;
+  double sum = 0.0;
+  for (const auto& sent : fleet.sent()) {
+    if (sent.outgoing.reach != Reach::kLongRange) continue;
+    inside.push_back(&sent);
+    sum += static_cast<double>(sent.wire_bytes);
+    while (inside.front()->at + window < sent.at) {
+      sum -= static_cast<double>(inside.front()->wire_bytes);
+      inside.pop_front();
+    }
+    worst = std::max(worst, sum - rate * to_seconds(window));
+  }
+  return worst;
+}
+
+TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
+  for (std::uint32_t seed = 0; seed < 9; ++seed) {
+    SimFleet::Network network;
+    network.loss = std::array{0.0, 0.1, 0.3}[seed % 3];
+    network.duplication = 0.05;
+    network.max_delay = std::chrono::milliseconds(400);
+    SimFleet fleet(kThree, network, seed);
+    for (const auto& name : kThree) fleet.start(name);
+    drive(fleet, kThree, 20);
+    fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 60); });
+    EXPECT_TRUE(settled(fleet, 60)) << "seed " << seed;
+    EXPECT_GE(fleet.robot("r1").store->alignments().size(), 3u) << "seed " << seed;
+    // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
+    for (const auto& [name, robot] : fleet.robots()) {
+      const auto stats = robot.exchange->stats();
+      EXPECT_EQ(stats.encounters.begun,
+                robot.arrived.size() + stats.encounters.lost + stats.encounters.settled_by_peer);
+      for (const auto& arrived : robot.arrived) {
+        const auto& source = fleet.robots().at(arrived.pair.theirs.agent);
+        EXPECT_EQ(arrived.cloud, source.clouds.at(arrived.pair.theirs));
+      }
+      if (network.loss == 0.0) {
+        EXPECT_EQ(stats.encounters.lost, 0u);
+      }
+    }
+  }
+}
+
+TEST(Fleet, keeps_the_budget_of_the_radio_in_every_window) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    const std::vector<std::string> names =
+        seed % 2 ? std::vector<std::string>{"r1", "r2", "r3", "r4", "r5"} : kThree;
+    SimFleet::Network network;
+    network.loss = 0.1 * (seed % 4);
+    SimFleet fleet(names, network, seed);
+    for (const auto& name : names) fleet.start(name);
+    drive(fleet, names, 15);
+    fleet.run_for(std::chrono::minutes(2));
+    const double rate = fleet.config().long_range.fleet_bytes_per_second;
+    const double bursts =
+        static_cast<double>(names.size()) * fleet.robot("r1").exchange->queue().burst_bytes();
+    for (const int seconds : {0, 1, 3, 10, 30}) {
+      EXPECT_LE(worst_excess(fleet, std::chrono::seconds(seconds), rate), bursts + 1.0) << "seed " << seed;
+    }
+    // The link was put to use: this is no test of silence.
+    EXPECT_GT(worst_excess(fleet, std::chrono::seconds(10), rate), -0.8 * rate * 10.0) << "seed " << seed;
+  }
+}
+
+TEST(Fleet, small_messages_do_not_wait_behind_clouds) {
+  SimFleet fleet({"r1", "r2"}, {}, 7, [](ExchangeConfig& config) {
+    config.encounters.spacing_m = config.encounters.spacing_aligned_m = 0.0;  // as many clouds as will go
+    config.encounters.stop_when_peer_aligned = false;
+    config.encounters.max_active = 6;
+  });
+  fleet.start("r1");
+  fleet.start("r2");
+  std::map<NodeId, Stamp> made;
+  for (int k = 0; k < 60; ++k) {
+    made[fleet.add_node("r1", 2.0 * k).id] = fleet.now();
+    made[fleet.add_node("r2", 2.0 * k + 1.0).id] = fleet.now();
+    fleet.run_for(std::chrono::milliseconds(1980));
+  }
+  std::vector<double> waits;
+  double cloud_bytes = 0.0;
+  for (const auto& sent : fleet.sent()) {
+    if (const auto* node = std::get_if<graph::Node>(&sent.outgoing.message)) {
+      waits.push_back(to_seconds(sent.at - made.at(node->id)));
+    }
+    if (std::holds_alternative<CloudFragment>(sent.outgoing.message))
+      cloud_bytes += static_cast<double>(sent.wire_bytes);
+  }
+  ASSERT_GE(waits.size(), 118u);
+  EXPECT_GT(cloud_bytes, 0.7 * 20'000.0 * 100.0);  // the load was there
+  std::ranges::sort(waits);
+  EXPECT_LE(waits[waits.size() * 95 / 100], 0.1);
+  EXPECT_LE(waits.back(), 0.3);
+}
+
+TEST(Fleet, a_late_joiner_gets_everything_and_meets_the_others) {
+  SimFleet fleet(kThree, {.loss = 0.1}, 11);
+  fleet.start("r1");
+  fleet.start("r2");
+  drive(fleet, {"r1", "r2"}, 80);
+  fleet.start("r3");
+  fleet.add_node("r3", 40.0);
+  fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 161); });
+  ASSERT_TRUE(settled(fleet, 161));
+  EXPECT_GE(fleet.robot("r3").arrived.size(), 2u);  // one of r1 and one of r2
+}
+
+TEST(Fleet, items_of_an_absent_robot_are_passed_on) {
+  SimFleet fleet(kThree, {.loss = 0.2}, 13);
+  fleet.start("r1");
+  fleet.start("r2");
+  drive(fleet, {"r1"}, 30);
+  fleet.run_for(std::chrono::minutes(2), [&] { return fleet.equal_sets(30); });
+  fleet.kill("r1");
+  fleet.start("r3");
+  fleet.run_for(std::chrono::minutes(5), [&] { return fleet.equal_sets(30); });
+  EXPECT_TRUE(fleet.equal_sets(30));
+}
+
+TEST(Fleet, a_partition_heals) {
+  SimFleet fleet(kThree, {}, 17);
+  bool cut = true;
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+    const bool across = (from == agent("r3")) != (to == agent("r3"));
+    return reach == Reach::kLongRange && !(cut && across);
+  };
+  for (const auto& name : kThree) fleet.start(name);
+  drive(fleet, kThree, 30);
+  EXPECT_FALSE(fleet.equal_sets(90));
+  cut = false;
+  fleet.run_for(std::chrono::minutes(10), [&] { return settled(fleet, 90); });
+  EXPECT_TRUE(settled(fleet, 90));
+}
+
+TEST(Fleet, kills_at_any_time_lose_nothing) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    SimFleet fleet(kThree, {.loss = 0.1, .duplication = 0.1}, seed);
+    for (const auto& name : kThree) fleet.start(name);
+    for (int k = 0; k < 12; ++k) {
+      drive(fleet, kThree, 1, 4.0 * k);
+      fleet.run_for(std::chrono::milliseconds(random() % 3000));
+      const auto& victim = kThree[random() % 3];
+      fleet.kill(victim);
+      fleet.run_for(std::chrono::milliseconds(random() % 4000));
+      fleet.start(victim);
+    }
+    fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 36); });
+    EXPECT_TRUE(settled(fleet, 36)) << "seed " << seed;
+    EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u) << "seed " << seed;
+    for (const auto& [name, robot] : fleet.robots()) EXPECT_EQ(robot.store->stats().conflicts, 0u);
+  }
+}
+
+TEST(Fleet, falls_silent_but_for_digests_and_status_when_all_is_done) {
+  SimFleet fleet(kThree, {}, 19);
+  fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
+  for (const auto& name : kThree) fleet.start(name);
+  drive(fleet, kThree, 10);
+  const auto done = [&](const SimFleet::Robot& robot) {
+    return robot.exchange->complete() && robot.exchange->idle(fleet.now()) &&
+           robot.exchange->fleet_caught_up();
+  };
+  fleet.run_for(std::chrono::minutes(10), [&] { return fleet.all(done); });
+  ASSERT_TRUE(fleet.all(done));
+  for (const auto& [name, robot] : fleet.robots()) {
+    EXPECT_TRUE(std::ranges::any_of(robot.events,
+                                    [](const Event& e) { return std::holds_alternative<MapComplete>(e); }));
+  }
+  fleet.run_for(std::chrono::minutes(2));
+  fleet.forget_sent();
+  fleet.run_for(std::chrono::minutes(1));
+  double bytes = 0.0;
+  for (const auto& sent : fleet.sent()) {
+    if (sent.outgoing.reach != Reach::kLongRange) continue;
+    bytes += static_cast<double>(sent.wire_bytes);
+    const auto& message = sent.outgoing.message;
+    EXPECT_TRUE(std::holds_alternative<Digest>(message) || std::holds_alternative<AgentStatus>(message));
+  }
+  EXPECT_LT(bytes / 60.0, 0.03 * 20'000.0);
+}
+
+TEST(Fleet, tries_elsewhere_when_registrations_are_rejected) {
+  SimFleet fleet({"r1", "r2"}, {}, 23);
+  int registrations = 0;
+  fleet.registration = [&](const NodePair&) {
+    return ++registrations > 4 ? std::optional(0.2) : std::nullopt;
+  };
+  fleet.start("r1");
+  fleet.start("r2");
+  drive(fleet, {"r1", "r2"}, 30);
+  EXPECT_FALSE(fleet.robot("r1").store->alignments().empty());
+}
+
+TEST(Fleet, refuses_strangers_and_reports_a_taken_name) {
+  SimFleet fleet({"r1", "r2"}, {}, 29);
+  fleet.start("r1");
+  auto& robot = fleet.robot("r1");
+  robot.exchange->on_message(testing::make_node(agent("x"), 0, Bytes{}), fleet.now());
+  robot.exchange->on_message(Digest{agent("x"), {{agent("r2"), 0, 5}}, {}}, fleet.now());
+  robot.exchange->on_message(Digest{agent("r1"), {{agent("r2"), 0, 5}}, {}}, fleet.now());
+  robot.exchange->on_message(Digest{agent("r2"), {{agent("x"), 0, 5}}, {}}, fleet.now());
+  EXPECT_EQ(robot.exchange->stats().strangers, 4u);
+  EXPECT_TRUE(robot.exchange->complete());
+  robot.exchange->on_message(testing::make_node(agent("r2"), 0, Bytes{}, 0.0, 1), fleet.now());
+  robot.exchange->on_message(testing::make_node(agent("r2"), 0, Bytes{}, 0.0, 2), fleet.now());
+  const auto events = robot.exchange->take_events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(std::get<ItemConflict>(events[1]).id, (NodeId{agent("r2"), 0}));
+  // A hostile digest and requests cost neither time nor memory.
+  robot.exchange->on_message(Digest{agent("r2"), {{agent("r2"), 0, UINT32_MAX}, {agent("r2"), 9, 3}}, {}},
+                             fleet.now());
+  robot.exchange->on_message(ItemRequest{agent("r2"), agent("r1"), {{agent("r2"), 0, 9'999'999}}, {}},
+                             fleet.now());
+  robot.exchange->on_message(CloudRequest{agent("r2"), agent("r1"), {agent("r2"), 0}, {}}, fleet.now());
+  EXPECT_EQ(robot.exchange->stats().reconcile.hostile, 2u);
+  EXPECT_EQ(robot.exchange->stats().bad_requests, 1u);
+  EXPECT_EQ(robot.exchange->queue().size(Priority::kBackfill), 1u);
+}
+
+TEST(Fleet, configuration_names_what_is_wrong) {
+  const testing::ScratchFolder folder;
+  auto store = store::Store::open(folder / "store.db", agent("r1")).value();
+  ExchangeConfig config;
+  config.payload_size = testing::payload_size;
+  EXPECT_FALSE(Exchange::make(config, store, {}));
+  config.fleet = {agent("r1"), agent("r2")};
+  EXPECT_TRUE(Exchange::make(config, store, {}));
+  config.long_range.fleet_bytes_per_second = 0.0;
+  const auto refused = Exchange::make(config, store, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("long_range.fleet_bytes_per_second"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fleetmap::exchange

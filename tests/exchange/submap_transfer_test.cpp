@@ -1,0 +1,245 @@
+#include "fleetmap/exchange/submap_transfer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "exchange/sim_fleet.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+using testing::agent;
+using testing::SimFleet;
+
+/// Lets both links through while `open`.
+void link(SimFleet& fleet, const bool& open) {
+  fleet.reachable = [&open](const AgentId&, const AgentId&, Reach reach) {
+    return reach == Reach::kLongRange || open;
+  };
+}
+
+void no_encounters(ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; }
+
+std::uint64_t chunk_bytes_sent(const SimFleet& fleet) {
+  std::uint64_t bytes = 0;
+  for (const auto& sent : fleet.sent()) {
+    if (const auto* chunk = std::get_if<SubmapChunk>(&sent.outgoing.message)) bytes += chunk->payload.size();
+  }
+  return bytes;
+}
+
+bool whole(const SimFleet::Robot& robot) { return robot.exchange->complete(); }
+
+TEST(SubmapTransfer, fills_the_link_and_ends_with_equal_submaps) {
+  SimFleet fleet({"r1", "r2"}, {}, 1);
+  bool open = false;
+  link(fleet, open);
+  fleet.start("r1");
+  fleet.start("r2");
+  std::uint64_t total = 0;
+  for (int k = 0; k < 40; ++k) {
+    fleet.add_node("r1", 1000.0 + 5.0 * k, 100'000 + 17 * static_cast<std::size_t>(k));
+    total += 100'000 + 17 * static_cast<std::uint64_t>(k);
+  }
+  fleet.run_for(std::chrono::seconds(60), [&] { return fleet.equal_sets(40); });
+  ASSERT_TRUE(fleet.equal_sets(40));
+  EXPECT_FALSE(fleet.robot("r2").exchange->complete());
+  open = true;
+  const Stamp start = fleet.now();
+  fleet.run_for(std::chrono::seconds(60), [&] { return whole(fleet.robot("r2")); });
+  ASSERT_TRUE(whole(fleet.robot("r2")));
+  // 4 MB over 15 Mbit/s take 2.13 s; up to one digest period passes before the first request.
+  const double seconds = to_seconds(fleet.now() - start);
+  EXPECT_GT(static_cast<double>(total) / (seconds - 1.0), 0.85 * 1'875'000) << seconds;
+  for (std::uint32_t seq = 0; seq < 40; ++seq) {
+    const NodeId id{agent("r1"), seq};
+    EXPECT_EQ(fleet.robot("r2").store->submap(id).value(), fleet.robot("r1").store->submap(id).value());
+  }
+  EXPECT_EQ(chunk_bytes_sent(fleet), total);  // without loss nothing goes twice
+}
+
+TEST(SubmapTransfer, comes_through_loss_disorder_and_doubles) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    SimFleet::Network network;
+    network.loss = seed % 2 ? 0.3 : 0.1;
+    network.duplication = 0.1;
+    network.max_delay = std::chrono::milliseconds(200);
+    SimFleet fleet({"r1", "r2", "r3"}, network, seed);
+    const bool open = true;
+    link(fleet, open);
+    for (const char* name : {"r1", "r2", "r3"}) {
+      fleet.start(name);
+      for (int k = 0; k < 4; ++k) fleet.add_node(name, 1000.0 * name[1] + 5.0 * k, 60'000);
+    }
+    fleet.run_for(std::chrono::minutes(5), [&] { return fleet.equal_sets(12) && fleet.all(whole); });
+    EXPECT_TRUE(fleet.equal_sets(12) && fleet.all(whole)) << "seed " << seed;
+  }
+}
+
+TEST(SubmapTransfer, goes_on_after_cuts_and_kills_without_sending_again_what_is_held) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    std::mt19937 random(seed);
+    SimFleet fleet({"r1", "r2"}, {}, seed);
+    bool open = true;
+    link(fleet, open);
+    fleet.start("r1");
+    fleet.start("r2");
+    constexpr std::uint64_t kTotal = 5 * 700'000;
+    for (int k = 0; k < 5; ++k) fleet.add_node("r1", 1000.0 + 5.0 * k, 700'000);
+    std::uint64_t held_before = 0;
+    for (int kills = 0; kills < 3; ++kills) {
+      open = true;
+      fleet.run_for(std::chrono::milliseconds(1500 + random() % 900));
+      open = false;
+      fleet.run_for(std::chrono::milliseconds(random() % 2000));
+      const bool sender = random() % 2 == 0;
+      fleet.kill(sender ? "r1" : "r2");
+      fleet.start(sender ? "r1" : "r2");
+      auto& store = *fleet.robot("r2").store;
+      std::uint64_t held = store.submap_set().size() * 700'000;
+      for (const NodeId& id : store.partial_submaps()) {
+        for (std::uint32_t chunk = 0; chunk < 86; ++chunk) held += store::Store::kChunkBytes;
+        for (const std::uint32_t chunk : store.missing_chunks(id))
+          held -= chunk == 85 ? 0 : store::Store::kChunkBytes;
+      }
+      EXPECT_GE(held + store::Store::kChunkBytes * 5, held_before);
+      held_before = held;
+    }
+    // From here on nothing is lost, so exactly the bytes that are missing are sent.
+    std::uint64_t missing = 0;
+    auto& store = *fleet.robot("r2").store;
+    for (const auto& [id, node] : fleet.robot("r1").store->nodes()) {
+      if (!store.node(id)) missing += node.submap_bytes;
+      for (const std::uint32_t chunk : store.missing_chunks(id)) {
+        missing += std::min(store::Store::kChunkBytes, node.submap_bytes - chunk * store::Store::kChunkBytes);
+      }
+    }
+    ASSERT_LT(missing, kTotal);
+    fleet.run_for(std::chrono::seconds(10));  // queues that were filled before the cut run dry
+    fleet.forget_sent();
+    open = true;
+    fleet.run_for(std::chrono::minutes(1), [&] { return fleet.equal_sets(5) && whole(fleet.robot("r2")); });
+    ASSERT_TRUE(whole(fleet.robot("r2"))) << "seed " << seed;
+    EXPECT_EQ(chunk_bytes_sent(fleet), missing) << "seed " << seed;
+  }
+}
+
+TEST(SubmapTransfer, takes_each_chunk_from_one_peer_and_shares_the_work) {
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 3, no_encounters);
+  bool open = false;
+  bool r3_reached = false;
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+    const bool with_r3 = from == agent("r3") || to == agent("r3");
+    return reach == Reach::kLongRange || (with_r3 ? r3_reached : open);
+  };
+  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+  for (int k = 0; k < 30; ++k) fleet.add_node("r1", 5.0 * k, 100'000);
+  open = true;
+  fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r2")) && fleet.equal_sets(30); });
+  ASSERT_TRUE(whole(fleet.robot("r2")));
+  fleet.forget_sent();
+  r3_reached = true;
+  fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r3")); });
+  ASSERT_TRUE(whole(fleet.robot("r3")));
+  EXPECT_EQ(chunk_bytes_sent(fleet), 3'000'000u);
+  std::map<AgentId, std::uint64_t> served;
+  for (const auto& sent : fleet.sent()) {
+    if (const auto* chunk = std::get_if<SubmapChunk>(&sent.outgoing.message))
+      served[sent.from] += chunk->payload.size();
+  }
+  EXPECT_GT(served[agent("r1")], 750'000u);
+  EXPECT_GT(served[agent("r2")], 750'000u);
+}
+
+TEST(SubmapTransfer, is_passed_on_by_a_third_robot) {
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 5, no_encounters);
+  const auto between = [](const AgentId& a, const AgentId& b, const char* x, const char* y) {
+    return (a == agent(x) && b == agent(y)) || (a == agent(y) && b == agent(x));
+  };
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach) {
+    return between(from, to, "r1", "r2");
+  };
+  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+  for (int k = 0; k < 5; ++k) fleet.add_node("r1", 5.0 * k, 50'000);
+  fleet.run_for(std::chrono::minutes(1), [&] { return fleet.robot("r2").store->submap_set().size() == 5; });
+  ASSERT_EQ(fleet.robot("r2").store->submap_set().size(), 5u);
+  fleet.kill("r1");
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach) {
+    return between(from, to, "r2", "r3");
+  };
+  fleet.run_for(std::chrono::minutes(2), [&] { return fleet.robot("r3").store->submap_set().size() == 5; });
+  EXPECT_EQ(fleet.robot("r3").store->submap_set().size(), 5u);
+  EXPECT_TRUE(fleet.robot("r3").exchange->complete());
+}
+
+TEST(SubmapTransfer, turns_from_a_peer_that_sends_wrong_content) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), liar = agent("r2"), honest = agent("r3");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(20'000, 1);
+  const NodeId id{agent("r4"), 0};
+  ASSERT_TRUE(store.put_node(testing::make_node(id.agent, 0, submap)));
+  SubmapReceiver receiver(self, {});
+  Stamp now = stamp_from_ns(1'000'000'000);
+  const auto serve = [&](const SubmapRequest& request) {
+    for (std::uint32_t offset = request.offset; offset < request.offset + request.length;
+         offset += SubmapChunk::kMaxPayload) {
+      SubmapChunk chunk{request.to, self, id, offset, 20'000, {}};
+      const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
+      chunk.payload.assign(part.begin(), part.end());
+      if (request.to == liar) chunk.payload[5] ^= 1;
+      ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
+    }
+  };
+  receiver.on_digest({liar, {{id.agent, 0, 1}}}, now);
+  for (const auto& request : receiver.tick(store, now)) serve(request);
+  EXPECT_EQ(receiver.stats().bad_hash, 1u);
+  EXPECT_TRUE(receiver.tick(store, now).empty());  // not from this one again
+  receiver.on_digest({honest, {{id.agent, 0, 1}}}, now);
+  for (const auto& request : receiver.tick(store, now)) serve(request);
+  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_TRUE(receiver.idle(store, now));
+}
+
+TEST(SubmapTransfer, refuses_and_counts_hostile_chunks_and_requests) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), peer = agent("r2");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(20'000, 1);
+  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
+  ASSERT_TRUE(store.put_node_with_submap(testing::make_node(self, 0, submap), submap));
+  SubmapReceiver receiver(self, {});
+  const Stamp now = stamp_from_ns(1'000'000'000);
+  const NodeId id{peer, 0};
+  const Bytes piece(8192, 1);
+  for (const SubmapChunk& chunk : std::vector<SubmapChunk>{{peer, self, id, 1, 20'000, piece},
+                                                           {peer, self, id, 8192, 20'001, piece},
+                                                           {peer, self, id, 16'384, 20'000, piece},
+                                                           {peer, self, id, 4'294'959'104u, 20'000, piece},
+                                                           {peer, self, id, 0, 20'000, {}},
+                                                           {peer, self, {peer, 9}, 0, 20'000, piece},
+                                                           {peer, peer, id, 0, 20'000, piece}}) {
+    EXPECT_EQ(receiver.on_chunk(chunk, store, now).value(), std::nullopt);
+  }
+  EXPECT_EQ(receiver.stats().hostile, 7u);
+  EXPECT_EQ(store.missing_chunks(id).size(), 3u);
+  SubmapSender sender(self, {});
+  const NodeId own{self, 0};
+  for (const SubmapRequest& request : std::vector<SubmapRequest>{{peer, self, id, 0, 8192},
+                                                                 {peer, self, own, 20'000, 8192},
+                                                                 {peer, self, own, 3, 8192},
+                                                                 {peer, self, own, 4'294'959'104u, 8192},
+                                                                 {peer, self, own, 0, 0}}) {
+    sender.on_request(request, store);
+  }
+  EXPECT_EQ(sender.stats().refused, 5u);
+  EXPECT_TRUE(sender.idle());
+  sender.on_request({peer, self, own, 8192, UINT32_MAX}, store);
+  const auto chunks = sender.tick(store, now);
+  ASSERT_EQ(chunks.size(), 2u);
+  EXPECT_EQ(chunks[1].payload.size(), 20'000u - 16'384u);
+}
+
+}  // namespace
+}  // namespace fleetmap::exchange
