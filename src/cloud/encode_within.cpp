@@ -85,8 +85,8 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
       if (log_voxel >= std::log(static_cast<double>(config.max_voxel_m))) break;
       too_big = trial;
     }
-    log_voxel =
-        best ? next_log_voxel(too_big, fits, target) : too_big.log_voxel + 0.6 * (too_big.log_bytes - target);
+    log_voxel = best ? next_log_voxel(too_big, fits, target)
+                     : too_big.log_voxel + std::max(0.05 * encodings, 0.6 * (too_big.log_bytes - target));
   }
   if (!best) {
     return failure("cloud encoding: even voxels of " + std::to_string(config.max_voxel_m) +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace fleetmap::cloud {
@@ -36,28 +37,35 @@ Status NormalConfig::validate() const {
   return {};
 }
 
-Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config) {
+Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config,
+                         const std::vector<std::size_t>& indices) {
   Normals result;
-  result.normals.assign(cloud.size(), Eigen::Vector3f::Zero());
-  result.variations.assign(cloud.size(), 1.0f);
+  result.normals.assign(indices.size(), Eigen::Vector3f::Zero());
+  result.variations.assign(indices.size(), 1.0f);
   std::array<Neighbor, kMaxNeighbors> buffer;
   const std::span<Neighbor> wanted(buffer.data(), std::min(config.neighbors, kMaxNeighbors));
   const float squared_radius = config.max_radius_m * config.max_radius_m;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    std::size_t found = tree.knn(cloud.points[i], wanted);
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Eigen::Vector3f& point = cloud.points[indices[k]];
+    std::size_t found = tree.knn(point, wanted);
     while (found > 0 && wanted[found - 1].squared_distance > squared_radius) --found;
     if (found < std::max<std::size_t>(3, config.min_neighbors)) continue;
-    solver.computeDirect(covariance_of(cloud, wanted.first(found), cloud.points[i]));
+    solver.computeDirect(covariance_of(cloud, wanted.first(found), point));
     const Eigen::Vector3d eigenvalues = solver.eigenvalues().cwiseMax(0.0);
     // On a line (or a single spot) any perpendicular is an eigenvector: there is no normal to speak of.
     if (!(eigenvalues[1] > 1e-4 * eigenvalues[2])) continue;
-    Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
-    if (normal.dot(config.viewpoint - cloud.points[i]) < 0.0f) normal = -normal;
-    result.normals[i] = normal;
-    result.variations[i] = static_cast<float>(eigenvalues[0] / eigenvalues.sum());
+    const Eigen::Vector3f normal = solver.eigenvectors().col(0).cast<float>();
+    result.normals[k] = normal.dot(config.viewpoint - point) < 0.0f ? Eigen::Vector3f(-normal) : normal;
+    result.variations[k] = static_cast<float>(eigenvalues[0] / eigenvalues.sum());
   }
   return result;
+}
+
+Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config) {
+  std::vector<std::size_t> all(cloud.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return estimate_normals(cloud, tree, config, all);
 }
 
 }  // namespace fleetmap::cloud

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "fleetmap/cloud/kd_tree.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
@@ -14,27 +15,37 @@ using cloud::KdTree;
 using cloud::Normals;
 using cloud::PointCloud;
 
-/// A cloud with all that registration asks of it.
-struct Prepared {
+/// The cloud that stays, with all that registration asks of it.
+struct Target {
   PointCloud cloud;
   KdTree tree;
   Normals normals;
-  Prepared(PointCloud thinned, const cloud::NormalConfig& config)
+  Target(PointCloud thinned, const cloud::NormalConfig& config)
       : cloud(std::move(thinned)), tree(cloud), normals(estimate_normals(cloud, tree, config)) {}
 };
 
+/// Points of the cloud that moves, evenly picked.
 struct Sample {
   PointCloud cloud;
   Normals normals;
 };
 
-Sample sample_of(const Prepared& whole, std::size_t count) {
-  Sample sample;
-  const std::size_t size = whole.cloud.size();
+std::vector<std::size_t> even_picks(std::size_t size, std::size_t count) {
+  std::vector<std::size_t> picks;
   const std::size_t wanted = std::min(count, size);
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const std::size_t i = k * size / wanted;
-    sample.cloud.points.push_back(whole.cloud.points[i]);
+  for (std::size_t k = 0; k < wanted; ++k) picks.push_back(k * size / wanted);
+  return picks;
+}
+
+Sample sample_of(const PointCloud& whole, std::size_t count, const cloud::NormalConfig& config) {
+  const auto picks = even_picks(whole.size(), count);
+  return {select(whole, picks), estimate_normals(whole, KdTree(whole), config, picks)};
+}
+
+Sample sample_of(const Sample& whole, std::size_t count) {
+  const auto picks = even_picks(whole.cloud.size(), count);
+  Sample sample{select(whole.cloud, picks), {}};
+  for (const std::size_t i : picks) {
     sample.normals.normals.push_back(whole.normals.normals[i]);
     sample.normals.variations.push_back(whole.normals.variations[i]);
   }
@@ -48,16 +59,13 @@ struct Fit {
   std::size_t overlapping = 0;
 };
 
-Fit measure(const Prepared& target, const Sample& source, const Pose& T, const RegistrationConfig& config,
-            std::size_t stride = 1) {
+Fit measure(const Target& target, const Sample& source, const Pose& T, const RegistrationConfig& config) {
   const Eigen::Matrix3f R = T.linear().cast<float>();
   const Eigen::Vector3f t = T.translation().cast<float>();
   const float inlier2 = config.inlier_m * config.inlier_m;
   Fit fit;
   double squares = 0.0;
-  std::size_t seen = 0;
-  for (std::size_t i = 0; i < source.cloud.size(); i += stride) {
-    ++seen;
+  for (std::size_t i = 0; i < source.cloud.size(); ++i) {
     const auto match = target.tree.nearest(R * source.cloud.points[i] + t, config.overlap_m);
     if (!match) continue;
     ++fit.overlapping;
@@ -70,30 +78,51 @@ Fit measure(const Prepared& target, const Sample& source, const Pose& T, const R
     squares += static_cast<double>(match->squared_distance);
     fit.score += 1.0 - static_cast<double>(match->squared_distance / inlier2);
   }
-  fit.score /= static_cast<double>(std::max<std::size_t>(1, seen));
+  fit.score /= static_cast<double>(std::max<std::size_t>(1, source.cloud.size()));
   fit.rmse = fit.inliers > 0 ? std::sqrt(squares / static_cast<double>(fit.inliers)) : 0.0;
   return fit;
 }
 
-/// Poses to refine: what the features propose, and the prior.
+/// Thins `cloud` until it has few enough points for features.
+PointCloud feature_cloud(const PointCloud& cloud, const RegistrationConfig& config) {
+  float voxel_m = config.feature_voxel_m;
+  PointCloud thin = voxel_downsample(cloud, voxel_m);
+  while (thin.size() > config.max_feature_points && 2.0f * voxel_m < config.feature_radius_m) {
+    voxel_m *= 1.25f;
+    thin = voxel_downsample(cloud, voxel_m);
+  }
+  return thin;
+}
+
+struct FeatureCloud {
+  PointCloud cloud;
+  Features features;
+};
+
+FeatureCloud features_of(const PointCloud& whole, const RegistrationConfig& config) {
+  PointCloud cloud = feature_cloud(whole, config);
+  const Normals normals = estimate_normals(cloud, KdTree(cloud), config.feature_normals);
+  Features features = compute_fpfh(cloud, normals, config.feature_radius_m);
+  return {std::move(cloud), std::move(features)};
+}
+
+/// A pose to refine: what the features propose, or the prior.
 struct Start {
   Pose T = Pose::Identity();
   bool from_prior = false;
-  double score = 0.0;
 };
 
-std::vector<Start> feature_starts(const Prepared& target, const Prepared& source,
-                                  const RegistrationConfig& config, const std::optional<Prior>& prior,
-                                  std::size_t& correspondence_count) {
-  const Prepared a(voxel_downsample(target.cloud, config.feature_voxel_m), config.feature_normals);
-  const Prepared b(voxel_downsample(source.cloud, config.feature_voxel_m), config.feature_normals);
-  const auto correspondences =
-      match_features(compute_fpfh(a.cloud, a.normals, config.feature_radius_m),
-                     compute_fpfh(b.cloud, b.normals, config.feature_radius_m), config.matching);
+std::vector<Start> starts_of(const PointCloud& target, const PointCloud& source,
+                             const RegistrationConfig& config, const std::optional<Prior>& prior,
+                             std::size_t& correspondence_count) {
+  const FeatureCloud a = features_of(target, config);
+  const FeatureCloud b = features_of(source, config);
+  const auto correspondences = match_features(a.features, b.features, config.matching);
   correspondence_count = correspondences.size();
   std::vector<Start> starts;
+  if (prior) starts.push_back({prior->T_target_source, true});
   for (const Hypothesis& hypothesis : ransac(a.cloud, b.cloud, correspondences, config.ransac, prior)) {
-    starts.push_back({hypothesis.T_target_source, false, 0.0});
+    starts.push_back({hypothesis.T_target_source, false});
   }
   return starts;
 }
@@ -104,7 +133,7 @@ struct Refined {
   Fit fit;
 };
 
-Refined refine(const Prepared& target, const Sample& source, const Start& start,
+Refined refine(const Target& target, const Sample& source, const Start& start,
                const RegistrationConfig& config) {
   Refined refined;
   refined.icp =
@@ -120,6 +149,64 @@ Refined refine(const Prepared& target, const Sample& source, const Start& start,
   return refined;
 }
 
+/// Refines every start, drops what the prior excludes, joins what ends at the same pose; best first.
+std::vector<Refined> refined_modes(const Target& target, const Sample& source,
+                                   const std::vector<Start>& starts, const RegistrationConfig& config,
+                                   const std::optional<Prior>& prior) {
+  std::vector<Refined> modes;
+  for (const Start& start : starts) {
+    Refined refined = refine(target, source, start, config);
+    if (prior && !agrees(*prior, refined.mode.T_target_source, config.ransac.prior_sigmas)) continue;
+    const auto twin = std::find_if(modes.begin(), modes.end(), [&](const Refined& other) {
+      return same_mode(other.mode.T_target_source, refined.mode.T_target_source, config.ransac.distinct_m,
+                       config.ransac.distinct_rad);
+    });
+    if (twin == modes.end()) {
+      modes.push_back(std::move(refined));
+    } else if (refined.mode.score > twin->mode.score) {
+      *twin = std::move(refined);
+    }
+  }
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Refined& a, const Refined& b) { return a.mode.score > b.mode.score; });
+  return modes;
+}
+
+/// The starts worth a coarse ICP: the prior, and the best of the rest as they stand.
+std::vector<Start> promising(const Target& target, const Sample& source, std::vector<Start> starts,
+                             const RegistrationConfig& config) {
+  std::vector<double> scores;
+  for (const Start& start : starts) {
+    scores.push_back(start.from_prior ? 2.0 : measure(target, source, start.T, config).score);
+  }
+  std::vector<std::size_t> order(starts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+  std::vector<Start> best;
+  for (const std::size_t i : order) {
+    if (best.size() <
+        config.max_modes + (starts[i].from_prior || (!best.empty() && best[0].from_prior) ? 1u : 0u)) {
+      best.push_back(starts[i]);
+    }
+  }
+  return best;
+}
+
+/// Coarse modes first, then only the contenders with all points.
+std::vector<Refined> find_modes(const Target& target, const Sample& source, std::vector<Start> starts,
+                                const RegistrationConfig& config, const std::optional<Prior>& prior) {
+  const Sample coarse = sample_of(source, config.max_coarse_points);
+  const auto coarse_modes =
+      refined_modes(target, coarse, promising(target, coarse, std::move(starts), config), config, prior);
+  std::vector<Start> contenders;
+  for (const Refined& refined : coarse_modes) {
+    if (refined.mode.score < config.contender_share * coarse_modes.front().mode.score) break;
+    contenders.push_back({refined.mode.T_target_source, refined.mode.from_prior});
+  }
+  return refined_modes(target, source, contenders, config, prior);
+}
+
 std::string text(const char* format, double value, double limit) {
   char line[160];
   std::snprintf(line, sizeof line, format, value, limit);
@@ -128,7 +215,6 @@ std::string text(const char* format, double value, double limit) {
 
 /// Sets verdict and reason from the numbers already in `result`.
 void judge(RegistrationResult& result, const RegistrationConfig& config) {
-  const double agreement = result.overlap > 0.0 ? result.inlier_fraction / result.overlap : 0.0;
   result.verdict = Verdict::rejected;
   if (result.inliers < config.min_inliers) {
     result.reason = text("only %.0f inliers, at least %.0f are needed", static_cast<double>(result.inliers),
@@ -138,9 +224,9 @@ void judge(RegistrationResult& result, const RegistrationConfig& config) {
         "only %.2f of the source points are inliers, at least %.2f are needed: the clouds overlap too "
         "little",
         result.inlier_fraction, config.min_inlier_fraction);
-  } else if (agreement < config.min_agreement) {
-    result.reason = text("in the overlap only %.2f of the points agree, at least %.2f must", agreement,
-                         config.min_agreement);
+  } else if (result.agreement < config.min_agreement) {
+    result.reason = text("where the clouds overlap they agree to %.2f, at least %.2f is needed",
+                         result.agreement, config.min_agreement);
   } else if (result.rmse > config.max_rmse_m) {
     result.reason = text("inlier RMSE is %.2f m, at most %.2f m is good", result.rmse, config.max_rmse_m);
   } else if (result.modes.size() > 1 &&
@@ -204,46 +290,22 @@ RegistrationResult register_clouds(const PointCloud& target_cloud, const PointCl
       return result;
     }
   }
-  const Prepared target(thinned(target_cloud, config.voxel_m), config.normals);
-  const Prepared source(thinned(source_cloud, config.voxel_m), config.normals);
-  const std::size_t fewest = std::min(target.cloud.size(), source.cloud.size());
+  PointCloud target_points = thinned(target_cloud, config.voxel_m);
+  const PointCloud source_points = thinned(source_cloud, config.voxel_m);
+  const std::size_t fewest = std::min(target_points.size(), source_points.size());
   if (fewest < config.min_points) {
     result.reason = text("a cloud has only %.0f points after thinning, at least %.0f are needed",
                          static_cast<double>(fewest), static_cast<double>(config.min_points));
     return result;
   }
-  const Sample sample = sample_of(source, config.max_icp_points);
-
-  std::vector<Start> starts = feature_starts(target, source, config, prior, result.correspondences);
-  if (prior) starts.push_back({prior->T_target_source, true, 0.0});
-  for (Start& start : starts) start.score = measure(target, sample, start.T, config, 8).score;
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start& a, const Start& b) { return a.score > b.score; });
-  const auto beyond = [&](const Start& start) {
-    return !start.from_prior && static_cast<std::size_t>(&start - starts.data()) >= config.max_modes;
-  };
-
-  std::vector<Refined> modes;
-  for (const Start& start : starts) {
-    if (beyond(start)) continue;
-    Refined refined = refine(target, sample, start, config);
-    if (prior && !agrees(*prior, refined.mode.T_target_source, config.ransac.prior_sigmas)) continue;
-    const auto twin = std::find_if(modes.begin(), modes.end(), [&](const Refined& other) {
-      return same_mode(other.mode.T_target_source, refined.mode.T_target_source, config.ransac.distinct_m,
-                       config.ransac.distinct_rad);
-    });
-    if (twin == modes.end()) {
-      modes.push_back(std::move(refined));
-    } else if (refined.mode.score > twin->mode.score) {
-      *twin = std::move(refined);
-    }
-  }
+  std::vector<Start> starts = starts_of(target_points, source_points, config, prior, result.correspondences);
+  const Target target(std::move(target_points), config.normals);
+  const Sample sample = sample_of(source_points, config.max_icp_points, config.normals);
+  const std::vector<Refined> modes = find_modes(target, sample, std::move(starts), config, prior);
   if (modes.empty()) {
     result.reason = "no pose is supported by the features" + std::string(prior ? " within the prior" : "");
     return result;
   }
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const Refined& a, const Refined& b) { return a.mode.score > b.mode.score; });
   for (const Refined& refined : modes) result.modes.push_back(refined.mode);
   const Refined& best = modes.front();
   result.T_target_source = best.mode.T_target_source;
@@ -251,6 +313,7 @@ RegistrationResult register_clouds(const PointCloud& target_cloud, const PointCl
   result.covariance = best.icp.covariance;
   result.inlier_fraction = best.mode.inlier_fraction;
   result.overlap = best.mode.overlap;
+  result.agreement = best.mode.overlap > 0.0 ? best.mode.score / best.mode.overlap : 0.0;
   result.inliers = best.fit.inliers;
   result.scored = sample.cloud.size();
   judge(result, config);

@@ -28,4 +28,8 @@ struct Normals {
 /// Normals by principal component analysis of each point's neighbours. `tree` is over the points of `cloud`.
 Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config);
 
+/// The same for the points at `indices` only, in that order.
+Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config,
+                         const std::vector<std::size_t>& indices);
+
 }  // namespace fleetmap::cloud
