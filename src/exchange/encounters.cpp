@@ -115,6 +115,7 @@ void Encounters::on_match(const ProximityMatch& match, Stamp now) {
     const auto order = [](const NodePair& p) { return std::minmax(p.ours, p.theirs); };
     for (const NodePair& rival : rivals(pair)) {
       if (order(rival) < order(pair)) continue;
+      stats_.yielded += encounters_.at(rival).phase == Phase::kAsked;
       withdrawn_.push_back(rival);
       encounters_.erase(rival);
     }
@@ -154,7 +155,7 @@ void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
     ++stats_.accepted;
   } else if (encounter.phase == Phase::kRegistering) {
     return;  // the bytes are spent: our own result is welcome as well
-  } else {
+  } else if (encounter.phase == Phase::kAsked) {
     ++stats_.settled_by_peer;
     withdrawn_.push_back(pair);
   }
@@ -254,6 +255,12 @@ Encounters::Due Encounters::tick(Stamp now) {
   announce(due, now);
   std::swap(due.withdrawn, withdrawn_);
   return due;
+}
+
+bool Encounters::wants(const NodeId& theirs) const {
+  return std::ranges::any_of(encounters_, [&](const auto& entry) {
+    return entry.first.theirs == theirs && entry.second.phase == Phase::kAsked;
+  });
 }
 
 bool Encounters::idle(Stamp now) const {

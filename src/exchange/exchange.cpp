@@ -227,7 +227,7 @@ void Exchange::send_fragments(std::vector<CloudFragment> fragments) {
 void Exchange::tick_encounters(Stamp now) {
   auto due = encounters_.tick(now);
   for (const NodePair& pair : due.withdrawn) {
-    cloud_receiver_.cancel(pair.theirs);
+    if (!encounters_.wants(pair.theirs)) cloud_receiver_.cancel(pair.theirs);
     queue_.cancel_cloud(pair.theirs.agent, pair.ours);
   }
   for (ProximityMatch& match : due.matches) queue_.push(Priority::kControl, std::move(match));

@@ -18,6 +18,15 @@ const NodeId kNode{kPeer, 4};
 const Stamp kStart = stamp_from_ns(1'000'000'000);
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
+CloudRequest request_for(std::uint32_t seq, std::vector<std::uint16_t> missing = {}) {
+  CloudRequest request;
+  request.from = kSelf;
+  request.to = kPeer;
+  request.node = {kPeer, seq};
+  request.missing = std::move(missing);
+  return request;
+}
+
 TEST(CloudTransfer, carries_any_cloud_through_loss_disorder_and_doubles) {
   for (std::uint32_t seed = 0; seed < 120; ++seed) {
     std::mt19937 random(seed);
@@ -154,11 +163,11 @@ TEST(CloudTransfer, bounds_what_it_keeps_and_what_it_takes_on) {
   for (std::uint32_t seq = 0; seq < 20; ++seq) {
     ASSERT_TRUE(sender.offer({kPeer, seq}, Bytes(100, 0), kStart + std::chrono::seconds(seq)));
   }
-  EXPECT_FALSE(sender.answer({kSelf, kPeer, {kPeer, 3}, {}}, kStart));
-  EXPECT_TRUE(sender.answer({kSelf, kPeer, {kPeer, 4}, {}}, kStart));
-  EXPECT_TRUE(sender.answer({kSelf, kPeer, {kPeer, 4}, {5, 6, 65535}}, kStart)->empty());
+  EXPECT_FALSE(sender.answer(request_for(3), kStart));
+  EXPECT_TRUE(sender.answer(request_for(4), kStart));
+  EXPECT_TRUE(sender.answer(request_for(4, {5, 6, 65535}), kStart)->empty());
   EXPECT_EQ(sender.stats().bad_requests, 3u);
-  EXPECT_FALSE(sender.answer({kSelf, kPeer, {kPeer, 19}, {}}, kStart + std::chrono::minutes(5)));  // stale
+  EXPECT_FALSE(sender.answer(request_for(19), kStart + std::chrono::minutes(5)));  // stale
 }
 
 }  // namespace

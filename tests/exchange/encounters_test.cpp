@@ -51,6 +51,8 @@ TEST(Encounters, are_the_same_on_both_ends_without_talk) {
   Stamp now = kStart;
   std::vector<NodePair> pairs;
   for (std::uint32_t seq = 0; seq < 60; ++seq) {
+    a.on_heard(kB, now);
+    b.on_heard(kA, now);
     const auto node_a = node_at(kA, seq, 2.0 * seq);
     const auto node_b = node_at(kB, seq, 120.0 - 2.0 * seq);
     for (const auto& node : {node_a, node_b}) {

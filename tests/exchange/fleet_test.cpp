@@ -24,7 +24,7 @@ void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, do
 
 bool settled(const SimFleet& fleet, std::size_t nodes) {
   return fleet.equal_sets(nodes) && fleet.all([&](const auto& robot) {
-    return robot.exchange->fleet_caught_up() && robot.exchange->queue().size(Priority::kCloud) == 0;
+    return robot.exchange->fleet_caught_up() && robot.exchange->idle(fleet.now());
   });
 }
 
@@ -61,8 +61,8 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
     // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
     for (const auto& [name, robot] : fleet.robots()) {
       const auto stats = robot.exchange->stats();
-      EXPECT_EQ(stats.encounters.begun,
-                robot.arrived.size() + stats.encounters.lost + stats.encounters.settled_by_peer);
+      EXPECT_EQ(stats.encounters.begun, robot.arrived.size() + stats.encounters.lost +
+                                            stats.encounters.settled_by_peer + stats.encounters.yielded);
       for (const auto& arrived : robot.arrived) {
         const auto& source = fleet.robots().at(arrived.pair.theirs.agent);
         EXPECT_EQ(arrived.cloud, source.clouds.at(arrived.pair.theirs));

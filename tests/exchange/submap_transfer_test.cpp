@@ -213,29 +213,45 @@ TEST(SubmapTransfer, refuses_and_counts_hostile_chunks_and_requests) {
   const Stamp now = stamp_from_ns(1'000'000'000);
   const NodeId id{peer, 0};
   const Bytes piece(8192, 1);
-  for (const SubmapChunk& chunk : std::vector<SubmapChunk>{{peer, self, id, 1, 20'000, piece},
-                                                           {peer, self, id, 8192, 20'001, piece},
-                                                           {peer, self, id, 16'384, 20'000, piece},
-                                                           {peer, self, id, 4'294'959'104u, 20'000, piece},
-                                                           {peer, self, id, 0, 20'000, {}},
-                                                           {peer, self, {peer, 9}, 0, 20'000, piece},
-                                                           {peer, peer, id, 0, 20'000, piece}}) {
+  const auto offer = [&](const NodeId& node, std::uint32_t offset, std::uint32_t total,
+                         const Bytes& payload) {
+    SubmapChunk chunk;
+    chunk.from = peer;
+    chunk.to = self;
+    chunk.node = node;
+    chunk.offset = offset;
+    chunk.total_bytes = total;
+    chunk.payload = payload;
     EXPECT_EQ(receiver.on_chunk(chunk, store, now).value(), std::nullopt);
-  }
+  };
+  offer(id, 1, 20'000, piece);
+  offer(id, 8192, 20'001, piece);
+  offer(id, 16'384, 20'000, piece);
+  offer(id, 4'294'959'104u, 20'000, piece);
+  offer(id, 0, 20'000, {});
+  offer({peer, 9}, 0, 20'000, piece);
+  offer({self, 1}, 0, 20'000, piece);
   EXPECT_EQ(receiver.stats().hostile, 7u);
   EXPECT_EQ(store.missing_chunks(id).size(), 3u);
   SubmapSender sender(self, {});
   const NodeId own{self, 0};
-  for (const SubmapRequest& request : std::vector<SubmapRequest>{{peer, self, id, 0, 8192},
-                                                                 {peer, self, own, 20'000, 8192},
-                                                                 {peer, self, own, 3, 8192},
-                                                                 {peer, self, own, 4'294'959'104u, 8192},
-                                                                 {peer, self, own, 0, 0}}) {
+  const auto ask = [&](const NodeId& node, std::uint32_t offset, std::uint32_t length) {
+    SubmapRequest request;
+    request.from = peer;
+    request.to = self;
+    request.node = node;
+    request.offset = offset;
+    request.length = length;
     sender.on_request(request, store);
-  }
+  };
+  ask(id, 0, 8192);
+  ask(own, 20'000, 8192);
+  ask(own, 3, 8192);
+  ask(own, 4'294'959'104u, 8192);
+  ask(own, 0, 0);
   EXPECT_EQ(sender.stats().refused, 5u);
   EXPECT_TRUE(sender.idle());
-  sender.on_request({peer, self, own, 8192, UINT32_MAX}, store);
+  ask(own, 8192, UINT32_MAX);
   const auto chunks = sender.tick(store, now);
   ASSERT_EQ(chunks.size(), 2u);
   EXPECT_EQ(chunks[1].payload.size(), 20'000u - 16'384u);

@@ -49,7 +49,9 @@ struct EncounterStats {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
   std::uint64_t lost = 0;  ///< the cloud never came
-  std::uint64_t settled_by_peer = 0;
+  std::uint64_t settled_by_peer =
+      0;                          ///< begun, and ended by the peer's good alignment before the cloud was here
+  std::uint64_t yielded = 0;      ///< begun, and given up for the pair that the peer had chosen
   std::uint64_t crowded_out = 0;  ///< gave way when too many waited
 };
 
@@ -87,6 +89,8 @@ class Encounters {
   };
   Due tick(Stamp now);
 
+  /// An encounter waits for the cloud of `theirs`.
+  bool wants(const NodeId& theirs) const;
   /// Nothing is under way or about to be.
   bool idle(Stamp now) const;
   bool has_good_alignment(const AgentId& peer) const { return aligned_.contains(peer); }
