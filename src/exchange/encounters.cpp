@@ -48,11 +48,24 @@ void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) 
   const NodeId partner = track->second.ids[nearest->index];
   const NodePair pair = other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner};
   if (encounters_.contains(pair)) return;
+  const Stamp since = replace_farther(pair, nearest->distance, now);
   if (redundant(pair)) {
     ++stats_.redundant;
     return;
   }
-  begin(pair, nearest->distance, radius, now, false);
+  begin(pair, nearest->distance, radius, since, false);
+}
+
+Stamp Encounters::replace_farther(const NodePair& pair, double distance, Stamp now) {
+  Stamp since = now;
+  for (const NodePair& rival : rivals(pair)) {
+    const Encounter& other = encounters_.at(rival);
+    if (other.phase != Phase::kWaiting || other.distance <= distance) continue;
+    since = std::min(since, other.not_before - config_.settle);
+    encounters_.erase(rival);
+    ++stats_.redundant;
+  }
+  return since;
 }
 
 void Encounters::begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer) {

@@ -172,6 +172,21 @@ TEST(Encounters, end_when_the_peer_has_aligned_the_pair) {
   }
 }
 
+TEST(Encounters, take_the_nearest_pair_that_comes_up_while_they_settle) {
+  EncounterConfig config;
+  config.settle = std::chrono::seconds(5);
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  for (const std::uint32_t k : {0u, 1u, 2u, 3u}) {
+    const Stamp now = kStart + std::chrono::seconds(k);
+    a.on_node(node_at(kB, k, 12.0 - 3.0 * k), now);
+    EXPECT_TRUE(a.tick(now).wanted.empty());
+  }
+  const auto due = a.tick(kStart + config.settle);
+  EXPECT_EQ(due.wanted, (std::vector<NodeId>{{kB, 3}}));  // 3 m away rather than 12
+}
+
 TEST(Encounters, ignore_matches_that_make_no_sense) {
   Encounters a(kA, {});
   a.on_heard(kB, kStart);

@@ -113,6 +113,9 @@ class Encounters {
     std::vector<NodeId> ids;  ///< by index in the tree
   };
   void find(const graph::Node& node, const AgentId& other, Stamp now);
+  /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
+  /// it.
+  Stamp replace_farther(const NodePair& pair, double distance, Stamp now);
   void begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer);
   /// Another encounter makes this one redundant; `waiver` is left out of account.
   bool redundant(const NodePair& pair, const NodePair* waiver = nullptr) const;
