@@ -1,27 +1,27 @@
 #include "fleetmap/cloud/file_io.hpp"
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/conversions.h>
-#include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
-#include <pcl/point_types.h>
-
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
-#include "point_file_header.hpp"
+#include "point_file_layout.hpp"
 
 namespace fleetmap::cloud {
 namespace {
 
 namespace fs = std::filesystem;
-
-tl::unexpected<Error> file_failure(const fs::path& file, const std::string& what) {
-  return failure(file.string() + ": " + what);
-}
+using Encoding = PointFileLayout::Encoding;
+using Field = PointFileLayout::Field;
+static_assert(std::endian::native == std::endian::little, "files are written in the machine's byte order");
 
 enum class Format { ply, pcd };
 
@@ -31,123 +31,210 @@ Result<Format> format_of(const fs::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".ply") return Format::ply;
   if (extension == ".pcd") return Format::pcd;
-  return file_failure(file, "not a .ply or .pcd file");
+  return failure("not a .ply or .pcd file");
 }
 
-double value_at(const std::uint8_t* raw, std::uint8_t type) {
-  const auto as = [raw](auto value) {
-    std::memcpy(&value, raw, sizeof value);
-    return static_cast<double>(value);
+Result<std::string> whole_file(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return failure("no such file");
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(fs::file_size(file, error)), '\0');
+  if (error || !in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    return failure("cannot be read");
+  return bytes;
+}
+
+float number_at(const char* raw, NumberType type, bool swap) {
+  std::array<char, 8> bytes{};
+  std::copy_n(raw, size_of(type), bytes.begin());
+  if (swap) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size_of(type)));
+  const auto as = [&bytes](auto value) {
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return static_cast<float>(value);
   };
-  using Field = pcl::PCLPointField;
   switch (type) {
-    case Field::INT8:
+    case NumberType::i8:
       return as(std::int8_t{});
-    case Field::UINT8:
+    case NumberType::u8:
       return as(std::uint8_t{});
-    case Field::INT16:
+    case NumberType::i16:
       return as(std::int16_t{});
-    case Field::UINT16:
+    case NumberType::u16:
       return as(std::uint16_t{});
-    case Field::INT32:
+    case NumberType::i32:
       return as(std::int32_t{});
-    case Field::UINT32:
+    case NumberType::u32:
       return as(std::uint32_t{});
-    case Field::FLOAT32:
+    case NumberType::i64:
+      return as(std::int64_t{});
+    case NumberType::u64:
+      return as(std::uint64_t{});
+    case NumberType::f32:
       return as(float{});
-    default:
+    case NumberType::f64:
       return as(double{});
   }
+  return 0.0f;
 }
 
-const pcl::PCLPointField* field_named(const pcl::PCLPointCloud2& blob, const std::string& name) {
-  const auto found = std::find_if(blob.fields.begin(), blob.fields.end(),
-                                  [&](const auto& field) { return field.name == name; });
-  if (found == blob.fields.end() || found->datatype < pcl::PCLPointField::INT8 ||
-      found->datatype > pcl::PCLPointField::FLOAT64 || found->count > 1 ||
-      found->offset + static_cast<std::size_t>(pcl::getFieldSize(found->datatype)) > blob.point_step) {
-    return nullptr;
+/// The fields that make a cloud.
+struct Wanted {
+  std::array<const Field*, 3> xyz{};
+  const Field* intensity = nullptr;
+};
+
+Result<Wanted> wanted_fields(const PointFileLayout& layout) {
+  const auto named = [&](std::string_view name) -> const Field* {
+    const auto found = std::find_if(layout.fields.begin(), layout.fields.end(), [&](const Field& field) {
+      return field.name == name && field.count == 1;
+    });
+    return found == layout.fields.end() ? nullptr : &*found;
+  };
+  Wanted wanted{{named("x"), named("y"), named("z")}, named("intensity")};
+  for (const char* name : {"scalar_intensity", "scalar_Intensity"}) {  // CloudCompare's
+    if (wanted.intensity == nullptr) wanted.intensity = named(name);
   }
-  return &*found;
+  if (std::count(wanted.xyz.begin(), wanted.xyz.end(), nullptr) > 0) return failure("has no fields x, y, z");
+  return wanted;
 }
 
-Result<PointCloud> cloud_from(const pcl::PCLPointCloud2& blob, const fs::path& file) {
-  const auto* x = field_named(blob, "x");
-  const auto* y = field_named(blob, "y");
-  const auto* z = field_named(blob, "z");
-  if (x == nullptr || y == nullptr || z == nullptr)
-    return file_failure(file, "has no numeric fields x, y, z");
-  const auto* intensity = field_named(blob, "intensity");
-  const std::size_t count = std::size_t{blob.width} * blob.height;
-  if (blob.data.size() < count * blob.point_step) return file_failure(file, "truncated");
+/// `get(point, field)` gives a number. Column order (compressed PCD) or row order is its business.
+template <class Get>
+PointCloud gather(const PointFileLayout& layout, const Wanted& wanted, Get get) {
   PointCloud cloud;
-  cloud.points.reserve(count);
-  if (intensity != nullptr) cloud.intensities.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint8_t* point = blob.data.data() + i * blob.point_step;
-    const auto get = [point](const pcl::PCLPointField& field) {
-      return static_cast<float>(value_at(point + field.offset, field.datatype));
-    };
-    cloud.points.emplace_back(get(*x), get(*y), get(*z));
-    if (intensity != nullptr) cloud.intensities.push_back(get(*intensity));
+  cloud.points.reserve(layout.points);
+  for (std::size_t i = 0; i < layout.points; ++i) {
+    cloud.points.emplace_back(get(i, *wanted.xyz[0]), get(i, *wanted.xyz[1]), get(i, *wanted.xyz[2]));
+    if (wanted.intensity != nullptr) cloud.intensities.push_back(get(i, *wanted.intensity));
   }
   return cloud;
 }
 
-pcl::PCLPointCloud2 blob_from(const PointCloud& cloud) {
-  pcl::PCLPointCloud2 blob;
-  if (cloud.has_intensities()) {
-    pcl::PointCloud<pcl::PointXYZI> points;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      pcl::PointXYZI point;
-      point.getVector3fMap() = cloud.points[i];
-      point.intensity = cloud.intensities[i];
-      points.push_back(point);
-    }
-    pcl::toPCLPointCloud2(points, blob);
-  } else {
-    pcl::PointCloud<pcl::PointXYZ> points;
-    for (const Eigen::Vector3f& p : cloud.points) points.emplace_back(p.x(), p.y(), p.z());
-    pcl::toPCLPointCloud2(points, blob);
+Result<PointCloud> from_ascii(const std::string& file, const PointFileLayout& layout, const Wanted& wanted) {
+  std::vector<float> numbers;
+  numbers.reserve(layout.points * layout.stride);
+  const char* at = file.c_str() + layout.body;
+  while (numbers.size() < layout.points * layout.stride) {
+    char* end = nullptr;
+    numbers.push_back(std::strtof(at, &end));
+    if (end == at)
+      return failure("damaged or truncated after " + std::to_string(numbers.size() / layout.stride) +
+                     " points");
+    at = end;
   }
-  return blob;
+  return gather(layout, wanted,
+                [&](std::size_t i, const Field& field) { return numbers[i * layout.stride + field.offset]; });
+}
+
+/// LZF as in compressed PCD files: fills exactly `size` bytes, or gives nothing.
+std::optional<std::string> lzf_decompressed(std::string_view in, std::size_t size) {
+  std::string out;
+  std::size_t at = 0;
+  const auto byte = [&] { return static_cast<std::size_t>(static_cast<unsigned char>(in[at++])); };
+  while (at < in.size()) {
+    const std::size_t control = byte();
+    if (control < 32) {
+      const std::size_t length = control + 1;
+      if (at + length > in.size() || out.size() + length > size) return std::nullopt;
+      out.append(in.substr(at, length));
+      at += length;
+      continue;
+    }
+    std::size_t length = control >> 5;
+    if (length == 7 && at < in.size()) length += byte();
+    if (at >= in.size()) return std::nullopt;
+    const std::size_t back = ((control & 31u) << 8) + byte() + 1;
+    length += 2;
+    if (back > out.size() || out.size() + length > size) return std::nullopt;
+    for (std::size_t k = 0; k < length; ++k) out.push_back(out[out.size() - back]);
+  }
+  return out.size() == size ? std::optional(std::move(out)) : std::nullopt;
+}
+
+Result<PointCloud> from_compressed(const std::string& file, const PointFileLayout& layout,
+                                   const Wanted& wanted) {
+  std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
+  if (file.size() - layout.body < sizeof sizes) return failure("truncated");
+  std::memcpy(sizes.data(), file.data() + layout.body, sizeof sizes);
+  const std::string_view packed = std::string_view(file).substr(layout.body + sizeof sizes);
+  // LZF makes at most 264 bytes of 3.
+  if (sizes[0] > packed.size() || sizes[1] != layout.points * layout.stride || sizes[1] / 88 > sizes[0]) {
+    return failure("truncated or damaged");
+  }
+  const auto columns = lzf_decompressed(packed.substr(0, sizes[0]), sizes[1]);
+  if (!columns) return failure("damaged");
+  return gather(layout, wanted, [&](std::size_t i, const Field& field) {
+    return number_at(columns->data() + field.offset * layout.points + i * size_of(field.type), field.type,
+                     false);
+  });
+}
+
+Result<PointCloud> parse(const std::string& file, Format format) {
+  const auto layout = format == Format::ply ? ply_layout(file) : pcd_layout(file);
+  if (!layout) return failure(layout.error().message);
+  const auto wanted = wanted_fields(*layout);
+  if (!wanted) return failure(wanted.error().message);
+  if (layout->encoding == Encoding::ascii) return from_ascii(file, *layout, *wanted);
+  if (layout->encoding == Encoding::compressed) return from_compressed(file, *layout, *wanted);
+  if (layout->points * layout->stride > file.size() - layout->body) return failure("truncated");
+  const bool swap = layout->encoding == Encoding::big_endian;
+  return gather(*layout, *wanted, [&](std::size_t i, const Field& field) {
+    return number_at(file.data() + layout->body + i * layout->stride + field.offset, field.type, swap);
+  });
+}
+
+std::string header_of(const PointCloud& cloud, Format format) {
+  const std::string count = std::to_string(cloud.size());
+  const bool intensity = cloud.has_intensities();
+  if (format == Format::ply) {
+    return "ply\nformat binary_little_endian 1.0\nelement vertex " + count +
+           "\nproperty float x\nproperty float y\nproperty float z\n" +
+           (intensity ? "property float intensity\n" : "") + "end_header\n";
+  }
+  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
+         (intensity ? "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+                    : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n") +
+         "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
 }
 
 }  // namespace
 
 Result<PointCloud> read_cloud(const fs::path& file) {
-  const auto format = format_of(file);
-  if (!format) return failure(format.error().message);
-  // PCL believes a header; a header that promises more than the file holds must not get that far.
-  const auto sane = *format == Format::ply ? check_ply_header(file) : check_pcd_header(file);
-  if (!sane) return file_failure(file, sane.error().message);
-  pcl::PCLPointCloud2 blob;
-  try {
-    const int status = *format == Format::ply ? pcl::PLYReader().read(file.string(), blob)
-                                              : pcl::PCDReader().read(file.string(), blob);
-    if (status < 0) return file_failure(file, "damaged or truncated");
-  } catch (const std::exception& error) {
-    return file_failure(file, error.what());
-  }
-  return cloud_from(blob, file);
+  const auto read = [&]() -> Result<PointCloud> {
+    const auto format = format_of(file);
+    if (!format) return failure(format.error().message);
+    const auto bytes = whole_file(file);
+    if (!bytes) return failure(bytes.error().message);
+    return parse(*bytes, *format);
+  };
+  auto cloud = read();
+  if (!cloud) return failure(file.string() + ": " + cloud.error().message);
+  return cloud;
 }
 
 Status write_cloud(const fs::path& file, const PointCloud& cloud) {
   const auto format = format_of(file);
-  if (!format) return failure(format.error().message);
-  const fs::path part = file.string() + ".part";
-  std::error_code error;
-  try {
-    const pcl::PCLPointCloud2 blob = blob_from(cloud);
-    const int status = *format == Format::ply ? pcl::PLYWriter().writeBinary(part.string(), blob)
-                                              : pcl::PCDWriter().writeBinary(part.string(), blob);
-    if (status < 0) throw std::runtime_error("cannot be written");
-    fs::rename(part, file);
-  } catch (const std::exception& cause) {
-    fs::remove(part, error);
-    return file_failure(file, cause.what());
+  if (!format) return failure(file.string() + ": " + format.error().message);
+  std::string bytes = header_of(cloud, *format);
+  const std::size_t numbers = cloud.has_intensities() ? 4 : 3;
+  std::size_t at = bytes.size();
+  bytes.resize(at + cloud.size() * numbers * sizeof(float));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    std::memcpy(bytes.data() + at, cloud.points[i].data(), 3 * sizeof(float));
+    if (numbers == 4)
+      std::memcpy(bytes.data() + at + 3 * sizeof(float), &cloud.intensities[i], sizeof(float));
+    at += numbers * sizeof(float);
   }
-  return {};
+  const fs::path part = file.string() + ".part";
+  std::ofstream out(part, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(part, file, error);
+  if (out && !error) return {};
+  std::error_code ignored;
+  fs::remove(part, ignored);
+  return failure(file.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
 }
 
 }  // namespace fleetmap::cloud
