@@ -154,6 +154,9 @@ void watch_heading(const EkfConfig& config, Filter& filter, const Vector3d& p_en
                    const Matrix3d& R) {
   const double sigma = std::sqrt(std::max(R(0, 0), R(1, 1)));
   const bool odometer = recent_wheel(config, filter) != nullptr;
+  const bool gyro =
+      filter.last_imu && to_seconds(filter.stamp - filter.last_imu->stamp) <= config.imu.max_gap;
+  if (!odometer && !gyro) return;  // a track without turns or lengths is no track
   const Eigen::Vector2d arm =
       Eigen::Rotation2Dd(filter.yaw_turned) * config.mounting.p_base_antenna.head<2>();
   const bool added =

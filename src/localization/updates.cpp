@@ -141,7 +141,8 @@ bool update_from_position(const EkfConfig& config, Filter& filter, const Vector3
   const Matrix3d noise = (1.0 - slow) * R;
   const Vector3d residual =
       p_enu_antenna - filter.p - arm - (slow > 0.0 ? Vector3d(L * filter.gps_error) : Vector3d::Zero());
-  const Matrix3d S = H * filter.P * H.transpose() + noise;
+  // Gated as if the whole of R were white: a receiver less correlated than the model must not be shut out.
+  const Matrix3d S = H * filter.P * H.transpose() + R;
   if (!(residual.dot(S.inverse() * residual) <= config.gps.gate)) return false;
   kalman<3>(filter, H, residual, noise);
   return true;
