@@ -21,6 +21,7 @@ constexpr int kClockResetScans = 3;      // scans in the past until the clock is
 constexpr double kClockResetJump = 1.0;  // s
 constexpr double kGap = 0.35;            // s between scans from which on "it stood still" is tried as well
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
+constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
 
 }  // namespace
@@ -61,7 +62,7 @@ class Loam::Pipeline {
     if (!started_) {
       start(sweep, reference, update);
     } else {
-      const MatchResult match = estimate(sweep, reference);
+      const MatchResult match = estimate(reference);
       settle(match, sweep, reference, update);
     }
     last_stamp_ = scan.stamp;
@@ -82,12 +83,13 @@ class Loam::Pipeline {
   void count_defects();
   void pick_features(const Sweep& sweep);
   void start(const Sweep& sweep, Stamp reference, OdometryUpdate& update);
-  MatchResult estimate(const Sweep& sweep, Stamp reference);
-  MotionPrior make_prior(const Sweep& sweep, Stamp reference, double dt) const;
-  MatchResult straighten_first_scan(const Sweep& sweep, const MatchResult& match, double dt,
-                                    const MotionPrior& prior);
+  MatchResult estimate(Stamp reference);
+  MotionPrior make_prior(Stamp reference, double dt) const;
+  MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
-  void learn_gyro_bias(const MatchResult& match, const Sweep& sweep, Stamp reference);
+  Matrix6d find_covariance(const MatchResult& match, bool lost, double reference_offset,
+                           const Pose& T_reference_stamp);
+  void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
   void describe(const Sweep& sweep, OdometryUpdate& update) const;
@@ -109,11 +111,14 @@ class Loam::Pipeline {
 
   bool started_ = false;
   bool velocity_known_ = false;
-  MotionState state_;  ///< of the last scan at its reference instant
+  MotionState state_;                           ///< of the last scan at its reference instant
+  Vector6d twist_variance_ = Vector6d::Zero();  ///< of state_.twist
+  int degenerate_in_a_row_ = 0;
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
   int lost_in_a_row_ = 0;
   int in_the_past_ = 0;
+  int insertions_ = 0;  ///< into this local map
   LoamCounters counters_;
 };
 
@@ -174,6 +179,8 @@ void Loam::Pipeline::pick_features(const Sweep& sweep) {
 void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& update) {
   started_ = true;
   velocity_known_ = false;
+  twist_variance_.head<3>().setConstant(config_.initial_speed * config_.initial_speed);
+  twist_variance_.tail<3>().setConstant(config_.initial_turn_rate * config_.initial_turn_rate);
   reference_ = reference;
   first_reference_offset_ = sweep.reference_offset;
   first_planes_ = insert_planes_;
@@ -183,9 +190,9 @@ void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& 
 }
 
 /// Pose and velocity of the sweep against the map.
-MatchResult Loam::Pipeline::estimate(const Sweep& sweep, Stamp reference) {
+MatchResult Loam::Pipeline::estimate(Stamp reference) {
   const double dt = std::max(1e-3, to_seconds(reference - reference_));
-  const MotionPrior prior = make_prior(sweep, reference, dt);
+  const MotionPrior prior = make_prior(reference, dt);
   const double error =
       velocity_known_ && lost_in_a_row_ == 0 ? std::min(kFirstError, kUsualError * dt / 0.1) : kFirstError;
   MatchResult best = matcher_.align(match_planes_, match_edges_, map_, prior, prior.predicted(), error);
@@ -194,11 +201,11 @@ MatchResult Loam::Pipeline::estimate(const Sweep& sweep, Stamp reference) {
     const MatchResult other = matcher_.align(match_planes_, match_edges_, map_, prior, still, error);
     if (other.inlier_fraction > best.inlier_fraction) best = other;
   }
-  return velocity_known_ ? best : straighten_first_scan(sweep, best, dt, prior);
+  return velocity_known_ ? best : straighten_first_scan(best, dt);
 }
 
-MotionPrior Loam::Pipeline::make_prior(const Sweep& sweep, Stamp reference, double dt) const {
-  MotionPrior prior(config_, state_, dt, velocity_known_);
+MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
+  MotionPrior prior(config_, state_, twist_variance_, dt);
   double half = 0.0;
   for (const FeaturePoint& p : match_planes_) half = std::max(half, std::abs(static_cast<double>(p.time)));
   const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
@@ -212,16 +219,12 @@ MotionPrior Loam::Pipeline::make_prior(const Sweep& sweep, Stamp reference, doub
     prior.set_forward_speed(wheel->x(), config_.wheel_speed_noise + 0.05 * std::abs(wheel->x()));
     if (wheel->z() > 0.99) prior.set_yaw_rate(wheel->y(), config_.wheel_yaw_noise);
   }
-  static_cast<void>(sweep);
   return prior;
 }
 
 /// The first scan entered the map as if the robot stood still. Now that the velocity is known it enters
 /// again, motion compensated, and the second scan is matched to that.
-MatchResult Loam::Pipeline::straighten_first_scan(const Sweep& sweep, const MatchResult& match, double dt,
-                                                  const MotionPrior& prior) {
-  static_cast<void>(sweep);
-  static_cast<void>(prior);
+MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, double dt) {
   MatchResult result = match;
   for (int round = 0; round < 2; ++round) {
     MotionState first;
@@ -230,7 +233,7 @@ MatchResult Loam::Pipeline::straighten_first_scan(const Sweep& sweep, const Matc
     if (counters_.updates == 1) first.T_odom_base = se3_exp(first_reference_offset_ * first.twist);
     map_.clear();
     insert(first_planes_, first_edges_, first);
-    MotionPrior again(config_, first, dt, false);
+    const MotionPrior again(config_, first, twist_variance_, dt);
     const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist};
     result = matcher_.align(match_planes_, match_edges_, map_, again, start, kUsualError);
     state_ = first;
@@ -245,17 +248,10 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   const auto matched = static_cast<int>(match.planes + match.edges);
   update.lost = matched < config_.min_matches || match.inlier_fraction < config_.min_inlier_fraction;
   MotionState now = match.state;
-  if (update.lost) now = make_prior(sweep, reference, dt).predicted();
+  if (update.lost) now = make_prior(reference, dt).predicted();
 
-  // At the stamp: T exp(s twist), s seconds from the reference instant; d_stamp = Ad d_pose + s d_twist.
-  const double s = -sweep.reference_offset;
-  const Pose T_reference_stamp = se3_exp(s * now.twist);
-  Matrix12d information = match.prior_information;
-  if (!update.lost) information += match.lidar_information / config_.information_deflation;
-  Eigen::Matrix<double, 6, 12> M;
-  M << adjoint(T_reference_stamp.inverse()), s * Matrix6d::Identity();
-  update.covariance = M * information.ldlt().solve(M.transpose());
-  update.covariance = (0.5 * (update.covariance + update.covariance.transpose())).eval();
+  const Pose T_reference_stamp = se3_exp(-sweep.reference_offset * now.twist);
+  update.covariance = find_covariance(match, update.lost, sweep.reference_offset, T_reference_stamp);
   update.T_odom_base = now.T_odom_base * T_reference_stamp;
   update.twist = now.twist;
   update.edges = match.edges;
@@ -268,7 +264,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
 
   counters_.lost += update.lost;
   lost_in_a_row_ = update.lost ? lost_in_a_row_ + 1 : 0;
-  if (!update.lost) learn_gyro_bias(match, sweep, reference);
+  if (!update.lost) learn_gyro_bias(match, reference);
   velocity_known_ = velocity_known_ || !update.lost;
   state_ = now;
   reference_ = reference;
@@ -277,16 +273,43 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
     ++counters_.map_restarts;
     lost_in_a_row_ = 0;
     map_.clear();
+    insertions_ = 0;
   }
   const Pose moved = keyframe_.inverse() * now.T_odom_base;
   const bool keyframe = moved.translation().norm() > config_.keyframe_distance ||
                         so3_log(moved.linear()).norm() > config_.keyframe_angle;
-  if (restart || (keyframe && !update.lost)) insert(insert_planes_, match_edges_, now);
+  const bool young = insertions_ < kFirstInsertions;
+  if (restart || ((keyframe || young) && !update.lost)) insert(insert_planes_, match_edges_, now);
+}
+
+/// Of the motion to this scan at its stamp: there the pose is T exp(s twist), s seconds from the reference
+/// instant, so d_stamp = Ad d_pose + s d_twist.
+Matrix6d Loam::Pipeline::find_covariance(const MatchResult& match, bool lost, double reference_offset,
+                                         const Pose& T_reference_stamp) {
+  Matrix12d information = match.prior_information;
+  if (!lost) information += match.lidar_information / config_.information_deflation;
+  const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
+  // What stays unknown of the velocity is unknown at the next scan, too.
+  const double cap = config_.initial_speed * config_.initial_speed;
+  twist_variance_ = at_reference.diagonal().tail<6>().cwiseMax(0.0).cwiseMin(cap);
+
+  Eigen::Matrix<double, 6, 12> M;
+  M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
+  Matrix6d covariance = M * at_reference * M.transpose();
+  // Along degenerate directions the errors of successive motions are one and the same wrong velocity: n of
+  // them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
+  const bool blind = lost || match.degenerate_count > 0;
+  degenerate_in_a_row_ = blind ? degenerate_in_a_row_ + 1 : 0;
+  if (blind) {
+    const auto V = match.degenerate_directions.leftCols(lost ? 0 : match.degenerate_count);
+    const Matrix6d P = lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
+    covariance += 2.0 * (degenerate_in_a_row_ - 1) * P * covariance * P;
+  }
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 /// The gyro's bias is what it says more than the LiDAR sees, over some seconds.
-void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, const Sweep& sweep, Stamp reference) {
-  static_cast<void>(sweep);
+void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, Stamp reference) {
   if (match.degenerate_count > 0 || !velocity_known_) return;
   const double dt = to_seconds(reference - reference_);
   const auto R = gyro_.rotation(reference_, reference, Eigen::Vector3d::Zero(), kHold);
@@ -306,6 +329,7 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
   for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p));
   for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p));
   keyframe_ = state.T_odom_base;
+  ++insertions_;
   if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {
     map_.prune(keyframe_.translation(), config_.map_radius);
     pruned_at_ = keyframe_;

@@ -13,14 +13,15 @@ constexpr float kMinLineCount = 4.0f;
 /// Across over along variance: flatter is a plane.
 constexpr double kPlaneRatio = 0.08;
 constexpr double kLineRatio = 0.05;
+constexpr double kPostRatio = 0.15;  // a post has a girth
 /// Least extent (1 sigma) along both axes of a plane, as a share of h: one ring on a floor is no plane.
 constexpr double kMinExtent = 0.12;
 constexpr double kUpright = 0.9;
 
 }  // namespace
 
-SurfaceGrid::SurfaceGrid(double step, bool linear, double max_thickness)
-    : step_(step), inverse_step_(1.0 / step), linear_(linear), max_thickness_(max_thickness) {}
+SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness)
+    : step_(step), inverse_step_(1.0 / step), seeks_(seeks), max_thickness_(max_thickness) {}
 
 void SurfaceGrid::add(const Eigen::Vector3d& point) {
   const Eigen::Vector3d scaled = point * inverse_step_;
@@ -62,7 +63,7 @@ const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point) {
 void SurfaceGrid::refresh(SurfaceWindow& window) const {
   window.stale = false;
   window.shape = Shape::kUnknown;
-  if (window.count < (linear_ ? kMinLineCount : kMinPlaneCount)) return;
+  if (window.count < (seeks_ == Seeks::kPlanes ? kMinPlaneCount : kMinLineCount)) return;
   const double n = window.count;
   const Eigen::Vector3d mean = window.sum.cast<double>() / n;
   const auto& q = window.square;
@@ -81,19 +82,22 @@ void SurfaceGrid::refresh(SurfaceWindow& window) const {
     window.thickness = static_cast<float>(across);
     window.angle_variance = static_cast<float>(across / (n * along));
   };
-  const bool line = l[1] < kLineRatio * l[2] && l[1] < thick2 && l[2] > extent2;
-  if (linear_) {
-    if (line) settle(Shape::kLine, 2, l[1], l[2]);
-    return;
-  }
-  if (l[1] > extent2) {
+  if (seeks_ == Seeks::kPlanes) {
+    if (l[1] <= extent2) return;
     if (l[0] < kPlaneRatio * l[1] && l[0] < thick2) {
       settle(Shape::kPlane, 0, l[0], l[1]);
     } else {
       window.shape = Shape::kScatter;
     }
-  } else if (line && std::abs(solver.eigenvectors()(2, 2)) > kUpright) {
-    settle(Shape::kLine, 2, l[1], l[2]);  // a post: LiDARs draw level lines on surfaces, hardly upright ones
+    return;
+  }
+  // LiDARs draw level lines on surfaces, hardly upright ones: those are posts.
+  const bool upright = std::abs(solver.eigenvectors()(2, 2)) > kUpright;
+  const double ratio = seeks_ == Seeks::kLines ? kLineRatio : upright ? kPostRatio : 0.0;
+  if (l[1] < ratio * l[2] && l[1] < thick2 && l[2] > extent2) {
+    settle(Shape::kLine, 2, l[1], l[2]);
+  } else {
+    window.shape = Shape::kScatter;
   }
 }
 
@@ -117,24 +121,28 @@ void SurfaceGrid::clear() {
 }
 
 LocalMap::LocalMap(const LoamConfig& config)
-    : fine_(config.fine_resolution, false, std::max(0.08, 3.0 * config.range_noise)),
-      coarse_(config.coarse_resolution, false, std::max(0.15, 4.0 * config.range_noise)),
-      edges_(config.fine_resolution, true, config.edge_noise) {}
+    : fine_(config.fine_resolution, SurfaceGrid::Seeks::kPlanes, std::max(0.08, 3.0 * config.range_noise)),
+      coarse_(config.coarse_resolution, SurfaceGrid::Seeks::kPlanes,
+              std::max(0.15, 4.0 * config.range_noise)),
+      posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, config.edge_noise),
+      edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, config.edge_noise) {}
 
 void LocalMap::add_surface(const Eigen::Vector3d& point) {
   fine_.add(point);
   coarse_.add(point);
+  posts_.add(point);
 }
 
 void LocalMap::add_edge(const Eigen::Vector3d& point) { edges_.add(point); }
 
 const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point) {
   const SurfaceWindow* fine = fine_.at(point);
-  if (fine != nullptr && fine->shape != Shape::kUnknown)
-    return fine->shape == Shape::kScatter ? nullptr : fine;
+  if (fine != nullptr && fine->shape == Shape::kPlane) return fine;
+  const SurfaceWindow* post = fine != nullptr ? posts_.at(point) : nullptr;
+  if (post != nullptr && post->shape == Shape::kLine) return post;
+  if (fine != nullptr && fine->shape == Shape::kScatter) return nullptr;
   const SurfaceWindow* coarse = coarse_.at(point);
-  if (coarse != nullptr && coarse->shape == Shape::kPlane) return coarse;
-  return nullptr;
+  return coarse != nullptr && coarse->shape == Shape::kPlane ? coarse : nullptr;
 }
 
 const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point) {
@@ -145,12 +153,14 @@ const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point) {
 void LocalMap::prune(const Eigen::Vector3d& center, double radius) {
   fine_.prune(center, radius);
   coarse_.prune(center, radius);
+  posts_.prune(center, radius);
   edges_.prune(center, radius);
 }
 
 void LocalMap::clear() {
   fine_.clear();
   coarse_.clear();
+  posts_.clear();
   edges_.clear();
 }
 

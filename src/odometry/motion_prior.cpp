@@ -12,19 +12,14 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, double dt,
-                         bool velocity_known)
+MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous,
+                         const Vector6d& twist_variance, double dt)
     : previous_(previous), dt_(dt), twist_mean_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;
   const double cube = dt * dt * dt / 12.0;
-  double linear_variance = linear * dt, angular_variance = angular * dt;
-  if (!velocity_known) {
-    linear_variance += square(config.initial_speed);
-    angular_variance += square(config.initial_turn_rate);
-  }
-  twist_information_.head<3>().setConstant(1.0 / linear_variance);
-  twist_information_.tail<3>().setConstant(1.0 / angular_variance);
+  twist_information_.head<3>() = (twist_variance.head<3>().array() + linear * dt).inverse();
+  twist_information_.tail<3>() = (twist_variance.tail<3>().array() + angular * dt).inverse();
   pose_information_.head<3>().setConstant(1.0 / (square(kPoseNoise) + cube * linear));
   pose_information_.tail<3>().setConstant(1.0 / (square(kRotationNoise) + cube * angular));
 }

@@ -13,9 +13,9 @@ constexpr double kStepRotation = 2e-5;     // rad
 constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
 constexpr double kFinalSlack = 0.02;       // m
 /// A direction is degenerate if its information is within this factor of what noisy normals feign ...
-constexpr double kSpuriousFactor = 4.0;
+constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
-constexpr double kMinShare = 5e-4;
+constexpr double kMinShare = 5e-5;
 
 double square(double value) { return value * value; }
 

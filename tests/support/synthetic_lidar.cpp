@@ -141,6 +141,14 @@ SyntheticWorld panel_world() {
   return world;
 }
 
+SyntheticWorld corridor_world() {
+  SyntheticWorld world;
+  for (const double y : {-4.5, 4.5}) {
+    world.add_box(make_pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, y, 1.5)), {100.0, 0.5, 1.5});
+  }
+  return world;
+}
+
 sensor::Scan make_scan(const SyntheticWorld& world, const PoseAt& pose_at, double seconds,
                        const odometry::LidarModel& model, const ScanOptions& options) {
   std::mt19937_64 random(options.seed * 0x9e3779b97f4a7c15ull +

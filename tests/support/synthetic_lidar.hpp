@@ -50,6 +50,10 @@ SyntheticWorld yard_world();
 /// Rows of tilted panels on posts along x, every 6 m in y (y = 0 is the middle of an aisle), 100 m long.
 SyntheticWorld panel_world();
 
+/// Two smooth parallel walls, 200 m long, 4 m to either side of the x axis: nothing tells how far one has
+/// come.
+SyntheticWorld corridor_world();
+
 /// Motion of base_link as a function of seconds.
 using PoseAt = std::function<Pose(double)>;
 

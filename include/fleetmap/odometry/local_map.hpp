@@ -36,8 +36,10 @@ struct SurfaceWindow {
 /// one, so a lookup costs one hash probe and no surface is cut by a cell border.
 class SurfaceGrid {
  public:
-  /// `step` is h in m; `linear` grids look for lines, the others for planes (and upright lines).
-  SurfaceGrid(double step, bool linear, double max_thickness);
+  enum class Seeks { kPlanes, kLines, kUprightLines };
+
+  /// `step` is h in m; thicker surfaces and lines (1 sigma, m) are scatter.
+  SurfaceGrid(double step, Seeks seeks, double max_thickness);
 
   void add(const Eigen::Vector3d& point);
   /// The window whose middle is nearest to `point`, or null. Valid until the next add() or prune().
@@ -51,13 +53,13 @@ class SurfaceGrid {
   void refresh(SurfaceWindow& window) const;
 
   double step_, inverse_step_;
-  bool linear_;
+  Seeks seeks_;
   double max_thickness_;
   FlatIndex index_;
   std::vector<SurfaceWindow> windows_;
 };
 
-/// What the robot has seen around it: surfaces at two scales, and edges.
+/// What the robot has seen around it: surfaces at two scales, upright posts among them, and edges.
 class LocalMap {
  public:
   explicit LocalMap(const LoamConfig& config);
@@ -74,7 +76,7 @@ class LocalMap {
   bool empty() const { return coarse_.size() == 0; }
 
  private:
-  SurfaceGrid fine_, coarse_, edges_;
+  SurfaceGrid fine_, coarse_, posts_, edges_;
 };
 
 }  // namespace fleetmap::odometry

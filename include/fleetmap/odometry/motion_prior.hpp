@@ -28,8 +28,10 @@ struct NormalEquations {
 /// wheels.
 class MotionPrior {
  public:
-  /// `dt` s since `previous`, > 0. `velocity_known` is false for the second scan of all.
-  MotionPrior(const LoamConfig& config, const MotionState& previous, double dt, bool velocity_known);
+  /// `dt` s since `previous`, > 0; `twist_variance` of the components of previous.twist, (m/s)^2 and
+  /// (rad/s)^2.
+  MotionPrior(const LoamConfig& config, const MotionState& previous, const Vector6d& twist_variance,
+              double dt);
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
