@@ -68,5 +68,79 @@ TEST(SyntheticOdometry, NonRepeatingPatternWithoutRings) {
   EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
 }
 
+TEST(SyntheticOdometry, NeverLostBetweenRowsOfPanels) {
+  const SyntheticDrive motion({{1, 0, 0}, {12, 1.5, 0}, {1, 0, 0}, {4, 0, 0.8}, {1, 0, 0}, {8, 1.5, 0}});
+  for (const LidarModel& model : {vlp16(), generic_lidar()}) {
+    const DriveResult run = drive(testing::panel_world(), motion, model, model, {});
+    EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift) << model.name;
+    EXPECT_EQ(run.counters.lost, 0u) << model.name;
+  }
+}
+
+/// Between two smooth walls the scene slides along itself: that direction, and no other, is reported, its
+/// variance is large, and wheel speed settles it.
+TEST(SyntheticOdometry, CorridorIsDegenerateAlongItself) {
+  const SyntheticDrive motion({{0.5, 0, 0}, {5, 1.5, 0}}, 1.0, 2.0, 0.0);
+  const testing::SyntheticWorld world = testing::corridor_world();
+  LoamConfig config;
+  config.T_base_lidar = ScanOptions{}.T_base_lidar;
+  Loam loam(config, vlp16());
+  double fed = 0.0, travelled = 0.0;
+  int degenerate = 0, scans = 0;
+  for (double t = 0.0; t + 0.1 < motion.duration(); t += 0.1) {
+    for (; fed < t + 0.12; fed += 0.02) loam.add_wheel(motion.wheel(fed));
+    const auto update = loam.add_scan(make_scan(
+        world, [&](double s) { return motion.at(s); }, t, vlp16()));
+    ASSERT_TRUE(update) << update.error().message;
+    travelled = update->T_odom_base.translation().x();
+    if (t < 0.15) continue;
+    ++scans;
+    if (update->degenerate_count == 0) continue;
+    ++degenerate;
+    EXPECT_EQ(update->degenerate_count, 1);
+    EXPECT_GT(std::abs(update->degenerate_directions(0, 0)), 0.99);
+    EXPECT_GT(update->covariance(0, 0), update->covariance(1, 1));
+    EXPECT_NEAR(update->T_odom_base.translation().y(), 0.0, 0.03);
+  }
+  EXPECT_GT(degenerate, scans * 3 / 4);
+  EXPECT_NEAR(travelled, motion.at(motion.duration() - 0.1).translation().x(), 0.02 * travelled + 0.15);
+}
+
+/// A turned IMU with an unknown bias; and the summed covariances cover the error of the whole drive.
+TEST(SyntheticOdometry, GyroPriorWithBiasDoesNoHarm) {
+  const SyntheticDrive motion(kErrands);
+  const testing::SyntheticWorld world = testing::yard_world();
+  LoamConfig config;
+  config.T_base_lidar = ScanOptions{}.T_base_lidar;
+  config.q_base_imu = Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()));
+  Loam loam(config, vlp16());
+  std::vector<Pose> estimate, truth;
+  double fed = 0.0;
+  Matrix6d covariance = Matrix6d::Zero();
+  for (int k = 0; 0.1 * (k + 1) < motion.duration(); ++k) {
+    const double t = 0.1 * k;
+    for (; fed < t + 0.12; fed += 0.01) {
+      sensor::Imu imu = motion.imu(fed);
+      imu.angular_velocity =
+          config.q_base_imu.conjugate() * imu.angular_velocity + Eigen::Vector3d(0.01, -0.02, 0.015);
+      loam.add_imu(imu);
+    }
+    const auto update = loam.add_scan(make_scan(
+        world, [&](double s) { return motion.at(s); }, t, vlp16()));
+    ASSERT_TRUE(update) << update.error().message;
+    if (!estimate.empty()) {
+      const Matrix6d moved = adjoint((estimate.back().inverse() * update->T_odom_base).inverse());
+      covariance = (moved * covariance * moved.transpose() + update->covariance).eval();
+    }
+    estimate.push_back(update->T_odom_base);
+    truth.push_back(motion.at(t));
+  }
+  EXPECT_LT(testing::relative_drift(estimate, truth, 20.0), kMaxDrift);
+  const Vector6d error =
+      se3_log(truth.back().inverse() * truth.front() * estimate.front().inverse() * estimate.back());
+  for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(error[i]), 3.0 * std::sqrt(covariance(i, i))) << i;
+  EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.5);
+}
+
 }  // namespace
 }  // namespace fleetmap::odometry
