@@ -90,6 +90,7 @@ DdsLink::DdsLink(Link link, const DdsLinkConfig& config, QosFile qos, std::share
 
 Result<std::shared_ptr<DdsLink>> DdsLink::create(Link link, const DdsLinkConfig& config, const AgentId& agent,
                                                  QosFile qos, std::shared_ptr<Executor> executor) {
+  if (auto status = check_address(config, to_string(link)); !status) return tl::unexpected(status.error());
   std::shared_ptr<DdsLink> result(new DdsLink(link, config, std::move(qos), std::move(executor)));
   auto* factory = dds::DomainParticipantFactory::get_instance();
   dds::DomainParticipantQos participant_qos;
@@ -102,10 +103,9 @@ Result<std::shared_ptr<DdsLink>> DdsLink::create(Link link, const DdsLinkConfig&
   result->participant_ =
       factory->create_participant(config.domain, participant_qos, nullptr, dds::StatusMask::none());
   if (!result->participant_) {
-    return failure(std::string(to_string(link)) + ": cannot join DDS domain " +
-                   std::to_string(config.domain) + " on " +
-                   (config.address.empty() ? "the default interface" : config.address) +
-                   "; check that this machine has that address and that the interface is up");
+    return failure(
+        std::string(to_string(link)) + ": cannot join DDS domain " + std::to_string(config.domain) + " on " +
+        (config.address.empty() ? "the default interface" : config.address) + "; its log says why");
   }
   result->publisher_ = result->participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
   result->subscriber_ = result->participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);

@@ -4,6 +4,8 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 
 #include <charconv>
 #include <memory>
@@ -24,6 +26,9 @@ bool is_ipv4(const std::string& text) {
   in_addr address{};
   return inet_pton(AF_INET, text.c_str(), &address) == 1;
 }
+
+constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.2, 9.6.1.4.1
+constexpr std::uint32_t kParticipantsHere = 16;         // looked for on this machine
 
 struct Peer {
   std::string address;
@@ -49,6 +54,49 @@ Locator_t to_locator(const Peer& peer) {
   return locator;
 }
 
+std::uint16_t first_port(const DdsLinkConfig& config, const eprosima::fastrtps::rtps::PortParameters& ports) {
+  return static_cast<std::uint16_t>(ports.getUnicastPort(config.domain, 0));
+}
+
+/// Fast DDS numbers the participants of a process, whatever their domain, and derives ports from the number.
+/// With ports given, the first participant of a domain on a machine is always at the first port of that
+/// domain, the next one at the port after (Fast DDS moves on while one is taken), and so on. Naming them also
+/// turns multicast off, but for what is named: onboard, so that ROS 2 nodes on this machine find this robot.
+void set_ports(const DdsLinkConfig& config, Link link, eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  auto& wire = qos.wire_protocol();
+  auto& unicast = wire.builtin.metatrafficUnicastLocatorList;
+  unicast.clear();
+  unicast.push_back(to_locator({"0.0.0.0", first_port(config, wire.port)}));
+  if (link != Link::kOnboard) return;
+  const auto port = static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain));
+  wire.builtin.metatrafficMulticastLocatorList.push_back(to_locator({kDiscoveryGroup, port}));
+}
+
+void set_peers(const DdsLinkConfig& config, Link link, const std::string& own,
+               eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  auto& wire = qos.wire_protocol();
+  auto& known = wire.builtin.initialPeersList;
+  if (config.peers.empty() && !known.empty()) return;
+  known.clear();
+  for (const std::string& text : config.peers.empty() ? std::vector{own} : config.peers) {
+    Peer peer = *parse_peer(text);
+    const bool here = peer.address == own || peer.address.starts_with("127.");
+    const std::uint32_t several = here ? kParticipantsHere : 1;
+    const std::uint32_t count = peer.port != 0                      ? 1
+                                : config.participants_per_peer != 0 ? config.participants_per_peer
+                                                                    : several;
+    if (peer.port == 0) peer.port = first_port(config, wire.port);
+    for (std::uint32_t i = 0; i < count;
+         ++i, peer.port = static_cast<std::uint16_t>(peer.port + wire.port.participantIDGain)) {
+      known.push_back(to_locator(peer));
+    }
+  }
+  if (link == Link::kOnboard) {
+    known.push_back(
+        to_locator({kDiscoveryGroup, static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain))}));
+  }
+}
+
 }  // namespace
 
 Status validate(const DdsLinkConfig& config, const std::string& link) {
@@ -65,6 +113,26 @@ Status validate(const DdsLinkConfig& config, const std::string& link) {
   if (config.queue_messages == 0) return wrong("queue_messages must be > 0");
   if (config.queue_bytes == 0) return wrong("queue_bytes must be > 0");
   return {};
+}
+
+Status check_address(const DdsLinkConfig& config, const std::string& link) {
+  if (config.address.empty()) return {};
+  in_addr wanted{};
+  inet_pton(AF_INET, config.address.c_str(), &wanted);
+  ifaddrs* found = nullptr;
+  if (getifaddrs(&found) != 0) return failure(link + ": the network interfaces cannot be listed");
+  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> all(found, &freeifaddrs);
+  for (const auto* entry = found; entry; entry = entry->ifa_next) {
+    if (!entry->ifa_addr || entry->ifa_addr->sa_family != AF_INET) continue;
+    const auto* own = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
+    const bool running = (entry->ifa_flags & IFF_RUNNING) != 0;
+    if (own->sin_addr.s_addr != wanted.s_addr) continue;
+    if (running) return {};
+    return failure(link + ".address: the interface " + entry->ifa_name + " of " + config.address +
+                   " is down; bring it up or disable the link");
+  }
+  return failure(link + ".address: no interface of this machine has " + config.address +
+                 "; correct it or disable the link");
 }
 
 void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
@@ -85,15 +153,11 @@ void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
     // A copy, since every participant of this profile in the process gets the same descriptor.
     const auto copy = std::make_shared<UDPv4TransportDescriptor>(*udp);
     if (!own.empty()) copy->interfaceWhiteList = {own};
-    if (config.participants_per_peer > 0) copy->maxInitialPeersRange = config.participants_per_peer;
     transport = copy;
   }
 
-  auto& known = qos.wire_protocol().builtin.initialPeersList;
-  if (!config.peers.empty()) known.clear();
-  for (const std::string& peer : config.peers) known.push_back(to_locator(*parse_peer(peer)));
-  // Without any initial peer Fast DDS would announce itself by multicast.
-  if (known.empty()) known.push_back(to_locator({own.empty() ? kLoopback : own}));
+  set_ports(config, link, qos);
+  set_peers(config, link, own.empty() ? kLoopback : own, qos);
 }
 
 }  // namespace fleetmap::bus
