@@ -51,8 +51,10 @@ run() { # title, link, qos directory, options of the sender
   qos=$3
   shift 3
   ip netns exec $b $meter $link-receive --iface vb --address 10.9.8.2 --peer 10.9.8.1 --qos "$qos" --seconds $seconds &
-  ip netns exec $a $meter $link-send --iface va --address 10.9.8.1 --peer 10.9.8.2 --qos "$qos" --seconds $seconds "$@"
-  wait $!
+  receiver=$!
+  ip netns exec $a $meter $link-send --iface va --address 10.9.8.1 --peer 10.9.8.2 --qos "$qos" --seconds $seconds "$@" ||
+    echo "the sender failed"
+  wait $receiver || echo "the receiver failed"
 }
 
 # The long-range profile with Fast DDS's flow controller: asynchronous writers, so many bytes per 100 ms. It stands in

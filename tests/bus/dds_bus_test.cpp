@@ -1,0 +1,217 @@
+// What only the Fast DDS bus can get wrong: its profile files and its configuration.
+
+#include "fleetmap/bus/dds_bus.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "bus/dds_domains.hpp"
+
+namespace fleetmap::bus::testing {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A copy of the shipped profiles that a test may spoil.
+class QosDirectory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = fs::path(::testing::TempDir()) / ("fleetmap-qos-" + std::to_string(getpid()));
+    fs::remove_all(directory_);
+    fs::copy(FLEETMAP_SOURCE_DIR "/qos", directory_);
+    config_.agent = AgentId::parse("r1").value();
+    config_.qos_directory = directory_;
+    config_.onboard.domain = first_test_domain();
+    config_.long_range.domain = first_test_domain() + 1;
+    config_.short_range.domain = first_test_domain() + 2;
+    config_.long_range.address = config_.short_range.address = "127.0.0.1";
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::ifstream in(directory_ / file);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    std::ofstream(directory_ / file) << text;
+  }
+  std::string error() const {
+    const auto bus = DdsBus::create(config_);
+    return bus ? "none" : bus.error().message;
+  }
+
+  fs::path directory_;
+  DdsBusConfig config_;
+};
+
+TEST_F(QosDirectory, TheShippedProfilesAreAccepted) { EXPECT_EQ(error(), "none"); }
+
+TEST_F(QosDirectory, AMissingFileIsNamed) {
+  fs::remove(directory_ / "long_range.xml");
+  EXPECT_THAT(error(), HasSubstr((directory_ / "long_range.xml").string() + ": cannot be read"));
+}
+
+TEST_F(QosDirectory, AMissingDirectoryIsNamed) {
+  config_.qos_directory = directory_ / "nowhere";
+  EXPECT_THAT(error(), HasSubstr("nowhere/onboard.xml: cannot be read"));
+}
+
+TEST_F(QosDirectory, MalformedXmlIsNamedWithItsLine) {
+  replace("onboard.xml", "</transport_descriptors>", "</transport_descriptor>");
+  EXPECT_THAT(error(), ::testing::ContainsRegex("onboard\\.xml:[0-9]+: is not well-formed XML"));
+}
+
+TEST_F(QosDirectory, AnEmptyFileIsNotWellFormed) {
+  std::ofstream(directory_ / "onboard.xml") << "";
+  EXPECT_THAT(error(), HasSubstr("is not well-formed XML"));
+}
+
+TEST_F(QosDirectory, AnotherRootElementIsRefused) {
+  std::ofstream(directory_ / "short_range.xml") << "<?xml version=\"1.0\"?>\n<qos/>\n";
+  EXPECT_THAT(error(),
+              HasSubstr("short_range.xml:2: the root element is <qos>; expected <dds> or <profiles>"));
+}
+
+TEST_F(QosDirectory, AnUnknownElementIsNamedWithItsLineAndWhatMayStandThere) {
+  replace("long_range.xml", "<depth>32</depth>", "<deepth>32</deepth>");
+  EXPECT_THAT(error(),
+              ::testing::ContainsRegex("long_range\\.xml:[0-9]+: unknown element <deepth> in <historyQos>; "
+                                       "expected one of <kind>, <depth>"));
+}
+
+TEST_F(QosDirectory, AValueOfTheWrongKindIsNamed) {
+  replace("onboard.xml", "<depth>5</depth>", "<depth>five</depth>");
+  EXPECT_THAT(error(), HasSubstr("<depth> is \"five\"; expected a whole number >= 0"));
+}
+
+TEST_F(QosDirectory, AnUnknownWordIsNamed) {
+  replace("short_range.xml", "<kind>RELIABLE</kind>", "<kind>RELIABEL</kind>");
+  EXPECT_THAT(error(), HasSubstr("<kind> is \"RELIABEL\"; expected one of BEST_EFFORT|RELIABLE"));
+}
+
+TEST_F(QosDirectory, ADefaultProfileIsRefusedSinceItWouldChangeTheWholeProcess) {
+  replace("onboard.xml", "<participant profile_name",
+          "<participant is_default_profile=\"true\" profile_name");
+  EXPECT_THAT(error(), HasSubstr("attribute is_default_profile of <participant> is not allowed here"));
+}
+
+TEST_F(QosDirectory, AProfileDefinedTwiceIsNamedWithBothLines) {
+  replace("onboard.xml", "<data_writer profile_name=\"state\">", "<data_writer profile_name=\"sensor\">");
+  EXPECT_THAT(error(), HasSubstr("<data_writer> \"sensor\" is already defined at line"));
+}
+
+TEST_F(QosDirectory, ATransportThatIsNotDefinedIsNamed) {
+  replace("short_range.xml", "<transport_id>wifi</transport_id>", "<transport_id>lan</transport_id>");
+  EXPECT_THAT(error(), HasSubstr("no <transport_descriptor> has the id \"wifi\""));
+}
+
+class MissingProfile : public QosDirectory,
+                       public ::testing::WithParamInterface<std::pair<Link, std::string>> {};
+
+TEST_P(MissingProfile, IsNamed) {
+  const auto& [link, profile] = GetParam();
+  const std::string file = std::string(to_string(link)) + ".xml";
+  for (const char* kind : {"participant", "data_writer", "data_reader"}) {
+    const bool participant = kind == std::string("participant");
+    const std::string name = participant ? to_string(link) : profile;
+    SetUp();
+    replace(file, std::string("<") + kind + " profile_name=\"" + name + "\"",
+            std::string("<") + kind + " profile_name=\"another\"");
+    EXPECT_THAT(error(),
+                HasSubstr(file + ": no <" + kind + " profile_name=\"" + name + "\">; add that profile"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Profiles, MissingProfile,
+    ::testing::Values(std::pair{Link::kOnboard, "sensor"}, std::pair{Link::kOnboard, "state"},
+                      std::pair{Link::kLongRange, "small"}, std::pair{Link::kLongRange, "cloud"},
+                      std::pair{Link::kShortRange, "control"}, std::pair{Link::kShortRange, "bulk"}),
+    [](const auto& info) { return info.param.second; });
+
+TEST_F(QosDirectory, WritersAndReadersOfEveryProfileMatch) {
+  auto first = DdsBus::create(config_).value();
+  config_.agent = AgentId::parse("r2").value();
+  auto second = DdsBus::create(config_).value();
+  for (const Link link : {Link::kOnboard, Link::kLongRange, Link::kShortRange}) {
+    for (const std::string& profile : profiles_of(link)) {
+      const Topic topic{link, "match/" + profile, "fleetmap::Match", profile};
+      first->advertise(topic);
+      const Handle handle = second->subscribe(topic, [](const Bytes&) {});
+      EXPECT_TRUE(
+          first->run_until([&] { return first->matches(topic).readers == 1; }, std::chrono::seconds(60)));
+      EXPECT_TRUE(
+          second->run_until([&] { return second->matches(topic).writers == 1; }, std::chrono::seconds(60)));
+    }
+  }
+}
+
+TEST_F(QosDirectory, ATopicWithAProfileThatTheFileLacksIsABug) {
+  const auto bus = DdsBus::create(config_).value();
+  EXPECT_THROW(bus->advertise({Link::kOnboard, "t", "T", "bulk"}), std::logic_error);
+}
+
+TEST_F(QosDirectory, ADisabledLinkNeedsNoFileAndCountsWhatItDrops) {
+  fs::remove(directory_ / "short_range.xml");
+  config_.short_range.enabled = false;
+  const auto bus = DdsBus::create(config_).value();
+  bus->publish({Link::kShortRange, "t", "T", "bulk"}, Bytes(10));
+  ASSERT_EQ(bus->stats().size(), 1u);
+  EXPECT_EQ(bus->stats()[0].dropped_messages, 1u);
+}
+
+TEST_F(QosDirectory, AWrongConfigurationIsNamed) {
+  const DdsBusConfig good = config_;
+  config_.long_range.address = "192.0.2.77";
+  EXPECT_THAT(error(), HasSubstr("long_range.address: no interface of this machine has 192.0.2.77"));
+  config_.long_range.address = "radio0";
+  EXPECT_THAT(error(), HasSubstr("long_range.address is \"radio0\"; must be an IPv4 address"));
+  config_ = good;
+  config_.short_range.peers = {"10.0.0.2:0"};
+  EXPECT_THAT(error(), HasSubstr("short_range.peers has \"10.0.0.2:0\""));
+  config_ = good;
+  config_.short_range.domain = config_.onboard.domain;
+  EXPECT_THAT(error(), HasSubstr("short_range.domain must differ from onboard's"));
+  config_ = good;
+  config_.onboard.domain = 231;
+  EXPECT_THAT(error(), HasSubstr("onboard.domain is 231; must be in [0, 230]"));
+}
+
+TEST_F(QosDirectory, StopsAndRunsPostedCallbacks) {
+  const auto bus = DdsBus::create(config_).value();
+  std::vector<int> order;
+  bus->post([&] { order.push_back(1); });
+  bus->post([&] {
+    order.push_back(2);
+    bus->stop();
+  });
+  bus->run();
+  EXPECT_THAT(order, ::testing::ElementsAre(1, 2));
+  const std::atomic<bool> stop = true;
+  bus->run_until(stop);
+}
+
+TEST_F(QosDirectory, APeerThatVanishesDoesNotHoldUpAWriter) {
+  const Topic topic{Link::kShortRange, "chunk", "Chunk", "bulk"};
+  const auto sender = DdsBus::create(config_).value();
+  sender->advertise(topic);
+  config_.agent = AgentId::parse("r2").value();
+  for (int i = 0; i < 5; ++i) {
+    auto receiver = DdsBus::create(config_).value();
+    const Handle handle = receiver->subscribe(topic, [](const Bytes&) {});
+    ASSERT_TRUE(
+        sender->run_until([&] { return sender->matches(topic).readers == 1; }, std::chrono::seconds(60)));
+    for (int n = 0; n < 300; ++n) sender->publish(topic, Bytes(8192));
+    receiver.reset();  // in the middle of the burst
+    EXPECT_TRUE(
+        sender->run_until([&] { return sender->matches(topic).readers == 0; }, std::chrono::seconds(60)));
+  }
+}
+
+}  // namespace
+}  // namespace fleetmap::bus::testing
