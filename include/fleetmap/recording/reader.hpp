@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/sensor/samples.hpp"
+#include "fleetmap/sensor/scan.hpp"
+
+/// Recordings in: what a robot's sensors measured, sample by sample, in the order in which it was recorded.
+namespace fleetmap::recording {
+
+using Sample = std::variant<sensor::Scan, sensor::Imu, sensor::Fix, sensor::Wheel>;
+Stamp stamp_of(const Sample& sample);
+
+/// Topics of a bag ("/points"). Empty: the only topic of that type, or else the one with our own name.
+/// "none": not read. The config keys are recording.topics.points and so on.
+struct Topics {
+  std::string points;  ///< sensor_msgs/msg/PointCloud2; needed
+  std::string imu;     ///< sensor_msgs/msg/Imu
+  std::string fix;     ///< sensor_msgs/msg/NavSatFix
+  std::string wheel;   ///< nav_msgs/msg/Odometry
+};
+
+/// Makes a good position look like that of a cheap receiver: a first-order Gauss-Markov error on each ENU
+/// axis.
+struct FixDegradation {
+  double sigma = 1.5;              ///< m, standard deviation of each axis; reported as the fix's covariance
+  double correlation_time = 60.0;  ///< s
+  std::uint64_t seed = 1;
+};
+
+/// KITTI raw folders.
+struct KittiConfig {
+  std::size_t first_frame = 0;
+  std::size_t last_frame = std::numeric_limits<std::size_t>::max();  ///< inclusive
+  double nominal_rate = 10.0;  ///< frames/s where there is no timestamps.txt; frame k is then at k / rate
+  std::optional<FixDegradation> fix_degradation;
+  bool wheel_yaw_rate = false;  ///< give the gyro's yaw rate as the wheels', too
+};
+
+struct ReaderConfig {
+  Topics topics;
+  KittiConfig kitti;
+  Status validate() const;
+};
+
+/// What was read and what was left out, and why.
+struct Counters {
+  std::uint64_t scans = 0, imus = 0, fixes = 0, wheels = 0;  ///< given out
+  std::uint64_t non_finite_points = 0;                       ///< of the scans read
+  std::uint64_t origin_points = 0;          ///< exactly (0, 0, 0): no return; of the scans read
+  std::uint64_t undecodable_messages = 0;   ///< truncated or contradictory; skipped
+  std::uint64_t empty_scans = 0;            ///< without a single return; skipped
+  std::uint64_t time_backwards = 0;         ///< not later than the one before of its kind; skipped
+  std::uint64_t foreign_clock_scans = 0;    ///< point times in a clock unrelated to the scan's stamp
+  std::uint64_t unstamped_messages = 0;     ///< header stamp 0: the time of recording was taken
+  std::uint64_t unreadable_scan_files = 0;  ///< KITTI; skipped
+  std::uint64_t missing_scan_frames = 0;    ///< KITTI: a gap in the numbers of the scan files
+  std::uint64_t missing_oxts_frames = 0;    ///< KITTI: a scan without its OXTS record
+  std::uint64_t malformed_oxts_frames = 0;  ///< KITTI; skipped
+
+  /// (name, count) of all, for reports.
+  std::vector<std::pair<std::string, std::uint64_t>> named() const;
+};
+
+/// Gives a recording's samples one by one; holds no more than one scan in memory. Each reason for leaving
+/// something out is logged once (warn) and counted.
+class Reader {
+ public:
+  virtual ~Reader() = default;
+  /// The next sample; empty at the end. An Error says that the rest cannot be read; after it comes the end.
+  virtual Result<std::optional<Sample>> next() = 0;
+  virtual const Counters& counters() const = 0;
+};
+
+/// Opens a rosbag2 folder (sqlite3 storage), a single .db3 file, or a KITTI raw folder (velodyne_points,
+/// oxts; scans as .bin or .pcd, either also as .xz). Says what to do about other formats, compressed bags and
+/// topics that cannot be chosen.
+Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {});
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::recording {
+
+/// A folder with metadata.yaml or .db3 files, or one .db3 file.
+bool looks_like_bag(const std::filesystem::path& path);
+Result<std::unique_ptr<Reader>> open_bag(const std::filesystem::path& path, const Topics& topics);
+
+}  // namespace fleetmap::recording

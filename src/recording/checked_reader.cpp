@@ -1,0 +1,88 @@
+#include "checked_reader.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace fleetmap::recording {
+namespace {
+
+struct Counter {
+  const char* name;
+  std::uint64_t Counters::*count;
+};
+constexpr Counter kCounters[] = {
+    {"scans", &Counters::scans},
+    {"imus", &Counters::imus},
+    {"fixes", &Counters::fixes},
+    {"wheels", &Counters::wheels},
+    {"non_finite_points", &Counters::non_finite_points},
+    {"origin_points", &Counters::origin_points},
+    {"undecodable_messages", &Counters::undecodable_messages},
+    {"empty_scans", &Counters::empty_scans},
+    {"time_backwards", &Counters::time_backwards},
+    {"foreign_clock_scans", &Counters::foreign_clock_scans},
+    {"unstamped_messages", &Counters::unstamped_messages},
+    {"unreadable_scan_files", &Counters::unreadable_scan_files},
+    {"missing_scan_frames", &Counters::missing_scan_frames},
+    {"missing_oxts_frames", &Counters::missing_oxts_frames},
+    {"malformed_oxts_frames", &Counters::malformed_oxts_frames},
+};
+
+constexpr std::array kKinds{"scan", "imu", "fix", "wheel"};
+
+const char* name_of(std::uint64_t Counters::*count) {
+  for (const Counter& counter : kCounters) {
+    if (counter.count == count) return counter.name;
+  }
+  return "skipped";
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::uint64_t>> Counters::named() const {
+  std::vector<std::pair<std::string, std::uint64_t>> out;
+  for (const Counter& counter : kCounters) out.emplace_back(counter.name, this->*counter.count);
+  return out;
+}
+
+Stamp stamp_of(const Sample& sample) {
+  return std::visit([](const auto& s) { return s.stamp; }, sample);
+}
+
+void CheckedReader::skip(std::uint64_t Counters::*reason, const std::string& what, std::uint64_t count) {
+  counters_.*reason += count;
+  if (logged_.insert(name_of(reason)).second) {
+    spdlog::warn("{}: {}: {} (further ones are only counted)", source_, name_of(reason), what);
+  }
+}
+
+bool CheckedReader::admit(const Sample& sample) {
+  constexpr std::array kGiven{&Counters::scans, &Counters::imus, &Counters::fixes, &Counters::wheels};
+  const Stamp stamp = stamp_of(sample);
+  auto& last = last_[sample.index()];
+  if (last && stamp <= *last) {
+    skip(&Counters::time_backwards, std::string(kKinds[sample.index()]) + " at " +
+                                        std::to_string(to_seconds(stamp)) + " s comes after one at " +
+                                        std::to_string(to_seconds(*last)) + " s");
+    return false;
+  }
+  last = stamp;
+  ++(counters_.*kGiven[sample.index()]);
+  return true;
+}
+
+bool CheckedReader::admit_points(const wire::DecodedScan& decoded, const std::string& where) {
+  if (decoded.scan.points.empty()) {
+    skip(&Counters::empty_scans, where + " has no return");
+    return false;
+  }
+  counters_.non_finite_points += decoded.non_finite_points;
+  counters_.origin_points += decoded.origin_points;
+  if (decoded.foreign_clock) {
+    skip(&Counters::foreign_clock_scans, where +
+                                             ": point times are far from the header's stamp; "
+                                             "they are counted from the first point");
+  }
+  return true;
+}
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "fleetmap/recording/reader.hpp"
+#include "fleetmap/wire/sensors.hpp"
+
+namespace fleetmap::recording {
+
+/// What every reader does with a sample before giving it out, and how it says what it left out.
+class CheckedReader : public Reader {
+ public:
+  explicit CheckedReader(std::string source) : source_(std::move(source)) {}
+  const Counters& counters() const override { return counters_; }
+
+ protected:
+  /// False, counted, when the sample is not later than the one before of its kind; else it counts as given
+  /// out.
+  bool admit(const Sample& sample);
+  /// False, counted, for a scan without a return; else its dropped points are counted.
+  bool admit_points(const wire::DecodedScan& decoded, const std::string& where);
+  /// Counts, and logs the first of each kind.
+  void skip(std::uint64_t Counters::*reason, const std::string& what, std::uint64_t count = 1);
+
+  const std::string& source() const { return source_; }
+  Counters counters_;
+
+ private:
+  std::string source_;
+  std::set<std::string> logged_;
+  std::array<std::optional<Stamp>, std::variant_size_v<Sample>> last_;
+};
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,205 @@
+#include "kitti_reader.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "checked_reader.hpp"
+#include "oxts.hpp"
+#include "scan_file.hpp"
+
+namespace fleetmap::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxFrame = 100'000'000;
+
+/// "0000000012.pcd.xz" -> 12; empty when the name is no number.
+std::optional<std::size_t> frame_number(const fs::path& file) {
+  const std::string name = file.filename().string();
+  const std::string stem = name.substr(0, name.find('.'));
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  if (stem.empty() || error != std::errc() || end != stem.data() + stem.size()) return std::nullopt;
+  return number <= kMaxFrame ? std::optional(number) : std::nullopt;
+}
+
+/// Files of `folder`/data, or of `folder` itself, by frame.
+template <class Wanted>
+std::map<std::size_t, fs::path> frames_in(const fs::path& folder, const KittiConfig& config,
+                                          const Wanted& wanted) {
+  std::map<std::size_t, fs::path> frames;
+  const fs::path place = fs::is_directory(folder / "data") ? folder / "data" : folder;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(place, error)) {
+    const auto number = frame_number(entry.path());
+    if (!number || !wanted(entry.path())) continue;
+    if (*number >= config.first_frame && *number <= config.last_frame) frames.emplace(*number, entry.path());
+  }
+  return frames;
+}
+
+/// "2011-09-26 13:02:25.594360375", taken as UTC.
+std::optional<Stamp> parse_timestamp(const std::string& line) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, used = 0;
+  long double second = 0;
+  if (std::sscanf(line.c_str(), "%d-%d-%d %d:%d:%Lf%n", &year, &month, &day, &hour, &minute, &second,
+                  &used) != 6) {
+    return std::nullopt;
+  }
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  const bool plausible = date.ok() && year >= 1970 && year <= 2116 && hour >= 0 && hour < 24 && minute >= 0 &&
+                         minute < 60 && second >= 0 && second < 61;
+  if (!plausible) return std::nullopt;
+  return Stamp(std::chrono::sys_days(date)) + std::chrono::hours(hour) + std::chrono::minutes(minute) +
+         Duration(std::llround(second * 1e9L));
+}
+
+/// Stamp of each frame by line, or nothing when there is no timestamps.txt.
+Result<std::vector<Stamp>> read_timestamps(const fs::path& folder) {
+  const fs::path file = folder / "timestamps.txt";
+  std::vector<Stamp> stamps;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.find_first_not_of(" \r\t") == std::string::npos) continue;
+    const auto stamp = parse_timestamp(line);
+    if (!stamp) {
+      return failure(file.string() + ":" + std::to_string(stamps.size() + 1) + ": '" + line.substr(0, 40) +
+                     "' is no time such as 2011-09-26 13:02:25.594360375");
+    }
+    stamps.push_back(*stamp);
+  }
+  return stamps;
+}
+
+class KittiReader : public CheckedReader {
+ public:
+  struct Files {
+    std::map<std::size_t, fs::path> scans, oxts;
+    std::vector<Stamp> scan_stamps, oxts_stamps;
+  };
+  KittiReader(std::string source, Files files, const KittiConfig& config)
+      : CheckedReader(std::move(source)), config_(config), files_(std::move(files)) {
+    if (config.fix_degradation) fix_error_.emplace(*config.fix_degradation);
+    count_gaps();
+  }
+
+  Result<std::optional<Sample>> next() override {
+    while (true) {
+      while (!ready_.empty()) {
+        Sample sample = std::move(ready_.front());
+        ready_.pop_front();
+        if (admit(sample)) return std::optional<Sample>(std::move(sample));
+      }
+      if (files_.scans.empty() && files_.oxts.empty()) return std::optional<Sample>();
+      advance();
+    }
+  }
+
+ private:
+  void count_gaps() {
+    std::optional<std::size_t> before;
+    for (const auto& [k, file] : files_.scans) {
+      if (before && k > *before + 1) {
+        skip(&Counters::missing_scan_frames, "no scan of frame " + std::to_string(*before + 1),
+             k - *before - 1);
+      }
+      before = k;
+    }
+    if (files_.oxts.empty()) return;
+    for (const auto& [k, file] : files_.scans) {
+      if (!files_.oxts.contains(k))
+        skip(&Counters::missing_oxts_frames, "frame " + std::to_string(k) + " has no OXTS record");
+    }
+  }
+
+  Stamp stamp(const std::vector<Stamp>& stamps, std::size_t frame) const {
+    if (frame < stamps.size()) return stamps[frame];
+    return Stamp(from_seconds(static_cast<double>(frame) / config_.nominal_rate));
+  }
+
+  /// Reads the earlier of the next scan and the next OXTS record; of the same time, the record first.
+  void advance() {
+    const bool oxts_first =
+        files_.scans.empty() ||
+        (!files_.oxts.empty() && stamp(files_.oxts_stamps, files_.oxts.begin()->first) <=
+                                     stamp(files_.scan_stamps, files_.scans.begin()->first));
+    auto& frames = oxts_first ? files_.oxts : files_.scans;
+    const auto frame = frames.extract(frames.begin());
+    if (oxts_first) {
+      read_oxts(frame.mapped(), stamp(files_.oxts_stamps, frame.key()));
+    } else {
+      read_scan(frame.mapped(), stamp(files_.scan_stamps, frame.key()));
+    }
+  }
+
+  void read_scan(const fs::path& file, Stamp stamp) {
+    auto decoded = read_scan_file(file);
+    if (!decoded) return skip(&Counters::unreadable_scan_files, decoded.error().message);
+    if (!admit_points(*decoded, file.string())) return;
+    decoded->scan.stamp = stamp;
+    ready_.emplace_back(std::move(decoded->scan));
+  }
+
+  void read_oxts(const fs::path& file, Stamp stamp) {
+    auto frame = read_oxts_file(file, stamp);
+    if (!frame) return skip(&Counters::malformed_oxts_frames, frame.error().message);
+    if (!config_.wheel_yaw_rate) frame->wheel.yaw_rate.reset();
+    ready_.emplace_back(frame->imu);
+    ready_.emplace_back(frame->wheel);
+    ready_.emplace_back(fix_error_ ? fix_error_->degraded(frame->fix) : frame->fix);
+  }
+
+  KittiConfig config_;
+  Files files_;  ///< not read yet
+  std::optional<FixError> fix_error_;
+  std::deque<Sample> ready_;  ///< of one frame
+};
+
+/// Stamps by timestamps.txt, or nominal ones for both.
+Status read_stamps(const fs::path& path, KittiReader::Files& files) {
+  auto scans = read_timestamps(path / "velodyne_points");
+  if (!scans) return tl::unexpected(scans.error());
+  auto oxts = read_timestamps(path / "oxts");
+  if (!oxts) return tl::unexpected(oxts.error());
+  if (scans->empty() != oxts->empty() && !files.oxts.empty()) {
+    // One clock for both: the frames were triggered together.
+    (scans->empty() ? *scans : *oxts) = scans->empty() ? *oxts : *scans;
+  }
+  const auto short_of = [](const std::vector<Stamp>& stamps, const std::map<std::size_t, fs::path>& frames) {
+    return !stamps.empty() && !frames.empty() && frames.rbegin()->first >= stamps.size();
+  };
+  if (short_of(*scans, files.scans) || short_of(*oxts, files.oxts)) {
+    return failure(path.string() + ": timestamps.txt has fewer lines than there are frames");
+  }
+  files.scan_stamps = std::move(*scans);
+  files.oxts_stamps = std::move(*oxts);
+  return {};
+}
+
+}  // namespace
+
+bool looks_like_kitti(const fs::path& path) { return fs::is_directory(path / "velodyne_points"); }
+
+Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConfig& config) {
+  KittiReader::Files files;
+  files.scans = frames_in(path / "velodyne_points", config, is_scan_file);
+  files.oxts =
+      frames_in(path / "oxts", config, [](const fs::path& file) { return file.extension() == ".txt"; });
+  if (files.scans.empty()) {
+    return failure(
+        path.string() +
+        ": velodyne_points has no scan (.bin, .pcd, or either with .xz) among the frames asked for");
+  }
+  if (auto status = read_stamps(path, files); !status) return tl::unexpected(status.error());
+  return std::make_unique<KittiReader>(path.string(), std::move(files), config);
+}
+
+}  // namespace fleetmap::recording

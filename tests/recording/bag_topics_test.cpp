@@ -1,0 +1,88 @@
+#include <gmock/gmock.h>
+
+#include "bag_samples.hpp"
+#include "temporary_folder.hpp"
+
+namespace fleetmap::recording {
+namespace {
+
+using fleetmap::testing::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using namespace recording::testing;
+
+constexpr char kCloud[] = "sensor_msgs/msg/PointCloud2";
+
+/// A bag with a message on each of the topics.
+void write_bag(const std::filesystem::path& dir,
+               const std::vector<std::pair<const char*, const char*>>& topics) {
+  auto bag = BagWriter::create(dir);
+  ASSERT_TRUE(bag);
+  for (const auto& [name, type] : topics) {
+    const std::string kind = type;
+    const Bytes cdr = kind == kCloud ? wire::encode(scan_at(kStart))
+                      : kind == "sensor_msgs/msg/Imu"
+                          ? wire::encode(imu_at(kStart))
+                          : wire::encode(sensor::Wheel{stamp_from_ns(kStart), 1.0, {}});
+    ASSERT_TRUE(bag->write(name, type, stamp_from_ns(kStart), cdr));
+  }
+}
+
+TEST(BagTopics, TheOnlyTopicOfATypeIsTaken) {
+  const TemporaryFolder folder;
+  write_bag(
+      folder.path() / "b",
+      {{"/velodyne_points", kCloud}, {"/imu/data", "sensor_msgs/msg/Imu"}, {"/chat", "std_msgs/msg/String"}});
+  auto reader = open(folder.path() / "b");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 2u);
+}
+
+TEST(BagTopics, SeveralOfATypeNeedAChoice) {
+  const TemporaryFolder folder;
+  const auto bag = folder.path() / "b";
+  write_bag(bag, {{"/left", kCloud},
+                  {"/right", kCloud},
+                  {"/odom", "nav_msgs/msg/Odometry"},
+                  {"/ekf", "nav_msgs/msg/Odometry"}});
+  EXPECT_THAT(
+      refusal(bag),
+      AllOf(HasSubstr(
+                "several topics of type sensor_msgs/msg/PointCloud2: /left (sensor_msgs/msg/PointCloud2), "
+                "/right (sensor_msgs/msg/PointCloud2)"),
+            HasSubstr("choose one with recording.topics.points")));
+  ReaderConfig config;
+  config.topics.points = "/left";
+  EXPECT_THAT(refusal(bag, config), HasSubstr("choose one with recording.topics.wheel (or none)"));
+  config.topics.wheel = "none";
+  auto reader = open(bag, config);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 1u);
+}
+
+TEST(BagTopics, OurOwnNamesNeedNoChoice) {
+  const TemporaryFolder folder;
+  write_bag(folder.path() / "b", {{"/points", kCloud},
+                                  {"/odometry", "nav_msgs/msg/Odometry"},
+                                  {"/wheel_odometry", "nav_msgs/msg/Odometry"}});
+  auto reader = open(folder.path() / "b");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 2u);
+}
+
+TEST(BagTopics, MissingTopicsAreNamed) {
+  const TemporaryFolder folder;
+  const auto bag = folder.path() / "b";
+  write_bag(bag, {{"/imu", "sensor_msgs/msg/Imu"}});
+  EXPECT_THAT(
+      refusal(bag),
+      HasSubstr("no topic of type sensor_msgs/msg/PointCloud2; the bag has: /imu (sensor_msgs/msg/Imu)"));
+  ReaderConfig config;
+  config.topics.points = "/scan";
+  EXPECT_THAT(refusal(bag, config),
+              HasSubstr("recording.topics.points is '/scan', but the bag has no such topic of type "
+                        "sensor_msgs/msg/PointCloud2; it has: /imu (sensor_msgs/msg/Imu)"));
+}
+
+}  // namespace
+}  // namespace fleetmap::recording

@@ -1,0 +1,163 @@
+#include "fleetmap/recording/bag_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <iterator>
+
+#include "bag_samples.hpp"
+#include "temporary_folder.hpp"
+
+namespace fleetmap::recording {
+namespace {
+
+using fleetmap::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using namespace recording::testing;
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(BagWriter, WhatIsWrittenIsRead) {
+  const TemporaryFolder folder;
+  const auto dir = folder.path() / "drive";
+  {
+    auto bag = BagWriter::create(dir);
+    ASSERT_TRUE(bag) << bag.error().message;
+    put_drive(*bag, 3);
+    ASSERT_TRUE(bag->close());
+  }
+  auto reader = open(dir);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto samples = read_all(**reader);
+  EXPECT_EQ(samples.size(), 150u + 30u + 30u + 3u);
+  const Counters& counters = (*reader)->counters();
+  EXPECT_EQ(counters.scans, 30u);
+  EXPECT_EQ(counters.imus, 150u);
+  EXPECT_EQ(counters.fixes, 3u);
+  EXPECT_EQ(counters.wheels, 30u);
+  for (std::size_t k = 1; k < samples.size(); ++k) EXPECT_LE(stamp_of(samples[k - 1]), stamp_of(samples[k]));
+  for (const auto& [name, count] : counters.named()) {
+    if (name != "scans" && name != "imus" && name != "fixes" && name != "wheels") {
+      EXPECT_EQ(count, 0u) << name;
+    }
+  }
+  const auto& scan = std::get<sensor::Scan>(samples[1]);
+  EXPECT_EQ(scan.points.size(), 20u);
+  EXPECT_EQ(scan.points[7].position, Eigen::Vector3f(8, 2, 3));
+}
+
+TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
+  const TemporaryFolder folder;
+  const auto dir = folder.path() / "drive";
+  {
+    auto bag = BagWriter::create(dir);
+    ASSERT_TRUE(bag);
+    put(*bag, wire::topics::imu(), kStart, wire::encode(imu_at(kStart)));
+    put(*bag, wire::topics::imu(), kStart + 5, wire::encode(imu_at(kStart + 5)));
+    put(*bag, wire::topics::global_pose(), kStart + 9, wire::encode(GlobalPose{}));
+  }
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(dir)) files.push_back(entry.path().filename());
+  EXPECT_THAT(files, ::testing::UnorderedElementsAre("metadata.yaml", "drive_0.db3"));
+  const std::string yaml = content(dir / "metadata.yaml");
+  for (const char* line : {"version: 5", "storage_identifier: sqlite3", "nanoseconds: 9",
+                           "nanoseconds_since_epoch: 1700000000000000000", "message_count: 3", "name: /imu",
+                           "type: sensor_msgs/msg/Imu", "serialization_format: cdr",
+                           "offered_qos_profiles: \"\"", "name: /fleetmap/global_pose",
+                           "type: fleetmap/msg/GlobalPose", "- drive_0.db3", "compression_mode: \"\""}) {
+    EXPECT_THAT(yaml, HasSubstr(line));
+  }
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open((dir / "drive_0.db3").c_str(), &database), SQLITE_OK);
+  std::string seen;
+  const auto collect = [](void* out, int columns, char** values, char**) {
+    for (int k = 0; k < columns; ++k) *static_cast<std::string*>(out) += std::string(values[k]) + "|";
+    return 0;
+  };
+  sqlite3_exec(database,
+               "SELECT schema_version, ros_distro FROM schema; SELECT id, name, type, serialization_format "
+               "FROM topics;"
+               "SELECT id, topic_id, timestamp, hex(substr(data, 1, 4)) FROM messages",
+               collect, &seen, nullptr);
+  sqlite3_close(database);
+  EXPECT_EQ(
+      seen,
+      "3|humble|1|/imu|sensor_msgs/msg/Imu|cdr|2|/fleetmap/global_pose|fleetmap/msg/GlobalPose|cdr|"
+      "1|1|1700000000000000000|00010000|2|1|1700000000000000005|00010000|3|2|1700000000000000009|00010000|");
+}
+
+TEST(BagWriter, AKilledWriterLeavesAReadableBag) {
+  const TemporaryFolder folder;
+  const auto dir = folder.path() / "killed";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    auto bag = BagWriter::create(dir);
+    if (!bag) _exit(1);
+    put_drive(*bag, 3);
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_FALSE(std::filesystem::exists(dir / "metadata.yaml"));
+  auto reader = open(dir);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto samples = read_all(**reader);
+  // Commits come once a second, so at least two of the three are there.
+  EXPECT_GE(to_ns(stamp_of(samples.back())), kStart + 1'980'000'000);
+}
+
+TEST(BagWriter, FlushedMessagesAreThereForAReaderAtOnce) {
+  const TemporaryFolder folder;
+  auto bag = BagWriter::create(folder.path() / "live");
+  ASSERT_TRUE(bag);
+  put(*bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+  ASSERT_TRUE(bag->flush());
+  auto reader = open(folder.path() / "live");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 1u);
+}
+
+TEST(BagWriter, NeverWritesIntoABagThatIsThere) {
+  const TemporaryFolder folder;
+  { ASSERT_TRUE(BagWriter::create(folder.path() / "a")); }
+  EXPECT_THAT(BagWriter::create(folder.path() / "a").error().message,
+              HasSubstr("holds a bag already; record to another folder"));
+  folder.write("file", "");
+  EXPECT_THAT(BagWriter::create(folder.path() / "file" / "b").error().message, HasSubstr("cannot be made"));
+}
+
+TEST(BagWriter, AClosedBagTakesNothing) {
+  const TemporaryFolder folder;
+  auto bag = BagWriter::create(folder.path() / "a");
+  ASSERT_TRUE(bag->close());
+  const auto status =
+      bag->write("rt/imu", "sensor_msgs::msg::dds_::Imu_", stamp_from_ns(1), Bytes{0, 1, 0, 0});
+  EXPECT_THAT(status.error().message, HasSubstr("the bag is closed"));
+}
+
+TEST(BagWriter, AssigningOverAnOpenBagClosesIt) {
+  const TemporaryFolder folder;
+  {
+    auto bag = *BagWriter::create(folder.path() / "a");
+    put(bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+    bag = *BagWriter::create(folder.path() / "b");
+    put(bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+  }
+  for (const char* name : {"a", "b"}) {
+    auto reader = open(folder.path() / name);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_EQ(read_all(**reader).size(), 1u);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / name / "metadata.yaml"));
+  }
+}
+
+}  // namespace
+}  // namespace fleetmap::recording
