@@ -36,7 +36,9 @@ const Clouds& clouds() {
   return made;
 }
 
-double error_of(const Pose& T) { return testing::error_between(clouds().T_target_source, T).translation_m; }
+double error_of(const Pose& T) {
+  return 1000.0 * testing::error_between(clouds().T_target_source, T).translation_m;
+}
 
 void spherization(benchmark::State& state) {
   static const cloud::PointCloud map = MadeWorld(7).scan(Pose::Identity(), 250'000, 0.02, 7, 60.0);
@@ -49,7 +51,7 @@ void spherization(benchmark::State& state) {
 
 void whole_registration(benchmark::State& state) {
   for (auto _ : state) {
-    state.counters["error_m"] =
+    state.counters["error_mm"] =
         error_of(register_clouds(clouds().target, clouds().source, {}).T_target_source);
   }
 }
@@ -80,7 +82,7 @@ void features_and_ransac(benchmark::State& state) {
     const auto [a, fa] = features(clouds().target);
     const auto [b, fb] = features(clouds().source);
     const auto found = ransac(a, b, match_features(fa, fb, config.matching), config.ransac, std::nullopt);
-    state.counters["error_m"] = found.empty() ? 99.0 : error_of(found.front().T_target_source);
+    state.counters["error_mm"] = found.empty() ? 99e3 : error_of(found.front().T_target_source);
   }
 }
 
@@ -112,7 +114,7 @@ void pcl_features_and_ransac(benchmark::State& state) {
     align.setInlierFraction(0.2f);
     PclCloud moved;
     align.align(moved);
-    state.counters["error_m"] = error_of(Pose(align.getFinalTransformation().cast<double>()));
+    state.counters["error_mm"] = error_of(Pose(align.getFinalTransformation().cast<double>()));
   }
 }
 
@@ -128,7 +130,7 @@ void point_to_plane_icp(benchmark::State& state) {
   for (auto _ : state) {
     const cloud::KdTree tree(a);
     const auto normals = estimate_normals(a, tree, config.normals);
-    state.counters["error_m"] =
+    state.counters["error_mm"] =
         error_of(icp({a, tree, normals}, {b, {}}, rough_start(), config.icp).T_target_source);
   }
 }
@@ -145,7 +147,7 @@ void pcl_point_to_plane_icp(benchmark::State& state) {
     align.setMaximumIterations(24);
     PclCloud moved;
     align.align(moved, rough_start().matrix().cast<float>());
-    state.counters["error_m"] = error_of(Pose(align.getFinalTransformation().cast<double>()));
+    state.counters["error_mm"] = error_of(Pose(align.getFinalTransformation().cast<double>()));
   }
 }
 
