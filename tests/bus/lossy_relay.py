@@ -31,6 +31,9 @@ def main() -> None:
             if is_udp:
                 if random.random() < loss:
                     continue
+                if int.from_bytes(frame[20:22], "big") & 0x1FFF:  # a later IP fragment has no UDP header
+                    other[end].send(frame)
+                    continue
                 at = 14 + 4 * (frame[14] & 15) + 6
                 frame = frame[:at] + b"\0\0" + frame[at + 2 :]
             other[end].send(frame)

@@ -11,10 +11,10 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(WireBytes, AddsTheOverheadOfEveryDatagram) {
-  EXPECT_EQ(wire_bytes(0), 108u);
-  EXPECT_EQ(wire_bytes(1300), 1408u);
-  EXPECT_EQ(wire_bytes(1301), 1301u + 2 * 108u);
-  EXPECT_EQ(wire_bytes(8192), 8192u + 7 * 108u);
+  EXPECT_EQ(wire_bytes(0), 160u);
+  EXPECT_EQ(wire_bytes(1280), 1440u);
+  EXPECT_EQ(wire_bytes(1281), 1281u + 2 * 160u);
+  EXPECT_EQ(wire_bytes(8192), 8192u + 7 * 160u);
 }
 
 TEST(TokenBucket, RefusesAConfigThatWouldLetNothingThrough) {

@@ -7,13 +7,13 @@
 
 namespace fleetmap::bus {
 
-/// Bytes on the wire of one RTPS message beside its payload: 28 of IPv4 and UDP, and the RTPS header, time
-/// stamp and DATA submessage (56 measured for a best-effort writer, 80 leaves room for an addressed or keyed
-/// one).
+/// Bytes on the wire of one RTPS message beside its payload: 28 of IPv4 and UDP, and 132 as seen on the wire
+/// of Debian's Fast DDS 2.9.1: RTPS header 20, INFO_DST 16, INFO_TS 12, DATA 24, and 60 of its statistics
+/// module.
 struct WireOverhead {
   std::size_t ip_udp = 28;
-  std::size_t rtps = 80;
-  std::size_t max_datagram_payload = 1300;  ///< larger messages travel as fragments, each with the overhead
+  std::size_t rtps = 132;
+  std::size_t max_datagram_payload = 1280;  ///< larger messages travel as fragments, each with the overhead
 };
 
 /// How many datagrams `payload` bytes travel in; an empty message is still one.
