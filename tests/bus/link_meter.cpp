@@ -33,7 +33,7 @@ constexpr std::size_t kFragmentPayload = 1100;
 constexpr std::size_t kCloudBytes = 25000;
 constexpr std::uint16_t kFragments = (kCloudBytes + kFragmentPayload - 1) / kFragmentPayload;
 constexpr std::size_t kChunkPayload = 8192;
-constexpr std::uint32_t kWindow = 64;  // chunks
+constexpr std::uint32_t kWindow = 128;  // chunks
 
 /// What every message starts with; an answer carries the missing indices after it, and none when all is
 /// there.
