@@ -94,6 +94,7 @@ Status lay_out(PcdHeader& header, const std::vector<std::string>& fields,
 }
 
 Result<PcdHeader> read_header(const Bytes& bytes, const std::string& file) {
+  if (bytes.empty()) return failure(file + ": is empty");
   PcdHeader header;
   std::vector<std::string> fields, sizes, types, counts;
   std::size_t at = 0;
