@@ -41,7 +41,8 @@ LocalFrame::LocalFrame(const GeoPoint& origin)
 
 Eigen::Vector3d LocalFrame::to_enu(const GeoPoint& point) const {
   Eigen::Vector3d p;
-  cast(projection_).Forward(point.latitude / kDegree, point.longitude / kDegree, point.altitude, p.x(), p.y(), p.z());
+  cast(projection_)
+      .Forward(point.latitude / kDegree, point.longitude / kDegree, point.altitude, p.x(), p.y(), p.z());
   return p;
 }
 
@@ -56,8 +57,9 @@ GeoPoint LocalFrame::to_geo(const Eigen::Vector3d& p_enu) const {
 Eigen::Matrix3d LocalFrame::R_enu_local(const GeoPoint& point) const {
   Eigen::Vector3d p;
   std::vector<double> rows(9);
-  cast(projection_).Forward(point.latitude / kDegree, point.longitude / kDegree, point.altitude, p.x(), p.y(), p.z(),
-                            rows);
+  cast(projection_)
+      .Forward(point.latitude / kDegree, point.longitude / kDegree, point.altitude, p.x(), p.y(), p.z(),
+               rows);
   return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
 }
 

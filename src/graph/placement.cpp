@@ -23,10 +23,12 @@ std::vector<Alignment> best_of_each_pair(std::span<const Alignment> alignments,
                                          const std::map<NodeId, const Node*>& by_id, double max_rmse) {
   std::map<FramePair, const Alignment*> best;
   for (const Alignment& a : alignments) {
-    const bool usable =
-        a.i.agent != a.j.agent && a.rmse <= max_rmse && by_id.contains(a.i) && by_id.contains(a.j);
-    if (!usable) continue;
-    const Alignment*& slot = best[std::minmax(a.i.agent, a.j.agent)];
+    if (a.rmse > max_rmse || !by_id.contains(a.i) || !by_id.contains(a.j)) continue;
+    const FrameId frame_i = by_id.at(a.i)->frame();
+    const FrameId frame_j = by_id.at(a.j)->frame();
+    if (frame_i == frame_j) continue;
+    const Alignment*& slot =
+        best[frame_i < frame_j ? FramePair(frame_i, frame_j) : FramePair(frame_j, frame_i)];
     if (slot == nullptr || preference(a) < preference(*slot)) slot = &a;
   }
   std::vector<Alignment> chosen;
@@ -88,8 +90,8 @@ Placement place_by_least_rmse(std::span<const Node> unsorted_nodes, std::span<co
       T_root_node.push_back(groups.T_root_odom.at(node.frame()) * node.T_odom_base);
     }
     const Pose T_enu_root = fit_to_global_poses(group_nodes, T_root_node, site, config.gps_correlation_time);
-    for (const AgentId& agent : agents)
-      placement.T_enu_odom[agent] = T_enu_root * groups.T_root_odom.at(agent);
+    for (const FrameId& frame : frames)
+      placement.T_enu_odom[frame] = T_enu_root * groups.T_root_odom.at(frame);
     for (std::size_t k = 0; k < group_nodes.size(); ++k) {
       placement.T_enu_node[group_nodes[k].id] = T_enu_root * T_root_node[k];
     }

@@ -2,7 +2,7 @@
 #include <sqlite3.h>
 
 #include "bag_samples.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "bag_samples.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "bag_samples.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "bag_samples.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {

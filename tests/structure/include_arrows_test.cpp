@@ -31,8 +31,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"wire", {"exchange", "sensor", "bus"}},
     {"recording", {"wire"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire"}},
-    {"config", {"agent", "recording"}},
-    {"apps", {"config", "recording", "agent", "bus_dds"}},
+    {"config", {"agent", "bus", "recording"}},
+    {"apps", {"config", "recording", "agent", "bus"}},
 };
 
 /// Third-party headers that only the named places may include.

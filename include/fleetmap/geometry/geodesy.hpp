@@ -19,8 +19,8 @@ GeoPoint geo_point_from_degrees(double latitude_deg, double longitude_deg, doubl
 /// Finite, and within the ranges above.
 bool is_valid(const GeoPoint& point);
 
-/// Great-circle distance in metres on the sphere of the mean Earth radius (altitude ignored); the metric of the
-/// global ball tree (paper, Alg. 1). Accurate from millimetres to antipodes.
+/// Great-circle distance in metres on the sphere of the mean Earth radius (altitude ignored); the metric of
+/// the global ball tree (paper, Alg. 1). Accurate from millimetres to antipodes.
 double haversine_distance(const GeoPoint& a, const GeoPoint& b);
 inline constexpr double kMeanEarthRadius = 6371008.7714;  ///< m, IUGG R1
 
@@ -31,7 +31,8 @@ class LocalFrame {
   const GeoPoint& origin() const { return origin_; }
   Eigen::Vector3d to_enu(const GeoPoint& point) const;  ///< m
   GeoPoint to_geo(const Eigen::Vector3d& p_enu) const;
-  /// Rotation from the ENU axes at `point` to those of this frame (they differ by the curvature of the Earth).
+  /// Rotation from the ENU axes at `point` to those of this frame (they differ by the curvature of the
+  /// Earth).
   Eigen::Matrix3d R_enu_local(const GeoPoint& point) const;
 
  private:

@@ -27,6 +27,8 @@ struct Node {
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
+
+  FrameId frame() const { return {id.agent, session}; }
 };
 
 }  // namespace fleetmap::graph

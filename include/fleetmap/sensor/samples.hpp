@@ -32,8 +32,8 @@ struct Fix {
 /// Wheel odometry: velocity of base_link in base_link.
 struct Wheel {
   Stamp stamp;
-  double forward_speed = 0.0;            ///< m/s
-  std::optional<double> yaw_rate;        ///< rad/s, when the source measures it
+  double forward_speed = 0.0;      ///< m/s
+  std::optional<double> yaw_rate;  ///< rad/s, when the source measures it
 };
 
 }  // namespace fleetmap::sensor

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/agent/encounter_registration.hpp"
+#include "fleetmap/agent/fleet_link.hpp"
+#include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/perception.hpp"
+#include "fleetmap/agent/submap_builder.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+
+namespace fleetmap::agent {
+
+struct RegistrationCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t ambiguous = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t failed = 0;             ///< a cloud could not be made or decoded
+  std::uint64_t clouds_made = 0;        ///< spherized clouds for others
+  std::size_t largest_cloud_bytes = 0;  ///< payload of the largest of them
+};
+
+/// One robot: every component on one Bus, and the only place that knows their order.
+/// sensors -> O, G -> node -> ball tree -> exchange -> registration -> alignment -> placement -> merged map.
+class Agent {
+ public:
+  /// Opens (or goes on from) the store in config.directory. `bus` outlives the agent.
+  static Result<std::unique_ptr<Agent>> create(const AgentConfig& config, bus::Bus& bus);
+  ~Agent();
+  Agent(const Agent&) = delete;
+  Agent& operator=(const Agent&) = delete;
+
+  /// Freezes what was seen since the last node, as when a mission ends. Goes on with the next scan.
+  void freeze_rest();
+  /// A scan or a registration is under way off the callback thread; the agent must not be destroyed
+  /// meanwhile.
+  bool working() const { return jobs_ > 0 || perception_->working(); }
+  /// Nothing waits: no scan, no registration, no message.
+  bool idle() const;
+  /// Every node, alignment and submap that it has heard of is held.
+  bool complete() const { return exchange_->complete(); }
+  /// Every other agent has told that it holds our nodes and alignments.
+  bool fleet_caught_up() const { return exchange_->fleet_caught_up(); }
+  /// When a sensor was last heard, and when the last item moved, on the bus's clock.
+  Stamp last_sensor() const { return perception_->last_heard(); }
+  Stamp last_exchange() const { return link_->counters().last_useful; }
+
+  const AgentConfig& config() const { return config_; }
+  const store::Store& store() const { return store_; }
+  store::Store& store() { return store_; }
+  const Perception& perception() const { return *perception_; }
+  exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
+  const FleetLinkCounters& link_counters() const { return link_->counters(); }
+  const RegistrationCounters& registrations() const { return registrations_; }
+  /// CPU seconds of each scan, as LOAM took them.
+  const std::vector<double>& scan_seconds() const { return scan_seconds_; }
+
+ private:
+  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
+        TrajectoryFile odometry_file, GlobalTrackFile global_file);
+  Status start();
+
+  void on_perceived(Perceived&& perceived);
+  void freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G);
+  void align_with_earlier_session(const graph::Node& node);
+
+  void on_events();
+  void handle(const exchange::CloudNeeded& needed);
+  void handle(const exchange::CloudArrived& arrived);
+  void handle(const exchange::PeerStatus& status);
+  void handle(const exchange::ItemConflict& conflict);
+  void handle(const exchange::StoreFailed& failed);
+  void handle(const exchange::NodeAdded&) {}
+  void handle(const exchange::AlignmentAdded& added);
+  void handle(const exchange::SubmapAdded&) {}
+  void handle(const exchange::MapComplete& complete);
+
+  struct Registered {
+    Result<registration::RegistrationResult> result = failure("not run");
+    double cpu_seconds = 0.0;
+  };
+  /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
+  Result<registration::RegistrationResult> register_encoded(const Surroundings& target,
+                                                            const graph::Node& source,
+                                                            const Bytes& encoded) const;
+  void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
+                const std::optional<exchange::NodePair>& pair);
+  void log_registration(const NodeId& i, const NodeId& j, const Registered& registered);
+  void update_status();
+
+  AgentConfig config_;
+  bus::Bus& bus_;
+  store::Store store_;
+  std::uint8_t session_;
+  TrajectoryFile odometry_file_;
+  GlobalTrackFile global_file_;
+  SubmapBuilder submap_;
+  place::NodeGenerator node_generator_;
+  std::optional<exchange::Exchange> exchange_;
+  std::optional<Perceived> last_perceived_;  ///< without its points
+  bool submap_has_news_ = false;             ///< something was seen since the last node
+  bool joined_earlier_session_ = false;
+  std::size_t jobs_ = 0;  ///< spherizations and registrations under way
+  RegistrationCounters registrations_;
+  std::vector<double> scan_seconds_;
+  std::optional<Stamp> waiting_for_gps_since_;
+  std::unique_ptr<Perception> perception_;
+  std::unique_ptr<FleetLink> link_;
+  bus::Handle status_timer_;
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "fleetmap/agent/perception.hpp"
+#include "fleetmap/agent/submap_builder.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/exchange/exchange.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/placement.hpp"
+#include "fleetmap/place/node_generator.hpp"
+#include "fleetmap/registration/register_clouds.hpp"
+#include "fleetmap/registration/spherize.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::agent {
+
+/// Everything that can be set of one robot, by component.
+struct AgentConfig {
+  AgentId id;
+  std::filesystem::path directory;      ///< what the agent keeps and leaves: store.db, trajectories, maps
+  std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
+  PerceptionConfig perception;
+  place::NodeGeneratorConfig nodes;
+  SubmapConfig submap;
+  registration::SpherizeConfig spherize;
+  registration::RegistrationConfig registration;
+  exchange::ExchangeConfig exchange;  ///< payload_size is filled in by the agent
+  graph::PaperPlacementConfig placement;
+  store::StoreConfig store;
+  store::MergeConfig map;
+
+  /// Names the component, the field and the rule that it breaks.
+  Status validate() const;
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+#include "fleetmap/registration/register_clouds.hpp"
+#include "fleetmap/registration/spherize.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::agent {
+
+/// An own node and the encoded submaps around it: what its spherized cloud is made of.
+struct Surroundings {
+  graph::Node node;
+  std::vector<std::pair<Pose, Bytes>> submaps;  ///< T_node_submap and the encoded points
+};
+
+/// Submaps of nodes of the same odometry frame within `radius` (m) of `node`. Reads the store.
+Surroundings gather(store::Store& store, const graph::Node& node, double radius);
+
+/// Alg. 3, first half: M^s around the node, in its base_link. Takes no store, so it may run off its thread.
+Result<registration::SpherizedCloud> spherize(const Surroundings& surroundings,
+                                              const registration::SpherizeConfig& config);
+
+/// The relative pose of two nodes according to their G, with the uncertainty of both.
+registration::Prior prior_of(const graph::Node& target, const graph::Node& source);
+
+/// An alignment for the fleet, from a registration of node j (source) onto node i (target).
+graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& computed_by,
+                              const registration::RegistrationResult& result);
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/exchange/exchange.hpp"
+
+namespace fleetmap::agent {
+
+struct FleetLinkCounters {
+  std::uint64_t refused_messages = 0;  ///< that could not be decoded: other version, damaged, hostile
+  Stamp last_useful;                   ///< when the last message came or went that was more than "I am here"
+};
+
+/// Moves messages between the exchange's state machine and the bus.
+class FleetLink {
+ public:
+  /// Both outlive this. `on_events` is called after every tick and message that may have made events.
+  FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exchange,
+            std::function<void()> on_events);
+
+  /// Sends what is due.
+  void tick();
+  const FleetLinkCounters& counters() const { return counters_; }
+
+ private:
+  void receive(const bus::Topic& topic, const Bytes& cdr);
+
+  bus::Bus& bus_;
+  exchange::Exchange& exchange_;
+  std::function<void()> on_events_;
+  FleetLinkCounters counters_;
+  std::map<std::string, std::uint64_t> warned_;
+  std::vector<bus::Handle> handles_;
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/global_pose.hpp"
+
+namespace fleetmap::agent {
+
+/// G over time as a CSV file that grows line by line:
+/// stamp_s,latitude_deg,longitude_deg,altitude_m,qx,qy,qz,qw,sigma_e_m,sigma_n_m,sigma_u_m,sigma_yaw_deg
+class GlobalTrackFile {
+ public:
+  static Result<GlobalTrackFile> append_to(const std::filesystem::path& file);
+  Status add(const GlobalPose& G);
+
+ private:
+  GlobalTrackFile(std::filesystem::path path, std::ofstream out)
+      : path_(std::move(path)), out_(std::move(out)) {}
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+/// Stamp, position and attitude of each line; the covariance holds the four sigmas only. A last line that is
+/// cut off (a killed writer) is left out; any other bad line is an error.
+Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file);
+
+}  // namespace fleetmap::agent

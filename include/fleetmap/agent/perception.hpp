@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/bounded_queue.hpp"
+#include "fleetmap/geometry/global_pose.hpp"
+#include "fleetmap/localization/ekf.hpp"
+#include "fleetmap/odometry/loam.hpp"
+
+namespace fleetmap::agent {
+
+struct PerceptionConfig {
+  odometry::LidarModel lidar = odometry::vlp16();
+  odometry::LoamConfig odometry;
+  localization::EkfConfig localization;
+  bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
+  bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
+  std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
+};
+
+/// What a scan gave: O with the points, and G at the same instant once the EKF knows it.
+struct Perceived {
+  odometry::OdometryUpdate odometry;
+  std::optional<GlobalPose> G;
+  double cpu_seconds = 0.0;  ///< that LOAM took
+};
+
+struct PerceptionCounters {
+  std::uint64_t scans = 0;
+  std::uint64_t imu = 0;
+  std::uint64_t fixes = 0;
+  std::uint64_t wheel = 0;
+  std::uint64_t refused_messages = 0;  ///< that could not be decoded
+  std::uint64_t refused_scans = 0;     ///< that LOAM could not use
+  std::uint64_t dropped_scans = 0;     ///< LOAM was too slow
+};
+
+/// Items 1 and 2 of the paper: sensors in, O (LOAM) and G (EKF) out, also onto the onboard link. LOAM runs
+/// off the callback thread, one scan at a time.
+class Perception {
+ public:
+  using OnPerceived = std::function<void(Perceived&&)>;
+  Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived);
+
+  /// No scan waits or is under way.
+  bool idle() const { return !busy_ && scans_.empty(); }
+  /// A scan is under way.
+  bool working() const { return busy_; }
+  /// When a sensor was last heard, on the bus's clock.
+  Stamp last_heard() const { return last_heard_; }
+  std::optional<GlobalPose> global_pose() const { return ekf_.pose(); }
+  const PerceptionCounters& counters() const { return counters_; }
+  const odometry::LoamCounters& odometry_counters() const { return loam_counters_; }
+  localization::EkfCounters localization_counters() const { return ekf_.counters(); }
+
+ private:
+  /// A scan and the other samples that came since the scan before it.
+  struct Job {
+    Bytes scan;
+    std::vector<sensor::Imu> imu;
+    std::vector<sensor::Wheel> wheel;
+    Result<odometry::OdometryUpdate> update = failure("not run");
+    double cpu_seconds = 0.0;
+  };
+  void subscribe();
+  /// Hands decoded samples of `topic` to `use`; what cannot be decoded is counted and named.
+  template <class T, class Use>
+  void on_sample(const bus::Topic& topic, std::uint64_t& count, Use use);
+  void on_scan(const Bytes& cdr);
+  void start_next();
+  void finish(Job& job);
+  void warn_once(const std::string& reason);
+
+  PerceptionConfig config_;
+  bus::Bus& bus_;
+  OnPerceived on_perceived_;
+  odometry::Loam loam_;  ///< touched by the work item under way only
+  odometry::LoamCounters loam_counters_;
+  localization::Ekf ekf_;
+  BoundedQueue<Bytes> scans_;
+  std::vector<sensor::Imu> imu_since_scan_;
+  std::vector<sensor::Wheel> wheel_since_scan_;
+  bool busy_ = false;
+  Stamp last_heard_;
+  PerceptionCounters counters_;
+  std::map<std::string, std::uint64_t> warned_;
+  std::vector<bus::Handle> subscriptions_;
+};
+
+}  // namespace fleetmap::agent

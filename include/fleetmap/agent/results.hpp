@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/placement.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::agent {
+
+/// "r1", or "r1#2" for the odometry frame of its third start.
+std::string to_string(const graph::FrameId& frame);
+
+/// The origin of ENU: `configured`, else the position of the least node id held, so that agents with the same
+/// nodes agree on it. Empty while there is no node.
+std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured);
+
+/// Where every node of the store lies.
+graph::Placement place(const store::Store& store, const GeoPoint& origin,
+                       const graph::PaperPlacementConfig& config);
+
+/// The whole map that the store holds, in ENU.
+store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
+                            const store::MergeConfig& config);
+
+struct Results {
+  GeoPoint origin;
+  graph::Placement placement;
+  std::size_t map_points = 0;
+  std::size_t map_submaps = 0;
+  std::size_t missing_submaps = 0;  ///< of nodes that are held
+  std::string map_hash;             ///< content hash of map.ply: equal on agents that hold the same set
+};
+
+/// Writes map.ply, map.pcd, trajectory.tum, ekf.tum and alignments.csv into the agent's directory. Fails when
+/// there is no node yet, or a file cannot be written.
+Result<Results> write_results(store::Store& store, const AgentConfig& config);
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::agent {
+
+struct StampedPose {
+  Stamp stamp;
+  Pose T_w_base = Pose::Identity();
+};
+
+/// Where session `session` of an agent keeps O: odometry.tum, then odometry-1.tum, ...: each start of the
+/// program begins a new odometry frame.
+std::filesystem::path odometry_file(const std::filesystem::path& directory, unsigned session);
+
+/// "stamp_s x y z qx qy qz qw" of base_link, as `evo` reads it.
+std::string tum_line(const StampedPose& pose);
+
+/// Reads a TUM file; a line that is cut off (a killed writer) ends it. Fails with file and line on anything
+/// else.
+Result<std::vector<StampedPose>> read_trajectory(const std::filesystem::path& file);
+Status write_trajectory(const std::filesystem::path& file, const std::vector<StampedPose>& poses);
+
+/// Appends poses line by line; each line is with the operating system before `add` returns.
+class TrajectoryFile {
+ public:
+  static Result<TrajectoryFile> append_to(const std::filesystem::path& file);
+  Status add(const StampedPose& pose);
+
+ private:
+  TrajectoryFile(std::filesystem::path path, std::ofstream out)
+      : path_(std::move(path)), out_(std::move(out)) {}
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,365 @@
+#include "fleetmap/agent/agent.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <fstream>
+#include <utility>
+
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/place/ball_tree.hpp"
+#include "fleetmap/wire/messages.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+constexpr Duration kStatusPeriod = std::chrono::seconds(1);
+/// Without G no node can be made; said once when it lasts this long.
+constexpr Duration kGpsPatience = std::chrono::seconds(10);
+constexpr const char* kSessionKey = "sessions";
+
+/// Counts the starts of the program; each has its own odometry frame.
+Result<std::uint8_t> next_session(store::Store& store) {
+  const auto stored = store.meta(kSessionKey);
+  if (!stored) return tl::unexpected(stored.error());
+  const bool first = !stored->has_value() || (*stored)->empty();
+  const std::uint8_t session = first ? std::uint8_t{0} : static_cast<std::uint8_t>((**stored)[0] + 1);
+  if (const Status saved = store.set_meta(kSessionKey, Bytes{session}); !saved)
+    return tl::unexpected(saved.error());
+  return session;
+}
+
+double thread_cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus& bus) {
+  if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
+  std::error_code error;
+  std::filesystem::create_directories(config.directory, error);
+  if (error) return failure(config.directory.string() + ": cannot be made: " + error.message());
+  Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
+  if (!store) return tl::unexpected(store.error());
+  const Result<std::uint8_t> session = next_session(*store);
+  if (!session) return tl::unexpected(session.error());
+  Result<TrajectoryFile> odometry = TrajectoryFile::append_to(odometry_file(config.directory, *session));
+  if (!odometry) return tl::unexpected(odometry.error());
+  Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
+  if (!track) return tl::unexpected(track.error());
+  std::unique_ptr<Agent> agent(
+      new Agent(config, bus, std::move(*store), *session, std::move(*odometry), std::move(*track)));
+  if (const Status started = agent->start(); !started) return tl::unexpected(started.error());
+  return agent;
+}
+
+Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
+             TrajectoryFile odometry_file, GlobalTrackFile global_file)
+    : config_(config),
+      bus_(bus),
+      store_(std::move(store)),
+      session_(session),
+      odometry_file_(std::move(odometry_file)),
+      global_file_(std::move(global_file)),
+      submap_(config.submap),
+      node_generator_(config.nodes) {}
+
+Agent::~Agent() = default;
+
+Status Agent::start() {
+  config_.exchange.payload_size = [](const exchange::Message& message) {
+    return wire::encode(message).size();
+  };
+  Result<exchange::Exchange> made = exchange::Exchange::make(config_.exchange, store_, bus_.now());
+  if (!made) return tl::unexpected(made.error());
+  exchange_.emplace(std::move(*made));
+  link_ = std::make_unique<FleetLink>(config_.id, bus_, *exchange_, [this] { on_events(); });
+  perception_ = std::make_unique<Perception>(
+      config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); });
+  status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
+  if (session_ > 0) {
+    spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store",
+                 config_.id.str(), session_, store_.nodes().size(), store_.alignments().size(),
+                 store_.submap_set().size());
+  }
+  return {};
+}
+
+bool Agent::idle() const { return jobs_ == 0 && perception_->idle() && exchange_->idle(bus_.now()); }
+
+// ---- own map
+// ----------------------------------------------------------------------------------------------------
+
+void Agent::on_perceived(Perceived&& perceived) {
+  const odometry::OdometryUpdate& update = perceived.odometry;
+  scan_seconds_.push_back(perceived.cpu_seconds);
+  if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
+    spdlog::error("{}", written.error().message);
+  }
+  if (perceived.G) {
+    if (const Status written = global_file_.add(*perceived.G); !written)
+      spdlog::error("{}", written.error().message);
+  }
+  submap_.add(update.points, update.T_odom_base);
+  submap_has_news_ = true;
+  if (perceived.G) {
+    waiting_for_gps_since_.reset();
+    if (node_generator_.offer(update.T_odom_base)) freeze_node(update, *perceived.G);
+  } else if (!waiting_for_gps_since_) {
+    waiting_for_gps_since_ = bus_.now() + kGpsPatience;
+  } else if (bus_.now() > *waiting_for_gps_since_) {
+    spdlog::warn(
+        "{}: no node can be made: the global pose is unknown; check GPS, IMU orientation or drive a few "
+        "metres",
+        config_.id.str());
+    waiting_for_gps_since_ = bus_.now() + 6 * kGpsPatience;
+  }
+  perceived.odometry.points = {};
+  last_perceived_ = std::move(perceived);
+}
+
+void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G) {
+  graph::Node node;
+  node.id = {config_.id, store_.next_node_seq()};
+  node.session = session_;
+  node.stamp = update.stamp;
+  node.G = G;
+  node.T_odom_base = update.T_odom_base;
+  const Result<graph::Node> rounded = wire::quantised(node);
+  if (!rounded) {
+    spdlog::warn("{}: node refused: {}", to_string(node.id), rounded.error().message);
+    return;
+  }
+  node = *rounded;
+  // The submap is put into the frame that everyone will place it by: that of the rounded pose.
+  const Result<SubmapBuilder::Frozen> submap = submap_.freeze(node.T_odom_base);
+  if (!submap) {
+    spdlog::error("{}: {}", to_string(node.id), submap.error().message);
+    return;
+  }
+  node.submap_hash = content_hash(submap->encoded);
+  node.submap_bytes = static_cast<std::uint32_t>(submap->encoded.size());
+  submap_has_news_ = false;
+  const Result<store::Put> put = exchange_->on_own_node(node, submap->encoded, bus_.now());
+  if (!put || *put != store::Put::kAdded) {
+    spdlog::error("{}: node not stored: {}", to_string(node.id),
+                  put ? "its name is taken" : put.error().message);
+    return;
+  }
+  spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
+                submap->encoded.size());
+  align_with_earlier_session(node);
+  on_events();
+}
+
+void Agent::freeze_rest() {
+  if (!submap_has_news_ || !last_perceived_ || !last_perceived_->G) return;
+  freeze_node(last_perceived_->odometry, *last_perceived_->G);
+}
+
+void Agent::align_with_earlier_session(const graph::Node& node) {
+  if (session_ == 0 || joined_earlier_session_) return;
+  const graph::Node* nearest = nullptr;
+  double distance = config_.exchange.encounters.proximity.max_radius;
+  for (const graph::Node* other : store_.nodes_from({config_.id, 0, node.id.seq})) {
+    const double d = haversine_distance(other->G.position, node.G.position);
+    if (other->session != session_ && d < distance) {
+      nearest = other;
+      distance = d;
+    }
+  }
+  if (nearest == nullptr) return;
+  struct Job {
+    Surroundings target, source;
+    Registered registered;
+  };
+  const double radius = config_.spherize.radius_m;
+  auto job = std::make_shared<Job>(Job{gather(store_, *nearest, radius), gather(store_, node, radius), {}});
+  ++jobs_;
+  bus_.offload(
+      [this, job] {
+        const double start = thread_cpu_seconds();
+        const auto target = spherize(job->target, config_.spherize);
+        const auto source = spherize(job->source, config_.spherize);
+        if (target && source) {
+          job->registered.result =
+              registration::register_clouds(target->decoded, source->decoded, config_.registration,
+                                            prior_of(job->target.node, job->source.node));
+        } else {
+          job->registered.result = tl::unexpected(target ? source.error() : target.error());
+        }
+        job->registered.cpu_seconds = thread_cpu_seconds() - start;
+      },
+      [this, job] {
+        --jobs_;
+        conclude(job->target.node, job->source.node, job->registered, std::nullopt);
+      });
+}
+
+// ---- others
+// -----------------------------------------------------------------------------------------------------
+
+void Agent::on_events() {
+  for (const exchange::Event& event : exchange_->take_events()) {
+    std::visit([this](const auto& specific) { handle(specific); }, event);
+  }
+}
+
+void Agent::handle(const exchange::CloudNeeded& needed) {
+  const graph::Node* node = store_.node(needed.node);
+  if (node == nullptr) return exchange_->decline_cloud(needed.node);
+  struct Job {
+    Surroundings surroundings;
+    Result<registration::SpherizedCloud> cloud = failure("not run");
+  };
+  auto job = std::make_shared<Job>(Job{gather(store_, *node, config_.spherize.radius_m), failure("not run")});
+  ++jobs_;
+  bus_.offload([this, job] { job->cloud = spherize(job->surroundings, config_.spherize); },
+               [this, job] {
+                 --jobs_;
+                 const NodeId id = job->surroundings.node.id;
+                 if (!job->cloud) {
+                   ++registrations_.failed;
+                   spdlog::warn("{}: no spherized cloud: {}", to_string(id), job->cloud.error().message);
+                   return exchange_->decline_cloud(id);
+                 }
+                 ++registrations_.clouds_made;
+                 registrations_.largest_cloud_bytes =
+                     std::max(registrations_.largest_cloud_bytes, job->cloud->bytes.size());
+                 wire::SpherizedCloud message{id, config_.spherize.radius_m, job->cloud->voxel_m,
+                                              static_cast<std::uint32_t>(job->cloud->encoded),
+                                              job->cloud->bytes};
+                 const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
+                 if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
+               });
+}
+
+void Agent::handle(const exchange::CloudArrived& arrived) {
+  const graph::Node* ours = store_.node(arrived.pair.ours);
+  const graph::Node* theirs = store_.node(arrived.pair.theirs);
+  if (ours == nullptr || theirs == nullptr) return exchange_->on_rejected(arrived.pair, bus_.now());
+  struct Job {
+    Surroundings target;
+    graph::Node source;
+    Bytes encoded;
+    Registered registered;
+  };
+  auto job = std::make_shared<Job>(
+      Job{gather(store_, *ours, config_.spherize.radius_m), *theirs, arrived.cloud, {}});
+  ++jobs_;
+  bus_.offload(
+      [this, job] {
+        const double start = thread_cpu_seconds();
+        job->registered.result = register_encoded(job->target, job->source, job->encoded);
+        job->registered.cpu_seconds = thread_cpu_seconds() - start;
+      },
+      [this, job, pair = arrived.pair] {
+        --jobs_;
+        conclude(job->target.node, job->source, job->registered, pair);
+      });
+}
+
+Result<registration::RegistrationResult> Agent::register_encoded(const Surroundings& target,
+                                                                 const graph::Node& source,
+                                                                 const Bytes& encoded) const {
+  const auto message = wire::decode<wire::SpherizedCloud>(encoded);
+  if (!message) return tl::unexpected(message.error());
+  if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
+  const auto source_cloud = cloud::decode(message->payload);
+  if (!source_cloud) return tl::unexpected(source_cloud.error());
+  const auto target_cloud = spherize(target, config_.spherize);
+  if (!target_cloud) return tl::unexpected(target_cloud.error());
+  return registration::register_clouds(target_cloud->decoded, *source_cloud, config_.registration,
+                                       prior_of(target.node, source));
+}
+
+void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
+                     const std::optional<exchange::NodePair>& pair) {
+  log_registration(i.id, j.id, registered);
+  const bool accepted = registered.result && registered.result->verdict == registration::Verdict::accepted;
+  if (!registered.result) {
+    ++registrations_.failed;
+  } else {
+    ++(accepted                                                         ? registrations_.accepted
+       : registered.result->verdict == registration::Verdict::ambiguous ? registrations_.ambiguous
+                                                                        : registrations_.rejected);
+  }
+  if (accepted) {
+    graph::Alignment alignment = alignment_of(i.id, j.id, config_.id, *registered.result);
+    alignment.seq = store_.next_alignment_seq();
+    const Result<graph::Alignment> rounded = wire::quantised(alignment);
+    const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
+                                           : Result<store::Put>(tl::unexpected(rounded.error()));
+    if (put && *put == store::Put::kAdded) {
+      joined_earlier_session_ |= i.id.agent == j.id.agent;
+      return on_events();
+    }
+    spdlog::error("{}: alignment with {} not stored: {}", to_string(i.id), to_string(j.id),
+                  put ? "its name is taken" : put.error().message);
+  }
+  if (pair) exchange_->on_rejected(*pair, bus_.now());
+}
+
+void Agent::log_registration(const NodeId& i, const NodeId& j, const Registered& registered) {
+  const std::filesystem::path file = config_.directory / "registrations.csv";
+  std::error_code error;
+  const bool fresh = !std::filesystem::exists(file, error);
+  std::ofstream out(file, std::ios::app);
+  if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
+  out << to_string(i) << ',' << to_string(j) << ',';
+  if (registered.result) {
+    const registration::RegistrationResult& r = *registered.result;
+    out << registration::to_string(r.verdict) << ',' << r.rmse << ',' << r.inlier_fraction << ',' << r.overlap
+        << ',' << registered.cpu_seconds << ",\"" << r.reason << "\"\n";
+    spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", config_.id.str(),
+                 registration::to_string(r.verdict), to_string(j), r.rmse, 100.0 * r.inlier_fraction,
+                 r.reason.empty() ? "" : ", ", r.reason);
+  } else {
+    out << "failed,,,," << registered.cpu_seconds << ",\"" << registered.result.error().message << "\"\n";
+    spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), to_string(j),
+                 registered.result.error().message);
+  }
+}
+
+void Agent::handle(const exchange::PeerStatus& status) {
+  spdlog::debug("{}: {} holds {} nodes, {} submaps", config_.id.str(), status.status.from.str(),
+                status.status.nodes, status.status.submaps);
+}
+
+void Agent::handle(const exchange::ItemConflict& conflict) {
+  spdlog::error(
+      "{}: another {} came under the name {}; two robots with one id, or one whose store was deleted",
+      config_.id.str(), conflict.alignment ? "alignment" : "node", to_string(conflict.id));
+}
+
+void Agent::handle(const exchange::StoreFailed& failed) {
+  spdlog::error("{}: {}", config_.id.str(), failed.error.message);
+}
+
+void Agent::handle(const exchange::AlignmentAdded& added) {
+  spdlog::debug("{}: alignment {}/{} added", config_.id.str(), added.id.computed_by.str(), added.id.seq);
+}
+
+void Agent::handle(const exchange::MapComplete& complete) {
+  spdlog::info("{}: map complete: {} nodes, {} alignments", config_.id.str(), complete.nodes,
+               complete.alignments);
+}
+
+void Agent::update_status() {
+  exchange::AgentStatus status;
+  status.from = config_.id;
+  status.stamp = bus_.now();
+  if (const auto G = perception_->global_pose()) {
+    status.position = G->position;
+    status.heading = static_cast<float>(rpy_from_rotation(G->q_enu_base.toRotationMatrix()).z());
+    status.position_stddev = static_cast<float>(place::horizontal_sigma(G->covariance));
+  }
+  exchange_->set_status(status);
+}
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,30 @@
+#include "fleetmap/agent/agent_config.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+Status of(const char* component, const Status& status) {
+  return status ? status : failure(std::string(component) + ": " + status.error().message);
+}
+
+}  // namespace
+
+Status AgentConfig::validate() const {
+  if (id.empty()) return failure("id is missing: name the robot, e.g. id: r1");
+  if (directory.empty()) return failure("directory is missing: where the agent keeps its store");
+  if (site_origin && !is_valid(*site_origin)) return failure("site.origin is not on Earth");
+  if (perception.waiting_scans == 0) return failure("odometry.waiting_scans must be at least 1");
+  exchange::ExchangeConfig complete_exchange = exchange;
+  complete_exchange.payload_size = [](const exchange::Message&) { return std::size_t{0}; };
+  for (const Status& status :
+       {of("lidar", perception.lidar.validate()), of("odometry", perception.odometry.validate()),
+        of("localization", perception.localization.validate()), of("nodes", nodes.validate()),
+        of("submap", submap.validate()), of("spherize", spherize.validate()),
+        of("registration", registration.validate()), of("exchange", complete_exchange.validate(id)),
+        of("store", store.validate()), of("map", map.validate())}) {
+    if (!status) return status;
+  }
+  return {};
+}
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,56 @@
+#include "fleetmap/agent/fleet_link.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+/// Often enough to keep a 15 Mbit/s window moving.
+constexpr Duration kTickPeriod = std::chrono::milliseconds(20);
+
+/// Digests and status messages go on for ever; everything else moves items.
+bool moves_items(const exchange::Message& message) {
+  return !std::holds_alternative<exchange::Digest>(message) &&
+         !std::holds_alternative<exchange::AgentStatus>(message) &&
+         !std::holds_alternative<exchange::SubmapDigest>(message);
+}
+
+}  // namespace
+
+FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exchange,
+                     std::function<void()> on_events)
+    : bus_(bus), exchange_(exchange), on_events_(std::move(on_events)) {
+  counters_.last_useful = bus.now();
+  for (const bus::Topic& topic : wire::inbox_topics(self)) {
+    handles_.push_back(bus_.subscribe(topic, [this, topic](const Bytes& cdr) { receive(topic, cdr); }));
+  }
+  handles_.push_back(bus_.every(kTickPeriod, [this] { tick(); }));
+}
+
+void FleetLink::tick() {
+  for (const exchange::Outgoing& outgoing : exchange_.tick(bus_.now())) {
+    if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
+    bus_.publish(wire::topic_of(outgoing.message), wire::encode(outgoing.message));
+  }
+  on_events_();
+}
+
+void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
+  const Result<exchange::Message> message = wire::decode_message(topic, cdr);
+  if (!message) {
+    ++counters_.refused_messages;
+    if (++warned_[topic.name] == 1)
+      spdlog::warn("{}: message refused: {}", topic.name, message.error().message);
+    return;
+  }
+  if (moves_items(*message)) counters_.last_useful = bus_.now();
+  exchange_.on_message(*message, bus_.now());
+  on_events_();
+}
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,130 @@
+#include "fleetmap/agent/perception.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+/// Samples kept for LOAM between two scans: beyond this the LiDAR is silent and they are of no use.
+constexpr std::size_t kMaxSamplesBetweenScans = 4000;
+
+double thread_cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+template <class T>
+void keep(std::vector<T>& samples, const T& sample) {
+  if (samples.size() >= kMaxSamplesBetweenScans)
+    samples.erase(samples.begin(), samples.begin() + kMaxSamplesBetweenScans / 2);
+  samples.push_back(sample);
+}
+
+}  // namespace
+
+Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived)
+    : config_(config),
+      bus_(bus),
+      on_perceived_(std::move(on_perceived)),
+      loam_(config.odometry, config.lidar),
+      ekf_(config.localization),
+      scans_(config.waiting_scans),
+      last_heard_(bus.now()) {
+  bus_.advertise(wire::topics::odometry());
+  bus_.advertise(wire::topics::global_pose());
+  subscribe();
+}
+
+void Perception::subscribe() {
+  subscriptions_.push_back(
+      bus_.subscribe(wire::topics::points(), [this](const Bytes& cdr) { on_scan(cdr); }));
+  on_sample<sensor::Imu>(wire::topics::imu(), counters_.imu, [this](const sensor::Imu& imu) {
+    ekf_.add(imu);
+    if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
+  });
+  on_sample<sensor::Fix>(wire::topics::fix(), counters_.fixes,
+                         [this](const sensor::Fix& fix) { ekf_.add(fix); });
+  on_sample<sensor::Wheel>(wire::topics::wheel_odometry(), counters_.wheel,
+                           [this](const sensor::Wheel& wheel) {
+                             ekf_.add(wheel);
+                             if (config_.odometry_uses_wheel) keep(wheel_since_scan_, wheel);
+                           });
+}
+
+template <class T, class Use>
+void Perception::on_sample(const bus::Topic& topic, std::uint64_t& count, Use use) {
+  subscriptions_.push_back(bus_.subscribe(topic, [this, &count, use, name = topic.name](const Bytes& cdr) {
+    last_heard_ = bus_.now();
+    const Result<T> sample = wire::decode<T>(cdr);
+    if (!sample) {
+      ++counters_.refused_messages;
+      return warn_once(name + ": " + sample.error().message);
+    }
+    ++count;
+    use(*sample);
+  }));
+}
+
+void Perception::on_scan(const Bytes& cdr) {
+  last_heard_ = bus_.now();
+  ++counters_.scans;
+  scans_.push(cdr);
+  if (scans_.dropped() > counters_.dropped_scans) {
+    counters_.dropped_scans = scans_.dropped();
+    warn_once("odometry is too slow for the LiDAR: scans are dropped; thin them or lower the rate");
+  }
+  start_next();
+}
+
+void Perception::start_next() {
+  if (busy_ || scans_.empty()) return;
+  busy_ = true;
+  auto job = std::make_shared<Job>();
+  job->scan = std::move(*scans_.pop());
+  job->imu.swap(imu_since_scan_);
+  job->wheel.swap(wheel_since_scan_);
+  bus_.offload(
+      [this, job] {
+        const double start = thread_cpu_seconds();
+        for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
+        for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
+        const Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
+        job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
+        job->cpu_seconds = thread_cpu_seconds() - start;
+      },
+      [this, job] { finish(*job); });
+}
+
+void Perception::finish(Job& job) {
+  busy_ = false;
+  loam_counters_ = loam_.counters();
+  if (job.update) {
+    const odometry::OdometryUpdate& update = *job.update;
+    bus_.publish(wire::topics::odometry(),
+                 wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
+    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), job.cpu_seconds};
+    if (perceived.G) bus_.publish(wire::topics::global_pose(), wire::encode(*perceived.G));
+    on_perceived_(std::move(perceived));
+  } else {
+    ++counters_.refused_scans;
+    warn_once("scan refused: " + job.update.error().message);
+  }
+  start_next();
+}
+
+void Perception::warn_once(const std::string& reason) {
+  // A reason repeats with every sample while its cause lasts; powers of ten keep it in sight without a flood.
+  const std::uint64_t count = ++warned_[reason];
+  if (count == 1 || count == 10 || count == 100 || count % 1000 == 0)
+    spdlog::warn("{} ({} so far)", reason, count);
+}
+
+}  // namespace fleetmap::agent

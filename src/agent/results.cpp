@@ -1,0 +1,136 @@
+#include "fleetmap/agent/results.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/file_io.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+/// Every session's odometry, each laid where its odometry frame lies in ENU.
+Status write_trajectory(const graph::Placement& placement, const AgentConfig& config) {
+  std::vector<StampedPose> trajectory;
+  for (const auto& [frame, T_enu_odom] : placement.T_enu_odom) {
+    if (frame.agent != config.id) continue;
+    const auto odometry = read_trajectory(odometry_file(config.directory, frame.session));
+    if (!odometry) return tl::unexpected(odometry.error());
+    for (const StampedPose& pose : *odometry) trajectory.push_back({pose.stamp, T_enu_odom * pose.T_w_base});
+  }
+  return write_trajectory(config.directory / "trajectory.tum", trajectory);
+}
+
+Status write_global_poses(const LocalFrame& site, const AgentConfig& config) {
+  const auto track = read_global_track(config.directory / "global_track.csv");
+  if (!track) return tl::unexpected(track.error());
+  std::vector<StampedPose> poses;
+  for (const GlobalPose& G : *track) poses.push_back({G.stamp, pose_in(site, G)});
+  return write_trajectory(config.directory / "ekf.tum", poses);
+}
+
+Status write_alignments(const store::Store& store, const graph::Placement& placement,
+                        const AgentConfig& config) {
+  const std::filesystem::path file = config.directory / "alignments.csv";
+  std::ofstream out(file, std::ios::trunc);
+  out.precision(9);
+  out << "i,j,computed_by,seq,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,used";
+  for (int k = 0; k < 6; ++k) out << ",var_" << k;
+  out << '\n';
+  for (const auto& [id, a] : store.alignments()) {
+    const Eigen::Quaterniond q(a.T_i_j.linear());
+    const Eigen::Vector3d t = a.T_i_j.translation();
+    bool used = false;
+    for (const graph::Alignment& u : placement.used) used |= u.computed_by == a.computed_by && u.seq == a.seq;
+    out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ','
+        << t.x() << ',' << t.y() << ',' << t.z() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ','
+        << q.w() << ',' << a.rmse << ',' << a.inlier_fraction << ',' << (used ? 1 : 0);
+    for (int k = 0; k < 6; ++k) out << ',' << a.covariance(k, k);
+    out << '\n';
+  }
+  out.flush();
+  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
+  return {};
+}
+
+Result<std::string> hash_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in.good() && !in.eof()) return failure(file.string() + ": cannot be read");
+  return to_hex(content_hash(bytes));
+}
+
+}  // namespace
+
+std::string to_string(const graph::FrameId& frame) {
+  std::string text = frame.agent.str();
+  if (frame.session > 0) text.append("#").append(std::to_string(frame.session));
+  return text;
+}
+
+std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured) {
+  if (configured) return configured;
+  if (store.nodes().empty()) return std::nullopt;
+  return store.nodes().begin()->second.G.position;
+}
+
+graph::Placement place(const store::Store& store, const GeoPoint& origin,
+                       const graph::PaperPlacementConfig& config) {
+  std::vector<graph::Node> nodes;
+  for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
+  std::vector<graph::Alignment> alignments;
+  for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
+  return graph::place_by_least_rmse(nodes, alignments, LocalFrame(origin), config);
+}
+
+store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
+                            const store::MergeConfig& config) {
+  std::map<NodeId, Pose> held;
+  for (const auto& [id, T] : placement.T_enu_node) {
+    if (store.has_submap(id)) held.emplace(id, T);
+  }
+  const auto load = [&store](const NodeId& id) -> Result<cloud::PointCloud> {
+    const Result<Bytes> encoded = store.submap(id);
+    if (!encoded) return tl::unexpected(encoded.error());
+    if (encoded->empty()) return cloud::PointCloud{};
+    return cloud::decode(*encoded);
+  };
+  return store::merge(held, load, config);
+}
+
+Result<Results> write_results(store::Store& store, const AgentConfig& config) {
+  const std::optional<GeoPoint> origin = site_origin(store, config.site_origin);
+  if (!origin) {
+    return failure(config.id.str() +
+                   ": there is no map to write: no node was made or received; did GPS and LiDAR arrive?");
+  }
+  Results results;
+  results.origin = *origin;
+  results.placement = place(store, *origin, config.placement);
+  const store::MergedMap map = merged_map(store, results.placement, config.map);
+  for (const NodeId& id : map.unreadable)
+    spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
+  results.map_points = map.cloud.size();
+  results.map_submaps = map.submaps;
+  results.missing_submaps = store.nodes().size() - map.submaps;
+  for (const char* name : {"map.ply", "map.pcd"}) {
+    if (const Status written = cloud::write_cloud(config.directory / name, map.cloud); !written)
+      return tl::unexpected(written.error());
+  }
+  const auto hash = hash_of_file(config.directory / "map.ply");
+  if (!hash) return tl::unexpected(hash.error());
+  results.map_hash = *hash;
+  const LocalFrame site(*origin);
+  for (const Status& written : {write_trajectory(results.placement, config), write_global_poses(site, config),
+                                write_alignments(store, results.placement, config)}) {
+    if (!written) return tl::unexpected(written.error());
+  }
+  return results;
+}
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,138 @@
+#include <spdlog/spdlog.h>
+
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "fleetmap/agent/agent.hpp"
+#include "fleetmap/agent/results.hpp"
+#include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/wire/topics.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr Duration kReportPeriod = std::chrono::seconds(10);
+constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
+
+struct AgentOptions {
+  std::string config;
+  std::string record;
+  double exit_after_idle = 0.0;
+  std::vector<std::string> set;
+};
+
+/// Writes what arrives on the sensor topics into a bag.
+class SensorRecorder {
+ public:
+  static Result<std::unique_ptr<SensorRecorder>> create(const std::filesystem::path& directory,
+                                                        bus::Bus& bus) {
+    auto writer = recording::BagWriter::create(directory);
+    if (!writer) return tl::unexpected(writer.error());
+    return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), bus));
+  }
+  Status close() {
+    subscriptions_.clear();
+    return writer_.close();
+  }
+
+ private:
+  SensorRecorder(recording::BagWriter writer, bus::Bus& bus) : writer_(std::move(writer)) {
+    for (const bus::Topic& topic :
+         {wire::topics::points(), wire::topics::imu(), wire::topics::fix(), wire::topics::wheel_odometry()}) {
+      subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
+        const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
+        if (!written && !std::exchange(failed_, true))
+          spdlog::error("recording stopped: {}", written.error().message);
+      }));
+    }
+  }
+  recording::BagWriter writer_;
+  bool failed_ = false;
+  std::vector<bus::Handle> subscriptions_;
+};
+
+void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
+  const store::Store& store = agent.store();
+  spdlog::info("{}: {} scans, {} nodes, {} alignments, {} of {} submaps, last sensor {:.1f} s ago",
+               agent.config().id.str(), agent.perception().counters().scans, store.nodes().size(),
+               store.alignments().size(), store.submap_set().size(), store.nodes().size(),
+               to_seconds(bus.now() - agent.last_sensor()));
+}
+
+/// Runs until a signal, or until sensors and exchange have both been silent for `exit_after_idle`.
+void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idle) {
+  const std::atomic<bool>& stop = stop_on_signals();
+  const bus::Handle report = bus.every(kReportPeriod, [&] { print_progress(agent, bus); });
+  bus::Handle check;
+  bool rest_frozen = false;
+  if (exit_after_idle > 0.0) {
+    check = bus.every(kCheckPeriod, [&, patience = from_seconds(exit_after_idle)] {
+      const bool heard_anything = agent.perception().counters().scans > 0;
+      const bool sensors_silent = bus.now() - agent.last_sensor() > patience && agent.perception().idle();
+      if (!sensors_silent) rest_frozen = false;
+      if (!heard_anything || !sensors_silent) return;
+      if (!std::exchange(rest_frozen, true)) return agent.freeze_rest();
+      const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up();
+      if (settled && bus.now() - agent.last_exchange() > patience) bus.stop();
+    });
+  }
+  bus.run_until(stop);
+  agent.freeze_rest();
+}
+
+int run(const AgentOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  const auto config = config::load_robot(options.config, *overrides);
+  if (!config) return report(config.error(), kBadConfiguration);
+  auto bus = bus::DdsBus::create(config->dds);
+  if (!bus) return report(bus.error(), kBadConfiguration);
+  auto agent = agent::Agent::create(config->agent, **bus);
+  if (!agent) return report(agent.error(), kFailed);
+  std::unique_ptr<SensorRecorder> recorder;
+  if (!options.record.empty()) {
+    auto made = SensorRecorder::create(options.record, **bus);
+    if (!made) return report(made.error(), kFailed);
+    recorder = std::move(*made);
+  }
+  spdlog::info("{}: ready, store {}", config->agent.id.str(),
+               (config->agent.directory / "store.db").string());
+  run_until_done(**bus, **agent, options.exit_after_idle);
+  if (recorder) {
+    if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
+  }
+  // Work under way uses the agent; let it end before the agent goes.
+  (*bus)->run_until([&] { return !(*agent)->working(); }, std::chrono::minutes(1));
+  const auto results = agent::write_results((*agent)->store(), (*agent)->config());
+  if (!results) spdlog::warn("{}", results.error().message);
+  const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr);
+  if (!written) return report(written.error(), kFailed);
+  if (results) {
+    std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map_points
+              << " points from " << results->map_submaps << " submaps, " << results->missing_submaps
+              << " missing, hash " << results->map_hash << '\n';
+  }
+  return results ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_agent(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<AgentOptions>();
+  CLI::App* command =
+      app.add_subcommand("agent", "one robot over DDS; ends with SIGINT or SIGTERM and writes its map");
+  command->add_option("-c,--config", options->config, "AGENT.yaml")->required();
+  command->add_option("--record", options->record,
+                      "write the sensor topics as a rosbag2 bag into this folder");
+  command->add_option("--exit-after-idle", options->exit_after_idle,
+                      "s; end by itself when sensors and exchange have been silent for so long");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,51 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "commands.hpp"
+
+namespace fleetmap::apps {
+
+int report(const Error& error, ExitCode code) {
+  std::cerr << error.message << '\n';
+  return code;
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App app{"fleetmap: a team of ground robots maps a large site together, without a server", "fleetmap"};
+  app.require_subcommand(1);
+  std::string log_level = "info";
+  app.add_option("--log", log_level, "trace, debug, info, warn, error or off")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
+      ->each([](const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); });
+  int exit_code = kDone;
+  add_run(app, exit_code);
+  add_agent(app, exit_code);
+  add_replay(app, exit_code);
+  add_odometry(app, exit_code);
+  add_register(app, exit_code);
+  add_map(app, exit_code);
+  add_check_config(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace fleetmap::apps
+
+int main(int argc, char** argv) {
+  spdlog::set_pattern("%H:%M:%S.%e %^%l%$ %v");
+  try {
+    return fleetmap::apps::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "fleetmap: " << error.what() << '\n';
+    return fleetmap::apps::kFailed;
+  }
+}

@@ -1,0 +1,123 @@
+#include <sys/resource.h>
+
+#include <chrono>
+#include <ctime>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/recording/reader.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+struct OdometryOptions {
+  std::string recording;
+  std::string config;
+  std::string out;
+  std::vector<std::string> set;
+};
+
+double process_cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Odometry alone over a recording, with the time that each scan took.
+struct OdometryRun {
+  std::vector<agent::StampedPose> poses;
+  std::vector<double> wall_ms;
+  double cpu_s = 0.0;
+  std::size_t refused = 0;
+  std::string first_refusal;
+};
+
+Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
+  odometry::Loam loam(config.odometry, config.lidar);
+  OdometryRun run;
+  while (true) {
+    const auto sample = reader.next();
+    if (!sample) return tl::unexpected(sample.error());
+    if (!*sample) return run;
+    if (const auto* imu = std::get_if<sensor::Imu>(&**sample); imu != nullptr && config.odometry_uses_imu)
+      loam.add_imu(*imu);
+    if (const auto* wheel = std::get_if<sensor::Wheel>(&**sample);
+        wheel != nullptr && config.odometry_uses_wheel)
+      loam.add_wheel(*wheel);
+    const auto* scan = std::get_if<sensor::Scan>(&**sample);
+    if (scan == nullptr) continue;
+    const double cpu = process_cpu_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    const auto update = loam.add_scan(*scan);
+    run.wall_ms.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    run.cpu_s += process_cpu_seconds() - cpu;
+    if (update) {
+      run.poses.push_back({update->stamp, update->T_odom_base});
+    } else if (run.refused++ == 0) {
+      run.first_refusal = update.error().message;
+    }
+  }
+}
+
+int run(const OdometryOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  std::optional<std::filesystem::path> file;
+  if (!options.config.empty()) file = options.config;
+  const auto config = config::load_sensors(file, *overrides);
+  if (!config) return report(config.error(), kBadConfiguration);
+  const recording::ReaderConfig reader_config =
+      config->recording ? config->recording->reader : recording::ReaderConfig{};
+  auto reader = recording::open(options.recording, reader_config);
+  if (!reader) return report(reader.error(), kFailed);
+  const auto done = run_odometry(**reader, config->agent.perception);
+  if (!done) return report(done.error(), kFailed);
+  if (done->poses.empty()) {
+    return report({options.recording + ": no scan could be used" +
+                   (done->first_refusal.empty() ? "" : ": " + done->first_refusal)},
+                  kFailed);
+  }
+  if (const Status written = agent::write_trajectory(options.out, done->poses); !written)
+    return report(written.error(), kFailed);
+  const Distribution ms = distribution(done->wall_ms);
+  std::cout << std::fixed << std::setprecision(2) << "scans " << done->wall_ms.size() << "  mean " << ms.mean
+            << " ms  p50 " << ms.p50 << " ms  p99 " << ms.p99 << " ms  max " << ms.max << " ms  CPU "
+            << 1e3 * done->cpu_s / static_cast<double>(done->wall_ms.size()) << " ms/scan  peak "
+            << peak_megabytes() << " MB\n";
+  if (done->refused > 0)
+    std::cout << "refused " << done->refused << " scans, first: " << done->first_refusal << '\n';
+  for (const auto& [name, count] : (*reader)->counters().named()) {
+    if (count > 0) std::cout << name << ' ' << count << '\n';
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_odometry(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<OdometryOptions>();
+  CLI::App* command =
+      app.add_subcommand("odometry", "odometry alone: a recording in, a TUM trajectory of base_link out");
+  command->add_option("recording", options->recording, "rosbag2 folder or .db3, or KITTI raw folder")
+      ->required();
+  command->add_option("--out", options->out, "TUM file")->required();
+  command->add_option("-c,--config", options->config, "AGENT.yaml or FLEET.yaml for the sensors");
+  command->add_option("--set", options->set, "key=value, e.g. lidar.model=hdl64e");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,114 @@
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "commands.hpp"
+#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/registration/register_clouds.hpp"
+#include "options.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct RegisterOptions {
+  std::string source;
+  std::string target;
+  std::vector<double> prior;
+  std::vector<double> sigma;
+  std::string config;
+  std::vector<std::string> set;
+};
+
+template <class Matrix>
+nlohmann::json rows_of(const Matrix& matrix) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    nlohmann::json row = nlohmann::json::array();
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+nlohmann::json to_json(const registration::RegistrationResult& result) {
+  nlohmann::json modes = nlohmann::json::array();
+  for (const registration::Mode& mode : result.modes) {
+    modes.push_back({{"T_target_source", rows_of(mode.T_target_source.matrix())},
+                     {"score", mode.score},
+                     {"rmse", mode.rmse},
+                     {"inlier_fraction", mode.inlier_fraction},
+                     {"overlap", mode.overlap},
+                     {"from_prior", mode.from_prior}});
+  }
+  return {{"verdict", registration::to_string(result.verdict)},
+          {"reason", result.reason},
+          {"T_target_source", rows_of(result.T_target_source.matrix())},
+          {"rmse", result.rmse},
+          {"covariance", rows_of(result.covariance)},
+          {"inlier_fraction", result.inlier_fraction},
+          {"overlap", result.overlap},
+          {"inliers", result.inliers},
+          {"modes", modes}};
+}
+
+std::optional<registration::Prior> prior_of(const RegisterOptions& options) {
+  if (options.prior.empty()) return std::nullopt;
+  registration::Prior prior;
+  const std::vector<double>& p = options.prior;
+  prior.T_target_source =
+      make_pose(rotation_from_rpy(0.0, 0.0, p[3] * kDegree), Eigen::Vector3d(p[0], p[1], p[2]));
+  if (!options.sigma.empty()) {
+    prior.sigma_translation_m = options.sigma[0];
+    prior.sigma_yaw_rad = options.sigma[1] * kDegree;
+  }
+  return prior;
+}
+
+int run(const RegisterOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  std::optional<std::filesystem::path> file;
+  if (!options.config.empty()) file = options.config;
+  const auto config = config::load_sensors(file, *overrides);
+  if (!config) return report(config.error(), kBadConfiguration);
+  const auto prior = prior_of(options);
+  if (prior) {
+    if (const Status valid = prior->validate(); !valid) return report(valid.error(), kUsage);
+  }
+  const auto source = cloud::read_cloud(options.source);
+  if (!source) return report(source.error(), kFailed);
+  const auto target = cloud::read_cloud(options.target);
+  if (!target) return report(target.error(), kFailed);
+  const auto result = registration::register_clouds(*target, *source, config->agent.registration, prior);
+  std::cout << to_json(result).dump(2) << '\n';
+  return kDone;
+}
+
+}  // namespace
+
+void add_register(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RegisterOptions>();
+  CLI::App* command =
+      app.add_subcommand("register", "registers SOURCE onto TARGET and prints JSON with T_target_source");
+  command->add_option("source", options->source, "PLY or PCD")->required();
+  command->add_option("target", options->target, "PLY or PCD")->required();
+  CLI::Option* prior = command->add_option("--prior", options->prior, "x,y,z,yaw_deg of T_target_source")
+                           ->delimiter(',')
+                           ->expected(4);
+  command->add_option("--sigma", options->sigma, "m,deg: how well the prior is known")
+      ->delimiter(',')
+      ->expected(2)
+      ->needs(prior);
+  command->add_option("-c,--config", options->config,
+                      "AGENT.yaml or FLEET.yaml for the registration settings");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,158 @@
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/recording/reader.hpp"
+#include "fleetmap/wire/topics.hpp"
+#include "options.hpp"
+#include "sample_player.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+struct ReplayOptions {
+  std::string recording;
+  std::string config;
+  std::string as;
+  double rate = 1.0;
+  double wait_for_reader = 30.0;
+  std::vector<std::string> set;
+};
+
+/// Plays samples at the times they were taken at, from timers of the bus's own thread.
+class Player {
+ public:
+  Player(recording::Reader& reader, bus::DdsBus& bus, double rate) : reader_(reader), bus_(bus), rate_(rate) {
+    for (const bus::Topic& topic : topics()) bus_.advertise(topic);
+  }
+  static std::vector<bus::Topic> topics() {
+    return {wire::topics::points(), wire::topics::imu(), wire::topics::fix(), wire::topics::wheel_odometry()};
+  }
+
+  Status start() {
+    if (const Status read = advance(); !read) return read;
+    if (!next_) return failure("the recording holds no sensor sample");
+    first_stamp_ = recording::stamp_of(*next_);
+    started_ = std::chrono::steady_clock::now();
+    timer_ = bus_.every(std::chrono::milliseconds(2), [this] { play_due(); });
+    return {};
+  }
+  std::uint64_t played() const { return played_; }
+  const std::string& error() const { return error_; }
+
+ private:
+  Status advance() {
+    auto sample = reader_.next();
+    if (!sample) return tl::unexpected(sample.error());
+    next_ = std::move(*sample);
+    return {};
+  }
+  void play_due() {
+    const auto elapsed = std::chrono::steady_clock::now() - started_;
+    while (next_ && to_seconds(recording::stamp_of(*next_) - first_stamp_) <=
+                        rate_ * std::chrono::duration<double>(elapsed).count()) {
+      const EncodedSample encoded = encode(*next_);
+      bus_.publish(encoded.topic, encoded.cdr);
+      ++played_;
+      if (const Status read = advance(); !read) {
+        error_ = read.error().message;
+        next_.reset();
+      }
+    }
+    if (!next_) bus_.stop();
+  }
+
+  recording::Reader& reader_;
+  bus::DdsBus& bus_;
+  double rate_;
+  std::optional<recording::Sample> next_;
+  Stamp first_stamp_;
+  std::chrono::steady_clock::time_point started_;
+  std::uint64_t played_ = 0;
+  std::string error_;
+  bus::Handle timer_;
+};
+
+Result<config::RobotConfig> replay_config(const ReplayOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return tl::unexpected(overrides.error());
+  std::optional<std::filesystem::path> file;
+  if (!options.config.empty()) file = options.config;
+  auto robot = config::load_sensors(file, *overrides);
+  if (!robot) return robot;
+  if (!options.as.empty()) {
+    const auto id = AgentId::parse(options.as);
+    if (!id) return failure("--as: " + id.error().message);
+    robot->agent.id = *id;
+  }
+  robot->dds.agent = robot->agent.id;
+  // A replay stands in for the sensors: it has no business on the radios.
+  robot->dds.long_range.enabled = false;
+  robot->dds.short_range.enabled = false;
+  return robot;
+}
+
+int run(const ReplayOptions& options) {
+  auto robot = replay_config(options);
+  if (!robot) return report(robot.error(), kBadConfiguration);
+  recording::ReaderConfig reader_config;
+  std::filesystem::path path = options.recording;
+  if (robot->recording) {
+    reader_config = robot->recording->reader;
+    if (path.empty()) path = robot->recording->path;
+  }
+  if (path.empty())
+    return report({"fleetmap replay: name a recording, or give -c a file with recording.path"}, kUsage);
+  auto reader = recording::open(path, reader_config);
+  if (!reader) return report(reader.error(), kFailed);
+  auto bus = bus::DdsBus::create(robot->dds);
+  if (!bus) return report(bus.error(), kBadConfiguration);
+
+  const std::atomic<bool>& stop = stop_on_signals();
+  Player player(**reader, **bus, options.rate);
+  const auto matched = [&] {
+    return stop || std::ranges::all_of(Player::topics(), [&](const bus::Topic& topic) {
+             return (*bus)->matches(topic).readers > 0;
+           });
+  };
+  const bus::Handle wake = (*bus)->every(std::chrono::milliseconds(50), [] {});
+  if (!(*bus)->run_until(matched, from_seconds(options.wait_for_reader))) {
+    return report(
+        {"fleetmap replay: no agent listens on onboard domain " + std::to_string(robot->dds.onboard.domain) +
+         " after " + std::to_string(options.wait_for_reader) +
+         " s; start the agent first, with the same dds.onboard.domain"},
+        kFailed);
+  }
+  if (const Status started = player.start(); !started)
+    return report({path.string() + ": " + started.error().message}, kFailed);
+  (*bus)->run_until(stop);
+  if (!player.error().empty()) return report({player.error()}, kFailed);
+  std::cout << "played " << player.played() << " samples of " << path.string() << '\n';
+  for (const auto& [name, count] : (*reader)->counters().named()) {
+    if (count > 0) std::cout << "  " << name << ": " << count << '\n';
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ReplayOptions>();
+  CLI::App* command = app.add_subcommand("replay", "plays a recording onto a robot's onboard domain");
+  command->add_option("recording", options->recording, "rosbag2 folder or .db3, or KITTI raw folder");
+  command->add_option("-c,--config", options->config,
+                      "AGENT.yaml: its dds.onboard and recording keys are used");
+  command->add_option("--as", options->as, "play as this robot");
+  command->add_option("--rate", options->rate, "times real time")->check(CLI::Range(0.01, 100.0));
+  command->add_option("--wait", options->wait_for_reader, "s to wait for an agent that listens")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

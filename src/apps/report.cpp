@@ -1,0 +1,201 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+
+#include "fleetmap/agent/trajectory_file.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+json origin_json(const GeoPoint& origin) {
+  return {{"latitude_deg", origin.latitude / kDegree},
+          {"longitude_deg", origin.longitude / kDegree},
+          {"altitude_m", origin.altitude}};
+}
+
+json links_json(const std::vector<bus::LinkUse>& links) {
+  json rows = json::array();
+  for (const bus::LinkUse& use : links) {
+    rows.push_back({{"agent", use.agent.str()},
+                    {"link", bus::to_string(use.link)},
+                    {"topic", use.topic},
+                    {"messages", use.copies},
+                    {"wire_bytes", use.wire_bytes},
+                    {"airtime_s", to_seconds(use.airtime)},
+                    {"lost", use.lost},
+                    {"dropped", use.dropped}});
+  }
+  return rows;
+}
+
+json exchange_json(const exchange::ExchangeStats& stats) {
+  return {{"long_range_wire_bytes", stats.long_range.wire_bytes},
+          {"encounters_found", stats.encounters.found},
+          {"encounters_begun", stats.encounters.begun},
+          {"clouds_received", stats.cloud_receiver.received},
+          {"clouds_given_up", stats.cloud_receiver.given_up},
+          {"cloud_requests", stats.cloud_receiver.requests},
+          {"submaps_received", stats.submap_receiver.submaps},
+          {"submap_chunks_received", stats.submap_receiver.chunks},
+          {"submap_bytes_sent", stats.submap_sender.bytes},
+          {"refused_from_strangers", stats.strangers},
+          {"refused_hostile",
+           stats.cloud_receiver.hostile + stats.submap_receiver.hostile + stats.reconcile.hostile}};
+}
+
+json perception_json(const agent::Agent& agent) {
+  const agent::PerceptionCounters& seen = agent.perception().counters();
+  const odometry::LoamCounters& loam = agent.perception().odometry_counters();
+  const Distribution cpu = distribution(agent.scan_seconds());
+  return {
+      {"scans", seen.scans},
+      {"imu", seen.imu},
+      {"fixes", seen.fixes},
+      {"wheel", seen.wheel},
+      {"refused_messages", seen.refused_messages},
+      {"refused_scans", seen.refused_scans},
+      {"dropped_scans", seen.dropped_scans},
+      {"lost_scans", loam.lost},
+      {"odometry_cpu_ms",
+       {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};
+}
+
+/// Trajectories seen from above, north up.
+std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
+  static constexpr const char* kColours[] = {"#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#ff7f0e"};
+  std::ostringstream lines;
+  double low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
+  std::size_t colour = 0;
+  for (const auto& entry : outcome.agents) {
+    const std::string id = entry.agent->config().id.str();
+    const auto poses = agent::read_trajectory(out / id / "trajectory.tum");
+    if (!poses) continue;
+    lines << "<polyline fill=\"none\" stroke-width=\"0.5%\" stroke=\""
+          << kColours[colour++ % std::size(kColours)] << "\" points=\"";
+    for (const agent::StampedPose& pose : *poses) {
+      const Eigen::Vector3d p = pose.T_w_base.translation();
+      low_x = std::min(low_x, p.x()), high_x = std::max(high_x, p.x());
+      low_y = std::min(low_y, -p.y()), high_y = std::max(high_y, -p.y());
+      lines << p.x() << ',' << -p.y() << ' ';
+    }
+    lines << "\"><title>" << id << "</title></polyline>\n";
+  }
+  if (low_x > high_x) return "";
+  const double margin = 2.0 + 0.05 * std::max(high_x - low_x, high_y - low_y);
+  std::ostringstream svg;
+  svg << "<svg viewBox=\"" << low_x - margin << ' ' << low_y - margin << ' ' << high_x - low_x + 2 * margin
+      << ' ' << high_y - low_y + 2 * margin << "\" width=\"600\">\n"
+      << lines.str() << "</svg>\n";
+  return svg.str();
+}
+
+std::string html(const json& report, const std::string& svg) {
+  std::ostringstream page;
+  page << "<!doctype html><meta charset=\"utf-8\"><title>fleetmap report</title>\n"
+       << "<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid "
+          "#ccc;padding:4px 8px;text-align:right}</style>\n"
+       << "<h1>fleetmap report</h1>\n<h2>Trajectories in ENU, north up</h2>\n"
+       << svg
+       << "<h2>Agents</h2>\n<table><tr><th>agent<th>scans<th>nodes<th>alignments<th>submaps<th>map "
+          "points<th>map hash<th>odometry ms (p50)<th>long-range bytes</tr>\n";
+  for (const auto& [id, agent] : report["agents"].items()) {
+    page << "<tr><td>" << id << "<td>" << agent["sensors"]["scans"] << "<td>" << agent["nodes"] << "<td>"
+         << agent["alignments"] << "<td>" << agent["submaps"] << "<td>" << agent.value("map_points", 0)
+         << "<td>" << agent.value("map_hash", "") << "<td>" << agent["sensors"]["odometry_cpu_ms"]["p50"]
+         << "<td>" << agent["exchange"]["long_range_wire_bytes"] << "</tr>\n";
+  }
+  page << "</table>\n<h2>Everything</h2>\n<pre>" << report.dump(2) << "</pre>\n";
+  return page.str();
+}
+
+Status write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::trunc);
+  out << text;
+  out.flush();
+  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
+  return {};
+}
+
+}  // namespace
+
+Distribution distribution(std::vector<double> values) {
+  Distribution d;
+  d.count = values.size();
+  if (values.empty()) return d;
+  std::ranges::sort(values);
+  const auto quantile = [&](double q) {
+    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
+  };
+  d.min = values.front();
+  d.max = values.back();
+  d.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  d.p50 = quantile(0.5);
+  d.p99 = quantile(0.99);
+  return d;
+}
+
+json agent_report(const agent::Agent& agent, const agent::Results* results) {
+  const agent::RegistrationCounters& registrations = agent.registrations();
+  json report = {{"sensors", perception_json(agent)},
+                 {"nodes", agent.store().nodes().size()},
+                 {"alignments", agent.store().alignments().size()},
+                 {"submaps", agent.store().submap_set().size()},
+                 {"complete", agent.complete()},
+                 {"registrations",
+                  {{"accepted", registrations.accepted},
+                   {"ambiguous", registrations.ambiguous},
+                   {"rejected", registrations.rejected},
+                   {"failed", registrations.failed}}},
+                 {"clouds_made", registrations.clouds_made},
+                 {"largest_cloud_bytes", registrations.largest_cloud_bytes},
+                 {"refused_fleet_messages", agent.link_counters().refused_messages},
+                 {"store_conflicts", agent.store().stats().conflicts},
+                 {"exchange", exchange_json(agent.exchange_stats())}};
+  if (results == nullptr) return report;
+  report["map_points"] = results->map_points;
+  report["map_submaps"] = results->map_submaps;
+  report["missing_submaps"] = results->missing_submaps;
+  report["map_hash"] = results->map_hash;
+  report["origin"] = origin_json(results->origin);
+  json groups = json::array();
+  for (const auto& component : results->placement.components) {
+    json frames = json::array();
+    for (const graph::FrameId& frame : component) frames.push_back(agent::to_string(frame));
+    groups.push_back(frames);
+  }
+  report["aligned_groups"] = groups;
+  return report;
+}
+
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, double wall_seconds) {
+  json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
+                 {"settle_time_s", to_seconds(outcome.settle_time)},
+                 {"settled", outcome.settled},
+                 {"wall_time_s", wall_seconds},
+                 {"links", links_json(outcome.links)}};
+  if (outcome.origin_known) report["origin"] = origin_json(outcome.origin);
+  for (const auto& entry : outcome.agents) {
+    json& agent = report["agents"][entry.agent->config().id.str()];
+    agent = agent_report(*entry.agent, entry.results ? &*entry.results : nullptr);
+    if (!entry.problem.empty()) agent["problem"] = entry.problem;
+    for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
+  }
+  if (const Status written = write_text(out / "report.json", report.dump(2) + "\n"); !written) return written;
+  return write_text(out / "report.html", html(report, map_svg(out, outcome)));
+}
+
+Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
+                    const agent::Results* results) {
+  return write_text(directory / "report.json", agent_report(agent, results).dump(2) + "\n");
+}
+
+}  // namespace fleetmap::apps

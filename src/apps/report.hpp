@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "fleetmap/agent/agent.hpp"
+#include "fleetmap/agent/results.hpp"
+#include "virtual_fleet.hpp"
+
+namespace fleetmap::apps {
+
+/// Minimum, mean, median, 99th percentile and maximum, and their number.
+struct Distribution {
+  std::size_t count = 0;
+  double min = 0.0, mean = 0.0, p50 = 0.0, p99 = 0.0, max = 0.0;
+};
+Distribution distribution(std::vector<double> values);
+
+/// What one agent saw, made, sent and refused.
+nlohmann::json agent_report(const agent::Agent& agent, const agent::Results* results);
+
+/// report.json and report.html of a fleet's run. Sizes in bytes, times in seconds.
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, double wall_seconds);
+/// The same of one agent alone.
+Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
+                    const agent::Results* results);
+
+}  // namespace fleetmap::apps

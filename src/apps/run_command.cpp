@@ -1,0 +1,99 @@
+#include <chrono>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "options.hpp"
+#include "report.hpp"
+#include "virtual_fleet.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+struct RunOptions {
+  std::string config;
+  std::vector<std::string> recordings;
+  std::string out;
+  std::string record;
+  std::vector<std::string> set;
+};
+
+Result<config::FleetConfig> fleet_config(const RunOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return tl::unexpected(overrides.error());
+  if (!options.config.empty()) return config::load_fleet(options.config, *overrides);
+  std::vector<std::pair<AgentId, std::filesystem::path>> recordings;
+  for (const std::string& text : options.recordings) {
+    const std::size_t equals = text.find('=');
+    const auto id = AgentId::parse(text.substr(0, equals));
+    if (equals == std::string::npos || !id) {
+      return failure("--recording " + text + ": expected NAME=PATH, e.g. r1=drive1" +
+                     (id ? "" : "; " + id.error().message));
+    }
+    recordings.emplace_back(*id, text.substr(equals + 1));
+  }
+  return config::fleet_of(recordings, *overrides);
+}
+
+void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out) {
+  for (const auto& entry : outcome.agents) {
+    const std::string id = entry.agent->config().id.str();
+    if (!entry.results) {
+      std::cout << id << ": no map: " << entry.problem << '\n';
+      continue;
+    }
+    std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map_points
+              << " points from " << entry.results->map_submaps << " submaps, hash "
+              << entry.results->map_hash.substr(0, 12) << '\n';
+    for (const graph::Alignment& used : entry.results->placement.used) {
+      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.rmse
+                << " m\n";
+    }
+  }
+  if (!outcome.settled) {
+    std::cout << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
+                 "report.json\n";
+  }
+  std::cout << "report: " << (out / "report.html").string() << '\n';
+}
+
+int run(const RunOptions& options) {
+  if (options.config.empty() == options.recordings.empty()) {
+    return report({"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"},
+                  kUsage);
+  }
+  auto config = fleet_config(options);
+  if (!config) return report(config.error(), kBadConfiguration);
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<std::filesystem::path> record;
+  if (!options.record.empty()) record = options.record;
+  auto fleet = VirtualFleet::create(std::move(*config), options.out, record);
+  if (!fleet) return report(fleet.error(), kFailed);
+  const auto outcome = (*fleet)->run();
+  if (!outcome) return report(outcome.error(), kFailed);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
+    return report(written.error(), kFailed);
+  print_summary(*outcome, options.out);
+  const bool every_map =
+      std::ranges::all_of(outcome->agents, [](const auto& entry) { return entry.results.has_value(); });
+  return every_map ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command =
+      app.add_subcommand("run", "a whole fleet in one process, in virtual time, from recordings");
+  command->add_option("-c,--config", options->config, "FLEET.yaml");
+  command->add_option("--recording", options->recordings,
+                      "NAME=PATH of one robot's recording, instead of a file");
+  command->add_option("--out", options->out, "folder for maps, trajectories and the report")->required();
+  command->add_option("--record", options->record,
+                      "also write each robot's sensor samples as a bag into DIR/NAME");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

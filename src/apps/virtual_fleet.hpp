@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/agent/agent.hpp"
+#include "fleetmap/agent/results.hpp"
+#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::apps {
+
+/// What a run in virtual time gave.
+struct FleetOutcome {
+  struct AgentOutcome {
+    std::unique_ptr<agent::Agent> agent;
+    std::optional<agent::Results> results;
+    recording::Counters recording;
+    std::string problem;  ///< why there are no results
+  };
+  std::vector<AgentOutcome> agents;
+  std::vector<bus::LinkUse> links;
+  GeoPoint origin;
+  bool origin_known = false;
+  Duration virtual_time{};  ///< from the first sensor sample to the end of the exchange
+  Duration settle_time{};   ///< of it, after the last sensor sample
+  bool settled = false;     ///< the exchange came to its end by itself
+};
+
+/// A whole fleet in one process and one thread, in virtual time: each agent's recording is played onto its
+/// bus.
+class VirtualFleet {
+ public:
+  /// Agents keep their files in `out`/<id>, which must not hold an earlier run. With `record`, what each
+  /// agent's sensors gave goes to a bag in `record`/<id>.
+  static Result<std::unique_ptr<VirtualFleet>> create(config::FleetConfig config,
+                                                      const std::filesystem::path& out,
+                                                      const std::optional<std::filesystem::path>& record);
+
+  /// Plays everything, lets the exchange settle and writes every agent's results.
+  Result<FleetOutcome> run();
+
+ private:
+  struct Member {
+    std::unique_ptr<recording::Reader> reader;
+    std::optional<recording::Sample> next;
+    Duration shift{};  ///< virtual time = stamp + shift
+    bus::Bus* bus = nullptr;
+    std::unique_ptr<agent::Agent> agent;
+    std::optional<recording::BagWriter> bag;
+    bool ended = false;
+    bool rest_frozen = false;
+  };
+  explicit VirtualFleet(config::FleetConfig config) : config_(std::move(config)) {}
+  Status open_recordings();
+  Status find_origin();
+  Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
+  void set_shifts();
+  Status advance(Member& member);
+  void play(Member& member);
+  void schedule(Member& member);
+  void update_positions();
+  bool settled();
+
+  config::FleetConfig config_;
+  std::unique_ptr<bus::LocalNetwork> network_;
+  std::vector<Member> members_;
+  std::optional<GeoPoint> origin_;
+  std::string error_;
+};
+
+}  // namespace fleetmap::apps

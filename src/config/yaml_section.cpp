@@ -1,0 +1,304 @@
+#include "yaml_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <sstream>
+
+namespace fleetmap::config {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row.back();
+}
+
+std::string text_of(const YAML::Node& node) {
+  std::ostringstream out;
+  YAML::Emitter emitter;
+  emitter.SetSeqFormat(YAML::Flow);
+  emitter.SetMapFormat(YAML::Flow);
+  emitter << node;
+  return emitter.c_str();
+}
+
+/// Copies the maps down to `keys` (marks of leaves stay) and puts `value` at the end of them.
+YAML::Node with_value_at(const YAML::Node& map, const std::vector<std::string>& keys, std::size_t depth,
+                         const YAML::Node& value) {
+  if (depth == keys.size()) return value;
+  YAML::Node copy(YAML::NodeType::Map);
+  bool found = false;
+  if (map && map.IsMap()) {
+    for (const auto& entry : map) {
+      const bool here = entry.first.Scalar() == keys[depth];
+      found |= here;
+      copy[entry.first] = here ? with_value_at(entry.second, keys, depth + 1, value) : entry.second;
+    }
+  }
+  if (!found) copy[keys[depth]] = with_value_at(YAML::Node(), keys, depth + 1, value);
+  return copy;
+}
+
+}  // namespace
+
+Result<Document> Document::load(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return failure(file.string() + ": no such file; give a YAML configuration");
+  }
+  try {
+    YAML::Node root = YAML::LoadFile(file.string());
+    if (!root.IsMap() && !root.IsNull()) {
+      return failure(file.string() + ":1: the file must be a map of keys (key: value)");
+    }
+    return from(root.IsNull() ? YAML::Node(YAML::NodeType::Map) : root, file.string());
+  } catch (const YAML::Exception& e) {
+    return failure(file.string() + ":" + std::to_string(e.mark.line + 1) + ": not valid YAML: " + e.msg);
+  }
+}
+
+Document Document::from(YAML::Node root, std::string name) {
+  Document document;
+  document.root_ = std::move(root);
+  document.name_ = std::move(name);
+  return document;
+}
+
+std::filesystem::path Document::folder() const { return std::filesystem::path(name_).parent_path(); }
+
+Status Document::apply(const std::vector<Override>& overrides) {
+  for (const Override& entry : overrides) {
+    std::vector<std::string> keys;
+    std::istringstream path(entry.key);
+    for (std::string key; std::getline(path, key, '.');) keys.push_back(key);
+    if (keys.empty() || std::ranges::find(keys, "") != keys.end()) {
+      return failure("--set " + entry.key + "=" + entry.value + ": the key must look like lidar.translation");
+    }
+    try {
+      root_ = with_value_at(root_, keys, 0, YAML::Load(entry.value));
+    } catch (const YAML::Exception& e) {
+      return failure("--set " + entry.key + "=" + entry.value + ": the value is not valid YAML: " + e.msg);
+    }
+    overridden_.insert(entry.key);
+  }
+  return {};
+}
+
+void Document::problem(const std::string& path, const YAML::Mark& mark, const std::string& what) {
+  const bool from_override = std::ranges::any_of(overridden_, [&](const std::string& key) {
+    return path == key || path.starts_with(key + ".") || path.ends_with("." + key) ||
+           path.find("." + key + ".") != std::string::npos;
+  });
+  std::string line = from_override ? "--set " : name_ + ":";
+  if (!from_override && !mark.is_null()) line += std::to_string(mark.line + 1) + ":";
+  line += (from_override ? "" : " ") + path + ": " + what;
+  if (std::ranges::find(problems_, line) == problems_.end()) problems_.push_back(line);
+}
+
+Status Document::status() const {
+  if (problems_.empty()) return {};
+  std::string all;
+  for (const std::string& line : problems_) all += (all.empty() ? "" : "\n") + line;
+  return failure(all);
+}
+
+Section::Section(Document& document, YAML::Node node, std::string path)
+    : document_(&document), node_(std::move(node)), path_(std::move(path)) {
+  if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) {
+    document_->problem(path_, node_.Mark(), "expected a map of keys, found '" + text_of(node_) + "'");
+    node_ = YAML::Node();
+  }
+}
+
+std::string Section::path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+YAML::Node Section::find(const std::string& key) {
+  known_.insert(key);
+  if (!node_.IsMap()) return YAML::Node(YAML::NodeType::Undefined);
+  const YAML::Node& map = node_;
+  return map[key];
+}
+
+bool Section::has(const std::string& key) { return find(key).IsDefined(); }
+
+Section Section::section(const std::string& key) {
+  const YAML::Node found = find(key);
+  return Section(*document_, found.IsDefined() ? found : YAML::Node(), path_of(key));
+}
+
+std::vector<Section> Section::list(const std::string& key) {
+  const YAML::Node found = find(key);
+  std::vector<Section> sections;
+  if (!found.IsDefined()) return sections;
+  if (!found.IsSequence()) {
+    problem(key, "expected a list");
+    return sections;
+  }
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    sections.emplace_back(*document_, found[k], path_of(key) + "[" + std::to_string(k) + "]");
+  }
+  return sections;
+}
+
+template <class T>
+void Section::read_scalar(const std::string& key, T& value, const char* expected) {
+  const YAML::Node found = find(key);
+  if (!found.IsDefined()) return;
+  T parsed{};
+  if (found.IsScalar() && YAML::convert<T>::decode(found, parsed)) {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(parsed))
+        return problem(key, std::string("expected ") + expected + ", found '" + text_of(found) + "'");
+    }
+    value = parsed;
+  } else {
+    problem(key, std::string("expected ") + expected + ", found '" + text_of(found) + "'");
+  }
+}
+
+void Section::read(const std::string& key, double& value) { read_scalar(key, value, "a number"); }
+void Section::read(const std::string& key, float& value) { read_scalar(key, value, "a number"); }
+void Section::read(const std::string& key, int& value) { read_scalar(key, value, "a whole number"); }
+void Section::read(const std::string& key, std::uint64_t& value) {
+  read_scalar(key, value, "a whole number >= 0");
+}
+void Section::read(const std::string& key, std::uint32_t& value) {
+  read_scalar(key, value, "a whole number >= 0");
+}
+void Section::read(const std::string& key, bool& value) { read_scalar(key, value, "true or false"); }
+void Section::read(const std::string& key, std::string& value) { read_scalar(key, value, "a text"); }
+
+void Section::read(const std::string& key, std::optional<std::string>& value) {
+  if (!has(key)) return;
+  std::string text;
+  read(key, text);
+  value = text;
+}
+
+std::optional<std::vector<double>> Section::numbers(const std::string& key, std::size_t size) {
+  const YAML::Node found = find(key);
+  if (!found.IsDefined()) return std::nullopt;
+  std::vector<double> values;
+  if (found.IsSequence()) {
+    for (const YAML::Node& element : found) {
+      double number = 0.0;
+      if (element.IsScalar() && YAML::convert<double>::decode(element, number) && std::isfinite(number)) {
+        values.push_back(number);
+      }
+    }
+  }
+  if (!found.IsSequence() || found.size() != size || values.size() != size) {
+    problem(key, "expected a list of " + std::to_string(size) + " numbers, found '" + text_of(found) + "'");
+    return std::nullopt;
+  }
+  return values;
+}
+
+void Section::read(const std::string& key, Eigen::Vector3d& value) {
+  if (const auto v = numbers(key, 3)) value = {(*v)[0], (*v)[1], (*v)[2]};
+}
+
+void Section::read(const std::string& key, std::vector<std::string>& value) {
+  const YAML::Node found = find(key);
+  if (!found.IsDefined()) return;
+  std::vector<std::string> texts;
+  if (found.IsSequence()) {
+    for (const YAML::Node& element : found) {
+      if (element.IsScalar()) texts.push_back(element.Scalar());
+    }
+  }
+  if (!found.IsSequence() || texts.size() != found.size()) return problem(key, "expected a list of texts");
+  value = texts;
+}
+
+void Section::read_path(const std::string& key, std::filesystem::path& value) {
+  std::string text;
+  read(key, text);
+  if (!text.empty()) value = (document_->folder() / text).lexically_normal();
+}
+
+void Section::read_degrees(const std::string& key, double& value_rad) {
+  double degrees = value_rad / kDegree;
+  read(key, degrees);
+  if (has(key)) value_rad = degrees * kDegree;
+}
+
+void Section::read_seconds(const std::string& key, std::chrono::nanoseconds& value) {
+  double seconds = std::chrono::duration<double>(value).count();
+  read(key, seconds);
+  if (!has(key)) return;
+  if (std::abs(seconds) > 1e9) return problem(key, "expected seconds below 1e9");
+  value = std::chrono::nanoseconds(std::llround(seconds * 1e9));
+}
+
+void Section::read_mount(Pose& T_base_sensor) {
+  Eigen::Vector3d translation = T_base_sensor.translation();
+  read("translation", translation);
+  T_base_sensor.translation() = translation;
+  if (const auto rpy = numbers("rotation_rpy_deg", 3)) {
+    T_base_sensor.linear() = rotation_from_rpy((*rpy)[0] * kDegree, (*rpy)[1] * kDegree, (*rpy)[2] * kDegree);
+  }
+}
+
+void Section::problem(const std::string& key, const std::string& what) {
+  const YAML::Node& map = node_;
+  const YAML::Node found = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+  const YAML::Mark mark =
+      found.IsDefined() ? found.Mark() : (map.IsDefined() ? map.Mark() : YAML::Mark::null_mark());
+  document_->problem(path_of(key), mark, what);
+}
+
+void Section::check(const Status& status) {
+  if (!status)
+    document_->problem(path_.empty() ? "configuration" : path_,
+                       node_.IsDefined() ? node_.Mark() : YAML::Mark::null_mark(), status.error().message);
+}
+
+void Section::finish() {
+  if (!node_.IsMap()) return;
+  for (const auto& entry : node_) {
+    const std::string key = entry.first.Scalar();
+    if (known_.contains(key)) continue;
+    std::string nearest;
+    for (const std::string& candidate : known_) {
+      if (nearest.empty() || edit_distance(key, candidate) < edit_distance(key, nearest)) nearest = candidate;
+    }
+    std::string what = "unknown key";
+    if (!nearest.empty() && edit_distance(key, nearest) <= std::max<std::size_t>(2, key.size() / 3)) {
+      what += "; did you mean '" + nearest + "'?";
+    } else {
+      what += "; known here:";
+      for (const std::string& candidate : known_) what += " " + candidate;
+    }
+    document_->problem(path_of(key), entry.first.Mark(), what);
+  }
+}
+
+YAML::Node merged(const YAML::Node& under, const YAML::Node& over) {
+  if (!over.IsDefined() || over.IsNull()) return under;
+  if (!under.IsDefined() || !under.IsMap() || !over.IsMap()) return over;
+  YAML::Node result(YAML::NodeType::Map);
+  for (const auto& entry : under) {
+    const YAML::Node replacement = over[entry.first.Scalar()];
+    result[entry.first] = replacement.IsDefined() ? merged(entry.second, replacement) : entry.second;
+  }
+  for (const auto& entry : over) {
+    if (!under[entry.first.Scalar()].IsDefined()) result[entry.first] = entry.second;
+  }
+  return result;
+}
+
+}  // namespace fleetmap::config

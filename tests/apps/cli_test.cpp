@@ -1,0 +1,111 @@
+// What a user meets who makes a mistake: exit codes that scripts rely on, and a message that names the
+// remedy.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  void run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
+    testing::Process process(arguments, folder_.path() / ("log" + std::to_string(++runs_)));
+    exit_code_ = process.wait();
+    output_ = process.output();
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  testing::TemporaryFolder folder_;
+  int runs_ = 0;
+  int exit_code_ = -1;
+  std::string output_;
+};
+
+TEST_F(CommandLine, UsageErrorsExitWith2) {
+  run({});
+  EXPECT_EQ(exit_code_, 2);
+  run({"fly"});
+  EXPECT_EQ(exit_code_, 2);
+  run({"run", "--out", path("out")});
+  EXPECT_EQ(exit_code_, 2);
+  EXPECT_THAT(output_, HasSubstr("give either -c FLEET.yaml or --recording NAME=PATH"));
+  run({"replay", "--rate", "0", "x"});
+  EXPECT_EQ(exit_code_, 2);
+}
+
+TEST_F(CommandLine, HelpExitsWith0AndNamesEveryCommand) {
+  run({"--help"});
+  EXPECT_EQ(exit_code_, 0);
+  for (const char* command : {"run", "agent", "replay", "odometry", "register", "check-config", "map"}) {
+    EXPECT_THAT(output_, HasSubstr(command));
+  }
+}
+
+TEST_F(CommandLine, BadConfigurationExitsWith78AndNamesFileAndLine) {
+  folder_.write("bad.yaml", "id: r1\nfleet: [r1]\ndirectory: out\nlidar: {modle: vlp16}\n");
+  for (const std::string command : {"check-config", "agent"}) {
+    run(command == "agent" ? std::vector<std::string>{command, "-c", path("bad.yaml")}
+                           : std::vector<std::string>{command, path("bad.yaml")});
+    EXPECT_EQ(exit_code_, 78) << command;
+    EXPECT_THAT(output_, HasSubstr("bad.yaml:4: lidar.modle: unknown key; did you mean 'model'?"));
+  }
+  run({"run", "-c", path("none.yaml"), "--out", path("out")});
+  EXPECT_EQ(exit_code_, 78);
+  run({"run", "--recording", "Robot=x", "--out", path("out")});
+  EXPECT_EQ(exit_code_, 78);
+}
+
+TEST_F(CommandLine, ShippedConfigurationsAreValid) {
+  for (const char* file : {"/config/agents/r1.yaml", "/config/fleets/kitti_0005.yaml"}) {
+    run({"check-config", std::string(FLEETMAP_SOURCE_DIR) + file});
+    EXPECT_EQ(exit_code_, 0) << output_;
+  }
+}
+
+TEST_F(CommandLine, MissingRecordingIsAnErrorThatNamesIt) {
+  run({"run", "--recording", "r1=" + path("nothing"), "--out", path("out")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr(path("nothing")));
+  run({"odometry", path("nothing"), "--out", path("o.tum")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr(path("nothing")));
+}
+
+TEST_F(CommandLine, MissingProfilesStopAnAgentBeforeItDrives) {
+  folder_.write("r1.yaml", "id: r1\nfleet: [r1]\ndirectory: out\ndds: {qos: no_such_folder}\n");
+  run({"agent", "-c", path("r1.yaml")});
+  EXPECT_EQ(exit_code_, 78);
+  EXPECT_THAT(output_, HasSubstr("no_such_folder"));
+}
+
+TEST_F(CommandLine, StoreThatIsNoneIsRefused) {
+  folder_.write("store.db", "this is no database, only text that is long enough to look at");
+  run({"map", "info", path("store.db")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("store.db"));
+  run({"map", "export", path("none.db"), "--out", path("map.ply")});
+  EXPECT_EQ(exit_code_, 1);
+}
+
+TEST_F(CommandLine, RegisterPrintsAVerdictForUnusableClouds) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  folder_.write("a.ply", header + "0 0 0\n1 0 0\n0 1 0\n");
+  run({"register", path("a.ply"), path("a.ply")});
+  EXPECT_EQ(exit_code_, 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("\"verdict\": \"rejected\""));
+  EXPECT_THAT(output_, HasSubstr("\"reason\""));
+  run({"register", path("a.ply"), path("b.ply")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("b.ply"));
+}
+
+}  // namespace
+}  // namespace fleetmap

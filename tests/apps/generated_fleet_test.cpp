@@ -1,0 +1,61 @@
+// The whole pipeline on a generated recording whose truth is known; needs nothing but this project.
+#include "support/generated_fleet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "odometry/trajectory_error.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap {
+namespace {
+
+const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
+
+TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
+  const testing::TemporaryFolder folder;
+  const auto fleet = testing::write_generated_fleet(folder.path() / "bags");
+  ASSERT_TRUE(fleet) << fleet.error().message;
+  const std::filesystem::path out = folder.path() / "out";
+  testing::Process process({kFleetmap, "run", "--recording", "r1=" + (folder.path() / "bags/r1").string(),
+                            "--recording", "r2=" + (folder.path() / "bags/r2").string(), "--out",
+                            out.string(), "--set", "lidar.translation=[0,0,0.8]", "--set", "nodes.spacing=4"},
+                           folder.path() / "log");
+  ASSERT_EQ(process.wait(), 0) << process.output();
+  std::ifstream file(out / "report.json");
+  const auto report = nlohmann::json::parse(file);
+  EXPECT_TRUE(report["settled"].get<bool>()) << process.output();
+  const auto& r1 = report["agents"]["r1"];
+  const auto& r2 = report["agents"]["r2"];
+  EXPECT_EQ(r1["map_hash"], r2["map_hash"]);
+  EXPECT_EQ(r1["missing_submaps"], 0);
+  EXPECT_EQ(r2["missing_submaps"], 0);
+  EXPECT_EQ(r1["aligned_groups"].size(), 1u) << process.output();
+
+  std::vector<std::vector<Pose>> trajectories;
+  for (const testing::GeneratedRobot& robot : fleet->robots) {
+    const auto odometry = agent::read_trajectory(out / robot.id / "odometry.tum");
+    const auto placed = agent::read_trajectory(out / robot.id / "trajectory.tum");
+    ASSERT_TRUE(odometry && placed);
+    ASSERT_EQ(odometry->size(), robot.T_enu_base.size());
+    std::vector<Pose> O, T;
+    for (const auto& pose : *odometry) O.push_back(pose.T_w_base);
+    for (const auto& pose : *placed) T.push_back(pose.T_w_base);
+    EXPECT_LT(testing::aligned_rmse(O, robot.T_enu_base), 0.10) << robot.id;
+    trajectories.push_back(T);
+  }
+  // Where r2 began as seen from where r1 began, against the truth.
+  const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();
+  const Pose truth = fleet->robots[0].T_enu_base.front().inverse() * fleet->robots[1].T_enu_base.front();
+  const Pose error = truth.inverse() * T_12;
+  EXPECT_LT(error.translation().norm(), 0.30);
+  EXPECT_LT(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 1.0);
+}
+
+}  // namespace
+}  // namespace fleetmap

@@ -1,0 +1,121 @@
+// The whole pipeline on a real drive: two robots in virtual time become one map.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "odometry/trajectory_error.hpp"
+#include "support/process.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap {
+namespace {
+
+const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
+constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
+
+std::vector<Pose> poses_of(const std::filesystem::path& file) {
+  std::vector<Pose> poses;
+  const auto read = agent::read_trajectory(file);
+  EXPECT_TRUE(read) << (read ? "" : read.error().message);
+  if (read) {
+    for (const agent::StampedPose& pose : *read) poses.push_back(pose.T_w_base);
+  }
+  return poses;
+}
+
+class KittiFleet : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    drive_ = testing::shared_data(kDrive);
+    if (!drive_) GTEST_SKIP() << "recording " << kDrive << " is not here";
+    consensus_ = poses_of(*drive_ / "derived/lidar_odometry_consensus_tum_10hz_nominal.txt");
+    ASSERT_EQ(consensus_.size(), 154u);
+  }
+  /// Runs the program to its end and returns what it printed.
+  std::string run(std::vector<std::string> arguments, int expected_exit_code = 0) {
+    arguments.insert(arguments.begin(), kFleetmap);
+    testing::Process process(arguments, folder_.path() / "log");
+    EXPECT_EQ(process.wait(), expected_exit_code) << process.output();
+    return process.output();
+  }
+
+  testing::TemporaryFolder folder_;
+  std::optional<std::filesystem::path> drive_;
+  std::vector<Pose> consensus_;
+};
+
+TEST_F(KittiFleet, OdometryStaysNearTheConsensusOfEightOthers) {
+  const std::filesystem::path tum = folder_.path() / "odometry.tum";
+  run({"odometry", drive_->string(), "--out", tum.string(), "--set", "lidar.model=hdl64e"});
+  const std::vector<Pose> poses = poses_of(tum);
+  ASSERT_EQ(poses.size(), consensus_.size());
+  EXPECT_LT(testing::aligned_rmse(poses, consensus_), 0.20);
+}
+
+TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
+  const std::filesystem::path out = folder_.path() / "out";
+  run({"run", "-c", std::string(FLEETMAP_SOURCE_DIR) + "/config/fleets/kitti_0005.yaml", "--out",
+       out.string(), "--set", "recording.path=" + drive_->string()});
+  std::ifstream file(out / "report.json");
+  const auto report = nlohmann::json::parse(file);
+  EXPECT_TRUE(report["settled"].get<bool>());
+  const auto& r1 = report["agents"]["r1"];
+  const auto& r2 = report["agents"]["r2"];
+
+  // Equal and complete maps.
+  EXPECT_EQ(r1["map_hash"], r2["map_hash"]);
+  EXPECT_EQ(r1["nodes"], r2["nodes"]);
+  EXPECT_EQ(r1["missing_submaps"], 0);
+  EXPECT_EQ(r2["missing_submaps"], 0);
+  EXPECT_GT(r1["map_points"].get<std::size_t>(), 100'000u);
+  EXPECT_EQ(r1["aligned_groups"].size(), 1u) << "both robots are tied together: " << r1["aligned_groups"];
+  // 69 m of which 15 m twice, a node every 3 m and one at each end.
+  EXPECT_NEAR(r1["nodes"].get<double>(), 84.0 / 3.0 + 4.0, 8.0);
+
+  for (const auto& agent : {r1, r2}) {
+    EXPECT_EQ(agent["sensors"]["refused_messages"], 0);
+    EXPECT_EQ(agent["sensors"]["lost_scans"], 0);
+    EXPECT_GE(agent["registrations"]["accepted"].get<int>(), 1);
+    EXPECT_GE(agent["exchange"]["clouds_received"].get<int>(), 1);
+    EXPECT_GT(agent["largest_cloud_bytes"].get<std::size_t>(), 10'000u) << "the budget is used";
+    EXPECT_LE(agent["largest_cloud_bytes"].get<std::size_t>(), 25'000u);
+  }
+
+  // Where r2's odometry frame lies in that of r1: frames 60 and 0 of the drive.
+  const std::vector<Pose> t1 = poses_of(out / "r1/trajectory.tum");
+  const std::vector<Pose> t2 = poses_of(out / "r2/trajectory.tum");
+  ASSERT_EQ(t1.size(), 96u);
+  ASSERT_EQ(t2.size(), 94u);
+  const Pose T_12 = t1.front().inverse() * t2.front();
+  const Pose truth = consensus_[0].inverse() * consensus_[60];
+  const Pose error = truth.inverse() * T_12;
+  EXPECT_LT(error.translation().norm(), 0.30);
+  EXPECT_LT(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 1.0);
+
+  for (const char* name :
+       {"odometry.tum", "ekf.tum", "trajectory.tum", "map.ply", "map.pcd", "alignments.csv", "store.db"}) {
+    EXPECT_TRUE(std::filesystem::exists(out / "r1" / name)) << name;
+  }
+}
+
+TEST_F(KittiFleet, SameRunSameBytes) {
+  std::vector<std::string> hashes;
+  for (const char* name : {"a", "b"}) {
+    const std::filesystem::path out = folder_.path() / name;
+    run({"run", "-c", std::string(FLEETMAP_SOURCE_DIR) + "/config/fleets/kitti_0005.yaml", "--out",
+         out.string(), "--set", "recording.path=" + drive_->string(), "--set", "recording.frames=[60,90]",
+         "--set", "nodes.spacing=2"});
+    std::ifstream file(out / "report.json");
+    hashes.push_back(nlohmann::json::parse(file)["agents"]["r1"]["map_hash"]);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
+}  // namespace fleetmap

@@ -1,0 +1,167 @@
+#include "fleetmap/config/fleet_config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap::config {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class FleetConfigTest : public ::testing::Test {
+ protected:
+  std::filesystem::path write(const std::string& text) {
+    const std::filesystem::path file = folder_.path() / "config.yaml";
+    std::ofstream(file, std::ios::trunc) << text;
+    return file;
+  }
+  std::string robot_error(const std::string& text, const std::vector<Override>& overrides = {}) {
+    const auto robot = load_robot(write(text), overrides);
+    return robot ? "no error" : robot.error().message;
+  }
+  std::string fleet_error(const std::string& text, const std::vector<Override>& overrides = {}) {
+    const auto fleet = load_fleet(write(text), overrides);
+    return fleet ? "no error" : fleet.error().message;
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+const std::string kRobot = "id: r1\nfleet: [r1, r2]\ndirectory: out\n";
+
+TEST_F(FleetConfigTest, MissingFileIsNamed) {
+  const auto robot = load_robot(folder_.path() / "none.yaml", {});
+  ASSERT_FALSE(robot);
+  EXPECT_THAT(robot.error().message, HasSubstr("none.yaml: no such file"));
+}
+
+TEST_F(FleetConfigTest, BrokenYamlGivesFileAndLine) {
+  EXPECT_THAT(robot_error("id: r1\nfleet: [r1\n"), HasSubstr("config.yaml:3: not valid YAML"));
+}
+
+TEST_F(FleetConfigTest, UnknownKeyGivesLineAndTheNearestKey) {
+  EXPECT_THAT(robot_error(kRobot + "lidar:\n  modle: vlp16\n"),
+              HasSubstr("config.yaml:5: lidar.modle: unknown key; did you mean 'model'?"));
+}
+
+TEST_F(FleetConfigTest, WrongKindGivesLineExpectationAndFinding) {
+  EXPECT_THAT(robot_error(kRobot + "nodes:\n  spacing: far\n"),
+              HasSubstr("config.yaml:5: nodes.spacing: expected a number, found 'far'"));
+  EXPECT_THAT(robot_error(kRobot + "lidar: {translation: [0, 0]}\n"),
+              HasSubstr("config.yaml:4: lidar.translation: expected a list of 3 numbers"));
+  EXPECT_THAT(robot_error(kRobot + "lidar: 5\n"), HasSubstr("config.yaml:4: lidar: expected a map of keys"));
+  EXPECT_THAT(robot_error(kRobot + "nodes: {spacing: .nan}\n"),
+              HasSubstr("nodes.spacing: expected a number"));
+}
+
+TEST_F(FleetConfigTest, ValueOutOfItsRangeIsRefusedByTheComponent) {
+  EXPECT_THAT(robot_error(kRobot + "nodes: {spacing: -1}\n"), HasSubstr("config.yaml:4: nodes: "));
+  EXPECT_THAT(robot_error(kRobot + "lidar: {max_range: -40}\n"), HasSubstr("max_range"));
+}
+
+TEST_F(FleetConfigTest, AllProblemsComeAtOnce) {
+  const std::string error =
+      robot_error("id: Robot-1\nfleet: [r1]\ndirectory: out\nlidar: {model: vlp17}\nspeed: 3\n");
+  EXPECT_THAT(error, HasSubstr("config.yaml:1: id: agent id 'Robot-1' must be"));
+  EXPECT_THAT(error, HasSubstr("config.yaml:4: lidar.model: "));
+  EXPECT_THAT(error, HasSubstr("config.yaml:5: speed: unknown key"));
+}
+
+TEST_F(FleetConfigTest, RobotMustBelongToItsFleet) {
+  EXPECT_THAT(robot_error("id: r3\nfleet: [r1, r2]\ndirectory: out\n"), HasSubstr("config.yaml:2: fleet: "));
+}
+
+TEST_F(FleetConfigTest, UnknownModeIsRefused) {
+  EXPECT_THAT(robot_error(kRobot + "mode: papper\n"), HasSubstr("config.yaml:4: mode: expected 'paper'"));
+}
+
+TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
+  const auto robot = load_robot(
+      write(kRobot + "nodes: {spacing: 5}\n"),
+      {{"nodes.spacing", "7.5"}, {"lidar.translation", "[0, 0, 0.35]"}, {"lidar.model", "os1-64"}});
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_DOUBLE_EQ(robot->agent.nodes.spacing, 7.5);
+  EXPECT_DOUBLE_EQ(robot->agent.perception.odometry.T_base_lidar.translation().z(), 0.35);
+  EXPECT_EQ(robot->agent.perception.lidar.name, "os1-64");
+  EXPECT_THAT(robot_error(kRobot, {{"lidar.translation", "up"}}),
+              HasSubstr("--set lidar.translation: expected a list"));
+  EXPECT_THAT(robot_error(kRobot, {{"lidar.hight", "1"}}), HasSubstr("lidar.hight: unknown key"));
+  EXPECT_THAT(robot_error(kRobot, {{"lidar", "[1"}}),
+              HasSubstr("--set lidar=[1: the value is not valid YAML"));
+}
+
+TEST_F(FleetConfigTest, OverrideTextIsKeyEqualsValue) {
+  EXPECT_EQ(parse_override("a.b=c=d")->value, "c=d");
+  EXPECT_FALSE(parse_override("a.b"));
+  EXPECT_FALSE(parse_override("=3"));
+}
+
+TEST_F(FleetConfigTest, DefaultsReachEveryAgentAndAgentsMayDiffer) {
+  const auto fleet = load_fleet(write(R"(
+defaults:
+  lidar: {model: hdl64e, max_range: 30}
+  recording: {path: data/drive}
+agents:
+  - id: a
+    recording: {frames: [0, 95]}
+  - id: b
+    lidar: {max_range: 20}
+    recording: {frames: [60, 153], start: 2.5}
+)"),
+                                {{"nodes.spacing", "4"}});
+  ASSERT_TRUE(fleet) << fleet.error().message;
+  ASSERT_EQ(fleet->members.size(), 2u);
+  const auto& a = fleet->members[0];
+  const auto& b = fleet->members[1];
+  EXPECT_EQ(a.agent.perception.lidar.name, "hdl64e");
+  EXPECT_DOUBLE_EQ(a.agent.perception.odometry.max_range, 30.0);
+  EXPECT_DOUBLE_EQ(b.agent.perception.odometry.max_range, 20.0);
+  EXPECT_EQ(a.recording.path, folder_.path() / "data/drive") << "relative to the file";
+  EXPECT_EQ(a.recording.reader.kitti.last_frame, 95u);
+  EXPECT_EQ(b.recording.reader.kitti.first_frame, 60u);
+  EXPECT_EQ(b.recording.start, 2.5);
+  EXPECT_EQ(a.recording.start, std::nullopt);
+  EXPECT_EQ(a.agent.exchange.fleet.size(), 2u);
+  EXPECT_DOUBLE_EQ(a.agent.nodes.spacing, 4.0) << "--set goes to every agent";
+  EXPECT_DOUBLE_EQ(b.agent.nodes.spacing, 4.0);
+}
+
+TEST_F(FleetConfigTest, FleetProblemsAreNamed) {
+  EXPECT_THAT(fleet_error("network: {}\n"), HasSubstr("agents: expected a list"));
+  EXPECT_THAT(fleet_error("agents:\n  - {id: a, recording: {path: x}}\n  - {id: a, recording: {path: y}}\n"),
+              HasSubstr("agents[1].id: 'a' is taken"));
+  EXPECT_THAT(fleet_error("agents:\n  - {id: a}\n"),
+              HasSubstr("config.yaml:2: agents[0].recording: expected"));
+  EXPECT_THAT(fleet_error("agents:\n  - {id: a, recording: {path: x, frames: [9, 3]}}\n"),
+              HasSubstr("agents[0].recording.frames: expected [first, last]"));
+}
+
+TEST_F(FleetConfigTest, FleetOfRecordingsNeedsNoFile) {
+  const auto fleet = fleet_of({{AgentId::parse("r1").value(), "one"}, {AgentId::parse("r2").value(), "two"}},
+                              {{"lidar.max_range", "25"}});
+  ASSERT_TRUE(fleet) << fleet.error().message;
+  ASSERT_EQ(fleet->members.size(), 2u);
+  EXPECT_EQ(fleet->members[1].recording.path, "two");
+  EXPECT_EQ(fleet->members[0].agent.perception.lidar.name, "vlp16");
+  EXPECT_DOUBLE_EQ(fleet->members[0].agent.perception.odometry.max_range, 25.0);
+}
+
+TEST(ShippedConfigurations, AreAllValid) {
+  std::size_t files = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++files;
+    const auto kind = check(entry.path(), {});
+    EXPECT_TRUE(kind) << kind.error().message;
+  }
+  EXPECT_GE(files, 2u);
+}
+
+}  // namespace
+}  // namespace fleetmap::config
