@@ -10,8 +10,8 @@ namespace fleetmap::bus {
 
 Status validate(const DdsLinkConfig& config, const std::string& link);
 
-/// Fails unless an interface of this machine that is up has `config.address`. Fast DDS would make a participant
-/// that reaches nobody and say so in its log only.
+/// Fails unless an interface of this machine that is up has `config.address`. Fast DDS would make a
+/// participant that reaches nobody and say so in its log only.
 Status check_address(const DdsLinkConfig& config, const std::string& link);
 
 /// Puts a run's settings (own address, peers, name, shared memory or not) on top of a participant profile.
