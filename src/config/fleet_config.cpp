@@ -43,7 +43,7 @@ Result<FleetConfig> read_fleet(Document& document) {
   }
   for (std::size_t k = 0; k < agents.size(); ++k) {
     const YAML::Node entry = merged(merged(defaults, agents[k]), everywhere);
-    Section section(document, entry, "agents[" + std::to_string(k) + "]");
+    Section section(document, entry, "agents[" + std::to_string(k) + "]", agents[k].Mark());
     FleetConfig::Member member;
     read_agent(section, member.agent);
     if (section.has("directory"))

@@ -115,8 +115,8 @@ Status Document::status() const {
   return failure(all);
 }
 
-Section::Section(Document& document, YAML::Node node, std::string path)
-    : document_(&document), node_(std::move(node)), path_(std::move(path)) {
+Section::Section(Document& document, YAML::Node node, std::string path, const YAML::Mark& mark)
+    : document_(&document), node_(std::move(node)), path_(std::move(path)), mark_(mark) {
   if (node_.IsDefined() && !node_.IsNull() && !node_.IsMap()) {
     document_->problem(path_, node_.Mark(), "expected a map of keys, found '" + text_of(node_) + "'");
     node_ = YAML::Node();
@@ -253,18 +253,17 @@ void Section::read_mount(Pose& T_base_sensor) {
   }
 }
 
+YAML::Mark Section::mark() const { return mark_.is_null() && node_.IsDefined() ? node_.Mark() : mark_; }
+
 void Section::problem(const std::string& key, const std::string& what) {
   const YAML::Node& map = node_;
   const YAML::Node found = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
-  const YAML::Mark mark =
-      found.IsDefined() ? found.Mark() : (map.IsDefined() ? map.Mark() : YAML::Mark::null_mark());
-  document_->problem(path_of(key), mark, what);
+  const bool marked = found.IsDefined() && !found.Mark().is_null();
+  document_->problem(path_of(key), marked ? found.Mark() : mark(), what);
 }
 
 void Section::check(const Status& status) {
-  if (!status)
-    document_->problem(path_.empty() ? "configuration" : path_,
-                       node_.IsDefined() ? node_.Mark() : YAML::Mark::null_mark(), status.error().message);
+  if (!status) document_->problem(path_.empty() ? "configuration" : path_, mark(), status.error().message);
 }
 
 void Section::finish() {

@@ -48,8 +48,9 @@ class Document {
 /// key.
 class Section {
  public:
-  Section(Document& document, YAML::Node node, std::string path);
-  ~Section() = default;
+  /// `mark` is where the map stands if it was put together from several.
+  Section(Document& document, YAML::Node node, std::string path,
+          const YAML::Mark& mark = YAML::Mark::null_mark());
 
   /// The sub-map `key`; absent is like empty.
   Section section(const std::string& key);
@@ -87,12 +88,14 @@ class Section {
  private:
   YAML::Node find(const std::string& key);
   std::string path_of(const std::string& key) const;
+  YAML::Mark mark() const;
   template <class T>
   void read_scalar(const std::string& key, T& value, const char* expected);
 
   Document* document_;
   YAML::Node node_;
   std::string path_;
+  YAML::Mark mark_;
   std::set<std::string> known_;
 };
 
