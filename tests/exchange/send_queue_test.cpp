@@ -79,7 +79,7 @@ TEST(SendQueue, replaces_what_is_stale_and_counts_what_it_drops) {
   }
   EXPECT_EQ(queue.size(Priority::kState), 1u);
   EXPECT_EQ(queue.stats().superseded, 4u);
-  EXPECT_EQ(queue.backlog_bytes(), 72u + 108u);
+  EXPECT_EQ(queue.backlog_bytes(), 72u + config.overhead_bytes);
   for (std::uint32_t k = 0; k < 5; ++k) queue.push(Priority::kNews, node(k));
   EXPECT_EQ(queue.stats().dropped[1], 2u);
   const auto out = queue.take(kStart);
@@ -102,13 +102,15 @@ TEST(SendQueue, cancels_the_rest_of_one_cloud_only) {
 }
 
 TEST(SendQueue, counts_every_copy_and_header) {
-  SendQueue queue({}, 5, testing::payload_size);
-  EXPECT_EQ(queue.wire_bytes(node(0), std::nullopt), 4u * 208u);
-  EXPECT_EQ(queue.wire_bytes(node(0), kPeer), 208u);
+  LongRangeConfig config;
+  config.fleet_bytes_per_second = 20'000;
+  config.overhead_bytes = 160;
+  SendQueue queue(config, 5, testing::payload_size);
+  EXPECT_EQ(queue.wire_bytes(node(0), std::nullopt), 4u * 260u);
+  EXPECT_EQ(queue.wire_bytes(node(0), kPeer), 260u);
   EXPECT_DOUBLE_EQ(queue.share_bytes_per_second(), 4000.0);
-  LongRangeConfig all;
-  all.deliver_to_one = false;
-  EXPECT_EQ(SendQueue(all, 5, testing::payload_size).wire_bytes(node(0), kPeer), 4u * 208u);
+  config.deliver_to_one = false;
+  EXPECT_EQ(SendQueue(config, 5, testing::payload_size).wire_bytes(node(0), kPeer), 4u * 260u);
 }
 
 TEST(SendQueue, shares_the_rest_evenly_between_backfill_and_clouds) {

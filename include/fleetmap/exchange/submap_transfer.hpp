@@ -18,9 +18,10 @@ namespace fleetmap::exchange {
 struct SubmapTransferConfig {
   double bytes_per_second = 1'875'000;  ///< B/s that this agent sends at most: a link of 15 Mbit/s
   double burst_bytes = 131'072;         ///< B; at least bytes_per_second times the time between two ticks
-  std::size_t overhead_bytes = 272;     ///< B a chunk: headers of its six IP fragments, UDP and RTPS
-  std::uint32_t window_bytes =
-      262'144;  ///< B asked for and not yet here, of one peer: bandwidth times delay and more
+  std::size_t overhead_bytes = 540;     ///< B a chunk: headers of its three datagrams of two IP packets each
+  /// B asked for and not yet here, of one peer: over a 15 Mbit/s link half a second of it, which is what it
+  /// took to fill the link with its queues (docs/dds.md).
+  std::uint32_t window_bytes = 1'048'576;
   std::uint32_t request_bytes = 65'536;  ///< B asked for by one message at most
   Duration digest_period = std::chrono::seconds(1);
   Duration peer_timeout = std::chrono::seconds(4);        ///< s, a peer not heard for so long is out of reach
