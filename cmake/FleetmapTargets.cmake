@@ -25,6 +25,8 @@ function(fleetmap_test name)
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
+  # Integration tests keep real time or all cores busy.
+  string(COMPARE EQUAL "${ARG_LABEL}" integration serial)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 300)
   endif()
@@ -34,7 +36,7 @@ function(fleetmap_test name)
                                                   FLEETMAP_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(test_${name} PRIVATE fleetmap_flags ${ARG_LINK} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+                       PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${serial})
 endfunction()
 
 # fleetmap_bench(place SOURCES bench/ball_tree_bench.cpp LINK fleetmap::place) makes bench_place.

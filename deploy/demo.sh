@@ -4,9 +4,9 @@
 # and the report are.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
+out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
 cd "$(dirname "$0")/.."
 
-out=${1:-out/demo}
 ./deploy/install-dependencies.sh
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
@@ -14,8 +14,15 @@ echo "building (the first time takes some minutes)"
 cmake --preset release >"$log" 2>&1 || { cat "$log"; exit 1; }
 cmake --build --preset release --target fleetmap make_recording
 
-rm -rf "$out"
+# Only what an earlier demo left goes.
+if [ -e "$out/.fleetmap-demo" ]; then
+  rm -rf "$out/r1" "$out/r2" "$out/recordings" "$out/report.json" "$out/report.html"
+elif [ -e "$out/r1" ] || [ -e "$out/r2" ]; then
+  echo "$out holds something that is not an earlier demo's; name another folder" >&2
+  exit 2
+fi
 mkdir -p "$out"
+touch "$out/.fleetmap-demo"
 recordings=${FLEETMAP_SHARED_DATA:-../shared/data}
 drive=$recordings/kitti_raw_2011_09_26_drive_0005
 fleetmap=build/release/bin/fleetmap

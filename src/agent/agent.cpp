@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/place/ball_tree.hpp"
 #include "fleetmap/wire/messages.hpp"
 
@@ -18,23 +19,21 @@ namespace {
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// Without G no node can be made; said once when it lasts this long.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
-constexpr const char* kSessionKey = "sessions";
+/// Points seen before the global pose is known are kept up to this many; then only newer ones are worth
+/// keeping.
+constexpr std::size_t kMaxPointsWithoutNode = 3'000'000;
 
-/// Counts the starts of the program; each has its own odometry frame.
-Result<std::uint8_t> next_session(store::Store& store) {
-  const auto stored = store.meta(kSessionKey);
-  if (!stored) return tl::unexpected(stored.error());
-  const bool first = !stored->has_value() || (*stored)->empty();
-  const std::uint8_t session = first ? std::uint8_t{0} : static_cast<std::uint8_t>((**stored)[0] + 1);
-  if (const Status saved = store.set_meta(kSessionKey, Bytes{session}); !saved)
-    return tl::unexpected(saved.error());
-  return session;
-}
-
-double thread_cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+/// Every start of the program has an odometry frame of its own; the first that no own node uses.
+Result<std::uint8_t> next_session(const store::Store& store, const AgentId& self) {
+  int session = 0;
+  for (const graph::Node* node : store.nodes_from({self, 0, store.next_node_seq()})) {
+    session = std::max(session, node->session + 1);
+  }
+  if (session > std::numeric_limits<std::uint8_t>::max()) {
+    return failure(store.path().string() + ": holds 256 sessions of " + self.str() +
+                   "; export its map, then move the store away and give the robot a new id");
+  }
+  return static_cast<std::uint8_t>(session);
 }
 
 }  // namespace
@@ -46,9 +45,9 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (error) return failure(config.directory.string() + ": cannot be made: " + error.message());
   Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
   if (!store) return tl::unexpected(store.error());
-  const Result<std::uint8_t> session = next_session(*store);
+  const Result<std::uint8_t> session = next_session(*store, config.id);
   if (!session) return tl::unexpected(session.error());
-  Result<TrajectoryFile> odometry = TrajectoryFile::append_to(odometry_file(config.directory, *session));
+  Result<TrajectoryFile> odometry = TrajectoryFile::create(odometry_file(config.directory, *session));
   if (!odometry) return tl::unexpected(odometry.error());
   Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
   if (!track) return tl::unexpected(track.error());
@@ -95,32 +94,61 @@ bool Agent::idle() const { return jobs_ == 0 && perception_->idle() && exchange_
 // ---- own map
 // ----------------------------------------------------------------------------------------------------
 
+void Agent::stop() {
+  perception_->stop();
+  link_->stop();
+  status_timer_.reset();
+}
+
 void Agent::on_perceived(Perceived&& perceived) {
+  if (perception_->odometry_counters().map_restarts > map_restarts_) begin_session();
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
   if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
     spdlog::error("{}", written.error().message);
   }
   if (perceived.G) {
-    if (const Status written = global_file_.add(*perceived.G); !written)
+    last_G_ = perceived.G;
+    if (const Status written = global_file_.add(*perceived.G); !written) {
       spdlog::error("{}", written.error().message);
+    }
   }
+  // A scan that did not fit the map is at a guessed place: it must not enter what can never be changed.
+  if (update.lost) return;
   submap_.add(update.points, update.T_odom_base);
-  submap_has_news_ = true;
-  if (perceived.G) {
+  if (!perceived.G) {
+    wait_for_global_pose();
+  } else {
     waiting_for_gps_since_.reset();
     if (node_generator_.offer(update.T_odom_base)) freeze_node(update, *perceived.G);
-  } else if (!waiting_for_gps_since_) {
-    waiting_for_gps_since_ = bus_.now() + kGpsPatience;
-  } else if (bus_.now() > *waiting_for_gps_since_) {
-    spdlog::warn(
-        "{}: no node can be made: the global pose is unknown; check GPS, IMU orientation or drive a few "
-        "metres",
-        config_.id.str());
-    waiting_for_gps_since_ = bus_.now() + 6 * kGpsPatience;
   }
   perceived.odometry.points = {};
   last_perceived_ = std::move(perceived);
+}
+
+void Agent::wait_for_global_pose() {
+  if (submap_.points() > kMaxPointsWithoutNode) submap_.clear();
+  if (!waiting_for_gps_since_) waiting_for_gps_since_ = bus_.now() + kGpsPatience;
+  if (bus_.now() <= *waiting_for_gps_since_) return;
+  spdlog::warn("{}: no node can be made: the global pose is unknown; check GPS, or drive where there is any",
+               config_.id.str());
+  waiting_for_gps_since_ = bus_.now() + 6 * kGpsPatience;
+}
+
+void Agent::begin_session() {
+  map_restarts_ = perception_->odometry_counters().map_restarts;
+  freeze_rest();
+  submap_.clear();
+  last_perceived_.reset();
+  const Result<std::uint8_t> session = next_session(store_, config_.id);
+  if (!session) return spdlog::error("{}", session.error().message);
+  session_ = *session;
+  Result<TrajectoryFile> file = TrajectoryFile::create(odometry_file(config_.directory, session_));
+  if (!file) return spdlog::error("{}", file.error().message);
+  odometry_file_ = std::move(*file);
+  node_generator_ = place::NodeGenerator(config_.nodes);
+  joined_sessions_.clear();
+  spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
 }
 
 void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G) {
@@ -144,13 +172,14 @@ void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose
   }
   node.submap_hash = content_hash(submap->encoded);
   node.submap_bytes = static_cast<std::uint32_t>(submap->encoded.size());
-  submap_has_news_ = false;
   const Result<store::Put> put = exchange_->on_own_node(node, submap->encoded, bus_.now());
   if (!put || *put != store::Put::kAdded) {
+    // The points stay and go into the next node.
     spdlog::error("{}: node not stored: {}", to_string(node.id),
                   put ? "its name is taken" : put.error().message);
     return;
   }
+  submap_.clear();
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   align_with_earlier_session(node);
@@ -158,17 +187,21 @@ void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose
 }
 
 void Agent::freeze_rest() {
-  if (!submap_has_news_ || !last_perceived_ || !last_perceived_->G) return;
-  freeze_node(last_perceived_->odometry, *last_perceived_->G);
+  if (submap_.points() == 0 || !last_perceived_) return;
+  if (!last_G_) {
+    return spdlog::warn("{}: {} points are left out: the global pose was never known", config_.id.str(),
+                        submap_.points());
+  }
+  freeze_node(last_perceived_->odometry, last_perceived_->G.value_or(*last_G_));
 }
 
 void Agent::align_with_earlier_session(const graph::Node& node) {
-  if (session_ == 0 || joined_earlier_session_) return;
+  if (session_ == 0) return;
   const graph::Node* nearest = nullptr;
   double distance = config_.exchange.encounters.proximity.max_radius;
   for (const graph::Node* other : store_.nodes_from({config_.id, 0, node.id.seq})) {
     const double d = haversine_distance(other->G.position, node.G.position);
-    if (other->session != session_ && d < distance) {
+    if (other->session != session_ && !joined_sessions_.contains(other->session) && d < distance) {
       nearest = other;
       distance = d;
     }
@@ -182,6 +215,7 @@ void Agent::align_with_earlier_session(const graph::Node& node) {
   auto job = std::make_shared<Job>(Job{gather(store_, *nearest, radius), gather(store_, node, radius), {}});
   ++jobs_;
   bus_.offload(
+      bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
         const auto target = spherize(job->target, config_.spherize);
@@ -219,24 +253,24 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
   };
   auto job = std::make_shared<Job>(Job{gather(store_, *node, config_.spherize.radius_m), failure("not run")});
   ++jobs_;
-  bus_.offload([this, job] { job->cloud = spherize(job->surroundings, config_.spherize); },
-               [this, job] {
-                 --jobs_;
-                 const NodeId id = job->surroundings.node.id;
-                 if (!job->cloud) {
-                   ++registrations_.failed;
-                   spdlog::warn("{}: no spherized cloud: {}", to_string(id), job->cloud.error().message);
-                   return exchange_->decline_cloud(id);
-                 }
-                 ++registrations_.clouds_made;
-                 registrations_.largest_cloud_bytes =
-                     std::max(registrations_.largest_cloud_bytes, job->cloud->bytes.size());
-                 wire::SpherizedCloud message{id, config_.spherize.radius_m, job->cloud->voxel_m,
-                                              static_cast<std::uint32_t>(job->cloud->encoded),
-                                              job->cloud->bytes};
-                 const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
-                 if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
-               });
+  bus_.offload(
+      bus::Lane::kBackground, [this, job] { job->cloud = spherize(job->surroundings, config_.spherize); },
+      [this, job] {
+        --jobs_;
+        const NodeId id = job->surroundings.node.id;
+        if (!job->cloud) {
+          ++registrations_.failed;
+          spdlog::warn("{}: no spherized cloud: {}", to_string(id), job->cloud.error().message);
+          return exchange_->decline_cloud(id);
+        }
+        ++registrations_.clouds_made;
+        registrations_.largest_cloud_bytes =
+            std::max(registrations_.largest_cloud_bytes, job->cloud->bytes.size());
+        wire::SpherizedCloud message{id, config_.spherize.radius_m, job->cloud->voxel_m,
+                                     static_cast<std::uint32_t>(job->cloud->encoded), job->cloud->bytes};
+        const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
+        if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
+      });
 }
 
 void Agent::handle(const exchange::CloudArrived& arrived) {
@@ -253,6 +287,7 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
       Job{gather(store_, *ours, config_.spherize.radius_m), *theirs, arrived.cloud, {}});
   ++jobs_;
   bus_.offload(
+      bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
         job->registered.result = register_encoded(job->target, job->source, job->encoded);
@@ -296,7 +331,7 @@ void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registere
     const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
                                            : Result<store::Put>(tl::unexpected(rounded.error()));
     if (put && *put == store::Put::kAdded) {
-      joined_earlier_session_ |= i.id.agent == j.id.agent;
+      if (i.id.agent == j.id.agent) joined_sessions_.insert(i.session);
       return on_events();
     }
     spdlog::error("{}: alignment with {} not stored: {}", to_string(i.id), to_string(j.id),

@@ -36,9 +36,8 @@ Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& 
   std::error_code error;
   const bool fresh = !std::filesystem::exists(file, error) || std::filesystem::file_size(file, error) == 0;
   std::ofstream out(file, std::ios::app);
-  if (fresh) out << kHeader;
-  // A line that a kill cut off stays a line of its own.
-  out << '\n' << std::flush;
+  // A line that a kill cut off stays a line of its own, and the empty one behind it says why.
+  out << (fresh ? kHeader : "\n") << '\n' << std::flush;
   if (!out) return failure(file.string() + ": cannot be written");
   return GlobalTrackFile(file, std::move(out));
 }

@@ -2,10 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <ctime>
 #include <memory>
 #include <utility>
 
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
 
@@ -15,12 +15,6 @@ namespace {
 /// Samples kept for LOAM between two scans: beyond this the LiDAR is silent and they are of no use.
 constexpr std::size_t kMaxSamplesBetweenScans = 4000;
 
-double thread_cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 template <class T>
 void keep(std::vector<T>& samples, const T& sample) {
   if (samples.size() >= kMaxSamplesBetweenScans)
@@ -29,6 +23,12 @@ void keep(std::vector<T>& samples, const T& sample) {
 }
 
 }  // namespace
+
+SensorTopics::SensorTopics()
+    : points(wire::topics::points().name),
+      imu(wire::topics::imu().name),
+      fix(wire::topics::fix().name),
+      wheel(wire::topics::wheel_odometry().name) {}
 
 Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived)
     : config_(config),
@@ -44,19 +44,31 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
 }
 
 void Perception::subscribe() {
-  subscriptions_.push_back(
-      bus_.subscribe(wire::topics::points(), [this](const Bytes& cdr) { on_scan(cdr); }));
-  on_sample<sensor::Imu>(wire::topics::imu(), counters_.imu, [this](const sensor::Imu& imu) {
-    ekf_.add(imu);
-    if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
-  });
-  on_sample<sensor::Fix>(wire::topics::fix(), counters_.fixes,
+  const auto named = [](bus::Topic topic, const std::string& name) {
+    topic.name = name;
+    return topic;
+  };
+  const SensorTopics& names = config_.topics;
+  subscriptions_.push_back(bus_.subscribe(named(wire::topics::points(), names.points),
+                                          [this](const Bytes& cdr) { on_scan(cdr); }));
+  on_sample<sensor::Imu>(named(wire::topics::imu(), names.imu), counters_.imu,
+                         [this](const sensor::Imu& imu) {
+                           ekf_.add(imu);
+                           if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
+                         });
+  on_sample<sensor::Fix>(named(wire::topics::fix(), names.fix), counters_.fixes,
                          [this](const sensor::Fix& fix) { ekf_.add(fix); });
-  on_sample<sensor::Wheel>(wire::topics::wheel_odometry(), counters_.wheel,
+  on_sample<sensor::Wheel>(named(wire::topics::wheel_odometry(), names.wheel), counters_.wheel,
                            [this](const sensor::Wheel& wheel) {
                              ekf_.add(wheel);
                              if (config_.odometry_uses_wheel) keep(wheel_since_scan_, wheel);
                            });
+}
+
+void Perception::stop() {
+  subscriptions_.clear();
+  while (scans_.pop()) {
+  }
 }
 
 template <class T, class Use>
@@ -66,7 +78,7 @@ void Perception::on_sample(const bus::Topic& topic, std::uint64_t& count, Use us
     const Result<T> sample = wire::decode<T>(cdr);
     if (!sample) {
       ++counters_.refused_messages;
-      return warn_once(name + ": " + sample.error().message);
+      return warn(name + ": message refused", sample.error().message);
     }
     ++count;
     use(*sample);
@@ -79,7 +91,7 @@ void Perception::on_scan(const Bytes& cdr) {
   scans_.push(cdr);
   if (scans_.dropped() > counters_.dropped_scans) {
     counters_.dropped_scans = scans_.dropped();
-    warn_once("odometry is too slow for the LiDAR: scans are dropped; thin them or lower the rate");
+    warn("odometry is too slow for the LiDAR", "a scan was dropped; lower the rate or thin the scans");
   }
   start_next();
 }
@@ -92,6 +104,7 @@ void Perception::start_next() {
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
   bus_.offload(
+      bus::Lane::kPerception,
       [this, job] {
         const double start = thread_cpu_seconds();
         for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
@@ -115,16 +128,17 @@ void Perception::finish(Job& job) {
     on_perceived_(std::move(perceived));
   } else {
     ++counters_.refused_scans;
-    warn_once("scan refused: " + job.update.error().message);
+    warn("scan refused", job.update.error().message);
   }
   start_next();
 }
 
-void Perception::warn_once(const std::string& reason) {
+void Perception::warn(const std::string& kind, const std::string& detail) {
   // A reason repeats with every sample while its cause lasts; powers of ten keep it in sight without a flood.
-  const std::uint64_t count = ++warned_[reason];
-  if (count == 1 || count == 10 || count == 100 || count % 1000 == 0)
-    spdlog::warn("{} ({} so far)", reason, count);
+  const std::uint64_t count = ++warned_[kind];
+  if (count == 1 || count == 10 || count == 100 || count % 1000 == 0) {
+    spdlog::warn("{} ({} so far): {}", kind, count, detail);
+  }
 }
 
 }  // namespace fleetmap::agent

@@ -2,6 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include <array>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <vector>
@@ -14,13 +16,33 @@
 namespace fleetmap::agent {
 namespace {
 
+constexpr const char* kRecipeKey = "map_recipe";
+using StoredRecipe = std::array<double, 7>;
+
+Status keep_recipe(store::Store& store, const MapRecipe& recipe) {
+  const StoredRecipe values{recipe.origin.latitude,
+                            recipe.origin.longitude,
+                            recipe.origin.altitude,
+                            recipe.placement.max_rmse,
+                            recipe.placement.gps_correlation_time,
+                            recipe.merge.voxel_m,
+                            recipe.merge.centroids ? 1.0 : 0.0};
+  Bytes bytes(sizeof(values));
+  std::memcpy(bytes.data(), values.data(), sizeof(values));
+  return store.set_meta(kRecipeKey, bytes);
+}
+
 /// Every session's odometry, each laid where its odometry frame lies in ENU.
 Status write_trajectory(const graph::Placement& placement, const AgentConfig& config) {
   std::vector<StampedPose> trajectory;
   for (const auto& [frame, T_enu_odom] : placement.T_enu_odom) {
     if (frame.agent != config.id) continue;
     const auto odometry = read_trajectory(odometry_file(config.directory, frame.session));
-    if (!odometry) return tl::unexpected(odometry.error());
+    if (!odometry) {
+      // Nodes of ours that others gave back after our files were lost.
+      spdlog::warn("{}; left out of trajectory.tum", odometry.error().message);
+      continue;
+    }
     for (const StampedPose& pose : *odometry) trajectory.push_back({pose.stamp, T_enu_odom * pose.T_w_base});
   }
   return write_trajectory(config.directory / "trajectory.tum", trajectory);
@@ -67,6 +89,19 @@ Result<std::string> hash_of_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::optional<MapRecipe> map_recipe(const store::Store& store) {
+  const auto stored = store.meta(kRecipeKey);
+  StoredRecipe values{};
+  if (!stored || !*stored || (*stored)->size() != sizeof(values)) return std::nullopt;
+  std::memcpy(values.data(), (*stored)->data(), sizeof(values));
+  MapRecipe recipe;
+  recipe.origin = {values[0], values[1], values[2]};
+  recipe.placement = {.max_rmse = values[3], .gps_correlation_time = values[4]};
+  recipe.merge = {.voxel_m = values[5], .centroids = values[6] != 0.0};
+  if (!is_valid(recipe.origin) || !recipe.merge.validate()) return std::nullopt;
+  return recipe;
+}
+
 std::string to_string(const graph::FrameId& frame) {
   std::string text = frame.agent.str();
   if (frame.session > 0) text.append("#").append(std::to_string(frame.session));
@@ -111,6 +146,9 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config) {
   }
   Results results;
   results.origin = *origin;
+  if (const Status kept = keep_recipe(store, {*origin, config.placement, config.map}); !kept) {
+    return tl::unexpected(kept.error());
+  }
   results.placement = place(store, *origin, config.placement);
   const store::MergedMap map = merged_map(store, results.placement, config.map);
   for (const NodeId& id : map.unreadable)

@@ -44,9 +44,10 @@ void SubmapBuilder::add(const cloud::PointCloud& points, const Pose& T_odom_base
   refused_points_ += merger_.refused() - before;
 }
 
-Result<SubmapBuilder::Frozen> SubmapBuilder::freeze(const Pose& T_odom_node) {
+void SubmapBuilder::clear() { merger_ = cloud::VoxelMerger(static_cast<float>(config_.voxel)); }
+
+Result<SubmapBuilder::Frozen> SubmapBuilder::freeze(const Pose& T_odom_node) const {
   cloud::PointCloud points = cloud::transformed(merger_.cloud(), T_odom_node.inverse());
-  merger_ = cloud::VoxelMerger(static_cast<float>(config_.voxel));
   Frozen frozen;
   frozen.voxel = config_.voxel;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {

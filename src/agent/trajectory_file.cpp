@@ -69,8 +69,8 @@ Status write_trajectory(const std::filesystem::path& file, const std::vector<Sta
   return {};
 }
 
-Result<TrajectoryFile> TrajectoryFile::append_to(const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::app);
+Result<TrajectoryFile> TrajectoryFile::create(const std::filesystem::path& file) {
+  std::ofstream out(file, std::ios::trunc);
   if (!out) return failure(file.string() + ": cannot be written");
   return TrajectoryFile(file, std::move(out));
 }

@@ -12,11 +12,14 @@
 #include "fleetmap/wire/topics.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "sample_player.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
+/// What others get to come back and bring what is missing.
+constexpr Duration kPeerPatience = std::chrono::minutes(1);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 
 struct AgentOptions {
@@ -30,10 +33,10 @@ struct AgentOptions {
 class SensorRecorder {
  public:
   static Result<std::unique_ptr<SensorRecorder>> create(const std::filesystem::path& directory,
-                                                        bus::Bus& bus) {
+                                                        const agent::SensorTopics& topics, bus::Bus& bus) {
     auto writer = recording::BagWriter::create(directory);
     if (!writer) return tl::unexpected(writer.error());
-    return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), bus));
+    return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, bus));
   }
   Status close() {
     subscriptions_.clear();
@@ -41,9 +44,9 @@ class SensorRecorder {
   }
 
  private:
-  SensorRecorder(recording::BagWriter writer, bus::Bus& bus) : writer_(std::move(writer)) {
-    for (const bus::Topic& topic :
-         {wire::topics::points(), wire::topics::imu(), wire::topics::fix(), wire::topics::wheel_odometry()}) {
+  SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus)
+      : writer_(std::move(writer)) {
+    for (const bus::Topic& topic : sensor_topics(topics)) {
       subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
         const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
         if (!written && !std::exchange(failed_, true))
@@ -64,7 +67,26 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
                to_seconds(bus.now() - agent.last_sensor()));
 }
 
-/// Runs until a signal, or until sensors and exchange have both been silent for `exit_after_idle`.
+/// Whether it is time to end by itself: sensors and exchange have both been silent for `patience`, and
+/// everything is held. Where something is still missing, others get a minute more to come and bring it.
+bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
+  const Duration start_allowance =
+      agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
+  const bool sensors_silent =
+      bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
+  if (!sensors_silent) {
+    rest_frozen = false;
+    return false;
+  }
+  if (!std::exchange(rest_frozen, true)) {
+    agent.freeze_rest();
+    return false;
+  }
+  const Duration silence = bus.now() - agent.last_exchange();
+  const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up();
+  return settled ? silence > patience : silence > patience + kPeerPatience;
+}
+
 void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idle) {
   const std::atomic<bool>& stop = stop_on_signals();
   const bus::Handle report = bus.every(kReportPeriod, [&] { print_progress(agent, bus); });
@@ -72,17 +94,20 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idl
   bool rest_frozen = false;
   if (exit_after_idle > 0.0) {
     check = bus.every(kCheckPeriod, [&, patience = from_seconds(exit_after_idle)] {
-      const bool heard_anything = agent.perception().counters().scans > 0;
-      const bool sensors_silent = bus.now() - agent.last_sensor() > patience && agent.perception().idle();
-      if (!sensors_silent) rest_frozen = false;
-      if (!heard_anything || !sensors_silent) return;
-      if (!std::exchange(rest_frozen, true)) return agent.freeze_rest();
-      const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up();
-      if (settled && bus.now() - agent.last_exchange() > patience) bus.stop();
+      if (time_to_end(agent, bus, patience, rest_frozen)) bus.stop();
     });
   }
   bus.run_until(stop);
   agent.freeze_rest();
+}
+
+/// `directory`, or with a number behind it if it holds a bag of an earlier start.
+std::filesystem::path free_folder(const std::filesystem::path& directory) {
+  std::filesystem::path folder = directory;
+  std::error_code error;
+  for (int k = 1; std::filesystem::exists(folder, error); ++k)
+    folder = directory.string() + "-" + std::to_string(k);
+  return folder;
 }
 
 int run(const AgentOptions& options) {
@@ -96,7 +121,7 @@ int run(const AgentOptions& options) {
   if (!agent) return report(agent.error(), kFailed);
   std::unique_ptr<SensorRecorder> recorder;
   if (!options.record.empty()) {
-    auto made = SensorRecorder::create(options.record, **bus);
+    auto made = SensorRecorder::create(free_folder(options.record), config->agent.perception.topics, **bus);
     if (!made) return report(made.error(), kFailed);
     recorder = std::move(*made);
   }
@@ -106,8 +131,9 @@ int run(const AgentOptions& options) {
   if (recorder) {
     if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
   }
-  // Work under way uses the agent; let it end before the agent goes.
-  (*bus)->run_until([&] { return !(*agent)->working(); }, std::chrono::minutes(1));
+  // Work under way uses the agent; it must have ended before the agent goes.
+  (*agent)->stop();
+  (*bus)->finish_work();
   const auto results = agent::write_results((*agent)->store(), (*agent)->config());
   if (!results) spdlog::warn("{}", results.error().message);
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr);
@@ -116,6 +142,11 @@ int run(const AgentOptions& options) {
     std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map_points
               << " points from " << results->map_submaps << " submaps, " << results->missing_submaps
               << " missing, hash " << results->map_hash << '\n';
+  }
+  if (results && results->missing_submaps > 0) {
+    spdlog::warn(
+        "{} submaps are missing: their robots were out of reach; run the agent again near one that has them",
+        results->missing_submaps);
   }
   return results ? kDone : kFailed;
 }
@@ -131,7 +162,8 @@ void add_agent(CLI::App& app, int& exit_code) {
                       "write the sensor topics as a rosbag2 bag into this folder");
   command->add_option("--exit-after-idle", options->exit_after_idle,
                       "s; end by itself when sensors and exchange have been silent for so long");
-  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key")
+      ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -16,7 +16,8 @@ void add_check_config(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("check-config", "says what is wrong with a configuration, file:line by line");
   command->add_option("file", options->file, "AGENT.yaml or FLEET.yaml")->required();
-  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key")
+      ->allow_extra_args(false);
   command->callback([options, &exit_code] {
     const auto overrides = parse_overrides(options->set);
     if (!overrides) {

@@ -1,3 +1,4 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,8 @@ namespace {
 int run(int argc, char** argv) {
   CLI::App app{"fleetmap: a team of ground robots maps a large site together, without a server", "fleetmap"};
   app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", std::string(FLEETMAP_VERSION));
   std::string log_level = "info";
   app.add_option("--log", log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
@@ -41,6 +44,8 @@ int run(int argc, char** argv) {
 }  // namespace fleetmap::apps
 
 int main(int argc, char** argv) {
+  // Results go to standard output, and only they.
+  spdlog::set_default_logger(spdlog::stderr_color_mt("fleetmap"));
   spdlog::set_pattern("%H:%M:%S.%e %^%l%$ %v");
   try {
     return fleetmap::apps::run(argc, argv);

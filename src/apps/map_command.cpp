@@ -14,7 +14,7 @@ namespace {
 struct MapOptions {
   std::string store;
   std::string out;
-  double voxel = 0.1;
+  std::optional<double> voxel;
   std::vector<double> origin_deg;
 };
 
@@ -25,19 +25,26 @@ std::optional<GeoPoint> configured_origin(const MapOptions& options) {
 
 struct OpenedMap {
   store::Store store;
-  GeoPoint origin;
+  agent::MapRecipe recipe;
   graph::Placement placement;
 };
 
 Result<OpenedMap> open_map(const MapOptions& options) {
   auto store = store::Store::open_read_only(options.store);
   if (!store) return tl::unexpected(store.error());
-  const auto origin = agent::site_origin(*store, configured_origin(options));
-  if (!origin) return failure(options.store + ": holds no node, so there is no map");
+  agent::MapRecipe recipe = agent::map_recipe(*store).value_or(agent::MapRecipe{});
+  const bool has_recipe = agent::map_recipe(*store).has_value();
+  std::optional<GeoPoint> origin = configured_origin(options);
+  if (!origin && has_recipe) origin = recipe.origin;
+  origin = agent::site_origin(*store, origin);
+  if (!origin || store->nodes().empty())
+    return failure(options.store + ": holds no node, so there is no map");
   if (!is_valid(*origin))
     return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
-  auto placement = agent::place(*store, *origin, {});
-  return OpenedMap{std::move(*store), *origin, std::move(placement)};
+  recipe.origin = *origin;
+  if (options.voxel) recipe.merge.voxel_m = *options.voxel;
+  auto placement = agent::place(*store, *origin, recipe.placement);
+  return OpenedMap{std::move(*store), recipe, std::move(placement)};
 }
 
 int info(const MapOptions& options) {
@@ -48,8 +55,8 @@ int info(const MapOptions& options) {
             << "nodes " << map->store.nodes().size() << ", submaps held " << map->store.submap_set().size()
             << ", alignments " << map->store.alignments().size() << " (" << map->placement.used.size()
             << " used)\n"
-            << std::setprecision(10) << "origin " << map->origin.latitude / kDegree << ", "
-            << map->origin.longitude / kDegree << " deg, " << map->origin.altitude << " m\n";
+            << std::setprecision(10) << "origin " << map->recipe.origin.latitude / kDegree << ", "
+            << map->recipe.origin.longitude / kDegree << " deg, " << map->recipe.origin.altitude << " m\n";
   for (const auto& component : map->placement.components) {
     std::cout << "aligned together:";
     for (const graph::FrameId& frame : component) std::cout << ' ' << agent::to_string(frame);
@@ -61,10 +68,8 @@ int info(const MapOptions& options) {
 int export_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
-  store::MergeConfig config;
-  config.voxel_m = options.voxel;
-  if (const Status valid = config.validate(); !valid) return report(valid.error(), kUsage);
-  const store::MergedMap merged = agent::merged_map(map->store, map->placement, config);
+  if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
+  const store::MergedMap merged = agent::merged_map(map->store, map->placement, map->recipe.merge);
   for (const NodeId& id : merged.unreadable)
     std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
   if (const Status written = cloud::write_cloud(options.out, merged.cloud); !written)
@@ -85,12 +90,15 @@ void add_map(CLI::App& app, int& exit_code) {
   for (CLI::App* sub : {info_command, export_command}) {
     sub->add_option("store", options->store, "store.db of an agent")->required();
     sub->add_option("--origin", options->origin_deg,
-                    "latitude_deg,longitude_deg,altitude_m of ENU; else the least node's")
+                    "latitude_deg,longitude_deg,altitude_m of ENU; else that of the agent's last map, or the "
+                    "least node's")
         ->delimiter(',')
         ->expected(3);
   }
   export_command->add_option("--out", options->out, "FILE.ply or FILE.pcd")->required();
-  export_command->add_option("--voxel", options->voxel, "m, one point is kept in each cube of this edge");
+  export_command->add_option(
+      "--voxel", options->voxel,
+      "m, one point is kept in each cube of this edge; else as in the agent's last map");
   info_command->callback([options, &exit_code] { exit_code = info(*options); });
   export_command->callback([options, &exit_code] { exit_code = export_map(*options); });
 }

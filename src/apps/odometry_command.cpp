@@ -1,7 +1,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <ctime>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -9,6 +8,7 @@
 #include "commands.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "options.hpp"
@@ -23,12 +23,6 @@ struct OdometryOptions {
   std::string out;
   std::vector<std::string> set;
 };
-
-double process_cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 double peak_megabytes() {
   rusage usage{};
@@ -59,12 +53,12 @@ Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::Percept
       loam.add_wheel(*wheel);
     const auto* scan = std::get_if<sensor::Scan>(&**sample);
     if (scan == nullptr) continue;
-    const double cpu = process_cpu_seconds();
+    const double cpu = thread_cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
     const auto update = loam.add_scan(*scan);
     run.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    run.cpu_s += process_cpu_seconds() - cpu;
+    run.cpu_s += thread_cpu_seconds() - cpu;
     if (update) {
       run.poses.push_back({update->stamp, update->T_odom_base});
     } else if (run.refused++ == 0) {
@@ -116,7 +110,7 @@ void add_odometry(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--out", options->out, "TUM file")->required();
   command->add_option("-c,--config", options->config, "AGENT.yaml or FLEET.yaml for the sensors");
-  command->add_option("--set", options->set, "key=value, e.g. lidar.model=hdl64e");
+  command->add_option("--set", options->set, "key=value, e.g. lidar.model=hdl64e")->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

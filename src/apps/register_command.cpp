@@ -107,7 +107,8 @@ void add_register(CLI::App& app, int& exit_code) {
       ->needs(prior);
   command->add_option("-c,--config", options->config,
                       "AGENT.yaml or FLEET.yaml for the registration settings");
-  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key")
+      ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

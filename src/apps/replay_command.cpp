@@ -15,6 +15,8 @@
 namespace fleetmap::apps {
 namespace {
 
+constexpr Duration kLinger = std::chrono::seconds(1);
+
 struct ReplayOptions {
   std::string recording;
   std::string config;
@@ -27,13 +29,10 @@ struct ReplayOptions {
 /// Plays samples at the times they were taken at, from timers of the bus's own thread.
 class Player {
  public:
-  Player(recording::Reader& reader, bus::DdsBus& bus, double rate) : reader_(reader), bus_(bus), rate_(rate) {
-    for (const bus::Topic& topic : topics()) bus_.advertise(topic);
+  Player(recording::Reader& reader, bus::DdsBus& bus, const agent::SensorTopics& names, double rate)
+      : reader_(reader), bus_(bus), names_(names), rate_(rate) {
+    for (const bus::Topic& topic : sensor_topics(names_)) bus_.advertise(topic);
   }
-  static std::vector<bus::Topic> topics() {
-    return {wire::topics::points(), wire::topics::imu(), wire::topics::fix(), wire::topics::wheel_odometry()};
-  }
-
   Status start() {
     if (const Status read = advance(); !read) return read;
     if (!next_) return failure("the recording holds no sensor sample");
@@ -42,6 +41,7 @@ class Player {
     timer_ = bus_.every(std::chrono::milliseconds(2), [this] { play_due(); });
     return {};
   }
+  bool done() const { return !next_; }
   std::uint64_t played() const { return played_; }
   const std::string& error() const { return error_; }
 
@@ -56,7 +56,7 @@ class Player {
     const auto elapsed = std::chrono::steady_clock::now() - started_;
     while (next_ && to_seconds(recording::stamp_of(*next_) - first_stamp_) <=
                         rate_ * std::chrono::duration<double>(elapsed).count()) {
-      const EncodedSample encoded = encode(*next_);
+      const EncodedSample encoded = encode(*next_, names_);
       bus_.publish(encoded.topic, encoded.cdr);
       ++played_;
       if (const Status read = advance(); !read) {
@@ -64,11 +64,11 @@ class Player {
         next_.reset();
       }
     }
-    if (!next_) bus_.stop();
   }
 
   recording::Reader& reader_;
   bus::DdsBus& bus_;
+  agent::SensorTopics names_;
   double rate_;
   std::optional<recording::Sample> next_;
   Stamp first_stamp_;
@@ -114,9 +114,10 @@ int run(const ReplayOptions& options) {
   if (!bus) return report(bus.error(), kBadConfiguration);
 
   const std::atomic<bool>& stop = stop_on_signals();
-  Player player(**reader, **bus, options.rate);
+  const agent::SensorTopics& names = robot->agent.perception.topics;
+  Player player(**reader, **bus, names, options.rate);
   const auto matched = [&] {
-    return stop || std::ranges::all_of(Player::topics(), [&](const bus::Topic& topic) {
+    return stop || std::ranges::all_of(sensor_topics(names), [&](const bus::Topic& topic) {
              return (*bus)->matches(topic).readers > 0;
            });
   };
@@ -130,7 +131,9 @@ int run(const ReplayOptions& options) {
   }
   if (const Status started = player.start(); !started)
     return report({path.string() + ": " + started.error().message}, kFailed);
-  (*bus)->run_until(stop);
+  (*bus)->run_until([&] { return stop || player.done(); }, Duration::max());
+  // The last samples leave from a thread of Fast DDS; a participant that goes at once would take them along.
+  (*bus)->run_until([&] { return stop.load(); }, kLinger);
   if (!player.error().empty()) return report({player.error()}, kFailed);
   std::cout << "played " << player.played() << " samples of " << path.string() << '\n';
   for (const auto& [name, count] : (*reader)->counters().named()) {
@@ -151,7 +154,8 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_option("--rate", options->rate, "times real time")->check(CLI::Range(0.01, 100.0));
   command->add_option("--wait", options->wait_for_reader, "s to wait for an agent that listens")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key")
+      ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

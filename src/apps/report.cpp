@@ -69,6 +69,31 @@ json perception_json(const agent::Agent& agent) {
        {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};
 }
 
+json localization_json(const localization::EkfCounters& c) {
+  return {{"fix_used", c.fix_used},
+          {"fix_invalid", c.fix_invalid},
+          {"fix_gated", c.fix_gated},
+          {"fix_implausible", c.fix_implausible},
+          {"fix_covariance_replaced", c.fix_covariance_replaced},
+          {"imu_used", c.imu_used},
+          {"imu_bad_value", c.imu_bad_value},
+          {"imu_bad_time", c.imu_bad_time},
+          {"wheel_used", c.wheel_used},
+          {"wheel_downweighted", c.wheel_downweighted},
+          {"wheel_bad_time", c.wheel_bad_time},
+          {"heading_resets", c.heading_resets},
+          {"clock_restarts", c.restarts}};
+}
+
+/// Messages that the bus itself let go, by topic; empty when all went well.
+json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
+  json drops = json::object();
+  for (const bus::TopicStats& topic : stats) {
+    if (topic.dropped_messages > 0) drops[topic.topic] = topic.dropped_messages;
+  }
+  return drops;
+}
+
 /// Trajectories seen from above, north up.
 std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
   static constexpr const char* kColours[] = {"#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#ff7f0e"};
@@ -146,6 +171,8 @@ Distribution distribution(std::vector<double> values) {
 json agent_report(const agent::Agent& agent, const agent::Results* results) {
   const agent::RegistrationCounters& registrations = agent.registrations();
   json report = {{"sensors", perception_json(agent)},
+                 {"localization", localization_json(agent.perception().localization_counters())},
+                 {"bus_drops", bus_drops_json(agent.bus_stats())},
                  {"nodes", agent.store().nodes().size()},
                  {"alignments", agent.store().alignments().size()},
                  {"submaps", agent.store().submap_set().size()},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -18,10 +19,9 @@ struct RunOptions {
   std::vector<std::string> set;
 };
 
-Result<config::FleetConfig> fleet_config(const RunOptions& options) {
-  const auto overrides = parse_overrides(options.set);
-  if (!overrides) return tl::unexpected(overrides.error());
-  if (!options.config.empty()) return config::load_fleet(options.config, *overrides);
+Result<config::FleetConfig> fleet_config(const RunOptions& options,
+                                         const std::vector<config::Override>& overrides) {
+  if (!options.config.empty()) return config::load_fleet(options.config, overrides);
   std::vector<std::pair<AgentId, std::filesystem::path>> recordings;
   for (const std::string& text : options.recordings) {
     const std::size_t equals = text.find('=');
@@ -32,7 +32,7 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options) {
     }
     recordings.emplace_back(*id, text.substr(equals + 1));
   }
-  return config::fleet_of(recordings, *overrides);
+  return config::fleet_of(recordings, overrides);
 }
 
 void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out) {
@@ -45,11 +45,16 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
     std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map_points
               << " points from " << entry.results->map_submaps << " submaps, hash "
               << entry.results->map_hash.substr(0, 12) << '\n';
+    if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
     for (const graph::Alignment& used : entry.results->placement.used) {
       std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.rmse
                 << " m\n";
     }
   }
+  const bool equal = std::ranges::adjacent_find(outcome.agents, [](const auto& a, const auto& b) {
+                       return !a.results || !b.results || a.results->map_hash != b.results->map_hash;
+                     }) == outcome.agents.end();
+  std::cout << (equal ? "all robots hold the same map\n" : "the robots' maps differ: see report.json\n");
   if (!outcome.settled) {
     std::cout << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
                  "report.json\n";
@@ -62,7 +67,9 @@ int run(const RunOptions& options) {
     return report({"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"},
                   kUsage);
   }
-  auto config = fleet_config(options);
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  auto config = fleet_config(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
@@ -75,9 +82,9 @@ int run(const RunOptions& options) {
   if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
     return report(written.error(), kFailed);
   print_summary(*outcome, options.out);
-  const bool every_map =
-      std::ranges::all_of(outcome->agents, [](const auto& entry) { return entry.results.has_value(); });
-  return every_map ? kDone : kFailed;
+  const bool whole = std::ranges::all_of(
+      outcome->agents, [](const auto& entry) { return entry.results.has_value() && entry.problem.empty(); });
+  return whole ? kDone : kFailed;
 }
 
 }  // namespace
@@ -87,12 +94,15 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("run", "a whole fleet in one process, in virtual time, from recordings");
   command->add_option("-c,--config", options->config, "FLEET.yaml");
-  command->add_option("--recording", options->recordings,
-                      "NAME=PATH of one robot's recording, instead of a file");
+  command
+      ->add_option("--recording", options->recordings,
+                   "NAME=PATH of one robot's recording, instead of a file")
+      ->allow_extra_args(false);
   command->add_option("--out", options->out, "folder for maps, trajectories and the report")->required();
   command->add_option("--record", options->record,
                       "also write each robot's sensor samples as a bag into DIR/NAME");
-  command->add_option("--set", options->set, "key=value, overrides any configuration key");
+  command->add_option("--set", options->set, "key=value, overrides any configuration key")
+      ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

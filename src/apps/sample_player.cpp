@@ -4,17 +4,21 @@
 #include "fleetmap/wire/topics.hpp"
 
 namespace fleetmap::apps {
-namespace {
 
-bus::Topic topic_of(const sensor::Scan&) { return wire::topics::points(); }
-bus::Topic topic_of(const sensor::Imu&) { return wire::topics::imu(); }
-bus::Topic topic_of(const sensor::Fix&) { return wire::topics::fix(); }
-bus::Topic topic_of(const sensor::Wheel&) { return wire::topics::wheel_odometry(); }
+std::vector<bus::Topic> sensor_topics(const agent::SensorTopics& names) {
+  std::vector<bus::Topic> topics{wire::topics::points(), wire::topics::imu(), wire::topics::fix(),
+                                 wire::topics::wheel_odometry()};
+  topics[0].name = names.points;
+  topics[1].name = names.imu;
+  topics[2].name = names.fix;
+  topics[3].name = names.wheel;
+  return topics;
+}
 
-}  // namespace
-
-EncodedSample encode(const recording::Sample& sample) {
-  return std::visit([](const auto& s) { return EncodedSample{topic_of(s), wire::encode(s)}; }, sample);
+EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics& names) {
+  // The order of the variant is that of sensor_topics().
+  return {sensor_topics(names)[sample.index()],
+          std::visit([](const auto& s) { return wire::encode(s); }, sample)};
 }
 
 }  // namespace fleetmap::apps

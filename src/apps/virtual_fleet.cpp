@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,9 @@ namespace {
 
 /// Recordings that began within this of each other were made together and keep their times.
 constexpr Duration kSameOccasion = std::chrono::hours(1);
+/// A first fix on the wrong side of the world is not where the site is.
+constexpr std::size_t kFixesThatAgree = 3;
+constexpr double kSiteRadius = 5000.0;  // m
 constexpr Duration kStep = std::chrono::seconds(1);
 constexpr Duration kReportEvery = std::chrono::seconds(30);
 
@@ -43,20 +47,29 @@ Status VirtualFleet::open_recordings() {
   return {};
 }
 
-/// The first fix of the first agent, unless the configuration names an origin.
+/// The first fix of the first agent that the fixes after it bear out, unless the configuration names an
+/// origin.
 Status VirtualFleet::find_origin() {
   const auto& first = config_.members.front();
   origin_ = first.agent.site_origin;
   if (origin_) return {};
   auto reader = recording::open(first.recording.path, first.recording.reader);
   if (!reader) return tl::unexpected(reader.error());
+  std::deque<GeoPoint> fixes;
   while (!origin_) {
     const auto sample = (*reader)->next();
     if (!sample) return tl::unexpected(sample.error());
     if (!*sample) break;
     const auto* fix = std::get_if<sensor::Fix>(&**sample);
-    if (fix != nullptr && fix->valid && is_valid(fix->position)) origin_ = fix->position;
+    if (fix == nullptr || !fix->valid || !is_valid(fix->position)) continue;
+    fixes.push_back(fix->position);
+    if (fixes.size() < kFixesThatAgree) continue;
+    const bool agree = std::ranges::all_of(
+        fixes, [&](const GeoPoint& p) { return haversine_distance(p, fixes.front()) < kSiteRadius; });
+    if (agree) origin_ = fixes.front();
+    fixes.pop_front();
   }
+  if (!origin_ && !fixes.empty()) origin_ = fixes.back();
   return {};
 }
 
@@ -121,16 +134,17 @@ void VirtualFleet::schedule(Member& member) {
 }
 
 void VirtualFleet::play(Member& member) {
-  const EncodedSample encoded = encode(*member.next);
+  const EncodedSample encoded = encode(*member.next, member.agent->config().perception.topics);
   member.bus->publish(encoded.topic, encoded.cdr);
   if (member.bag) {
     const Status written = member.bag->write(encoded.topic.name, encoded.topic.type,
-                                             recording::stamp_of(*member.next), encoded.cdr);
+                                             network_->now() - member.shift, encoded.cdr);
     if (!written) error_ = written.error().message;
   }
   if (const Status read = advance(member); !read) {
     // What was played so far is a recording too: say so and go on with the others.
     spdlog::error("{}", read.error().message);
+    member.problem = read.error().message;
     member.ended = true;
     member.next.reset();
   }
@@ -200,6 +214,7 @@ Result<FleetOutcome> VirtualFleet::run() {
     } else {
       result.problem = written.error().message;
     }
+    if (result.problem.empty()) result.problem = member.problem;
     result.recording = member.reader->counters();
     if (member.bag) {
       if (const Status closed = member.bag->close(); !closed) return tl::unexpected(closed.error());

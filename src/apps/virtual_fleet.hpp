@@ -22,7 +22,7 @@ struct FleetOutcome {
     std::unique_ptr<agent::Agent> agent;
     std::optional<agent::Results> results;
     recording::Counters recording;
-    std::string problem;  ///< why there are no results
+    std::string problem;  ///< why there are no results, or why they are not of the whole recording
   };
   std::vector<AgentOutcome> agents;
   std::vector<bus::LinkUse> links;
@@ -54,6 +54,7 @@ class VirtualFleet {
     bus::Bus* bus = nullptr;
     std::unique_ptr<agent::Agent> agent;
     std::optional<recording::BagWriter> bag;
+    std::string problem;  ///< why the recording could not be read to its end
     bool ended = false;
     bool rest_frozen = false;
   };

@@ -95,7 +95,7 @@ void LocalRobot::schedule(EventQueue& events, const std::shared_ptr<Timer>& time
   });
 }
 
-void LocalRobot::offload(std::function<void()> work, std::function<void()> done) {
+void LocalRobot::offload(Lane, std::function<void()> work, std::function<void()> done) {
   const std::weak_ptr<State> owner = state_;
   EventQueue& events = events_;
   events.post([&events, owner, work = std::move(work), done = std::move(done)]() mutable {

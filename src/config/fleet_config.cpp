@@ -62,7 +62,14 @@ Result<FleetConfig> read_fleet(Document& document) {
   if (const Status status = document.status(); !status) return tl::unexpected(status.error());
   std::vector<AgentId> names;
   for (const FleetConfig::Member& member : fleet.members) names.push_back(member.agent.id);
-  for (FleetConfig::Member& member : fleet.members) member.agent.exchange.fleet = names;
+  for (FleetConfig::Member& member : fleet.members) {
+    member.agent.exchange.fleet = names;
+    member.agent.directory = ".";  // the run puts its own folder here; the rest is checked
+    if (const Status valid = member.agent.validate(); !valid) {
+      return failure(document.name() + ": agent " + member.agent.id.str() + ": " + valid.error().message);
+    }
+    member.agent.directory.clear();
+  }
   return fleet;
 }
 
@@ -84,6 +91,9 @@ Result<RobotConfig> read_robot(Document& document) {
                              "') too, e.g. fleet: [r1, r2]");
   }
   if (const Status status = document.status(); !status) return tl::unexpected(status.error());
+  if (const Status valid = robot.agent.validate(); !valid) {
+    return failure(document.name() + ": " + valid.error().message);
+  }
   return robot;
 }
 

@@ -31,7 +31,22 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   lidar.read("min_range", perception.odometry.min_range);
   lidar.read("range_noise", perception.odometry.range_noise);
   lidar.read("scan_period", perception.lidar.scan_period);
+  lidar.read_degrees("elevations_deg", perception.lidar.vertical_angles);
   lidar.finish();
+}
+
+/// ROS 2's "/points" is "rt/points" on the wire.
+void read_topics(Section& top, agent::SensorTopics& topics) {
+  Section section = top.section("topics");
+  for (const auto& [key, name] : {std::pair<const char*, std::string*>{"points", &topics.points},
+                                  {"imu", &topics.imu},
+                                  {"fix", &topics.fix},
+                                  {"wheel", &topics.wheel}}) {
+    section.read(key, *name);
+    if (name->starts_with("/")) *name = "rt" + *name;
+    if (name->empty()) section.problem(key, "expected the name of a topic, e.g. /velodyne_points");
+  }
+  section.finish();
 }
 
 void read_odometry(Section& top, agent::PerceptionConfig& perception) {
@@ -99,6 +114,7 @@ void read_wheel(Section& top, localization::EkfConfig& ekf) {
 }
 
 void read_perception(Section& top, agent::PerceptionConfig& perception) {
+  read_topics(top, perception.topics);
   read_lidar(top, perception);
   read_imu(top, perception);
   read_gps(top, perception.localization);

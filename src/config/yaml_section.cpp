@@ -188,7 +188,7 @@ void Section::read(const std::string& key, std::optional<std::string>& value) {
   value = text;
 }
 
-std::optional<std::vector<double>> Section::numbers(const std::string& key, std::size_t size) {
+std::optional<std::vector<double>> Section::numbers(const std::string& key, std::optional<std::size_t> size) {
   const YAML::Node found = find(key);
   if (!found.IsDefined()) return std::nullopt;
   std::vector<double> values;
@@ -200,8 +200,10 @@ std::optional<std::vector<double>> Section::numbers(const std::string& key, std:
       }
     }
   }
-  if (!found.IsSequence() || found.size() != size || values.size() != size) {
-    problem(key, "expected a list of " + std::to_string(size) + " numbers, found '" + text_of(found) + "'");
+  const bool wrong_size = size && found.size() != *size;
+  if (!found.IsSequence() || wrong_size || values.size() != found.size()) {
+    problem(key, "expected a list of " + (size ? std::to_string(*size) + " " : "") + "numbers, found '" +
+                     text_of(found) + "'");
     return std::nullopt;
   }
   return values;
@@ -234,6 +236,13 @@ void Section::read_degrees(const std::string& key, double& value_rad) {
   double degrees = value_rad / kDegree;
   read(key, degrees);
   if (has(key)) value_rad = degrees * kDegree;
+}
+
+void Section::read_degrees(const std::string& key, std::vector<double>& values_rad) {
+  const auto degrees = numbers(key);
+  if (!degrees) return;
+  values_rad = *degrees;
+  for (double& value : values_rad) value *= kDegree;
 }
 
 void Section::read_seconds(const std::string& key, std::chrono::nanoseconds& value) {

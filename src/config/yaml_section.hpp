@@ -70,11 +70,13 @@ class Section {
   /// Relative to the document's folder.
   void read_path(const std::string& key, std::filesystem::path& value);
   void read_degrees(const std::string& key, double& value_rad);
+  void read_degrees(const std::string& key, std::vector<double>& values_rad);
   void read_seconds(const std::string& key, std::chrono::nanoseconds& value);
   /// `translation` (m) and `rotation_rpy_deg` of a sensor in base_link.
   void read_mount(Pose& T_base_sensor);
-  /// A list of exactly `size` numbers.
-  std::optional<std::vector<double>> numbers(const std::string& key, std::size_t size);
+  /// A list of exactly `size` numbers, or of any number of them.
+  std::optional<std::vector<double>> numbers(const std::string& key,
+                                             std::optional<std::size_t> size = std::nullopt);
   /// The elements of a list of maps.
   std::vector<Section> list(const std::string& key);
 

@@ -17,6 +17,11 @@ namespace {
 
 const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const testing::TemporaryFolder folder;
   const auto fleet = testing::write_generated_fleet(folder.path() / "bags");
@@ -24,7 +29,8 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const std::filesystem::path out = folder.path() / "out";
   testing::Process process({kFleetmap, "run", "--recording", "r1=" + (folder.path() / "bags/r1").string(),
                             "--recording", "r2=" + (folder.path() / "bags/r2").string(), "--out",
-                            out.string(), "--set", "lidar.translation=[0,0,0.8]", "--set", "nodes.spacing=4"},
+                            out.string(), "--set", "lidar.translation=[0,0,0.8]", "--set", "nodes.spacing=4",
+                            "--record", (folder.path() / "recorded").string()},
                            folder.path() / "log");
   ASSERT_EQ(process.wait(), 0) << process.output();
   std::ifstream file(out / "report.json");
@@ -49,6 +55,16 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     EXPECT_LT(testing::aligned_rmse(O, robot.T_enu_base), 0.10) << robot.id;
     trajectories.push_back(T);
   }
+  // What the run recorded gives the same odometry as what it read.
+  for (const char* bags : {"bags", "recorded"}) {
+    testing::Process odometry({kFleetmap, "odometry", (folder.path() / bags / "r1").string(), "--out",
+                               (folder.path() / bags / "r1.tum").string()},
+                              folder.path() / "odometry.log");
+    ASSERT_EQ(odometry.wait(), 0) << odometry.output();
+  }
+  EXPECT_FALSE(text_of(folder.path() / "bags/r1.tum").empty());
+  EXPECT_TRUE(text_of(folder.path() / "bags/r1.tum") == text_of(folder.path() / "recorded/r1.tum"));
+
   // Where r2 began as seen from where r1 began, against the truth.
   const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();
   const Pose truth = fleet->robots[0].T_enu_base.front().inverse() * fleet->robots[1].T_enu_base.front();

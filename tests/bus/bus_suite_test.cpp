@@ -231,11 +231,12 @@ TEST_P(BusSuite, WorkIsDoneInOrderAndFollowedOnTheCallbackThread) {
   std::vector<int> done;
   const auto callback_thread = std::this_thread::get_id();
   for (int i = 0; i < 50; ++i) {
-    bus.offload([&worked, i] { worked.push_back(i); },
-                [&, i] {
-                  EXPECT_EQ(std::this_thread::get_id(), callback_thread);
-                  done.push_back(i);
-                });
+    bus.offload(
+        Lane::kPerception, [&worked, i] { worked.push_back(i); },
+        [&, i] {
+          EXPECT_EQ(std::this_thread::get_id(), callback_thread);
+          done.push_back(i);
+        });
   }
   EXPECT_THAT(done, IsEmpty());
   ASSERT_TRUE(fleet->run_until([&] { return done.size() == 50; }));

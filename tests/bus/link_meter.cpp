@@ -16,7 +16,8 @@
 #include <string>
 
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/bus/token_bucket.hpp"
+#include "fleetmap/bus/wire_overhead.hpp"
+#include "fleetmap/exchange/token_bucket.hpp"
 
 namespace {
 
@@ -34,6 +35,7 @@ constexpr std::size_t kCloudBytes = 25000;
 constexpr std::uint16_t kFragments = (kCloudBytes + kFragmentPayload - 1) / kFragmentPayload;
 constexpr std::size_t kChunkPayload = 8192;
 constexpr std::uint32_t kWindow = 128;  // chunks
+constexpr double kBurstBytes = 3000.0;  // about two full datagrams
 
 /// What every message starts with; an answer carries the missing indices after it, and none when all is
 /// there.
@@ -108,7 +110,7 @@ class LongSender {
   LongSender(Bus& bus, const Options& options)
       : bus_(bus),
         paced_(options.bucket_kbit_s > 0.0),
-        bucket_({.rate_bit_s = paced_ ? options.bucket_kbit_s * 1e3 : 1.0}, bus.now()) {
+        bucket_(paced_ ? options.bucket_kbit_s * 125.0 : 1.0, kBurstBytes) {
     handles_.push_back(bus.subscribe(kAnswer, [this](const Bytes& cdr) { answered(cdr); }));
     handles_.push_back(bus.every(200ms, [this] {
       send(kNode, pack({to_ns(bus_.now()), nodes_++, 0, 0}, 200));
@@ -153,7 +155,7 @@ class LongSender {
     for (auto* queue : {&small_, &large_}) {
       while (!queue->empty()) {
         const auto& [topic, cdr] = queue->front();
-        if (!bucket_.try_take(wire_bytes(cdr.size()), bus_.now())) return;
+        if (!bucket_.take(static_cast<double>(wire_bytes(cdr.size())), bus_.now())) return;
         bus_.publish(topic, cdr);
         queue->pop_front();
       }
@@ -162,7 +164,7 @@ class LongSender {
 
   Bus& bus_;
   bool paced_;
-  TokenBucket bucket_;
+  exchange::TokenBucket bucket_;
   std::deque<std::pair<Topic, Bytes>> small_, large_;
   std::uint32_t nodes_ = 0;
   std::uint32_t cloud_ = 0;

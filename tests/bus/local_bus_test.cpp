@@ -185,7 +185,8 @@ TEST(LocalNetwork, OnboardMessagesAndWorkTakeNoTime) {
   std::vector<int> order;
   const Handle handle = net.robots[0]->subscribe(kState, [&](const Bytes&) {
     order.push_back(2);
-    net.robots[0]->offload([&] { order.push_back(3); }, [&] { order.push_back(4); });
+    net.robots[0]->offload(
+        Lane::kBackground, [&] { order.push_back(3); }, [&] { order.push_back(4); });
   });
   net.network->at(Stamp{} + 1s, [&] {
     net.robots[0]->publish(kState, Bytes(4));

@@ -38,6 +38,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
 /// Third-party headers that only the named places may include.
 const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<(fastdds|fastrtps)/", {"src/bus/dds"}},
+    {"^\"fleetmap/bus/dds_bus", {"src/bus/dds", "include/fleetmap/config", "src/config", "src/apps"}},
+    {"^\"\\.\\./", {}},
     {"^<fastcdr/", {"src/wire"}},
     {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},
     {"^<pcl/", {"src/cloud"}},

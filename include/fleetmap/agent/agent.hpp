@@ -39,9 +39,8 @@ class Agent {
 
   /// Freezes what was seen since the last node, as when a mission ends. Goes on with the next scan.
   void freeze_rest();
-  /// A scan or a registration is under way off the callback thread; the agent must not be destroyed
-  /// meanwhile.
-  bool working() const { return jobs_ > 0 || perception_->working(); }
+  /// Hears no more sensors and messages. Before the agent is destroyed, offloaded work must have ended, too.
+  void stop();
   /// Nothing waits: no scan, no registration, no message.
   bool idle() const;
   /// Every node, alignment and submap that it has heard of is held.
@@ -58,6 +57,7 @@ class Agent {
   const Perception& perception() const { return *perception_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
+  std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const RegistrationCounters& registrations() const { return registrations_; }
   /// CPU seconds of each scan, as LOAM took them.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
@@ -69,6 +69,9 @@ class Agent {
 
   void on_perceived(Perceived&& perceived);
   void freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G);
+  /// The odometry lost its way and began anew: what it says from now on is in another frame.
+  void begin_session();
+  void wait_for_global_pose();
   void align_with_earlier_session(const graph::Node& node);
 
   void on_events();
@@ -105,9 +108,10 @@ class Agent {
   place::NodeGenerator node_generator_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
-  bool submap_has_news_ = false;             ///< something was seen since the last node
-  bool joined_earlier_session_ = false;
-  std::size_t jobs_ = 0;  ///< spherizations and registrations under way
+  std::optional<GlobalPose> last_G_;
+  std::uint64_t map_restarts_ = 0;          ///< of the odometry, seen so far
+  std::set<std::uint8_t> joined_sessions_;  ///< earlier sessions that this one has an alignment with
+  std::size_t jobs_ = 0;                    ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;
   std::optional<Stamp> waiting_for_gps_since_;

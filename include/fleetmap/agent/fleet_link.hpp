@@ -23,6 +23,8 @@ class FleetLink {
   FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exchange,
             std::function<void()> on_events);
 
+  /// Hears and sends no more.
+  void stop() { handles_.clear(); }
   /// Sends what is due.
   void tick();
   const FleetLinkCounters& counters() const { return counters_; }

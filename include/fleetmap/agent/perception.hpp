@@ -15,10 +15,17 @@
 
 namespace fleetmap::agent {
 
+/// Names of the sensor topics on the onboard link, as on the wire ("rt/points" is ROS 2's "/points").
+struct SensorTopics {
+  std::string points, imu, fix, wheel;
+  SensorTopics();  ///< our own names
+};
+
 struct PerceptionConfig {
   odometry::LidarModel lidar = odometry::vlp16();
   odometry::LoamConfig odometry;
   localization::EkfConfig localization;
+  SensorTopics topics;
   bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
@@ -50,8 +57,8 @@ class Perception {
 
   /// No scan waits or is under way.
   bool idle() const { return !busy_ && scans_.empty(); }
-  /// A scan is under way.
-  bool working() const { return busy_; }
+  /// Hears no more sensors and forgets the scans that wait.
+  void stop();
   /// When a sensor was last heard, on the bus's clock.
   Stamp last_heard() const { return last_heard_; }
   std::optional<GlobalPose> global_pose() const { return ekf_.pose(); }
@@ -75,7 +82,8 @@ class Perception {
   void on_scan(const Bytes& cdr);
   void start_next();
   void finish(Job& job);
-  void warn_once(const std::string& reason);
+  /// `kind` is what repeats; `detail` is of this time.
+  void warn(const std::string& kind, const std::string& detail);
 
   PerceptionConfig config_;
   bus::Bus& bus_;

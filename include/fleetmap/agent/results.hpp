@@ -29,6 +29,15 @@ graph::Placement place(const store::Store& store, const GeoPoint& origin,
 store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
                             const store::MergeConfig& config);
 
+/// How a map was made: what `fleetmap map export` needs to make the same one again.
+struct MapRecipe {
+  GeoPoint origin;
+  graph::PaperPlacementConfig placement;
+  store::MergeConfig merge;
+};
+/// The recipe of the last write_results(); empty if there was none.
+std::optional<MapRecipe> map_recipe(const store::Store& store);
+
 struct Results {
   GeoPoint origin;
   graph::Placement placement;

@@ -35,10 +35,12 @@ class SubmapBuilder {
     std::size_t points = 0;
     double voxel = 0.0;  ///< m, that it was thinned to
   };
-  /// The submap in base_link of the node at `T_odom_node`; begins the next one.
-  Result<Frozen> freeze(const Pose& T_odom_node);
+  /// The submap in base_link of the node at `T_odom_node`. It goes on growing until clear().
+  Result<Frozen> freeze(const Pose& T_odom_node) const;
+  /// Begins the next submap.
+  void clear();
 
-  bool empty() const { return merger_.voxels() == 0; }
+  std::size_t points() const { return merger_.voxels(); }
   std::size_t refused_points() const { return refused_points_; }
 
  private:

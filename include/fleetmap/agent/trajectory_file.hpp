@@ -27,10 +27,11 @@ std::string tum_line(const StampedPose& pose);
 Result<std::vector<StampedPose>> read_trajectory(const std::filesystem::path& file);
 Status write_trajectory(const std::filesystem::path& file, const std::vector<StampedPose>& poses);
 
-/// Appends poses line by line; each line is with the operating system before `add` returns.
+/// Grows line by line; each line is with the operating system before `add` returns.
 class TrajectoryFile {
  public:
-  static Result<TrajectoryFile> append_to(const std::filesystem::path& file);
+  /// Replaces what is there.
+  static Result<TrajectoryFile> create(const std::filesystem::path& file);
   Status add(const StampedPose& pose);
 
  private:

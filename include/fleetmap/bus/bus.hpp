@@ -57,6 +57,10 @@ class Handle {
   std::function<void()> cancel_;
 };
 
+/// Where long work runs. Items of one lane run in order, one at a time; the lanes run beside each other, so
+/// that slow background work does not hold up the sensors.
+enum class Lane : std::uint8_t { kPerception, kBackground };
+
 /// What a robot's components see of the world: topics of CDR-encoded IDL messages, a clock, timers and a
 /// place for long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all
 /// members are called from that thread, except where said. Messages published by a robot are delivered to its
@@ -81,9 +85,9 @@ class Bus {
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
   [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
 
-  /// Runs `work` off the callback thread, then `done` on it. Work items of one robot run in order, one at a
-  /// time. In virtual time both run at the same instant, so results do not depend on the machine.
-  virtual void offload(std::function<void()> work, std::function<void()> done) = 0;
+  /// Runs `work` off the callback thread, then `done` on it. In virtual time both run at the same instant, so
+  /// results do not depend on the machine.
+  virtual void offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;
 };

@@ -64,8 +64,12 @@ class DdsBus final : public Bus {
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
-  void offload(std::function<void()> work, std::function<void()> done) override;
+  void offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
+
+  /// Waits for the work items under way and lets the waiting ones go, for good: afterwards nothing that was
+  /// offloaded runs any more, so its owner may be destroyed. Call it while nobody runs the bus.
+  void finish_work();
 
   /// Runs `callback` on the callback thread.
   void post(std::function<void()> callback);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
-#include "fleetmap/bus/token_bucket.hpp"
+#include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 

@@ -27,8 +27,8 @@ Result<Override> parse_override(const std::string& text);
 struct RecordingConfig {
   std::filesystem::path path;
   recording::ReaderConfig reader;
-  /// s, when the recording's first sample is played, counted from the start of the run. Empty: recordings that began
-  /// within an hour of each other keep their times, others all start at 0.
+  /// s, when the recording's first sample is played, counted from the start of the run. Empty: recordings
+  /// that began within an hour of each other keep their times, others all start at 0.
   std::optional<double> start;
 };
 

@@ -82,7 +82,7 @@ struct EkfConfig {
   WheelModel wheel;
   MotionModel motion;
   std::optional<GeoPoint> site_origin;  ///< of the ENU frame; else the first believed fix
-  double history = 2.0;                 ///< s of past poses that pose_at() can answer for
+  double history = 8.0;            ///< s of past poses that pose_at() can answer for; scans may wait so long
   double max_lateness = 0.5;       ///< s that a sample may be older than the newest of any sensor, <= history
   double max_extrapolation = 0.3;  ///< s that pose_at() looks ahead
   double max_time_jump = 10.0;     ///< s forward that need a second sample to confirm them

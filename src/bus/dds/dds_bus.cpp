@@ -60,7 +60,8 @@ struct DdsBus::State {
   std::map<Link, std::shared_ptr<DdsLink>> links;
   std::mutex disabled_mutex;  ///< guards disabled
   std::map<std::pair<Link, std::string>, TopicStats> disabled;
-  Worker worker{executor};
+  Worker perception{executor};
+  Worker background{executor};
 
   DdsLink* link(const Topic& topic) const {
     const auto entry = links.find(topic.link);
@@ -116,8 +117,13 @@ Handle DdsBus::every(Duration period, std::function<void()> callback) {
   return Handle(state_->executor->add_timer(period, std::move(callback)));
 }
 
-void DdsBus::offload(std::function<void()> work, std::function<void()> done) {
-  state_->worker.add(std::move(work), std::move(done));
+void DdsBus::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+  (lane == Lane::kPerception ? state_->perception : state_->background).add(std::move(work), std::move(done));
+}
+
+void DdsBus::finish_work() {
+  state_->perception.finish();
+  state_->background.finish();
 }
 
 std::vector<TopicStats> DdsBus::stats() const {

@@ -7,13 +7,15 @@ namespace fleetmap::bus {
 Worker::Worker(std::shared_ptr<Executor> executor)
     : executor_(std::move(executor)), thread_([this] { loop(); }) {}
 
-Worker::~Worker() {
+Worker::~Worker() { finish(); }
+
+void Worker::finish() {
   {
     const std::scoped_lock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Worker::add(std::function<void()> work, std::function<void()> done) {

@@ -20,6 +20,8 @@ class Worker {
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
+  /// Waits for the item under way; the others, and those that are added later, are let go.
+  void finish();
   void add(std::function<void()> work, std::function<void()> done);
 
  private:

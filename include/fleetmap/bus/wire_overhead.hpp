@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+namespace fleetmap::bus {
+
+/// Bytes on the wire of one RTPS message beside its payload: 28 of IPv4 and UDP, and 132 as seen on the wire
+/// of Debian's Fast DDS 2.9.1: RTPS header 20, INFO_DST 16, INFO_TS 12, DATA 24, and 60 of its statistics
+/// module.
+struct WireOverhead {
+  std::size_t ip_udp = 28;
+  std::size_t rtps = 132;
+  std::size_t max_datagram_payload = 1280;  ///< larger messages travel as fragments, each with the overhead
+};
+
+/// How many datagrams `payload` bytes travel in; an empty message is still one.
+std::size_t datagrams(std::size_t payload, const WireOverhead& overhead = {});
+/// What `payload` bytes cost on the wire, to one receiver.
+std::size_t wire_bytes(std::size_t payload, const WireOverhead& overhead = {});
+
+}  // namespace fleetmap::bus

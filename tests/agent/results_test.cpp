@@ -1,0 +1,112 @@
+#include "fleetmap/agent/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "fleetmap/agent/encounter_registration.hpp"
+#include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/submap_builder.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+const AgentId kSelf = AgentId::parse("r1").value();
+
+class ResultsTest : public ::testing::Test {
+ protected:
+  store::Store open() { return std::move(store::Store::open(folder_.path() / "store.db", kSelf).value()); }
+  AgentConfig config() const {
+    AgentConfig config;
+    config.id = kSelf;
+    config.directory = folder_.path();
+    return config;
+  }
+  /// A node at x metres east with a few points two metres ahead of it.
+  graph::Node add_node(store::Store& store, double x, std::uint8_t session = 0) {
+    graph::Node node;
+    node.id = {kSelf, store.next_node_seq()};
+    node.session = session;
+    node.stamp = stamp_from_ns(1'000'000'000 * (node.id.seq + 1));
+    node.T_odom_base.translation().x() = x;
+    node.G.stamp = node.stamp;
+    node.G.position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
+    SubmapBuilder builder(SubmapConfig{});
+    cloud::PointCloud points;
+    for (int k = 0; k < 50; ++k) points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
+    builder.add(points, node.T_odom_base);
+    const Bytes encoded = builder.freeze(node.T_odom_base)->encoded;
+    node.submap_hash = content_hash(encoded);
+    node.submap_bytes = static_cast<std::uint32_t>(encoded.size());
+    EXPECT_EQ(store.put_node_with_submap(node, encoded).value(), store::Put::kAdded);
+    return node;
+  }
+
+  testing::TemporaryFolder folder_;
+  GeoPoint origin_ = geo_point_from_degrees(48.0, 11.0, 500.0);
+};
+
+TEST_F(ResultsTest, AnEmptyStoreSaysWhyThereIsNoMap) {
+  store::Store store = open();
+  const auto results = write_results(store, config());
+  ASSERT_FALSE(results);
+  EXPECT_NE(results.error().message.find("no node was made or received"), std::string::npos);
+}
+
+TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
+  store::Store store = open();
+  for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  ASSERT_TRUE(TrajectoryFile::create(odometry_file(folder_.path(), 0)));
+  AgentConfig config = this->config();
+  config.map.voxel_m = 0.25;
+  config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
+  const auto results = write_results(store, config);
+  ASSERT_TRUE(results) << results.error().message;
+  EXPECT_EQ(results->map_submaps, 4u);
+  EXPECT_EQ(results->missing_submaps, 0u);
+  const auto recipe = map_recipe(store);
+  ASSERT_TRUE(recipe);
+  EXPECT_EQ(recipe->origin, *config.site_origin);
+  const auto again = merged_map(store, place(store, recipe->origin, recipe->placement), recipe->merge);
+  EXPECT_EQ(again.cloud.size(), results->map_points);
+}
+
+TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
+  store::Store store = open();
+  add_node(store, 0.0);
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  const auto results = write_results(store, config());
+  ASSERT_TRUE(results) << results.error().message;
+  EXPECT_GT(results->map_points, 0u);
+}
+
+TEST_F(ResultsTest, SurroundingsAreOfOneOdometryFrameAndWithinTheRadius) {
+  store::Store store = open();
+  add_node(store, 0.0);
+  const graph::Node near = add_node(store, 5.0);
+  add_node(store, 50.0);
+  add_node(store, 5.0, 1);
+  const Surroundings surroundings = gather(store, near, 10.0);
+  ASSERT_EQ(surroundings.submaps.size(), 2u);
+  EXPECT_NEAR(surroundings.submaps[0].first.translation().x(), -5.0, 1e-9);
+  EXPECT_NEAR(surroundings.submaps[1].first.translation().x(), 0.0, 1e-9);
+}
+
+TEST_F(ResultsTest, PriorIsTheDifferenceOfBothGlobalPoses) {
+  store::Store store = open();
+  graph::Node a = add_node(store, 0.0);
+  graph::Node b = add_node(store, 10.0);
+  a.G.q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
+  a.G.covariance = Vector6d(1, 1, 1, 1e-4, 1e-4, 0.01).asDiagonal();
+  b.G.covariance = Vector6d(3, 3, 3, 1e-4, 1e-4, 0.03).asDiagonal();
+  const registration::Prior prior = prior_of(a, b);
+  EXPECT_TRUE(prior.T_target_source.translation().isApprox(Eigen::Vector3d(0, -10, 0), 1e-3));
+  EXPECT_NEAR(prior.sigma_yaw_rad, 0.2, 1e-9);
+  EXPECT_NEAR(prior.sigma_translation_m, std::sqrt(4.0 + 4.0), 1e-3) << "10 m swung by 0.2 rad are 2 m";
+}
+
+}  // namespace
+}  // namespace fleetmap::agent

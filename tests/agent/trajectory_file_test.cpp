@@ -1,0 +1,69 @@
+#include "fleetmap/agent/trajectory_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+std::vector<StampedPose> made_up(std::size_t count) {
+  std::vector<StampedPose> poses;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double a = 0.1 * static_cast<double>(k);
+    // A Unix time whose nanoseconds a double could not hold.
+    poses.push_back({stamp_from_ns(1'750'000'000'123'456'789 + static_cast<std::int64_t>(k) * 100'000'001),
+                     make_pose(rotation_from_rpy(0.1, -a, 3.0 * a), Eigen::Vector3d(a, -1e3, 0.001))});
+  }
+  return poses;
+}
+
+TEST(TrajectoryFile, ReadsBackWhatItWroteToTheNanosecond) {
+  const testing::TemporaryFolder folder;
+  const auto poses = made_up(50);
+  ASSERT_TRUE(write_trajectory(folder.path() / "t.tum", poses));
+  const auto read = read_trajectory(folder.path() / "t.tum");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), poses.size());
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    EXPECT_EQ((*read)[k].stamp, poses[k].stamp);
+    EXPECT_LT(((*read)[k].T_w_base.matrix() - poses[k].T_w_base.matrix()).norm(), 1e-5);
+  }
+}
+
+TEST(TrajectoryFile, GrowingFileHoldsEveryLineAtOnce) {
+  const testing::TemporaryFolder folder;
+  auto file = TrajectoryFile::create(folder.path() / "t.tum");
+  ASSERT_TRUE(file);
+  for (const StampedPose& pose : made_up(3)) ASSERT_TRUE(file->add(pose));
+  EXPECT_EQ(read_trajectory(folder.path() / "t.tum")->size(), 3u)
+      << "the writer is still open, as when it is killed";
+}
+
+TEST(TrajectoryFile, LineThatAKillCutOffEndsTheFile) {
+  const testing::TemporaryFolder folder;
+  const std::string lines = tum_line(made_up(1)[0]) + "\n" + tum_line(made_up(2)[1]);
+  const auto file = folder.write("t.tum", lines.substr(0, lines.size() - 40));
+  const auto read = read_trajectory(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->size(), 1u);
+}
+
+TEST(TrajectoryFile, NonsenseIsAnErrorWithFileAndLine) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write(
+      "t.tum", "# a comment\n" + tum_line(made_up(1)[0]) + "\nhello\n" + tum_line(made_up(1)[0]) + "\n");
+  const auto read = read_trajectory(file);
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, ::testing::HasSubstr("t.tum:3: expected"));
+  EXPECT_FALSE(read_trajectory(folder.path() / "none.tum"));
+}
+
+TEST(OdometryFile, EachSessionHasItsOwn) {
+  EXPECT_EQ(odometry_file("out/r1", 0), "out/r1/odometry.tum");
+  EXPECT_EQ(odometry_file("out/r1", 2), "out/r1/odometry-2.tum");
+}
+
+}  // namespace
+}  // namespace fleetmap::agent
