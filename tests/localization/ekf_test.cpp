@@ -364,6 +364,7 @@ TEST(Ekf, PoseAtInterpolatesAndLooksALittleAhead) {
   sensors.imu_rate = 10.0;
   sensors.wheel_rate = 10.0;
   EkfConfig config;
+  config.history = 2.0;
   config.gps.correlation_time = 0.0;
   const Ekf ekf = run(sensors, drive, 30.0, config);
   for (const double t : {28.3, 28.333, 29.05, 29.999, 30.0, 30.08, 30.25}) {
