@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test through ctest: first the release build with the integration
-# tests, then the unit tests again under AddressSanitizer and UndefinedBehaviorSanitizer.
+# tests, then the unit tests again under AddressSanitizer and UndefinedBehaviorSanitizer (without the long drives that
+# measure accuracy: shorter ones go through the same code).
 #   deploy/test.sh            all of it
 #   deploy/test.sh release    one build only (release, asan or tsan)
 set -euo pipefail
