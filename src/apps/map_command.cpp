@@ -32,10 +32,10 @@ struct OpenedMap {
 Result<OpenedMap> open_map(const MapOptions& options) {
   auto store = store::Store::open_read_only(options.store);
   if (!store) return tl::unexpected(store.error());
-  agent::MapRecipe recipe = agent::map_recipe(*store).value_or(agent::MapRecipe{});
-  const bool has_recipe = agent::map_recipe(*store).has_value();
+  const std::optional<agent::MapRecipe> kept = agent::map_recipe(*store);
+  agent::MapRecipe recipe = kept.value_or(agent::MapRecipe{});
   std::optional<GeoPoint> origin = configured_origin(options);
-  if (!origin && has_recipe) origin = recipe.origin;
+  if (!origin && kept) origin = kept->origin;
   origin = agent::site_origin(*store, origin);
   if (!origin || store->nodes().empty())
     return failure(options.store + ": holds no node, so there is no map");
