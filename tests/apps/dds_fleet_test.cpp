@@ -115,7 +115,7 @@ TEST_F(DdsFleet, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   auto r2 = agent("r2");
   auto play1 = replay("r1");
   auto play2 = replay("r2");
-  ASSERT_TRUE(eventually([&] { return own_nodes("r2") >= 5; })) << r2->output();
+  ASSERT_TRUE(eventually([&] { return own_nodes("r2") >= 5; })) << r2->output() << play2->output();
   r2->signal(SIGKILL);
   EXPECT_EQ(r2->wait(), 128 + SIGKILL);
   const std::size_t held = own_nodes("r2");

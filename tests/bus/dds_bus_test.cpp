@@ -213,5 +213,14 @@ TEST_F(QosDirectory, APeerThatVanishesDoesNotHoldUpAWriter) {
   }
 }
 
+TEST_F(QosDirectory, WithoutATimeoutTheBusRunsUntilTheConditionHolds) {
+  auto bus = DdsBus::create(config_);
+  ASSERT_TRUE(bus);
+  int ticks = 0;
+  const Handle timer = (*bus)->every(std::chrono::milliseconds(5), [&] { ++ticks; });
+  EXPECT_TRUE((*bus)->run_until([&] { return ticks >= 3; }, Duration::max()));
+  EXPECT_GE(ticks, 3);
+}
+
 }  // namespace
 }  // namespace fleetmap::bus::testing

@@ -147,7 +147,10 @@ void DdsBus::run_until(const std::atomic<bool>& stop) {
 }
 
 bool DdsBus::run_until(const std::function<bool()>& done, Duration timeout) {
-  const auto deadline = Executor::Clock::now() + timeout;
+  const auto now = Executor::Clock::now();
+  // now + Duration::max() would lie in the past.
+  const auto deadline =
+      timeout < Executor::Clock::time_point::max() - now ? now + timeout : Executor::Clock::time_point::max();
   while (!done()) {
     if (!state_->executor->run_one(deadline)) return done();
   }
