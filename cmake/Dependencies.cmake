@@ -11,6 +11,8 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(LibLZMA REQUIRED)
 find_package(fastcdr REQUIRED)
 find_package(fastrtps REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(PNG REQUIRED)
 
 # GeographicLib and Draco install CMake files that Debian's layout does not let
 # find_package see without help, so their libraries are looked up directly.

@@ -7,7 +7,7 @@ packages=(
   fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
   libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
-  libsqlite3-dev libssl-dev liblzma-dev
+  libsqlite3-dev libssl-dev liblzma-dev libembree-dev libpng-dev
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 

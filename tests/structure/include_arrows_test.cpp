@@ -30,9 +30,12 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"bus", {"core"}},
     {"wire", {"exchange", "sensor", "bus"}},
     {"recording", {"wire"}},
-    {"agent", {"odometry", "localization", "registration", "exchange", "wire"}},
-    {"config", {"agent", "bus", "recording"}},
-    {"apps", {"config", "recording", "agent", "bus"}},
+    {"sim", {"cloud", "sensor"}},
+    {"planning", {"geometry"}},
+    {"eval", {"registration"}},
+    {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
+    {"config", {"agent", "bus", "recording", "sim", "eval"}},
+    {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
 };
 
 /// Third-party headers that only the named places may include.
@@ -46,6 +49,8 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<draco/", {"src/cloud"}},
     {"^<sqlite3", {"src/store", "src/recording"}},
     {"^<GeographicLib/", {"src/geometry"}},
+    {"^<embree", {"src/sim"}},
+    {"^<png", {"src/eval"}},
 };
 
 /// What a library may include: its arrows and everything those may include.

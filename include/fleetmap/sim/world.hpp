@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/sim/mesh.hpp"
+
+namespace fleetmap::sim {
+
+/// A free lane along which a robot can map, from end to end (ENU, m).
+struct Aisle {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+};
+
+/// What stands in the way as a site plan shows it: a closed polygon (ENU, m), its last corner joined to its
+/// first.
+using Footprint = std::vector<Eigen::Vector2d>;
+
+struct WorldBounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();
+  bool contains(const Eigen::Vector2d& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+};
+
+/// How a mesh is turned into ground to drive on.
+struct DrivableConfig {
+  double cell = 0.25;            ///< m, of the grid of heights and obstacles
+  double robot_height = 0.9;     ///< m: what hangs lower than this above the ground is in the way
+  double step_height = 0.15;     ///< m: what is lower than this is driven over
+  double max_slope_rad = 0.436;  ///< rad (25 deg): steeper ground is in the way
+  Status validate() const;
+};
+
+/// A site that robots drive on: its mesh, the ground under them and what is in the way. Immutable; shared by
+/// threads without locks.
+class World {
+ public:
+  /// From any mesh. The ground at (x, y) is the lowest surface there. Fails, with the remedy, for a mesh
+  /// without triangles, with non-finite vertices, or with hardly any ground that can be driven on.
+  static Result<std::shared_ptr<const World>> create(Mesh mesh, const DrivableConfig& config = {},
+                                                     std::vector<Aisle> aisles = {},
+                                                     std::vector<Footprint> plan = {});
+
+  const Mesh& mesh() const { return mesh_; }
+  const WorldBounds& bounds() const { return bounds_; }
+  /// Lanes to map along, sorted across the site; empty for a user's mesh.
+  const std::vector<Aisle>& aisles() const { return aisles_; }
+  /// Where tables, cabins, fences and trees stand; empty for a user's mesh.
+  const std::vector<Footprint>& plan() const { return plan_; }
+  /// m above the origin, bilinear between cells; outside the bounds that of the nearest cell.
+  double ground_height(const Eigen::Vector2d& p) const;
+  /// Upward unit normal of the ground, smoothed over about a robot's length.
+  Eigen::Vector3d ground_normal(const Eigen::Vector2d& p) const;
+  /// Something a robot of this radius (m) would touch stands at `p`, or `p` is outside the world.
+  bool blocked(const Eigen::Vector2d& p, double radius) const;
+  /// m, from `p` to the nearest cell in the way, at most `limit`.
+  double clearance(const Eigen::Vector2d& p, double limit) const;
+
+ private:
+  World() = default;
+  Mesh mesh_;
+  WorldBounds bounds_;
+  std::vector<Aisle> aisles_;
+  std::vector<Footprint> plan_;
+  DrivableConfig config_;
+  Eigen::Vector2i size_ = Eigen::Vector2i::Zero();  ///< cells along east and north
+  std::vector<float> heights_;                      ///< row by row from the south
+  std::vector<std::uint8_t> blocked_;
+};
+
+}  // namespace fleetmap::sim
