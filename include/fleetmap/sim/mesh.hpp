@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "fleetmap/cloud/point_cloud.hpp"
+
 namespace fleetmap::sim {
 
 /// What a surface is made of: how a LiDAR sees it.
 enum class Material : std::uint8_t { kGround, kGlass, kMetal, kConcrete, kVegetation };
+inline constexpr int kMaterials = 5;
 
 /// Triangles in the site's ENU frame, metres. A triangle is seen from both sides.
 struct Mesh {
@@ -21,5 +24,15 @@ struct Mesh {
 
 /// Adds the triangles of `other` behind those of `mesh`.
 void append(Mesh& mesh, const Mesh& other);
+
+/// m^2 of all triangles together.
+double area(const Mesh& mesh);
+
+/// Points spread evenly over all triangles, `points_per_m2` of them on average: the ground truth of a map.
+/// Stratified along the triangles' order, so that every patch gets its share; the same seed gives the same
+/// points. Empty for a density that is not positive; fewer points than asked for, at the lower density that
+/// this takes, beyond `max_points`.
+cloud::PointCloud sample_surface(const Mesh& mesh, double points_per_m2, std::uint64_t seed,
+                                 std::size_t max_points = 50'000'000);
 
 }  // namespace fleetmap::sim
