@@ -4,6 +4,7 @@
 
 #include "event_queue.hpp"
 #include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/core/thread_pool.hpp"
 #include "local_robot.hpp"
 #include "radio.hpp"
 
@@ -32,6 +33,8 @@ Status LocalNetworkConfig::validate() const {
   if (auto status = validate_radio(long_range, "long_range"); !status) return status;
   if (auto status = validate_radio(short_range, "short_range"); !status) return status;
   if (onboard_queue_capacity == 0) return failure("onboard_queue_capacity must be > 0");
+  if (perception_time < Duration::zero()) return failure("perception_time must be >= 0");
+  if (background_time < Duration::zero()) return failure("background_time must be >= 0");
   return {};
 }
 
@@ -39,6 +42,7 @@ struct LocalNetwork::State {
   explicit State(const LocalNetworkConfig& network_config)
       : config(network_config),
         events(config.start),
+        pool(config.threads),
         long_range(Link::kLongRange, config.long_range, config.seed, events),
         // A stream of its own, so that traffic on one radio does not change the losses of the other.
         short_range(Link::kShortRange, config.short_range, config.seed ^ 0x9e3779b97f4a7c15u, events) {
@@ -88,6 +92,7 @@ struct LocalNetwork::State {
 
   LocalNetworkConfig config;
   EventQueue events;
+  ThreadPool pool;
   Radio long_range;
   Radio short_range;
   std::map<AgentId, EnuPosition> positions;
@@ -107,7 +112,7 @@ Bus& LocalNetwork::add_robot(const AgentId& agent) {
   auto [entry, fresh] = state_->robots.try_emplace(agent);
   if (!fresh) throw std::logic_error("two robots are called " + agent.str());
   entry->second = std::make_unique<LocalRobot>(
-      state_->events, state_->config.onboard_queue_capacity,
+      state_->events, state_->pool, state_->config,
       [state = state_.get(), agent](const Topic& topic, std::shared_ptr<const Bytes> cdr) {
         state->transmit(agent, topic, cdr);
       });
@@ -118,6 +123,11 @@ void LocalNetwork::remove_robot(const AgentId& agent) {
   state_->long_range.forget(agent);
   state_->short_range.forget(agent);
   state_->robots.erase(agent);
+}
+
+void LocalNetwork::finish_work(const AgentId& agent) {
+  const auto robot = state_->robots.find(agent);
+  if (robot != state_->robots.end()) robot->second->finish_work();
 }
 
 void LocalNetwork::set_position(const AgentId& agent, const EnuPosition& position) {

@@ -5,8 +5,17 @@
 
 namespace fleetmap::bus {
 
-LocalRobot::LocalRobot(EventQueue& events, std::size_t onboard_queue_capacity, Transmit transmit)
-    : events_(events), onboard_queue_capacity_(onboard_queue_capacity), transmit_(std::move(transmit)) {}
+LocalRobot::LocalRobot(EventQueue& events, ThreadPool& pool, const LocalNetworkConfig& config,
+                       Transmit transmit)
+    : events_(events),
+      pool_(pool),
+      onboard_queue_capacity_(config.onboard_queue_capacity),
+      transmit_(std::move(transmit)) {
+  state_->lanes[static_cast<std::size_t>(Lane::kPerception)].time = config.perception_time;
+  state_->lanes[static_cast<std::size_t>(Lane::kBackground)].time = config.background_time;
+}
+
+LocalRobot::~LocalRobot() { finish_work(); }
 
 Stamp LocalRobot::now() const { return events_.now(); }
 
@@ -95,16 +104,45 @@ void LocalRobot::schedule(EventQueue& events, const std::shared_ptr<Timer>& time
   });
 }
 
-void LocalRobot::offload(Lane, std::function<void()> work, std::function<void()> done) {
-  const std::weak_ptr<State> owner = state_;
-  EventQueue& events = events_;
-  events.post([&events, owner, work = std::move(work), done = std::move(done)]() mutable {
-    if (owner.expired()) return;
-    work();
-    events.post([owner, done = std::move(done)] {
-      if (!owner.expired()) done();
-    });
+void LocalRobot::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+  const auto index = static_cast<std::size_t>(lane);
+  LaneState& state = state_->lanes[index];
+  state.waiting.push_back({std::move(work), std::move(done)});
+  if (state.busy) return;
+  state.busy = true;
+  events_.post(
+      [&events = events_, &pool = pool_, owner = std::weak_ptr<State>(state_), index, round = state.round] {
+        const auto alive = owner.lock();
+        if (alive && alive->lanes[index].round == round) start_next(events, pool, alive, index);
+      });
+}
+
+void LocalRobot::start_next(EventQueue& events, ThreadPool& pool, const std::shared_ptr<State>& state,
+                            std::size_t lane) {
+  LaneState& self = state->lanes[lane];
+  self.busy = !self.waiting.empty();
+  if (!self.busy) return;
+  WorkItem item = std::move(self.waiting.front());
+  self.waiting.pop_front();
+  self.under_way = pool.run(std::move(item.work));
+  events.at(events.now() + self.time, [&events, &pool, owner = std::weak_ptr<State>(state), lane,
+                                       round = self.round, done = std::move(item.done)] {
+    const auto alive = owner.lock();
+    if (!alive || alive->lanes[lane].round != round) return;
+    alive->lanes[lane].under_way.get();
+    start_next(events, pool, alive, lane);
+    done();
   });
+}
+
+void LocalRobot::finish_work() {
+  for (LaneState& lane : state_->lanes) {
+    lane.waiting.clear();
+    if (lane.under_way.valid()) lane.under_way.wait();
+    lane.under_way = {};
+    lane.busy = false;
+    ++lane.round;
+  }
 }
 
 std::vector<TopicStats> LocalRobot::stats() const {

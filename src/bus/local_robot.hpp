@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <deque>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -8,7 +11,9 @@
 
 #include "event_queue.hpp"
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/local_bus.hpp"
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/thread_pool.hpp"
 
 namespace fleetmap::bus {
 
@@ -17,7 +22,8 @@ class LocalRobot final : public Bus {
  public:
   using Transmit = std::function<void(const Topic& topic, std::shared_ptr<const Bytes> cdr)>;
 
-  LocalRobot(EventQueue& events, std::size_t onboard_queue_capacity, Transmit transmit);
+  LocalRobot(EventQueue& events, ThreadPool& pool, const LocalNetworkConfig& config, Transmit transmit);
+  ~LocalRobot() override;
 
   Stamp now() const override;
   void publish(const Topic& topic, const Bytes& cdr) override;
@@ -30,6 +36,7 @@ class LocalRobot final : public Bus {
   /// From a link: runs the subscribers' callbacks now.
   void deliver(const Topic& topic, const std::shared_ptr<const Bytes>& cdr);
   void count_drop(const Topic& topic);
+  void finish_work();
 
  private:
   struct Subscriber {
@@ -48,18 +55,33 @@ class LocalRobot final : public Bus {
     std::function<void()> callback;
     bool active = true;
   };
+  struct WorkItem {
+    std::function<void()> work;
+    std::function<void()> done;
+  };
+  struct LaneState {
+    Duration time{};
+    std::deque<WorkItem> waiting;
+    bool busy = false;
+    std::future<void> under_way;
+    std::uint64_t round = 0;  ///< counts finish_work(): what began before one is not followed up
+  };
   /// What handles and events may outlive the robot with.
   struct State {
+    std::array<LaneState, 2> lanes;
     std::map<std::pair<Link, std::string>, TopicState> topics;
   };
 
   static void schedule(EventQueue& events, const std::shared_ptr<Timer>& timer,
                        const std::weak_ptr<State>& owner, Stamp stamp);
+  static void start_next(EventQueue& events, ThreadPool& pool, const std::shared_ptr<State>& state,
+                         std::size_t lane);
   TopicState& state_of(const Topic& topic);
   void publish_onboard(TopicState& topic, std::shared_ptr<const Bytes> cdr);
   static void run_subscribers(TopicState& topic, const Bytes& cdr);
 
   EventQueue& events_;
+  ThreadPool& pool_;
   std::size_t onboard_queue_capacity_;
   Transmit transmit_;
   std::shared_ptr<State> state_ = std::make_shared<State>();

@@ -196,6 +196,68 @@ TEST(LocalNetwork, OnboardMessagesAndWorkTakeNoTime) {
   EXPECT_THAT(order, ElementsAre(1, 2, 3, 4));
 }
 
+TEST(LocalNetwork, OffloadedWorkTakesItsVirtualTimeAndGivesTheSameWithAnyNumberOfThreads) {
+  const auto log_with = [](unsigned threads) {
+    LocalNetworkConfig config;
+    config.threads = threads;
+    config.perception_time = 30ms;
+    config.background_time = 200ms;
+    auto network = LocalNetwork::create(config).value();
+    std::vector<std::string> log;
+    std::array<int, 2> sums{};
+    for (int r = 0; r < 2; ++r) {
+      Bus& robot = network->add_robot(agent(r == 0 ? "r1" : "r2"));
+      for (int k = 0; k < 5; ++k) {
+        const Lane lane = k % 2 == 0 ? Lane::kPerception : Lane::kBackground;
+        // Items of one lane run one at a time; those of the other lane touch something else.
+        auto* sum = lane == Lane::kPerception ? &sums[static_cast<std::size_t>(r)] : nullptr;
+        robot.offload(
+            lane,
+            [sum, k] {
+              if (sum) *sum = *sum * 10 + k;
+            },
+            [&log, &network, r, k] {
+              log.push_back(std::to_string(r) + ":" + std::to_string(k) + "@" +
+                            std::to_string(to_seconds(network->now() - Stamp{})));
+            });
+      }
+    }
+    network->run_until(Stamp{} + 2s);
+    log.push_back(std::to_string(sums[0]) + "," + std::to_string(sums[1]));
+    return log;
+  };
+  const auto alone = log_with(0);
+  EXPECT_EQ(log_with(1), alone);
+  EXPECT_EQ(log_with(3), alone);
+  EXPECT_THAT(alone, ElementsAre("0:0@0.030000", "1:0@0.030000", "0:2@0.060000", "1:2@0.060000",
+                                 "0:4@0.090000", "1:4@0.090000", "0:1@0.200000", "1:1@0.200000",
+                                 "0:3@0.400000", "1:3@0.400000", "24,24"));
+}
+
+TEST(LocalNetwork, AfterFinishWorkNothingFollowsFromWhatWasOffloaded) {
+  LocalNetworkConfig config;
+  config.threads = 1;
+  config.background_time = 100ms;
+  auto network = LocalNetwork::create(config).value();
+  Bus& robot = network->add_robot(agent("r1"));
+  bool first = false, second = false, followed = false;
+  robot.offload(
+      Lane::kBackground, [&] { first = true; }, [&] { followed = true; });
+  robot.offload(
+      Lane::kBackground, [&] { second = true; }, [&] { followed = true; });
+  network->run_until(Stamp{} + 50ms);
+  network->finish_work(agent("r1"));
+  network->run_until(Stamp{} + 1s);
+  EXPECT_TRUE(first);
+  EXPECT_FALSE(second);
+  EXPECT_FALSE(followed);
+  robot.offload(
+      Lane::kBackground, [&] { second = true; }, [&] { followed = true; });
+  network->run_until(Stamp{} + 2s);
+  EXPECT_TRUE(second);
+  EXPECT_TRUE(followed);
+}
+
 TEST(LocalNetwork, ARobotThatIsSwitchedOffHearsAndDoesNothingAndMayComeBack) {
   Network net;
   net.listen(1, kSmall);

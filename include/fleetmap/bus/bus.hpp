@@ -85,8 +85,8 @@ class Bus {
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
   [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
 
-  /// Runs `work` off the callback thread, then `done` on it. In virtual time both run at the same instant, so
-  /// results do not depend on the machine.
+  /// Runs `work` off the callback thread, then `done` on it. In virtual time `done` follows after a set time,
+  /// so results do not depend on the machine.
   virtual void offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;

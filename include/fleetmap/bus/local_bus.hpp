@@ -40,6 +40,11 @@ struct LocalNetworkConfig {
       1024;                ///< messages of one topic not yet delivered; the oldest gives way
   std::uint64_t seed = 1;  ///< of loss
   Stamp start{};
+  /// Virtual time that an item of offloaded work takes, by lane, whatever the machine needs for it.
+  Duration perception_time{};
+  Duration background_time{};
+  /// Threads for offloaded work, beside the one that runs the events. Has no influence on what comes out.
+  unsigned threads = 0;
   /// Names the field and the rule that it breaks.
   Status validate() const;
 };
@@ -73,8 +78,8 @@ struct LinkUse {
 };
 
 /// A fleet in one process in virtual time: an event queue, and a Bus per robot over simulated links. The same
-/// calls with the same seed give the same run, whatever the machine. Not thread-safe; events at one instant
-/// run in the order in which they were scheduled.
+/// calls with the same seed give the same run, whatever the machine and the number of threads. Not
+/// thread-safe; events at one instant run in the order in which they were scheduled.
 ///
 /// Onboard messages arrive at the instant they are published. On a radio a message goes once to each robot
 /// that subscribes to its topic and is in reach; robots with something to send take turns. A robot without a
@@ -91,6 +96,8 @@ class LocalNetwork {
   Bus& add_robot(const AgentId& agent);
   /// Switches a robot off: its timers, subscriptions, work and waiting messages go with it.
   void remove_robot(const AgentId& agent);
+  /// Waits for the robot's offloaded work under way and lets go of what waits; nothing follows from either.
+  void finish_work(const AgentId& agent);
 
   void set_position(const AgentId& agent, const EnuPosition& position);
   void add_blackout(const Blackout& blackout);
