@@ -41,8 +41,10 @@ struct DrivableConfig {
 /// threads without locks.
 class World {
  public:
-  /// From any mesh. The ground at (x, y) is the lowest surface there. Fails, with the remedy, for a mesh
-  /// without triangles, with non-finite vertices, or with hardly any ground that can be driven on.
+  /// From any mesh. The ground at (x, y) is the lowest surface there that is no wall, with what lies on it up
+  /// to a step high; holes narrower than a metre are bridged, wider ones are in the way. Fails, with the
+  /// remedy, for a mesh without triangles, with non-finite vertices, too large for its cells, or with hardly
+  /// any ground that can be driven on.
   static Result<std::shared_ptr<const World>> create(Mesh mesh, const DrivableConfig& config = {},
                                                      std::vector<Aisle> aisles = {},
                                                      std::vector<Footprint> plan = {});
@@ -53,6 +55,9 @@ class World {
   const std::vector<Aisle>& aisles() const { return aisles_; }
   /// Where tables, cabins, fences and trees stand; empty for a user's mesh.
   const std::vector<Footprint>& plan() const { return plan_; }
+  const DrivableConfig& drivable() const { return config_; }
+  /// Share of the bounds' cells where nothing is in the way.
+  double drivable_share() const { return drivable_share_; }
   /// m above the origin, bilinear between cells; outside the bounds that of the nearest cell.
   double ground_height(const Eigen::Vector2d& p) const;
   /// Upward unit normal of the ground, smoothed over about a robot's length.
@@ -72,6 +77,7 @@ class World {
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();  ///< cells along east and north
   std::vector<float> heights_;                      ///< row by row from the south
   std::vector<std::uint8_t> blocked_;
+  double drivable_share_ = 0.0;
 };
 
 }  // namespace fleetmap::sim
