@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "recording_feed.hpp"
 #include "report.hpp"
 #include "virtual_fleet.hpp"
 
@@ -33,6 +34,12 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options,
     recordings.emplace_back(*id, text.substr(equals + 1));
   }
   return config::fleet_of(recordings, overrides);
+}
+
+Result<std::unique_ptr<FleetFeed>> feed_of(const config::FleetConfig& config) {
+  std::vector<config::RecordingConfig> recordings;
+  for (const auto& member : config.members) recordings.push_back(member.recording);
+  return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
 }
 
 void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out) {
@@ -74,7 +81,9 @@ int run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
   if (!options.record.empty()) record = options.record;
-  auto fleet = VirtualFleet::create(std::move(*config), options.out, record);
+  auto feed = feed_of(*config);
+  if (!feed) return report(feed.error(), kFailed);
+  auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
   if (!fleet) return report(fleet.error(), kFailed);
   const auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "fleet_feed.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/bus/local_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/recording/reader.hpp"
 
 namespace fleetmap::apps {
 
@@ -33,13 +33,13 @@ struct FleetOutcome {
   bool settled = false;     ///< the exchange came to its end by itself
 };
 
-/// A whole fleet in one process and one thread, in virtual time: each agent's recording is played onto its
-/// bus.
+/// A whole fleet in one process, in virtual time: each member's samples come from a feed onto its bus.
 class VirtualFleet {
  public:
   /// Agents keep their files in `out`/<id>, which must not hold an earlier run. With `record`, what each
   /// agent's sensors gave goes to a bag in `record`/<id>.
   static Result<std::unique_ptr<VirtualFleet>> create(config::FleetConfig config,
+                                                      std::unique_ptr<FleetFeed> feed,
                                                       const std::filesystem::path& out,
                                                       const std::optional<std::filesystem::path>& record);
 
@@ -48,31 +48,26 @@ class VirtualFleet {
 
  private:
   struct Member {
-    std::unique_ptr<recording::Reader> reader;
-    std::optional<recording::Sample> next;
-    Duration shift{};  ///< virtual time = stamp + shift
     bus::Bus* bus = nullptr;
     std::unique_ptr<agent::Agent> agent;
     std::optional<recording::BagWriter> bag;
-    std::string problem;  ///< why the recording could not be read to its end
-    bool ended = false;
     bool rest_frozen = false;
   };
-  explicit VirtualFleet(config::FleetConfig config) : config_(std::move(config)) {}
-  Status open_recordings();
-  Status find_origin();
+  VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
+      : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
   Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
-  void set_shifts();
-  Status advance(Member& member);
-  void play(Member& member);
-  void schedule(Member& member);
+  void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
   void update_positions();
+  bool playing() const;
   bool settled();
+  void report_progress(Duration elapsed) const;
+  Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
 
   config::FleetConfig config_;
+  std::unique_ptr<FleetFeed> feed_;
+  std::optional<GeoPoint> origin_;
   std::unique_ptr<bus::LocalNetwork> network_;
   std::vector<Member> members_;
-  std::optional<GeoPoint> origin_;
   std::string error_;
 };
 

@@ -1,0 +1,204 @@
+#include "experiment/shape_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "experiment/student.hpp"
+#include "experiment/study_values.hpp"
+
+namespace fleetmap::apps::experiment {
+namespace {
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Of the mean; NaN for fewer than two values.
+double standard_error(const std::vector<double>& values) {
+  const double n = static_cast<double>(values.size());
+  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double mean = mean_of(values);
+  double sum = 0.0;
+  for (const double value : values) sum += (value - mean) * (value - mean);
+  return std::sqrt(sum / (n - 1.0) / n);
+}
+
+double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
+  const double x_mean = mean_of(x), y_mean = mean_of(y);
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - x_mean) * (x[k] - x_mean);
+    xy += (x[k] - x_mean) * (y[k] - y_mean);
+  }
+  return xx > 0.0 ? xy / xx : 0.0;
+}
+
+/// Chance that the seeds' slopes have this mean or one farther in the expected direction without any trend.
+double slope_chance(const Curve& curve, double sign) {
+  std::vector<double> slopes;
+  for (std::size_t seed = 0; seed < curve.values.front().size(); ++seed) {
+    std::vector<double> y;
+    for (const std::vector<double>& row : curve.values) y.push_back(sign * row[seed]);
+    slopes.push_back(slope_of(curve.x, y));
+  }
+  const double error = standard_error(slopes), mean = mean_of(slopes);
+  if (std::isnan(error)) return error;
+  if (error <= 0.0) return mean > 0.0 ? 0.0 : 1.0;
+  return student_tail(mean / error, static_cast<double>(slopes.size() - 1));
+}
+
+/// The first step back that the seeds do not explain; empty: there is none.
+std::string step_back(const Curve& curve, const std::vector<double>& means, double sign) {
+  const std::size_t seeds = curve.values.front().size();
+  if (seeds < 2) return "";
+  const double t = student_quantile(0.025, static_cast<double>(seeds - 1));
+  for (std::size_t k = 0; k + 1 < means.size(); ++k) {
+    std::vector<double> differences;
+    for (std::size_t seed = 0; seed < seeds; ++seed)
+      differences.push_back(sign * (curve.values[k + 1][seed] - curve.values[k][seed]));
+    const double back = -mean_of(differences), allowed = t * standard_error(differences);
+    // What is equal but for the last digit is no step.
+    if (back > allowed && back > 1e-9 * std::abs(means[k])) {
+      return "from " + short_number(curve.x[k]) + " to " + short_number(curve.x[k + 1]) + " it goes " +
+             short_number(back) + " the other way, the seeds explain " + short_number(allowed);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Trend check_trend(const Curve& curve, bool falling) {
+  const double sign = falling ? -1.0 : 1.0;
+  const std::string direction = falling ? "fall" : "rise";
+  Trend trend;
+  for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
+  trend.change = trend.means.back() - trend.means.front();
+  trend.slope = slope_of(curve.x, trend.means);
+  trend.p = slope_chance(curve, sign);
+  if (!(sign * trend.change > 0.0)) {
+    trend.violation = "it does not " + direction + " from first to last: the mean changes by " +
+                      short_number(trend.change);
+  } else if (!(sign * trend.slope > 0.0)) {
+    trend.violation = "the line through the means does not " + direction + ": its slope is " +
+                      short_number(trend.slope);
+  } else {
+    trend.violation = step_back(curve, trend.means, sign);
+  }
+  return trend;
+}
+
+namespace {
+
+/// Only the seeds that gave the metric at every point, as logarithms if that is how it is compared.
+Curve paired(const SliceValues& slice, bool log_scale) {
+  Curve curve;
+  curve.x = slice.x;
+  curve.values.resize(slice.x.size());
+  for (std::size_t seed = 0; seed < slice.values.front().size(); ++seed) {
+    const bool whole = std::ranges::all_of(slice.values, [&](const std::vector<double>& row) {
+      return std::isfinite(row[seed]) && (!log_scale || row[seed] > 0.0);
+    });
+    if (!whole) continue;
+    for (std::size_t k = 0; k < curve.x.size(); ++k)
+      curve.values[k].push_back(log_scale ? std::log(slice.values[k][seed]) : slice.values[k][seed]);
+  }
+  return curve;
+}
+
+Curve times_x(Curve curve, bool log_scale) {
+  for (std::size_t k = 0; k < curve.x.size(); ++k)
+    for (double& value : curve.values[k]) value = log_scale ? value + std::log(curve.x[k]) : value * curve.x[k];
+  return curve;
+}
+
+std::string list_of(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
+  return text;
+}
+
+/// Judges one trend and, for falls_less_than_linearly, the one of the metric times x.
+void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
+  const bool falling = check.expectation.shape != config::Shape::kRises;
+  const Trend trend = check_trend(curve, falling);
+  check.means = trend.means;
+  if (log_scale)
+    for (double& mean : check.means) mean = std::exp(mean);
+  check.change = log_scale ? std::exp(trend.change) : trend.change;
+  check.p = trend.p;
+  std::string violation = trend.violation;
+  if (violation.empty() && check.expectation.shape == config::Shape::kFallsLessThanLinearly) {
+    const Trend shares = check_trend(times_x(curve, log_scale), false);
+    if (!shares.holds())
+      violation = "it falls as fast as 1/" + check.expectation.over + " or faster; times " + check.expectation.over +
+                  ", " + shares.violation;
+    check.p = std::isnan(shares.p) ? shares.p : std::max(check.p, shares.p);
+  }
+  const std::string measured = "means " + list_of(check.means);
+  const std::string scale = log_scale ? " (of logarithms)" : "";
+  if (!violation.empty()) {
+    check.verdict = Verdict::kViolated;
+    check.detail = violation + scale + "; " + measured;
+  } else {
+    check.verdict = check.p <= 0.05 ? Verdict::kHolds : Verdict::kHoldsWeakly;
+    check.detail = measured;
+  }
+  check.detail += std::isnan(check.p) ? "; one seed says nothing of chance" : "; p " + short_number(check.p);
+}
+
+void check_slice(ShapeCheck& check, const config::ExperimentConfig& config, const config::Study& study,
+                 const std::vector<CaseRecord>& records, std::size_t axis, const Slice& slice) {
+  const config::MetricSpec* metric = config.metric(check.expectation.metric);
+  const bool log_scale = metric && metric->log_scale;
+  const Curve curve = paired(values_along(study, records, axis, slice, check.expectation.metric), log_scale);
+  check.x = curve.x;
+  check.seeds = curve.values.front().size();
+  check.seeds_planned = study.seeds.size();
+  if (check.seeds == 0 || curve.x.size() < 2) {
+    check.detail = "no seed gave it at every point";
+    return;
+  }
+  judge(check, curve, log_scale);
+  if (check.seeds < check.seeds_planned) {
+    check.detail += "; only " + std::to_string(check.seeds) + " of " + std::to_string(check.seeds_planned) +
+                    " seeds gave it at every point";
+  }
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHolds: return "holds";
+    case Verdict::kHoldsWeakly: return "holds_weakly";
+    case Verdict::kViolated: return "violated";
+    case Verdict::kNoData: return "no_data";
+  }
+  return "";
+}
+
+std::vector<ShapeCheck> check_shapes(const config::ExperimentConfig& config,
+                                     const std::vector<CaseRecord>& records) {
+  std::vector<ShapeCheck> checks;
+  for (const config::Study& study : config.studies) {
+    for (const config::Expectation& expectation : study.expectations) {
+      const auto axis = std::ranges::find(study.axes, expectation.over, &config::Axis::name);
+      if (axis == study.axes.end()) continue;
+      const auto index = static_cast<std::size_t>(axis - study.axes.begin());
+      for (const Slice& slice : slices(study, index)) {
+        ShapeCheck check;
+        check.study = study.name;
+        check.expectation = expectation;
+        check.at = slice.name;
+        check_slice(check, config, study, records, index, slice);
+        checks.push_back(std::move(check));
+      }
+    }
+  }
+  return checks;
+}
+
+}  // namespace fleetmap::apps::experiment

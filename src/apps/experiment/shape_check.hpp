@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/case_record.hpp"
+
+namespace fleetmap::apps::experiment {
+
+/// A metric's values along an axis: values[k][s] at x[k] of seed s, the same seeds everywhere.
+struct Curve {
+  std::vector<double> x;
+  std::vector<std::vector<double>> values;
+};
+
+/// How a curve lies to the shape it is expected to have.
+struct Trend {
+  std::vector<double> means;
+  double change = 0.0;           ///< last mean less the first
+  double slope = 0.0;            ///< of the least-squares line through the means, a unit of x
+  double p = 1.0;                ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
+  std::string violation;         ///< which rule is broken and by how much; empty: none
+  bool holds() const { return violation.empty(); }
+};
+
+/// The rules, on means over the seeds (seeds are paired: the same seed is the same world and noise at every x):
+/// 1. the last mean lies beyond the first in the expected direction;
+/// 2. the least-squares line through the means goes in that direction;
+/// 3. no mean steps back from its neighbour by more than the seeds explain: more than `t` standard errors of the
+///    paired differences, t the one-sided 97.5 % point of Student's distribution (one seed: any step is allowed).
+/// `falling` asks for falls; otherwise rises.
+Trend check_trend(const Curve& curve, bool falling);
+
+enum class Verdict : std::uint8_t {
+  kHolds,
+  kHoldsWeakly,  ///< the means have the shape, but with these few seeds chance could have made it (p > 0.05)
+  kViolated,
+  kNoData,  ///< fewer than two points have a seed in common
+};
+const char* to_string(Verdict verdict);
+
+/// An expectation at one combination of the other axes.
+struct ShapeCheck {
+  std::string study;
+  config::Expectation expectation;
+  std::string at;  ///< "rate_hz=10"; empty: there are no other axes
+  Verdict verdict = Verdict::kNoData;
+  std::vector<double> x, means;  ///< of log-scale metrics geometric means
+  std::size_t seeds = 0;         ///< that gave the metric at every x
+  std::size_t seeds_planned = 0;
+  double change = 0.0;  ///< last mean less the first; of log-scale metrics the last over the first
+  double p = 1.0;
+  std::string detail;  ///< in words: what was measured, or which rule is broken and by how much
+};
+
+/// Falls-less-than-linearly is: the metric falls, and the metric times x rises (each robot more brings less than
+/// its share: a fleet of x times the robots would need 1/x of the time if nothing were lost).
+std::vector<ShapeCheck> check_shapes(const config::ExperimentConfig& config,
+                                     const std::vector<CaseRecord>& records);
+
+}  // namespace fleetmap::apps::experiment

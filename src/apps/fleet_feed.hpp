@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::apps {
+
+/// Where the sensor samples of a fleet in virtual time come from. Members are counted as in the fleet's
+/// configuration.
+class FleetFeed {
+ public:
+  /// Puts a sample onto the member's onboard link; `stamp` is what a bag of it says.
+  using Deliver = std::function<void(std::size_t member, const recording::Sample& sample, Stamp stamp)>;
+
+  virtual ~FleetFeed() = default;
+
+  /// Virtual time at which the run begins.
+  virtual Stamp start() const = 0;
+  /// Of ENU, if it is known before the run.
+  virtual std::optional<GeoPoint> origin() const = 0;
+  /// Schedules samples on `network`; both arguments outlive the feed's events.
+  virtual Status begin(bus::LocalNetwork& network, Deliver deliver) = 0;
+  /// No more samples come for this member.
+  virtual bool ended(std::size_t member) const = 0;
+  /// Why the feed could not give all that it should; empty if it could.
+  virtual std::string problem(std::size_t member) const = 0;
+  /// What was skipped on reading.
+  virtual recording::Counters counters(std::size_t member) const = 0;
+  /// Where the member really is, if the feed knows (ENU).
+  virtual std::optional<bus::EnuPosition> position(std::size_t member) const = 0;
+};
+
+}  // namespace fleetmap::apps
