@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
@@ -11,20 +13,35 @@
 namespace fleetmap::planning {
 
 using RowId = std::uint32_t;
+/// Points joined by straight lines, ENU, m.
+using Polyline = std::vector<Eigen::Vector2d>;
 
 /// Waypoints that one robot drives in one go, in order or in reverse: a row of the site (paper, section 4).
 struct Row {
   RowId id = 0;
-  std::vector<Eigen::Vector2d> waypoints;  ///< ENU, m, at least two
+  Polyline waypoints;  ///< ENU, m, at least two
 };
 
 /// Ground that may not be driven on: a closed polygon in ENU, m.
 using KeepOut = std::vector<Eigen::Vector2d>;
 
+/// The ground that a site has at all.
+struct SiteBounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();   ///< ENU, m
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< ENU, m
+};
+
 /// What the fleet is to drive: the same on every robot. Everything in the ENU frame of the site, metres.
 struct Mission {
-  std::vector<Row> rows;
+  static constexpr std::size_t kMaxRows = 4096;
+  static constexpr std::size_t kMaxPoints = 1'000'000;  ///< of all rows and keep-outs together
+
+  std::vector<Row> rows;  ///< in the order in which they lie across the site
   std::vector<KeepOut> keep_out;
+  std::optional<SiteBounds> bounds;  ///< routes stay inside; without it, near rows and keep-outs
+
+  /// At least one row, ids unique, two waypoints a row, polygons of three corners, all finite and near the
+  /// origin (100 km), within the limits above. Says which row breaks which rule.
   Status validate() const;
 };
 
@@ -43,6 +60,31 @@ struct RobotAbility {
   double battery_wh = 270.0;   ///< Wh left at the start
   double power_idle_w = 40.0;  ///< W, computer and sensors
   double energy_per_metre_wh = 0.03;
+  Status validate() const;
 };
+
+/// m
+double length_of(std::span<const Eigen::Vector2d> line);
+
+/// A free lane of a site.
+struct Lane {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< ENU, m
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< ENU, m
+};
+
+/// Which of a site's lanes are driven and how they are cut.
+struct LaneSelection {
+  int every = 1;  ///< each `every`-th lane, from the first
+  double max_row_length =
+      0.0;  ///< m; longer lanes become several rows, so that few can be divided. 0: no cut
+};
+
+/// Rows along lanes, numbered from 0 in the order of the lanes. Lanes shorter than 0.1 m are left out.
+Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& selection,
+                          std::vector<KeepOut> keep_out = {}, std::optional<SiteBounds> bounds = {});
+
+/// Every waypoint lies within [low, high]; else says which row and waypoint does not, by how much, and what
+/// to do.
+Status check_within(const Mission& mission, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
 }  // namespace fleetmap::planning
