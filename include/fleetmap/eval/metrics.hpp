@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
@@ -16,31 +15,56 @@ struct MapMetricsConfig {
   double inlier_distance = 0.5;                        ///< m, of Eq. 2 and Eq. 3
   double density_radius = 1.0;                         ///< m, r_d of Eq. 4
   std::array<double, 3> thresholds{0.05, 0.10, 0.20};  ///< m, of accuracy, completeness and F1
-  double truth_reach =
-      1.0;  ///< m: truth farther than this from any place the LiDARs could see is not asked for
+  /// m: truth farther than this from every point of the map counts as out of the LiDARs' reach.
+  double truth_reach = 1.0;
+  double resolution = 0.05;            ///< m: of each cloud the first point of each voxel of this edge counts
+  double registration_distance = 3.0;  ///< m, of the first correspondences of the registration
+  double least_noise = 0.005;          ///< m, floor of sigma in det(C)
+  std::size_t most_samples = 200'000;  ///< points whose normals and neighbours are taken (evenly chosen)
   Status validate() const;
 };
 
 /// A merged map against the truth (paper, section 4, and what users of mapping know).
+///
+/// The truth is a sample of surfaces: where it is flat around the truth point nearest to a map point, the map
+/// point's distance is that to a disc of the truth's spacing around that point, else that to the point. So a
+/// perfect map of a coarsely sampled truth has no error. Distances from the truth to the map are plain
+/// distances to points: a sparse map is an incomplete map.
 struct MapMetrics {
-  Pose T_truth_map = Pose::Identity();    ///< that registers the map to the truth
-  double rmse = 0.0;                      ///< m, Eq. 2: of inlier correspondences
-  double fitness = 0.0;                   ///< Eq. 3: N_c / N_g
-  double det_covariance = 0.0;            ///< det(C), C the inverse Fisher information of that registration
-  double mean_density = 0.0;              ///< Eq. 4: points within r_d, mean over the map
-  std::vector<double> density_histogram;  ///< share of points by number of neighbours
-  double density_bin = 0.0;               ///< neighbours, width of a bin
+  Pose T_truth_map = Pose::Identity();  ///< that registers the map to the truth
+  double rmse = 0.0;                    ///< m, Eq. 2: of inliers' distances to the truth's surface
+  double rmse_points = 0.0;             ///< m, the same of plain distances to the nearest truth point
+  double fitness = 0.0;                 ///< Eq. 3: N_c / N_g, truth points with a map point within
+                                        ///< inlier_distance, over all truth points
+  double inliers = 0.0;                 ///< share of map points within inlier_distance of the truth
+  /// det(C) in m^3 rad^3, C = sigma^2 (sum J J^T)^-1 the inverse Fisher information of that registration
+  /// over all inliers at `resolution`, each counted as one independent point-to-plane measurement.
+  double det_covariance = 0.0;
+  double sigma = 0.0;  ///< m, RMS of the inliers' point-to-plane residuals, at least `least_noise`
+  /// Eq. 4: points of the map (as it is given) within r_d of a point of it, itself included; the mean.
+  double mean_density = 0.0;
+  std::vector<double> density_histogram;  ///< share of points by that number
+  double density_bin = 0.0;               ///< points, width of a bin
   std::array<double, 3> accuracy{};       ///< share of map points within each threshold of the truth
-  std::array<double, 3> completeness{};   ///< share of truth points within each threshold of the map
-  std::array<double, 3> f1{};
-  double chamfer = 0.0;  ///< m, mean of both directed mean distances (capped at inlier_distance)
-  std::size_t map_points = 0;
-  std::size_t truth_points = 0;
-  double mapped_area = 0.0;  ///< m^2, ground covered by the map's points (1 m cells)
+  std::array<double, 3> completeness{};   ///< share of all truth points within each threshold of the map
+  std::array<double, 3> f1{};             ///< harmonic mean of accuracy and completeness
+  double reach = 0.0;                     ///< share of truth points within truth_reach of the map
+  std::array<double, 3> completeness_in_reach{};  ///< completeness of those only
+  std::array<double, 3> f1_in_reach{};
+  double chamfer = 0.0;          ///< m, mean of both directed mean distances (capped at inlier_distance)
+  double truth_spacing = 0.0;    ///< m, between neighbouring truth points, median
+  std::size_t map_points = 0;    ///< as given
+  std::size_t truth_points = 0;  ///< N_g, at `resolution`
+  double mapped_area = 0.0;      ///< m^2, ground covered by the map's points (1 m cells)
 };
 
-/// `map` and `truth` in the site's ENU frame. Fails when either is empty or they do not overlap.
+/// `map` and `truth` in the site's ENU frame, a few metres apart at most. Non-finite points are left out.
+/// Fails when either is empty or they do not overlap.
 Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                 const MapMetricsConfig& config = {});
+
+/// m, distance of each map point to the truth's surface as in MapMetrics, at most `cap`; `cap` for
+/// non-finite points and where there is no truth. `map` must already be registered to the truth.
+std::vector<float> errors_of(const cloud::PointCloud& map, const cloud::PointCloud& truth, double cap = 0.5);
 
 }  // namespace fleetmap::eval

@@ -1,0 +1,285 @@
+#include "fleetmap/eval/metrics.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <unordered_set>
+
+#include "fleetmap/cloud/kd_tree.hpp"
+#include "fleetmap/cloud/voxel_grid.hpp"
+#include "fleetmap/eval/density.hpp"
+#include "fleetmap/registration/icp.hpp"
+#include "truth_surface.hpp"
+
+namespace fleetmap::eval {
+namespace {
+
+constexpr std::size_t kTargetPoints = 300'000;
+constexpr std::size_t kSourcePoints = 30'000;
+constexpr std::size_t kDensityBins = 40;
+constexpr float kFarthest = 1e6f;  // m: nothing of a site lies farther from its origin
+constexpr std::size_t kLeastInliers = 50;
+
+cloud::PointCloud thinned(const cloud::PointCloud& cloud, double voxel) {
+  cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
+  merger.add(cloud);
+  return merger.cloud();
+}
+
+/// Thinned by doubling voxels until there are few enough.
+cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::size_t most) {
+  cloud::PointCloud thin = thinned(cloud, voxel);
+  while (thin.size() > most) {
+    voxel *= 1.5;
+    thin = thinned(thin, voxel);
+  }
+  return thin;
+}
+
+std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen::Vector3f& shift) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(cloud.size());
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest) points.push_back(p - shift);
+  }
+  return points;
+}
+
+Eigen::Vector3f middle_of(const cloud::PointCloud& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() >= kFarthest) continue;
+    sum += p.cast<double>();
+    ++count;
+  }
+  if (count == 0) return Eigen::Vector3f::Zero();
+  return (sum / static_cast<double>(count)).array().round().cast<float>();
+}
+
+/// Point-to-plane ICP from where the georeferences put the map.
+Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const MapMetricsConfig& config) {
+  const cloud::PointCloud target = thinned_to(truth.cloud(), 0.2, kTargetPoints);
+  const cloud::KdTree tree(target);
+  std::vector<std::size_t> in_truth;
+  in_truth.reserve(target.size());
+  for (const Eigen::Vector3f& p : target.points) in_truth.push_back(truth.tree().nearest(p, 1.0f)->index);
+  const cloud::Normals normals{truth.normals_at(in_truth), {}};
+  const cloud::PointCloud source = thinned_to(map, 0.3, kSourcePoints);
+  const cloud::Normals none;
+  registration::IcpConfig icp;
+  const auto first = static_cast<float>(config.registration_distance);
+  const auto last = static_cast<float>(config.inlier_distance);
+  icp.max_distances_m = {std::max(first, last), std::max(0.5f * first, last), last};
+  icp.iterations_per_stage = 12;
+  return registration::icp({target, tree, normals}, {source, none}, Pose::Identity(), icp).T_target_source;
+}
+
+/// Every step-th index, so that at most `most` are taken.
+std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> indices;
+  const std::size_t step = (count + most - 1) / std::max<std::size_t>(1, most);
+  for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, step)) indices.push_back(i);
+  return indices;
+}
+
+/// Fisher information of the registration: each inlier measures the map's pose along the truth's normal.
+void set_covariance(MapMetrics& metrics, const cloud::PointCloud& map, const std::vector<Foot>& feet,
+                    const TruthSurface& truth, const MapMetricsConfig& config) {
+  std::vector<std::size_t> inliers;
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    if (feet[i].found) inliers.push_back(i);
+  }
+  const std::vector<std::size_t> chosen = evenly(inliers.size(), config.most_samples);
+  std::vector<std::size_t> in_truth;
+  in_truth.reserve(chosen.size());
+  for (const std::size_t k : chosen) in_truth.push_back(feet[inliers[k]].truth);
+  const std::vector<Eigen::Vector3f> normals = truth.normals_at(in_truth);
+  Matrix6d information = Matrix6d::Zero();
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    if (normals[k].isZero()) continue;
+    const Eigen::Vector3d p = map.points[inliers[chosen[k]]].cast<double>();
+    const Eigen::Vector3d n = normals[k].cast<double>();
+    const double r = n.dot(p - truth.cloud().points[in_truth[k]].cast<double>());
+    Vector6d J;
+    J << n, p.cross(n);
+    information.selfadjointView<Eigen::Lower>().rankUpdate(J);
+    squares += r * r;
+    ++count;
+  }
+  if (count == 0) {
+    metrics.det_covariance = std::numeric_limits<double>::infinity();
+    return;
+  }
+  metrics.sigma = std::max(config.least_noise, std::sqrt(squares / static_cast<double>(count)));
+  const double represented = static_cast<double>(inliers.size()) / static_cast<double>(chosen.size());
+  information =
+      Matrix6d(information.selfadjointView<Eigen::Lower>()) * represented / (metrics.sigma * metrics.sigma);
+  // det C = 1 / det I does not depend on the point about which rotations are taken.
+  metrics.det_covariance = 1.0 / information.determinant();
+}
+
+void set_density(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map,
+                 const MapMetricsConfig& config) {
+  std::vector<Eigen::Vector3f> queries;
+  for (const std::size_t i : evenly(map.size(), config.most_samples)) queries.push_back(map[i]);
+  const auto counts = density_at(queries, map, static_cast<float>(config.density_radius));
+  const double largest = *std::max_element(counts.begin(), counts.end());
+  // Bins of 1, 2 or 5 times a power of ten, so that those of two maps can be laid over each other.
+  const double wanted = std::max(1.0, largest / static_cast<double>(kDensityBins));
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  metrics.density_bin = power;
+  for (const double factor : {5.0, 2.0, 1.0}) {
+    if (factor * power >= wanted) metrics.density_bin = factor * power;
+  }
+  if (metrics.density_bin < wanted) metrics.density_bin = 10.0 * power;
+  metrics.density_histogram.assign(static_cast<std::size_t>(largest / metrics.density_bin) + 1, 0.0);
+  const double share = 1.0 / static_cast<double>(counts.size());
+  for (const std::uint32_t count : counts) {
+    metrics.mean_density += share * count;
+    metrics.density_histogram[static_cast<std::size_t>(count / metrics.density_bin)] += share;
+  }
+}
+
+double harmonic(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+
+/// From the map to the truth: Eq. 2, accuracy. Returns the mean distance, capped.
+double set_accuracy(MapMetrics& metrics, const std::vector<Foot>& feet, const MapMetricsConfig& config) {
+  double squares = 0.0, point_squares = 0.0, sum = 0.0;
+  std::size_t inliers = 0;
+  std::array<std::size_t, 3> within{};
+  for (const Foot& foot : feet) {
+    if (!foot.found) {
+      sum += config.inlier_distance;
+      continue;
+    }
+    const double d = static_cast<double>(foot.surface_distance);
+    ++inliers;
+    squares += d * d;
+    point_squares += std::pow(static_cast<double>(foot.point_distance), 2);
+    sum += d;
+    for (std::size_t k = 0; k < within.size(); ++k) within[k] += d <= config.thresholds[k] ? 1u : 0u;
+  }
+  const auto count = static_cast<double>(feet.size());
+  metrics.inliers = static_cast<double>(inliers) / count;
+  metrics.rmse = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, inliers)));
+  metrics.rmse_points = std::sqrt(point_squares / static_cast<double>(std::max<std::size_t>(1, inliers)));
+  for (std::size_t k = 0; k < within.size(); ++k)
+    metrics.accuracy[k] = static_cast<double>(within[k]) / count;
+  return sum / count;
+}
+
+/// From the truth to the map: Eq. 3, completeness. Returns the mean distance, capped.
+double set_completeness(MapMetrics& metrics, const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                        const MapMetricsConfig& config) {
+  const cloud::KdTree tree(map);
+  const auto farthest = static_cast<float>(std::max(config.truth_reach, config.inlier_distance));
+  double sum = 0.0;
+  std::size_t matched = 0, reached = 0;
+  std::array<std::size_t, 3> within{};
+  for (const Eigen::Vector3f& p : truth.points) {
+    const auto nearest = tree.nearest(p, farthest);
+    const double d = nearest ? std::sqrt(static_cast<double>(nearest->squared_distance)) : HUGE_VAL;
+    sum += std::min(d, config.inlier_distance);
+    matched += d <= config.inlier_distance ? 1u : 0u;
+    reached += d <= config.truth_reach ? 1u : 0u;
+    for (std::size_t k = 0; k < within.size(); ++k) within[k] += d <= config.thresholds[k] ? 1u : 0u;
+  }
+  const auto count = static_cast<double>(truth.size());
+  metrics.fitness = static_cast<double>(matched) / count;
+  metrics.reach = static_cast<double>(reached) / count;
+  for (std::size_t k = 0; k < within.size(); ++k) {
+    metrics.completeness[k] = static_cast<double>(within[k]) / count;
+    metrics.completeness_in_reach[k] =
+        static_cast<double>(within[k]) / static_cast<double>(std::max<std::size_t>(1, reached));
+    metrics.f1[k] = harmonic(metrics.accuracy[k], metrics.completeness[k]);
+    metrics.f1_in_reach[k] = harmonic(metrics.accuracy[k], metrics.completeness_in_reach[k]);
+  }
+  return sum / count;
+}
+
+double area_of(const std::vector<Eigen::Vector3f>& points) {
+  std::unordered_set<std::uint64_t> cells;
+  for (const Eigen::Vector3f& p : points) {
+    const auto x = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.x())));
+    const auto y = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(p.y())));
+    cells.insert((std::uint64_t{x} << 32) | y);
+  }
+  return static_cast<double>(cells.size());
+}
+
+}  // namespace
+
+Status MapMetricsConfig::validate() const {
+  for (const auto& [name, value] : {std::pair{"inlier_distance", inlier_distance},
+                                    {"density_radius", density_radius},
+                                    {"truth_reach", truth_reach},
+                                    {"resolution", resolution},
+                                    {"registration_distance", registration_distance},
+                                    {"least_noise", least_noise},
+                                    {"thresholds[0]", thresholds[0]},
+                                    {"thresholds[1]", thresholds[1]},
+                                    {"thresholds[2]", thresholds[2]}}) {
+    if (!(value > 0.0) || !std::isfinite(value)) return failure(std::string(name) + " must be positive");
+  }
+  if (thresholds[2] > inlier_distance || !std::is_sorted(thresholds.begin(), thresholds.end()))
+    return failure("thresholds must ascend and not exceed inlier_distance");
+  if (most_samples < 1000) return failure("most_samples must be at least 1000");
+  return {};
+}
+
+Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                const MapMetricsConfig& config) {
+  if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
+  // Near its middle a map's coordinates are small, and turning it does not move it.
+  const Eigen::Vector3f middle = middle_of(map);
+  const cloud::PointCloud whole{usable(map, middle), {}};
+  cloud::PointCloud truth_points = thinned({usable(truth, middle), {}}, config.resolution);
+  if (whole.empty()) return failure("the map holds no finite point");
+  if (truth_points.empty()) return failure("the truth holds no finite point");
+  const TruthSurface surface(std::move(truth_points));
+  const cloud::PointCloud thin = thinned(whole, config.resolution);
+
+  MapMetrics metrics;
+  const Pose T = registered(thin, surface, config);
+  const cloud::PointCloud placed = cloud::transformed(thin, T);
+  const Eigen::Translation3d to_middle(middle.cast<double>());
+  metrics.T_truth_map = to_middle * T * to_middle.inverse();
+
+  const auto feet = surface.feet_of(placed.points, static_cast<float>(config.inlier_distance));
+  const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
+  if (static_cast<std::size_t>(inliers) < std::min(kLeastInliers, thin.size())) {
+    return failure("the map and the truth do not overlap: " + std::to_string(inliers) + " of " +
+                   std::to_string(thin.size()) +
+                   " points have truth nearby; are both in ENU of the same origin?");
+  }
+  const double there = set_accuracy(metrics, feet, config);
+  const double back = set_completeness(metrics, placed, surface.cloud(), config);
+  metrics.chamfer = 0.5 * (there + back);
+  set_covariance(metrics, placed, feet, surface, config);
+  set_density(metrics, whole.points, config);
+  metrics.truth_spacing = static_cast<double>(surface.spacing());
+  metrics.map_points = map.size();
+  metrics.truth_points = surface.cloud().size();
+  metrics.mapped_area = area_of(whole.points);
+  return metrics;
+}
+
+std::vector<float> errors_of(const cloud::PointCloud& map, const cloud::PointCloud& truth, double cap) {
+  std::vector<float> errors(map.size(), static_cast<float>(cap));
+  cloud::PointCloud points{usable(truth, Eigen::Vector3f::Zero()), {}};
+  if (points.empty() || map.empty()) return errors;
+  const TruthSurface surface(thinned(points, MapMetricsConfig{}.resolution));
+  const auto feet = surface.feet_of(map.points, static_cast<float>(cap));
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    if (feet[i].found) errors[i] = feet[i].surface_distance;
+  }
+  return errors;
+}
+
+}  // namespace fleetmap::eval
