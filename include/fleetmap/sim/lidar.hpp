@@ -26,10 +26,13 @@ struct LidarSpec {
   FiringPattern pattern = FiringPattern::kSpinning;
   std::vector<double> vertical_angles;  ///< spinning: elevation of each ring, in firing order
   int columns = 1800;                   ///< spinning: firings of each ring a revolution
-  bool clockwise = true;
-  int rays = 24000;                ///< non-repeating: rays a frame
-  double field_of_view = 1.225;    ///< non-repeating: full cone, rad
-  double rate = 10.0;              ///< Hz, scans
+  bool clockwise = true;                ///< spinning, seen from above
+  int rays = 24000;                     ///< non-repeating: rays a frame
+  double field_of_view = 1.225;         ///< non-repeating: full cone, rad
+  double rate = 10.0;                   ///< Hz, scans
+  /// The lasers fire at a fixed rate (VLP-16, Livox): a slower scan has more columns or rays. Otherwise
+  /// (Ouster) the columns of a revolution stay.
+  bool fixed_firing_rate = false;
   double min_range = 0.5;          ///< m
   double max_range = 100.0;        ///< m, L_max of the device
   double range_noise = 0.02;       ///< m, 1 sigma
@@ -39,8 +42,21 @@ struct LidarSpec {
   Status validate() const;
 };
 
+/// A VLP-16 at 10 Hz.
+LidarSpec vlp16_spec();
+/// The same device turning at another rate, Hz.
+LidarSpec at_rate(LidarSpec spec, double rate);
+
 /// One scan of `spec`: every ray cast from the pose at its own firing time. Pure; the noise comes from
-/// job.seed and job.number alone.
+/// job.seed and job.number alone. Empty if `spec` breaks a rule or `job` has less than two finite poses.
+///
+/// Spinning: the revolution starts at the rear (azimuth pi); all rings of a column fire together, columns
+/// follow one another evenly over 1 / rate; points come column by column, ring = index of vertical_angles.
+/// Non-repeating: the path that two counter-turning prisms draw around the x axis, going on from scan to
+/// scan. Besides the ray along the beam's axis a second one is cast somewhere within its divergence. Where
+/// both meet different surfaces less than a pulse's length apart, the range lies between the two; farther
+/// apart the axis decides; where the axis meets nothing, the rim's weak echo comes back every second time.
+/// Intensity 0 to 255: reflectivity of the material by the cosine of incidence, less with range.
 sensor::Scan cast_scan(const Scene& scene, const LidarSpec& spec, const ScanJob& job);
 
 }  // namespace fleetmap::sim

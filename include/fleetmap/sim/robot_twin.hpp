@@ -32,9 +32,11 @@ struct RobotTwinConfig {
   Eigen::Vector3d p_base_antenna = Eigen::Vector3d::Zero();  ///< m
   WheelSpec wheels;
   VehicleSpec vehicle;
+  bool start_given = false;                         ///< else who sets the team up chooses start and start_yaw
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< ENU, m
   double start_yaw = 0.0;                           ///< rad, from east, counter-clockwise
   std::uint64_t seed = 1;                           ///< of all this robot's randomness
+  /// Fails with the section, the field and the rule that it breaks.
   Status validate() const;
 };
 
@@ -51,6 +53,9 @@ struct ScanJob {
 /// What became due, in the order of time; a scan becomes due when its last ray was fired.
 using TwinSample = std::variant<sensor::Imu, sensor::Fix, sensor::Wheel, ScanJob>;
 
+/// Moment at which the sample became due: a scan's last ray, everything else's stamp.
+Stamp due(const TwinSample& sample);
+
 /// A robot that moves through a world and senses it. Deterministic: the same commands at the same times give
 /// the same samples. Not thread-safe; cast_scan() is.
 class RobotTwin {
@@ -62,7 +67,8 @@ class RobotTwin {
 
   /// Wanted speed (m/s) and yaw rate (rad/s) from now on; forgotten after VehicleSpec::command_timeout.
   void command(double forward_speed, double yaw_rate);
-  /// Moves on to `stamp`; returns what the sensors gave in between.
+  /// Moves on to `stamp` in steps of 5 ms (the rest waits for the next call); returns what the sensors gave
+  /// in between.
   std::vector<TwinSample> advance(Stamp stamp);
 
   Stamp now() const;

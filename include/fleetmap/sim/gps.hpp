@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/sensor/samples.hpp"
+
+namespace fleetmap::sim {
+
+/// No fixes from `from` to `until`, s since the start of the run.
+struct GpsOutage {
+  double from = 0.0;
+  double until = 0.0;
+};
+
+struct GpsSpec {
+  double rate = 5.0;               ///< Hz
+  double white_sigma = 0.3;        ///< m, per horizontal axis, independent from fix to fix
+  double drift_sigma = 1.0;        ///< m, per horizontal axis, Gauss-Markov
+  double correlation_time = 60.0;  ///< s, of the drift
+  double vertical_factor = 2.0;    ///< both sigmas, up against horizontal
+  /// Reported variance against the true mean one of white and drift (jumps are never reported).
+  double covariance_factor = 1.0;
+  std::vector<GpsOutage> outages;
+  double jumps_per_hour = 0.0;  ///< multipath: the fix is elsewhere for a while, Poisson
+  double jump_size = 8.0;       ///< m, horizontally, in a random direction
+  double jump_duration = 15.0;  ///< s
+  Status validate() const;
+};
+
+/// A receiver whose error has a white part, a slowly drifting one, jumps and outages. Deterministic in
+/// `seed`.
+class GpsModel {
+ public:
+  GpsModel(const GpsSpec& spec, const LocalFrame& site, std::uint64_t seed);
+  ~GpsModel();
+  GpsModel(GpsModel&&) noexcept;
+  /// The fix at `stamp`, `seconds` since the start of the run, with the antenna at `p_enu`; empty in an
+  /// outage. Call at every period, in order.
+  std::optional<sensor::Fix> measure(Stamp stamp, double seconds, const Eigen::Vector3d& p_enu);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fleetmap::sim

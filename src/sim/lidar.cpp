@@ -1,0 +1,228 @@
+#include "fleetmap/sim/lidar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fleetmap/sim/robot_twin.hpp"
+#include "gaussian.hpp"
+#include "pose_track.hpp"
+
+namespace fleetmap::sim {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kBlock = 16;                   ///< columns cast together: one packet a ring
+constexpr float kPulseLength = 1.0f;                 ///< m, echoes closer than this are one
+constexpr double kPrismRates[2] = {121.57, -77.73};  ///< turns/s, 7294 and -4664 rpm
+
+/// Share of the light that comes back from a surface hit head on.
+float reflectivity(Material material) {
+  switch (material) {
+    case Material::kGround:
+      return 0.25f;
+    case Material::kGlass:
+      return 0.15f;
+    case Material::kMetal:
+      return 0.7f;
+    case Material::kConcrete:
+      return 0.45f;
+    case Material::kVegetation:
+      return 0.5f;
+  }
+  return 0.0f;
+}
+
+/// A beam in the LiDAR frame and what surrounds it.
+struct Beam {
+  Eigen::Vector3f axis, aside, above;  ///< unit, right-angled
+  float time = 0.0f;                   ///< s after the scan's stamp
+  std::uint16_t ring = 0;
+  std::uint64_t number = 0;  ///< of the ray in its scan
+};
+
+/// Casts beams block by block and makes points of what comes back.
+class BeamCaster {
+ public:
+  BeamCaster(const Scene& scene, const LidarSpec& spec, const ScanJob& job)
+      : scene_(scene),
+        min_range_(static_cast<float>(spec.min_range)),
+        max_range_(static_cast<float>(spec.max_range)),
+        noise_(static_cast<float>(spec.range_noise)),
+        beam_radius_(static_cast<float>(0.5 * spec.beam_divergence)),
+        dropout_(static_cast<float>(spec.dropout)),
+        glass_min_cos_(static_cast<float>(std::cos(spec.glass_grazing))),
+        key_(mixed(mixed(job.seed) ^ job.number)) {}
+
+  void add(const Beam& beam, const Eigen::Matrix3f& R, const Eigen::Vector3f& origin) {
+    beams_.push_back(beam);
+    axis_rays_.push_back({origin, R * beam.axis});
+    if (beam_radius_ <= 0.0f) return;
+    const std::uint64_t bits = mixed(mixed(key_ ^ beam.number) + 1);
+    // A square of the same area as the beam's round section.
+    const float reach = 0.886f * beam_radius_;
+    const Eigen::Vector3f rim = beam.axis + (2.0f * uniform16(bits, 0) - 1.0f) * reach * beam.aside +
+                                (2.0f * uniform16(bits, 1) - 1.0f) * reach * beam.above;
+    rim_rays_.push_back({origin, R * rim});
+  }
+
+  /// Beams of `rings` packets of `columns` each, given ring by ring; the points come column by column.
+  void flush(std::size_t rings, std::size_t columns, std::vector<sensor::ScanPoint>& points) {
+    axis_hits_.resize(beams_.size());
+    scene_.cast(axis_rays_, min_range_, max_range_, axis_hits_);
+    rim_hits_.resize(rim_rays_.size());
+    scene_.cast(rim_rays_, min_range_, max_range_, rim_hits_);
+    for (std::size_t column = 0; column < columns; ++column) {
+      for (std::size_t ring = 0; ring < rings; ++ring) receive(ring * columns + column, points);
+    }
+    beams_.clear(), axis_rays_.clear(), rim_rays_.clear();
+  }
+
+ private:
+  void receive(std::size_t k, std::vector<sensor::ScanPoint>& points) const {
+    const Beam& beam = beams_[k];
+    Hit echo = axis_hits_[k];
+    const bool split = !rim_hits_.empty() && (echo.distance > 0.0f || rim_hits_[k].distance > 0.0f);
+    if (!split && echo.distance <= 0.0f) return;
+    const std::uint64_t bits = mixed(key_ ^ beam.number);
+    if (split) mix(rim_hits_[k], uniform16(bits, 0), echo);
+    if (echo.distance <= 0.0f || uniform16(bits, 1) < dropout_) return;
+    if (echo.material == Material::kGlass && echo.cos_incidence < glass_min_cos_) return;
+    float range = echo.distance;
+    if (noise_ > 0.0f) range += noise_ * gaussian_float(mixed(bits));
+    if (!(range > 0.0f)) return;
+    sensor::ScanPoint point;
+    point.position = range * beam.axis;
+    point.intensity = intensity(echo);
+    point.time = beam.time;
+    point.ring = beam.ring;
+    points.push_back(point);
+  }
+
+  /// What a beam returns whose axis met `echo` and whose rim met `rim`.
+  void mix(const Hit& rim, float share, Hit& echo) const {
+    if (rim.distance <= 0.0f) return;
+    if (echo.distance <= 0.0f) {
+      if (share < 0.5f) echo = rim;
+      return;
+    }
+    const float gap = std::abs(rim.distance - echo.distance);
+    // A slanting surface alone accounts for so much; twice the beam's corner, for the slant changes with it.
+    const float slant = std::min(1.0f / std::max(echo.cos_incidence, 1e-3f), 1e3f);
+    const float plain = 2.5f * beam_radius_ * echo.distance * slant + 1e-3f;
+    if (gap > plain && gap < kPulseLength) echo.distance += share * (rim.distance - echo.distance);
+  }
+
+  static float intensity(const Hit& echo) {
+    const float far = echo.distance / 60.0f;
+    return 255.0f * reflectivity(echo.material) * echo.cos_incidence / (1.0f + far * far);
+  }
+
+  const Scene& scene_;
+  float min_range_, max_range_, noise_, beam_radius_, dropout_, glass_min_cos_;
+  std::uint64_t key_;
+  std::vector<Beam> beams_;
+  std::vector<Ray> axis_rays_, rim_rays_;
+  std::vector<Hit> axis_hits_, rim_hits_;
+};
+
+void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& caster,
+                   std::vector<sensor::ScanPoint>& points) {
+  struct Ring {
+    float cosine, sine;
+  };
+  std::vector<Ring> rings;
+  for (const double angle : spec.vertical_angles) {
+    rings.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
+  }
+  struct Column {
+    Eigen::Matrix3f R;
+    Eigen::Vector3f origin;
+    float cosine, sine, time;
+  };
+  std::array<Column, kBlock> block;
+  const auto columns = static_cast<std::size_t>(spec.columns);
+  for (std::size_t begin = 0; begin < columns; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, columns - begin);
+    for (std::size_t c = 0; c < size; ++c) {
+      const double turn = static_cast<double>(begin + c) / spec.columns, time = turn / spec.rate;
+      const double azimuth = kPi + (spec.clockwise ? -2.0 : 2.0) * kPi * turn;
+      Eigen::Matrix3d R;
+      Eigen::Vector3d origin;
+      poses.at(time, R, origin);
+      block[c] = {R.cast<float>(), origin.cast<float>(), static_cast<float>(std::cos(azimuth)),
+                  static_cast<float>(std::sin(azimuth)), static_cast<float>(time)};
+    }
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+      const auto [ce, se] = rings[ring];
+      for (std::size_t c = 0; c < size; ++c) {
+        const float ca = block[c].cosine, sa = block[c].sine;
+        caster.add({{ce * ca, ce * sa, se},
+                    {-sa, ca, 0.0f},
+                    {-se * ca, -se * sa, ce},
+                    block[c].time,
+                    static_cast<std::uint16_t>(ring),
+                    (begin + c) * rings.size() + ring},
+                   block[c].R, block[c].origin);
+      }
+    }
+    caster.flush(rings.size(), size, points);
+  }
+}
+
+/// Two prisms bend the beam by a quarter of the field of view each (azimuthal equidistant).
+Eigen::Vector2d rosette(double field_of_view, double turns_a, double turns_b) {
+  const double a = 2.0 * kPi * (turns_a - std::floor(turns_a));
+  const double b = 2.0 * kPi * (turns_b - std::floor(turns_b));
+  return 0.25 * field_of_view * Eigen::Vector2d(std::cos(a) + std::cos(b), std::sin(a) + std::sin(b));
+}
+
+void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, BeamCaster& caster,
+                  std::vector<sensor::ScanPoint>& points) {
+  const auto rays = static_cast<std::size_t>(spec.rays);
+  const double period = 1.0 / spec.rate, begin_time = static_cast<double>(scan) * period;
+  for (std::size_t begin = 0; begin < rays; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, rays - begin);
+    for (std::size_t k = begin; k < begin + size; ++k) {
+      const double time = period * static_cast<double>(k) / spec.rays;
+      const double running = begin_time + time;
+      const Eigen::Vector2d bend =
+          rosette(spec.field_of_view, kPrismRates[0] * running, kPrismRates[1] * running);
+      const double angle = bend.norm();
+      const Eigen::Vector2d side = angle > 1e-9 ? Eigen::Vector2d(bend / angle) : Eigen::Vector2d(1.0, 0.0);
+      const double c = std::cos(angle), s = std::sin(angle);
+      Eigen::Matrix3d R;
+      Eigen::Vector3d origin;
+      poses.at(time, R, origin);
+      const Eigen::Vector3d axis(c, s * side.x(), s * side.y());
+      const Eigen::Vector3d aside(-s, c * side.x(), c * side.y()), above(0.0, -side.y(), side.x());
+      caster.add(
+          {axis.cast<float>(), aside.cast<float>(), above.cast<float>(), static_cast<float>(time), 0, k},
+          R.cast<float>(), origin.cast<float>());
+    }
+    caster.flush(1, size, points);
+  }
+}
+
+}  // namespace
+
+sensor::Scan cast_scan(const Scene& scene, const LidarSpec& spec, const ScanJob& job) {
+  sensor::Scan scan;
+  scan.stamp = job.stamp;
+  scan.has_time = true;
+  scan.has_ring = spec.pattern == FiringPattern::kSpinning;
+  const bool finite = std::ranges::all_of(job.T_enu_lidar, [](const Pose& T) { return all_finite(T); });
+  if (!spec.validate() || job.T_enu_lidar.size() < 2 || !finite) return scan;
+  const PoseTrack poses(job.T_enu_lidar, to_seconds(job.step));
+  BeamCaster caster(scene, spec, job);
+  if (spec.pattern == FiringPattern::kSpinning) {
+    scan.points.reserve(static_cast<std::size_t>(spec.columns) * spec.vertical_angles.size());
+    cast_spinning(spec, poses, caster, scan.points);
+  } else {
+    scan.points.reserve(static_cast<std::size_t>(spec.rays));
+    cast_rosette(spec, poses, job.number, caster, scan.points);
+  }
+  return scan;
+}
+
+}  // namespace fleetmap::sim

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <initializer_list>
+#include <sstream>
+#include <string>
+
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::sim {
+
+/// Fails, naming the field, unless low <= value <= high.
+inline Status within(const char* field, double value, double low, double high, const char* unit) {
+  if (value >= low && value <= high) return {};
+  std::ostringstream text;
+  text << field << ": must be " << low << " to " << high << " " << unit << ", is " << value;
+  return failure(text.str());
+}
+
+inline Status first_failure(std::initializer_list<Status> checks) {
+  for (const Status& check : checks) {
+    if (!check) return check;
+  }
+  return {};
+}
+
+/// `status` with `name.` before the field that it names.
+inline Status named(const char* name, const Status& status) {
+  return status ? status : failure(std::string(name) + "." + status.error().message);
+}
+
+}  // namespace fleetmap::sim
