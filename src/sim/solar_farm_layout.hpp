@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "fleetmap/sim/solar_farm.hpp"
+
+namespace fleetmap::sim {
+
+/// A place for a table: what stands in it.
+enum class Place : std::uint8_t { kTable, kEmpty, kCabin };
+
+struct Spot {
+  Eigen::Vector2d center;  ///< (u, v)
+  double radius = 0.0;     ///< m
+};
+
+/// Where everything of a solar farm stands, in its own frame: u along the rows, v across, 0 in the middle.
+struct SolarFarmLayout {
+  Eigen::Vector2d direction;               ///< ENU unit vector of u
+  Eigen::Vector2d half_site;               ///< m, the fence
+  double depth = 0.0;                      ///< m, a table seen from above, across the row
+  std::vector<double> rows;                ///< v of each row's middle
+  std::vector<double> tables;              ///< u of the middle of each place in a row
+  std::vector<bool> beside_road;           ///< of each place
+  std::vector<std::vector<Place>> places;  ///< [row][place]
+  std::vector<Spot> trees;
+
+  Eigen::Vector2d enu(const Eigen::Vector2d& uv) const {
+    return {direction.x() * uv.x() - direction.y() * uv.y(), direction.y() * uv.x() + direction.x() * uv.y()};
+  }
+};
+
+/// Horizontal size of the largest table, jitter of its tilt included.
+double table_depth(const SolarFarmConfig& config);
+Eigen::Vector2d cabin_size(const SolarFarmConfig& config);
+int rows_that_fit(const SolarFarmConfig& config);
+int tables_that_fit(const SolarFarmConfig& config);
+
+SolarFarmLayout lay_out(const SolarFarmConfig& config);
+std::vector<Aisle> aisles_of(const SolarFarmConfig& config, const SolarFarmLayout& layout);
+std::vector<Footprint> plan_of(const SolarFarmConfig& config, const SolarFarmLayout& layout);
+
+}  // namespace fleetmap::sim
