@@ -15,6 +15,7 @@ void add_agent(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_odometry(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
+void add_experiment(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 

@@ -43,8 +43,8 @@ using Engine = std::function<Result<CaseResult>(const Case&, const std::filesyst
 /// Every case of every study, in the order of the file, a point's seeds one after another.
 std::vector<Case> all_cases(const config::ExperimentConfig& config);
 
-/// What a case is to be run with, without its name, study and point: in one build of the program, equal inputs
-/// give equal results.
+/// What a case is to be run with, without its name, study and point: in one build of the program, equal
+/// inputs give equal results.
 Result<std::string> input_hash(const Case& one);
 
 }  // namespace fleetmap::apps::experiment

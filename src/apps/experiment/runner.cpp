@@ -27,7 +27,8 @@ class DirectoryLock {
     if (descriptor < 0) return failure(file.string() + ": cannot be written; choose another --out");
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
       ::close(descriptor);
-      return failure(directory.string() + ": another experiment is at work here; wait for it or choose another --out");
+      return failure(directory.string() +
+                     ": another experiment is at work here; wait for it or choose another --out");
     }
     return DirectoryLock(descriptor);
   }
@@ -48,10 +49,12 @@ void remove_large_files(const fs::path& directory) {
   const std::set<std::string> kept{".json", ".png", ".svg", ".csv", ".log", ".yaml"};
   std::error_code error;
   std::vector<fs::path> large;
-  for (fs::recursive_directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::recursive_directory_iterator entry(directory, error), end; !error && entry != end;
+       entry.increment(error)) {
     if (!entry->is_regular_file(error) || kept.contains(entry->path().extension().string())) continue;
     const std::string extension = entry->path().extension().string();
-    const bool database = extension == ".db" || extension == ".ply" || extension == ".mcap" || extension == ".db3";
+    const bool database =
+        extension == ".db" || extension == ".ply" || extension == ".mcap" || extension == ".db3";
     if (database || entry->file_size(error) > kSmall) large.push_back(entry->path());
   }
   for (const fs::path& file : large) fs::remove(file, error);
@@ -67,7 +70,12 @@ class Runner {
  public:
   Runner(const std::vector<Case>& cases, const Engine& engine, const RunnerConfig& config,
          const std::atomic<bool>& stop, const std::function<void(const Progress&)>& on_progress)
-      : cases_(cases), engine_(engine), config_(config), stop_(stop), on_progress_(on_progress), records_(cases.size()) {}
+      : cases_(cases),
+        engine_(engine),
+        config_(config),
+        stop_(stop),
+        on_progress_(on_progress),
+        records_(cases.size()) {}
 
   Result<Outcome> run() {
     if (const Status grouped = group_cases(); !grouped) return tl::unexpected(grouped.error());
@@ -191,8 +199,7 @@ class Runner {
     if (weight_done_ > 0.0) {
       const double left = std::accumulate(
           waiting_.begin() + static_cast<std::ptrdiff_t>(next_), waiting_.end(),
-          0.5 * static_cast<double>(progress_.running.size()),
-          [this](double sum, const Group* group) {
+          0.5 * static_cast<double>(progress_.running.size()), [this](double sum, const Group* group) {
             return sum + static_cast<double>(cases_[group->cases.front()].agents);
           });
       const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();

@@ -25,8 +25,8 @@ struct Progress {
   std::size_t failed = 0;
   std::size_t reused = 0;
   std::vector<std::string> running;
-  double seconds_left = -1.0;              ///< estimated; negative: not known yet
-  const CaseRecord* ended = nullptr;       ///< the case that just ended
+  double seconds_left = -1.0;         ///< estimated; negative: not known yet
+  const CaseRecord* ended = nullptr;  ///< the case that just ended
 };
 
 struct Outcome {
@@ -35,9 +35,9 @@ struct Outcome {
   bool interrupted = false;
 };
 
-/// Runs what no earlier start has finished. A case that fails does not stop the others; it is run again by the
-/// next start. Once `stop` is set no case is begun, and cases under way that then fail count as not run. Fails
-/// when another start is at work in the directory, or nothing can be written there.
+/// Runs what no earlier start has finished. A case that fails does not stop the others; it is run again by
+/// the next start. Once `stop` is set no case is begun, and cases under way that then fail count as not run.
+/// Fails when another start is at work in the directory, or nothing can be written there.
 Result<Outcome> run_cases(const std::vector<Case>& cases, const Engine& engine, const RunnerConfig& config,
                           const std::atomic<bool>& stop,
                           const std::function<void(const Progress&)>& on_progress);

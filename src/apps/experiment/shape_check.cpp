@@ -79,11 +79,11 @@ Trend check_trend(const Curve& curve, bool falling) {
   trend.slope = slope_of(curve.x, trend.means);
   trend.p = slope_chance(curve, sign);
   if (!(sign * trend.change > 0.0)) {
-    trend.violation = "it does not " + direction + " from first to last: the mean changes by " +
-                      short_number(trend.change);
+    trend.violation =
+        "it does not " + direction + " from first to last: the mean changes by " + short_number(trend.change);
   } else if (!(sign * trend.slope > 0.0)) {
-    trend.violation = "the line through the means does not " + direction + ": its slope is " +
-                      short_number(trend.slope);
+    trend.violation =
+        "the line through the means does not " + direction + ": its slope is " + short_number(trend.slope);
   } else {
     trend.violation = step_back(curve, trend.means, sign);
   }
@@ -110,7 +110,8 @@ Curve paired(const SliceValues& slice, bool log_scale) {
 
 Curve times_x(Curve curve, bool log_scale) {
   for (std::size_t k = 0; k < curve.x.size(); ++k)
-    for (double& value : curve.values[k]) value = log_scale ? value + std::log(curve.x[k]) : value * curve.x[k];
+    for (double& value : curve.values[k])
+      value = log_scale ? value + std::log(curve.x[k]) : value * curve.x[k];
   return curve;
 }
 
@@ -133,8 +134,8 @@ void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
   if (violation.empty() && check.expectation.shape == config::Shape::kFallsLessThanLinearly) {
     const Trend shares = check_trend(times_x(curve, log_scale), false);
     if (!shares.holds())
-      violation = "it falls as fast as 1/" + check.expectation.over + " or faster; times " + check.expectation.over +
-                  ", " + shares.violation;
+      violation = "it falls as fast as 1/" + check.expectation.over + " or faster; times " +
+                  check.expectation.over + ", " + shares.violation;
     check.p = std::isnan(shares.p) ? shares.p : std::max(check.p, shares.p);
   }
   const std::string measured = "means " + list_of(check.means);
@@ -172,10 +173,14 @@ void check_slice(ShapeCheck& check, const config::ExperimentConfig& config, cons
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kHolds: return "holds";
-    case Verdict::kHoldsWeakly: return "holds_weakly";
-    case Verdict::kViolated: return "violated";
-    case Verdict::kNoData: return "no_data";
+    case Verdict::kHolds:
+      return "holds";
+    case Verdict::kHoldsWeakly:
+      return "holds_weakly";
+    case Verdict::kViolated:
+      return "violated";
+    case Verdict::kNoData:
+      return "no_data";
   }
   return "";
 }

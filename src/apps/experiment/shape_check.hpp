@@ -17,18 +17,21 @@ struct Curve {
 /// How a curve lies to the shape it is expected to have.
 struct Trend {
   std::vector<double> means;
-  double change = 0.0;           ///< last mean less the first
-  double slope = 0.0;            ///< of the least-squares line through the means, a unit of x
-  double p = 1.0;                ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
-  std::string violation;         ///< which rule is broken and by how much; empty: none
+  double change = 0.0;    ///< last mean less the first
+  double slope = 0.0;     ///< of the least-squares line through the means, a unit of x
+  double p = 1.0;         ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
+  std::string violation;  ///< which rule is broken and by how much; empty: none
   bool holds() const { return violation.empty(); }
 };
 
-/// The rules, on means over the seeds (seeds are paired: the same seed is the same world and noise at every x):
+/// The rules, on means over the seeds (seeds are paired: the same seed is the same world and noise at every
+/// x):
 /// 1. the last mean lies beyond the first in the expected direction;
 /// 2. the least-squares line through the means goes in that direction;
-/// 3. no mean steps back from its neighbour by more than the seeds explain: more than `t` standard errors of the
-///    paired differences, t the one-sided 97.5 % point of Student's distribution (one seed: any step is allowed).
+/// 3. no mean steps back from its neighbour by more than the seeds explain: more than `t` standard errors of
+/// the
+///    paired differences, t the one-sided 97.5 % point of Student's distribution (one seed: any step is
+///    allowed).
 /// `falling` asks for falls; otherwise rises.
 Trend check_trend(const Curve& curve, bool falling);
 
@@ -54,8 +57,8 @@ struct ShapeCheck {
   std::string detail;  ///< in words: what was measured, or which rule is broken and by how much
 };
 
-/// Falls-less-than-linearly is: the metric falls, and the metric times x rises (each robot more brings less than
-/// its share: a fleet of x times the robots would need 1/x of the time if nothing were lost).
+/// Falls-less-than-linearly is: the metric falls, and the metric times x rises (each robot more brings less
+/// than its share: a fleet of x times the robots would need 1/x of the time if nothing were lost).
 std::vector<ShapeCheck> check_shapes(const config::ExperimentConfig& config,
                                      const std::vector<CaseRecord>& records);
 

@@ -5,8 +5,8 @@
 
 namespace fleetmap::apps::experiment {
 
-/// With t = sqrt(freedom) tan(a) the density becomes a constant times cos(a)^(freedom - 1), smooth on [0, pi/2]:
-/// Simpson's rule gives it to far more digits than a verdict needs.
+/// With t = sqrt(freedom) tan(a) the density becomes a constant times cos(a)^(freedom - 1), smooth on [0,
+/// pi/2]: Simpson's rule gives it to far more digits than a verdict needs.
 double student_tail(double t, double freedom) {
   if (std::isnan(t)) return t;
   if (t < 0.0) return 1.0 - student_tail(-t, freedom);

@@ -43,8 +43,8 @@ std::vector<const CaseRecord*> records_at(const config::Study& study, const std:
   return found;
 }
 
-SliceValues values_along(const config::Study& study, const std::vector<CaseRecord>& records, std::size_t free_axis,
-                         const Slice& slice, const std::string& metric) {
+SliceValues values_along(const config::Study& study, const std::vector<CaseRecord>& records,
+                         std::size_t free_axis, const Slice& slice, const std::string& metric) {
   SliceValues out;
   for (const config::AxisValue& value : study.axes[free_axis].values) {
     std::vector<std::string> point = slice.labels;
@@ -75,7 +75,8 @@ Spread spread(const std::vector<double>& values, bool log_scale) {
   if (counted.empty()) return out;
   for (const double value : counted) out.mean += value / static_cast<double>(counted.size());
   for (const double value : counted) out.deviation += (value - out.mean) * (value - out.mean);
-  out.deviation = counted.size() > 1 ? std::sqrt(out.deviation / static_cast<double>(counted.size() - 1)) : 0.0;
+  out.deviation =
+      counted.size() > 1 ? std::sqrt(out.deviation / static_cast<double>(counted.size() - 1)) : 0.0;
   out.min = *std::ranges::min_element(counted);
   out.max = *std::ranges::max_element(counted);
   if (log_scale) {

@@ -23,8 +23,8 @@ struct SliceValues {
   std::vector<std::string> labels;
   std::vector<std::vector<double>> values;  ///< [value of the axis][seed]
 };
-SliceValues values_along(const config::Study& study, const std::vector<CaseRecord>& records, std::size_t free_axis,
-                         const Slice& slice, const std::string& metric);
+SliceValues values_along(const config::Study& study, const std::vector<CaseRecord>& records,
+                         std::size_t free_axis, const Slice& slice, const std::string& metric);
 
 /// The records of one point of the study, in the order of the seeds.
 std::vector<const CaseRecord*> records_at(const config::Study& study, const std::vector<CaseRecord>& records,

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/core/result.hpp"
+
+/// What `fleetmap experiment` runs: studies, each a grid of fleets that differ in a few keys, and each fleet
+/// run once a seed.
+namespace fleetmap::config {
+
+/// A number that every case gives, and how it is shown.
+struct MetricSpec {
+  std::string name;   ///< as in a case's result: map.rmse
+  std::string title;  ///< of its plot and column
+  std::string unit;
+  bool log_scale = false;  ///< positive and spread over magnitudes: averaged and compared as logarithms
+};
+
+/// One value of an axis: the keys it sets in the fleet's file.
+struct AxisValue {
+  std::string label;
+  double position = 0.0;  ///< in plots and shapes: the value itself if it is a number, else its index
+  std::vector<Override> overrides;
+  std::optional<std::size_t> agents;  ///< of the axis "agents": the first N of the fleet's file drive
+};
+
+struct Axis {
+  std::string name;
+  std::string unit;
+  std::vector<AxisValue> values;
+};
+
+enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly };
+const char* to_string(Shape shape);
+
+/// How a metric's mean must change along an axis, for every combination of the other axes.
+struct Expectation {
+  std::string metric;
+  std::string over;
+  Shape shape = Shape::kFalls;
+};
+
+struct Study {
+  std::string name;
+  std::string title;
+  std::string figure;  ///< of the paper
+  std::size_t agents = 0;
+  std::vector<Axis> axes;
+  std::vector<std::uint64_t> seeds;
+  std::vector<Override> overrides;
+  std::vector<std::string> metrics;
+  std::vector<std::string> histograms;
+  std::vector<std::string> pictures;
+  std::vector<Expectation> expectations;
+};
+
+/// An experiment file, already narrowed down if it is the quick set that is asked for.
+struct ExperimentConfig {
+  std::string title;
+  std::filesystem::path base;  ///< FLEET.yaml that every case starts from
+  std::vector<Override> overrides;
+  std::vector<std::string> seed_keys;  ///< dotted keys of `base` that get the case's seed
+  std::vector<MetricSpec> metrics;
+  std::vector<Study> studies;
+
+  const MetricSpec* metric(const std::string& name) const;
+};
+
+/// All problems at once, with file and line; of `base` only that it exists and has agents enough.
+Result<ExperimentConfig> load_experiment(const std::filesystem::path& file, bool quick);
+
+/// A hash of what a run of `fleet_file` with `overrides` reads: that file and every file that it names, and
+/// those that they name. Folders and files above 64 MB count by names, sizes and times of change.
+Result<std::string> input_fingerprint(const std::filesystem::path& fleet_file,
+                                      const std::vector<Override>& overrides);
+
+}  // namespace fleetmap::config

@@ -1,0 +1,96 @@
+#include "experiment/child_process.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <thread>
+
+namespace fleetmap::apps::experiment {
+namespace {
+
+/// Between fork() and exec only what is safe beside other threads.
+[[noreturn]] void become(char* const* argv, int log, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(126);
+  ::setpgid(0, 0);  // Ctrl-C reaches the experiment alone, which ends its children in order
+  ::dup2(log, STDOUT_FILENO);
+  ::dup2(log, STDERR_FILENO);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
+  ::execv("/proc/self/exe", argv);
+  ::_exit(127);
+}
+
+ChildExit exit_of(int status, const rusage& use) {
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  ChildExit result;
+  result.signalled = WIFSIGNALED(status);
+  result.code = result.signalled ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  result.cpu_seconds = seconds(use.ru_utime) + seconds(use.ru_stime);
+  result.peak_megabytes = static_cast<double>(use.ru_maxrss) / 1024.0;
+  return result;
+}
+
+Result<ChildExit> wait_for(pid_t child, const std::atomic<bool>& stop) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point asked{};
+  for (;;) {
+    int status = 0;
+    rusage use{};
+    const pid_t ended = ::wait4(child, &status, WNOHANG, &use);
+    if (ended == child) return exit_of(status, use);
+    if (ended < 0 && errno != EINTR)
+      return failure(std::string("waiting for a case: ") + std::strerror(errno));
+    if (stop && asked == Clock::time_point{}) {
+      ::kill(child, SIGTERM);
+      asked = Clock::now();
+    } else if (asked != Clock::time_point{} && Clock::now() - asked > std::chrono::seconds(2)) {
+      ::kill(child, SIGKILL);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+Result<ChildExit> run_self(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                           const std::atomic<bool>& stop) {
+  std::string name = "fleetmap";
+  std::vector<char*> argv{name.data()};
+  std::vector<std::string> copies = arguments;
+  for (std::string& argument : copies) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (output < 0) return failure(log.string() + ": " + std::strerror(errno));
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child == 0) become(argv.data(), output, parent);
+  ::close(output);
+  if (child < 0) return failure(std::string("a case cannot be started: ") + std::strerror(errno));
+  return wait_for(child, stop);
+}
+
+std::string tail_of(const std::filesystem::path& log, std::size_t lines) {
+  std::ifstream in(log);
+  std::deque<std::string> last;
+  for (std::string line; std::getline(in, line);) {
+    last.push_back(line.substr(0, 500));
+    if (last.size() > lines) last.pop_front();
+  }
+  std::string text;
+  for (const std::string& line : last) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+}  // namespace fleetmap::apps::experiment

@@ -1,0 +1,63 @@
+#include "experiment/experiment.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiment/progress_line.hpp"
+#include "experiment/report_page.hpp"
+#include "experiment/results_file.hpp"
+
+namespace fleetmap::apps::experiment {
+namespace {
+
+bool met(const ShapeCheck& check) {
+  return check.verdict == Verdict::kHolds || check.verdict == Verdict::kHoldsWeakly;
+}
+
+Status write_results(const config::ExperimentConfig& config, const Outcome& outcome,
+                     const std::vector<ShapeCheck>& checks, const std::filesystem::path& directory) {
+  const std::string json =
+      results_json(config, outcome, checks).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (const Status written = write_whole(directory / "results.json", json + "\n"); !written) return written;
+  if (const Status written = write_whole(directory / "results.csv", results_csv(config, outcome)); !written)
+    return written;
+  return write_whole(directory / "report.html", report_page(config, outcome, checks, directory));
+}
+
+void print_outcome(const ExperimentResult& result, const std::filesystem::path& directory,
+                   std::ostream& out) {
+  for (const ShapeCheck& check : result.checks) {
+    out << (met(check) ? "  " : "! ") << check.study << (check.at.empty() ? "" : " at " + check.at) << ": "
+        << check.expectation.metric << ' ' << config::to_string(check.expectation.shape) << " over "
+        << check.expectation.over << ": " << to_string(check.verdict) << " (" << check.detail << ")\n";
+  }
+  for (const CaseRecord& record : result.outcome.records)
+    if (!record.done()) out << "! " << record.of.name << ": " << record.reason << '\n';
+  out << "report: " << (directory / "report.html").string() << '\n';
+}
+
+}  // namespace
+
+bool ExperimentResult::good() const {
+  return !outcome.interrupted && std::ranges::all_of(outcome.records, &CaseRecord::done) &&
+         std::ranges::all_of(checks, met);
+}
+
+Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, const Engine& engine,
+                                        const RunnerConfig& runner, const std::atomic<bool>& stop,
+                                        std::ostream& out, bool terminal) {
+  ProgressLine line(out, terminal);
+  auto outcome = run_cases(all_cases(config), engine, runner, stop,
+                           [&line](const Progress& progress) { line.show(progress); });
+  line.finish();
+  if (!outcome) return tl::unexpected(outcome.error());
+  ExperimentResult result;
+  result.outcome = std::move(*outcome);
+  result.checks = check_shapes(config, result.outcome.records);
+  if (const Status written = write_results(config, result.outcome, result.checks, runner.directory); !written)
+    return tl::unexpected(written.error());
+  print_outcome(result, runner.directory, out);
+  return result;
+}
+
+}  // namespace fleetmap::apps::experiment

@@ -1,0 +1,343 @@
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <set>
+
+#include "fleetmap/config/experiment_config.hpp"
+#include "yaml_section.hpp"
+
+namespace fleetmap::config {
+namespace {
+
+constexpr const char* kAgentsAxis = "agents";
+constexpr std::uint32_t kMostSeeds = 10'000;
+
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= 60 && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+std::optional<double> number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+void read_overrides(Section& section, const std::string& key, std::vector<Override>& overrides) {
+  std::vector<std::string> texts;
+  section.read(key, texts);
+  for (const std::string& text : texts) {
+    if (auto parsed = parse_override(text)) {
+      overrides.push_back(std::move(*parsed));
+    } else {
+      section.problem(key, parsed.error().message);
+    }
+  }
+}
+
+std::vector<MetricSpec> read_metrics(Section& top) {
+  std::vector<MetricSpec> metrics;
+  for (Section& entry : top.list("metrics")) {
+    MetricSpec metric;
+    entry.read("name", metric.name);
+    metric.title = metric.name;
+    entry.read("title", metric.title);
+    entry.read("unit", metric.unit);
+    entry.read("log", metric.log_scale);
+    entry.finish();
+    if (metric.name.empty())
+      entry.problem("name", "expected the metric's name in a case's result, e.g. map.rmse");
+    if (std::ranges::find(metrics, metric.name, &MetricSpec::name) != metrics.end())
+      entry.problem("name", "'" + metric.name + "' is listed above");
+    metrics.push_back(std::move(metric));
+  }
+  return metrics;
+}
+
+/// `points`: each a label and the keys it sets.
+void read_points(Section& section, Axis& axis) {
+  for (Section& point : section.list("points")) {
+    AxisValue value;
+    point.read("label", value.label);
+    if (value.label.empty()) point.problem("label", "expected a name or a number for this point");
+    read_overrides(point, "set", value.overrides);
+    point.finish();
+    axis.values.push_back(std::move(value));
+  }
+}
+
+/// `values`: each is given to every one of `keys`; of the axis "agents" it is the number of robots.
+void read_values(Section& section, Axis& axis) {
+  std::vector<std::string> texts, keys;
+  section.read("values", texts);
+  section.read("keys", keys);
+  const bool counts_agents = axis.name == kAgentsAxis;
+  if (!texts.empty() && counts_agents != keys.empty()) {
+    section.problem("keys", counts_agents
+                                ? "the axis 'agents' sets the number of robots, not a key"
+                                : "expected the fleet's keys that get the values, e.g. [robot.lidar_rate]");
+  }
+  for (const std::string& text : texts) {
+    AxisValue value;
+    value.label = text;
+    for (const std::string& key : keys) value.overrides.push_back({key, text});
+    if (counts_agents) {
+      const auto count = number(text);
+      if (!count || *count < 1.0 || *count > 1000.0 ||
+          *count != static_cast<double>(static_cast<int>(*count)))
+        section.problem("values", "'" + text + "' is not a number of robots");
+      value.agents = static_cast<std::size_t>(count.value_or(1.0));
+    }
+    axis.values.push_back(std::move(value));
+  }
+}
+
+Axis read_axis(Section& section) {
+  Axis axis;
+  section.read("name", axis.name);
+  section.read("unit", axis.unit);
+  if (!is_name(axis.name)) section.problem("name", "expected a name of letters, digits, '_' and '-'");
+  if (section.has("values") == section.has("points"))
+    section.problem("values", "expected either values: [...] with keys: [...], or points: [{label, set}]");
+  read_points(section, axis);
+  read_values(section, axis);
+  section.finish();
+  std::set<std::string> labels;
+  bool numbers = true;
+  for (const AxisValue& value : axis.values) {
+    if (!labels.insert(value.label).second)
+      section.problem("values", "'" + value.label + "' is listed twice");
+    numbers = numbers && number(value.label).has_value();
+  }
+  for (std::size_t k = 0; k < axis.values.size(); ++k)
+    axis.values[k].position = numbers ? number(axis.values[k].label).value() : static_cast<double>(k);
+  if (!std::ranges::is_sorted(axis.values, {}, &AxisValue::position)) {
+    std::ranges::stable_sort(axis.values, {}, &AxisValue::position);
+  }
+  return axis;
+}
+
+std::optional<Shape> shape_named(const std::string& name) {
+  for (const Shape shape : {Shape::kFalls, Shape::kRises, Shape::kFallsLessThanLinearly})
+    if (name == to_string(shape)) return shape;
+  return std::nullopt;
+}
+
+void read_expectations(Section& section, Study& study, const std::vector<MetricSpec>& metrics) {
+  for (Section& entry : section.list("expect")) {
+    Expectation expectation;
+    std::string shape;
+    entry.read("metric", expectation.metric);
+    entry.read("over", expectation.over);
+    entry.read("shape", shape);
+    entry.finish();
+    if (std::ranges::find(metrics, expectation.metric, &MetricSpec::name) == metrics.end())
+      entry.problem("metric", "'" + expectation.metric + "' is not listed under 'metrics' of the file");
+    const auto axis = std::ranges::find(study.axes, expectation.over, &Axis::name);
+    if (axis == study.axes.end()) {
+      entry.problem("over", "'" + expectation.over + "' is not an axis of this study");
+    } else if (axis->values.size() < 2) {
+      entry.problem("over", "the axis '" + expectation.over + "' has a single value, so it has no shape");
+    }
+    const auto known = shape_named(shape);
+    if (!known)
+      entry.problem("shape", "expected falls, rises or falls_less_than_linearly, found '" + shape + "'");
+    expectation.shape = known.value_or(Shape::kFalls);
+    study.expectations.push_back(std::move(expectation));
+  }
+}
+
+std::vector<std::uint64_t> seeds_up_to(std::uint32_t count) {
+  std::vector<std::uint64_t> seeds;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
+void read_seeds(Section& section, std::vector<std::uint64_t>& seeds) {
+  if (!section.has("seeds")) return;
+  std::uint32_t count = 1;
+  section.read("seeds", count);
+  if (count < 1 || count > kMostSeeds) {
+    section.problem("seeds", "expected how many runs of each point, 1 to " + std::to_string(kMostSeeds));
+    count = 1;
+  }
+  seeds = seeds_up_to(count);
+}
+
+/// Keeps only the listed values of each axis.
+void read_kept_values(Section& quick, Study& study, bool apply) {
+  Section keep = quick.section("keep");
+  for (Axis& axis : study.axes) {
+    std::vector<std::string> labels;
+    keep.read(axis.name, labels);
+    if (labels.empty()) continue;
+    std::vector<AxisValue> kept;
+    for (const std::string& label : labels) {
+      const auto value = std::ranges::find(axis.values, label, &AxisValue::label);
+      if (value == axis.values.end()) {
+        keep.problem(axis.name, "'" + label + "' is not a value of this axis");
+      } else if (std::ranges::find(kept, label, &AxisValue::label) == kept.end()) {
+        kept.push_back(*value);
+      }
+    }
+    std::ranges::stable_sort(kept, {}, &AxisValue::position);
+    if (apply && !kept.empty()) axis.values = std::move(kept);
+  }
+  keep.finish();
+}
+
+/// False: the quick set leaves this study out.
+bool read_quick(Section& section, Study& study, bool apply) {
+  Section quick = section.section("quick");
+  bool skip = false;
+  quick.read("skip", skip);
+  std::vector<std::uint64_t> seeds = study.seeds;
+  read_seeds(quick, seeds);
+  std::vector<Override> overrides;
+  read_overrides(quick, "set", overrides);
+  read_kept_values(quick, study, apply);
+  quick.finish();
+  if (!apply) return true;
+  study.seeds = std::move(seeds);
+  study.overrides.insert(study.overrides.end(), overrides.begin(), overrides.end());
+  std::erase_if(study.expectations, [&](const Expectation& expectation) {
+    const auto axis = std::ranges::find(study.axes, expectation.over, &Axis::name);
+    return axis == study.axes.end() || axis->values.size() < 2;
+  });
+  return !skip;
+}
+
+void check_agents(Section& section, const Study& study, std::size_t available) {
+  std::size_t most = study.agents;
+  const auto axis = std::ranges::find(study.axes, kAgentsAxis, &Axis::name);
+  if (axis != study.axes.end())
+    for (const AxisValue& value : axis->values) most = std::max(most, value.agents.value_or(0));
+  if (available > 0 && most > available) {
+    section.problem(axis == study.axes.end() ? "agents" : "axes",
+                    std::to_string(most) + " robots are wanted, the fleet's file lists " +
+                        std::to_string(available) + "; list more there");
+  }
+}
+
+Study read_study(Section& section, const std::vector<MetricSpec>& metrics) {
+  Study study;
+  section.read("name", study.name);
+  if (!is_name(study.name)) section.problem("name", "expected a name of letters, digits, '_' and '-'");
+  study.title = study.name;
+  section.read("title", study.title);
+  section.read("figure", study.figure);
+  std::uint32_t agents = 0;
+  section.read("agents", agents);
+  if (section.has("agents") && agents < 1) section.problem("agents", "expected a number of robots");
+  study.agents = agents;
+  study.seeds = seeds_up_to(1);
+  read_seeds(section, study.seeds);
+  read_overrides(section, "set", study.overrides);
+  for (Section& entry : section.list("axes")) {
+    Axis axis = read_axis(entry);
+    if (std::ranges::find(study.axes, axis.name, &Axis::name) != study.axes.end())
+      entry.problem("name", "'" + axis.name + "' is an axis above");
+    if (axis.values.empty()) entry.problem("values", "expected at least one value");
+    study.axes.push_back(std::move(axis));
+  }
+  section.read("metrics", study.metrics);
+  for (const std::string& name : study.metrics) {
+    if (std::ranges::find(metrics, name, &MetricSpec::name) == metrics.end())
+      section.problem("metrics", "'" + name + "' is not listed under 'metrics' of the file");
+  }
+  section.read("histograms", study.histograms);
+  section.read("pictures", study.pictures);
+  read_expectations(section, study, metrics);
+  return study;
+}
+
+/// 0: the file says nothing of agents, or cannot be read.
+std::size_t agents_of(const std::filesystem::path& base) {
+  const auto document = Document::load(base);
+  if (!document) return 0;
+  const YAML::Node& root = document->root();
+  const YAML::Node agents = root["agents"];
+  return agents.IsDefined() && agents.IsSequence() ? agents.size() : 0;
+}
+
+/// The fleet's file, and how many agents it lists.
+std::size_t read_base(Section& section, std::filesystem::path& base) {
+  section.read_path("base", base);
+  std::error_code error;
+  if (!section.has("base")) return 0;
+  if (!std::filesystem::is_regular_file(base, error)) {
+    section.problem("base",
+                    base.string() + ": no such file; give the FLEET.yaml that every case starts from");
+    return 0;
+  }
+  const std::size_t agents = agents_of(base);
+  if (agents == 0) section.problem("base", base.string() + " lists no agents");
+  return agents;
+}
+
+}  // namespace
+
+const char* to_string(Shape shape) {
+  switch (shape) {
+    case Shape::kFalls:
+      return "falls";
+    case Shape::kRises:
+      return "rises";
+    case Shape::kFallsLessThanLinearly:
+      return "falls_less_than_linearly";
+  }
+  return "";
+}
+
+const MetricSpec* ExperimentConfig::metric(const std::string& name) const {
+  const auto found = std::ranges::find(metrics, name, &MetricSpec::name);
+  return found == metrics.end() ? nullptr : &*found;
+}
+
+Result<ExperimentConfig> load_experiment(const std::filesystem::path& file, bool quick) {
+  Result<Document> document = Document::load(file);
+  if (!document) return tl::unexpected(document.error());
+  ExperimentConfig config;
+  Section top(*document, document->root(), "");
+  config.title = file.stem().string();
+  top.read("title", config.title);
+  if (!top.has("base")) top.problem("base", "expected the FLEET.yaml that every case starts from");
+  std::size_t agents = read_base(top, config.base);
+  read_overrides(top, "set", config.overrides);
+  top.read("seed_keys", config.seed_keys);
+  config.metrics = read_metrics(top);
+
+  Section quick_section = top.section("quick");
+  std::filesystem::path quick_base = config.base;
+  const std::size_t quick_agents = quick_section.has("base") ? read_base(quick_section, quick_base) : agents;
+  std::vector<Override> quick_overrides;
+  read_overrides(quick_section, "set", quick_overrides);
+  quick_section.finish();
+  if (quick) {
+    config.base = quick_base;
+    agents = quick_agents;
+    config.overrides.insert(config.overrides.end(), quick_overrides.begin(), quick_overrides.end());
+  }
+
+  std::set<std::string> names;
+  for (Section& entry : top.list("studies")) {
+    Study study = read_study(entry, config.metrics);
+    const bool wanted = read_quick(entry, study, quick);
+    if (!names.insert(study.name).second) entry.problem("name", "'" + study.name + "' is a study above");
+    if (wanted) check_agents(entry, study, agents);
+    if (study.agents == 0) study.agents = agents;
+    entry.finish();
+    if (study.seeds.size() > 1 && config.seed_keys.empty())
+      entry.problem("seeds",
+                    "expected seed_keys at the top of the file: with none, every seed is the same run");
+    if (wanted) config.studies.push_back(std::move(study));
+  }
+  if (names.empty()) top.problem("studies", "expected a list with at least one study");
+  top.finish();
+  if (const Status status = document->status(); !status) return tl::unexpected(status.error());
+  return config;
+}
+
+}  // namespace fleetmap::config
