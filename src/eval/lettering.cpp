@@ -71,11 +71,24 @@ struct Pen {
   Rgb ink;
 };
 
+/// Lettering is read before anything.
+void veil(const Pen& pen, int x, int y, int width, int height) {
+  const auto mix = [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>((a + 3 * b) / 4); };
+  const Rgb& ground = pen.view.background;
+  for (int row = std::max(0, y); row < std::min(pen.image.height, y + height); ++row) {
+    for (int column = std::max(0, x); column < std::min(pen.image.width, x + width); ++column) {
+      Rgb& p = pen.image.at(column, row);
+      p = {mix(p.r, ground.r), mix(p.g, ground.g), mix(p.b, ground.b)};
+    }
+  }
+}
+
 void draw_scale_bar(const Pen& pen, double metres_per_pixel) {
   const double metres = round_length(0.2 * metres_per_pixel * pen.image.width);
   const int length = static_cast<int>(std::lround(metres / metres_per_pixel));
   const int y = pen.image.height - pen.margin;
   const int x = pen.image.width - pen.margin - length;
+  veil(pen, x - 4 * pen.scale, y - 17 * pen.scale, length + 8 * pen.scale, 24 * pen.scale);
   fill_rectangle(pen.image, x, y - pen.scale, length, 2 * pen.scale, pen.ink);
   for (const int end : {x, x + length - 2 * pen.scale})
     fill_rectangle(pen.image, end, y - 4 * pen.scale, 2 * pen.scale, 7 * pen.scale, pen.ink);
@@ -100,6 +113,8 @@ void draw_colour_bar(const Pen& pen) {
   const int length = pen.image.width / 4;
   const int height = 8 * pen.scale;
   const int y = pen.image.height - pen.margin - height - 10 * pen.scale;
+  const int wide = std::max(length, text_width(bar.title, pen.scale));
+  veil(pen, pen.margin - 4 * pen.scale, y - 15 * pen.scale, wide + 8 * pen.scale, height + 30 * pen.scale);
   for (int x = 0; x < length; ++x) {
     const double share = static_cast<double>(x) / (length - 1);
     fill_rectangle(pen.image, pen.margin + x, y, 1, height,
@@ -144,6 +159,11 @@ void draw_text(Image& image, int x, int y, std::string_view text, Rgb colour, in
 void annotate(Image& image, const View& view, double metres_per_pixel) {
   const int scale = std::max(1, image.width / 640);
   const Pen pen{image, view, scale, 12 * scale, ink_on(view.background)};
+  int wide = text_width(view.title, scale);
+  for (const LegendEntry& entry : view.legend)
+    wide = std::max(wide, 3 * text_height(scale) + text_width(entry.text, scale));
+  const int rows = (view.title.empty() ? 0 : 14) + 11 * static_cast<int>(view.legend.size());
+  if (rows > 0) veil(pen, pen.margin / 2, pen.margin / 2, wide + pen.margin, rows * scale + pen.margin / 2);
   draw_text(image, pen.margin, pen.margin, view.title, pen.ink, scale);
   draw_legend(pen);
   draw_colour_bar(pen);

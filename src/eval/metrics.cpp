@@ -48,6 +48,28 @@ std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen:
   return points;
 }
 
+/// Neighbours in space become neighbours in memory: searches meet fewer cold cache lines.
+void sort_by_place(std::vector<Eigen::Vector3f>& points) {
+  constexpr float kCell = 4.0f;  // m
+  struct Keyed {
+    std::array<std::int32_t, 2> cell;
+    std::uint32_t index;
+  };
+  std::vector<Keyed> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    order[i] = {{static_cast<std::int32_t>(std::floor(points[i].x() / kCell)),
+                 static_cast<std::int32_t>(std::floor(points[i].y() / kCell))},
+                static_cast<std::uint32_t>(i)};
+  }
+  std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.index < b.index;
+  });
+  std::vector<Eigen::Vector3f> sorted;
+  sorted.reserve(points.size());
+  for (const Keyed& k : order) sorted.push_back(points[k.index]);
+  points = std::move(sorted);
+}
+
 Eigen::Vector3f middle_of(const cloud::PointCloud& cloud) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::size_t count = 0;
@@ -75,6 +97,7 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   const auto last = static_cast<float>(config.inlier_distance);
   icp.max_distances_m = {std::max(first, last), std::max(0.5f * first, last), last};
   icp.iterations_per_stage = 12;
+  icp.degenerate_share = 1e-3;
   return registration::icp({target, tree, normals}, {source, none}, Pose::Identity(), icp).T_target_source;
 }
 
@@ -88,24 +111,15 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
 
 /// Fisher information of the registration: each inlier measures the map's pose along the truth's normal.
 void set_covariance(MapMetrics& metrics, const cloud::PointCloud& map, const std::vector<Foot>& feet,
-                    const TruthSurface& truth, const MapMetricsConfig& config) {
-  std::vector<std::size_t> inliers;
-  for (std::size_t i = 0; i < feet.size(); ++i) {
-    if (feet[i].found) inliers.push_back(i);
-  }
-  const std::vector<std::size_t> chosen = evenly(inliers.size(), config.most_samples);
-  std::vector<std::size_t> in_truth;
-  in_truth.reserve(chosen.size());
-  for (const std::size_t k : chosen) in_truth.push_back(feet[inliers[k]].truth);
-  const std::vector<Eigen::Vector3f> normals = truth.normals_at(in_truth);
+                    const TruthSurface& truth, double least_noise) {
   Matrix6d information = Matrix6d::Zero();
   double squares = 0.0;
   std::size_t count = 0;
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    if (normals[k].isZero()) continue;
-    const Eigen::Vector3d p = map.points[inliers[chosen[k]]].cast<double>();
-    const Eigen::Vector3d n = normals[k].cast<double>();
-    const double r = n.dot(p - truth.cloud().points[in_truth[k]].cast<double>());
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    if (!feet[i].found || feet[i].normal.isZero()) continue;
+    const Eigen::Vector3d p = map.points[i].cast<double>();
+    const Eigen::Vector3d n = feet[i].normal.cast<double>();
+    const double r = n.dot(p - truth.cloud().points[feet[i].truth].cast<double>());
     Vector6d J;
     J << n, p.cross(n);
     information.selfadjointView<Eigen::Lower>().rankUpdate(J);
@@ -116,10 +130,8 @@ void set_covariance(MapMetrics& metrics, const cloud::PointCloud& map, const std
     metrics.det_covariance = std::numeric_limits<double>::infinity();
     return;
   }
-  metrics.sigma = std::max(config.least_noise, std::sqrt(squares / static_cast<double>(count)));
-  const double represented = static_cast<double>(inliers.size()) / static_cast<double>(chosen.size());
-  information =
-      Matrix6d(information.selfadjointView<Eigen::Lower>()) * represented / (metrics.sigma * metrics.sigma);
+  metrics.sigma = std::max(least_noise, std::sqrt(squares / static_cast<double>(count)));
+  information = Matrix6d(information.selfadjointView<Eigen::Lower>()) / (metrics.sigma * metrics.sigma);
   // det C = 1 / det I does not depend on the point about which rotations are taken.
   metrics.det_covariance = 1.0 / information.determinant();
 }
@@ -233,24 +245,20 @@ Status MapMetricsConfig::validate() const {
   return {};
 }
 
-Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                                const MapMetricsConfig& config) {
+Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                         const MapMetricsConfig& config) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   // Near its middle a map's coordinates are small, and turning it does not move it.
   const Eigen::Vector3f middle = middle_of(map);
-  const cloud::PointCloud whole{usable(map, middle), {}};
+  cloud::PointCloud thin = thinned({usable(map, middle), {}}, config.resolution);
   cloud::PointCloud truth_points = thinned({usable(truth, middle), {}}, config.resolution);
-  if (whole.empty()) return failure("the map holds no finite point");
+  if (thin.empty()) return failure("the map holds no finite point");
   if (truth_points.empty()) return failure("the truth holds no finite point");
+  sort_by_place(thin.points);
+  sort_by_place(truth_points.points);
   const TruthSurface surface(std::move(truth_points));
-  const cloud::PointCloud thin = thinned(whole, config.resolution);
-
-  MapMetrics metrics;
   const Pose T = registered(thin, surface, config);
   const cloud::PointCloud placed = cloud::transformed(thin, T);
-  const Eigen::Translation3d to_middle(middle.cast<double>());
-  metrics.T_truth_map = to_middle * T * to_middle.inverse();
-
   const auto feet = surface.feet_of(placed.points, static_cast<float>(config.inlier_distance));
   const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
   if (static_cast<std::size_t>(inliers) < std::min(kLeastInliers, thin.size())) {
@@ -258,15 +266,39 @@ Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::Point
                    std::to_string(thin.size()) +
                    " points have truth nearby; are both in ENU of the same origin?");
   }
+  EvaluatedMap evaluated;
+  MapMetrics& metrics = evaluated.metrics;
+  metrics = describe_map(map, config);
+  const Eigen::Translation3d to_middle(middle.cast<double>());
+  metrics.T_truth_map = to_middle * T * to_middle.inverse();
   const double there = set_accuracy(metrics, feet, config);
   const double back = set_completeness(metrics, placed, surface.cloud(), config);
   metrics.chamfer = 0.5 * (there + back);
-  set_covariance(metrics, placed, feet, surface, config);
-  set_density(metrics, whole.points, config);
+  set_covariance(metrics, placed, feet, surface, config.least_noise);
   metrics.truth_spacing = static_cast<double>(surface.spacing());
-  metrics.map_points = map.size();
   metrics.truth_points = surface.cloud().size();
-  metrics.mapped_area = area_of(whole.points);
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    evaluated.points.points.push_back(placed.points[i] + middle);
+    evaluated.errors.push_back(feet[i].found ? feet[i].surface_distance
+                                             : static_cast<float>(config.inlier_distance));
+  }
+  return evaluated;
+}
+
+Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                const MapMetricsConfig& config) {
+  const auto evaluated = evaluate_map_points(map, truth, config);
+  if (!evaluated) return tl::unexpected(evaluated.error());
+  return evaluated->metrics;
+}
+
+MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& config) {
+  MapMetrics metrics;
+  metrics.map_points = map.size();
+  const std::vector<Eigen::Vector3f> points = usable(map, Eigen::Vector3f::Zero());
+  if (points.empty()) return metrics;
+  set_density(metrics, points, config);
+  metrics.mapped_area = area_of(points);
   return metrics;
 }
 

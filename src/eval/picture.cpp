@@ -18,32 +18,39 @@ constexpr float kFarthest = 1e6f;       // m: nothing of a site lies farther fro
 constexpr double kLargestSquare = 9.0;  // pixels, so that a point before the camera hides nothing
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-struct Box {
-  Eigen::Vector3d low, high;
-};
-
 bool usable(const Eigen::Vector3f& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest; }
 
-/// The box of all but the outermost points on each axis of `axes` (rows).
-std::optional<Box> box_of(const cloud::PointCloud& cloud, const Eigen::Matrix3d& axes) {
+/// Some of the points in the frame whose axes are the rows of `axes`.
+std::vector<Eigen::Vector3d> samples_of(const cloud::PointCloud& cloud, const Eigen::Matrix3d& axes) {
+  std::vector<Eigen::Vector3d> samples;
   const std::size_t step = cloud.size() / 200'000 + 1;
-  std::array<std::vector<double>, 3> values;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
-    if (!usable(cloud.points[i])) continue;
-    const Eigen::Vector3d p = axes * cloud.points[i].cast<double>();
-    for (Eigen::Index k = 0; k < 3; ++k) values[static_cast<std::size_t>(k)].push_back(p[k]);
+    if (usable(cloud.points[i])) samples.push_back(axes * cloud.points[i].cast<double>());
   }
-  if (values[0].empty()) return std::nullopt;
-  Box box;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    auto& v = values[static_cast<std::size_t>(k)];
-    const auto cut = static_cast<std::ptrdiff_t>(kOutermost * static_cast<double>(v.size()));
-    std::nth_element(v.begin(), v.begin() + cut, v.end());
-    box.low[k] = v[static_cast<std::size_t>(cut)];
-    std::nth_element(v.begin(), v.end() - 1 - cut, v.end());
-    box.high[k] = *(v.end() - 1 - cut);
-  }
-  return box;
+  return samples;
+}
+
+struct Extent {
+  double low, high;
+  double size() const { return std::max(1.0, high - low); }
+  double middle() const { return 0.5 * (low + high); }
+};
+
+/// Of all values but the outermost.
+Extent extent_of(std::vector<double>& values) {
+  const auto cut = static_cast<std::ptrdiff_t>(kOutermost * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), values.begin() + cut, values.end());
+  const double low = values[static_cast<std::size_t>(cut)];
+  std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
+  return {low, *(values.end() - 1 - cut)};
+}
+
+template <class Function>
+Extent extent_of(const std::vector<Eigen::Vector3d>& samples, const Function& value_of) {
+  std::vector<double> values;
+  values.reserve(samples.size());
+  for (const Eigen::Vector3d& p : samples) values.push_back(value_of(p));
+  return extent_of(values);
 }
 
 /// Maps points to pixels. Depth is in metres along the view, from the camera or from the highest point.
@@ -58,19 +65,20 @@ class Camera {
                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
     const Eigen::Vector3d right(-std::sin(azimuth), std::cos(azimuth), 0.0);
     axes_ << right.transpose(), back.cross(right).transpose(), back.transpose();
-    const auto box = box_of(cloud, axes_);
-    if (!box) return;
-    const Eigen::Vector3d size = (box->high - box->low).cwiseMax(1.0);
-    middle_ = 0.5 * (box->low + box->high);
-    const double free = 1.0 - 2.0 * kMargin;
-    pixels_ = free * std::min(width / size.x(), height / size.y());
-    if (perspective_) {
-      focal_ = 0.5 * width / std::tan(0.5 * view.field_of_view_deg * kDegree);
-      distance_ = focal_ / pixels_ + 0.25 * size.z();
-    } else {
-      distance_ = 0.5 * size.z();
-    }
+    const std::vector<Eigen::Vector3d> samples = samples_of(cloud, axes_);
+    if (samples.empty()) return;
     valid_ = true;
+    std::array<Extent, 3> box{};
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      box[static_cast<std::size_t>(k)] = extent_of(samples, [k](const Eigen::Vector3d& p) { return p[k]; });
+      middle_[k] = box[static_cast<std::size_t>(k)].middle();
+    }
+    const double free = 1.0 - 2.0 * kMargin;
+    pixels_ = free * std::min(width / box[0].size(), height / box[1].size());
+    distance_ = 0.5 * box[2].size();
+    if (perspective_)
+      stand_back(samples, 0.5 * free * width, 0.5 * free * height,
+                 std::tan(0.5 * view.field_of_view_deg * kDegree));
   }
 
   bool valid() const { return valid_; }
@@ -88,6 +96,26 @@ class Camera {
   bool perspective() const { return perspective_; }
 
  private:
+  /// So far that what is looked at fills the picture, and so placed that it lies in its middle.
+  void stand_back(const std::vector<Eigen::Vector3d>& samples, double half_width, double half_height,
+                  double tangent) {
+    focal_ = 0.5 * width_ / tangent;
+    for (int k = 0; k < 5; ++k) {
+      const Extent needed = extent_of(samples, [&](const Eigen::Vector3d& p) {
+        const Eigen::Vector3d d = p - middle_;
+        return d.z() + focal_ * std::max(std::abs(d.x()) / half_width, std::abs(d.y()) / half_height);
+      });
+      distance_ = std::max(1.0, needed.high);
+      for (const Eigen::Index axis : {0, 1}) {
+        const Extent seen = extent_of(samples, [&](const Eigen::Vector3d& p) {
+          const Eigen::Vector3d d = p - middle_;
+          return d[axis] / std::max(0.1 * distance_, distance_ - d.z());
+        });
+        middle_[axis] += 0.8 * distance_ * seen.middle();
+      }
+    }
+  }
+
   bool perspective_;
   int width_, height_;
   bool valid_ = false;
@@ -102,7 +130,8 @@ struct Canvas {
 };
 
 void splat(Canvas& canvas, const Camera::Projected& at, double point_size, Rgb colour) {
-  const double edge = std::clamp(point_size * at.pixels, 1.0, kLargestSquare * kOversampling);
+  const double edge =
+      std::clamp(point_size * at.pixels, static_cast<double>(kOversampling), kLargestSquare * kOversampling);
   const double half = 0.5 * edge;
   if (!(at.x > -half && at.y > -half && at.x < canvas.image.width + half &&
         at.y < canvas.image.height + half))

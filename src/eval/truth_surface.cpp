@@ -51,7 +51,7 @@ std::vector<Foot> TruthSurface::feet_of(const std::vector<Eigen::Vector3f>& poin
     const auto nearest = tree_.nearest(points[i], cap);
     if (!nearest) continue;
     const float distance = std::sqrt(nearest->squared_distance);
-    feet[i] = {nearest->index, true, distance, distance};
+    feet[i] = {nearest->index, true, distance, distance, Eigen::Vector3f::Zero()};
     asked.push_back(nearest->index);
   }
   std::sort(asked.begin(), asked.end());
@@ -63,6 +63,7 @@ std::vector<Foot> TruthSurface::feet_of(const std::vector<Eigen::Vector3f>& poin
     const auto at = std::lower_bound(asked.begin(), asked.end(), feet[i].truth) - asked.begin();
     const Eigen::Vector3f& n = normals[static_cast<std::size_t>(at)];
     if (n.isZero()) continue;
+    feet[i].normal = n;
     const Eigen::Vector3f d = points[i] - cloud_.points[feet[i].truth];
     const float along = n.dot(d);
     const float aside = std::max(0.0f, (d - along * n).norm() - disc);

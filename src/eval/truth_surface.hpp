@@ -15,6 +15,7 @@ struct Foot {
   bool found = false;             ///< within the cap
   float point_distance = 0.0f;    ///< m, to that point
   float surface_distance = 0.0f;  ///< m, to the disc around it, or to the point where it is not flat
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< of the truth there; zero where it is not flat
 };
 
 /// The surface that a cloud of truth points samples.

@@ -1,5 +1,6 @@
 #include "fleetmap/store/map_merge.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
@@ -24,7 +25,11 @@ MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& lo
     }
     ++map.submaps;
     map.points_in += submap->size();
-    merger.add(cloud::transformed(*submap, T_enu));
+    if (map.agents.empty() || map.agents.back() != id.agent) map.agents.push_back(id.agent);
+    const std::size_t added = merger.add(cloud::transformed(*submap, T_enu));
+    // Voxels appear in the order in which they were first hit.
+    const std::size_t agent = std::min<std::size_t>(map.agents.size() - 1, 255);
+    map.seen_by.insert(map.seen_by.end(), added, static_cast<std::uint8_t>(agent));
   }
   map.points_refused = merger.refused();
   map.cloud = merger.cloud();

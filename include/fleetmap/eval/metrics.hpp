@@ -20,7 +20,7 @@ struct MapMetricsConfig {
   double resolution = 0.05;            ///< m: of each cloud the first point of each voxel of this edge counts
   double registration_distance = 3.0;  ///< m, of the first correspondences of the registration
   double least_noise = 0.005;          ///< m, floor of sigma in det(C)
-  std::size_t most_samples = 200'000;  ///< points whose normals and neighbours are taken (evenly chosen)
+  std::size_t most_samples = 200'000;  ///< points whose density is taken, evenly chosen
   Status validate() const;
 };
 
@@ -62,6 +62,18 @@ struct MapMetrics {
 /// Fails when either is empty or they do not overlap.
 Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                 const MapMetricsConfig& config = {});
+
+/// The same, and where the error is.
+struct EvaluatedMap {
+  MapMetrics metrics;
+  cloud::PointCloud points;   ///< of the map at `resolution`, registered to the truth
+  std::vector<float> errors;  ///< m, of each of them, at most inlier_distance
+};
+Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                         const MapMetricsConfig& config = {});
+
+/// What a map says of itself: density, area and number of points. The other fields stay 0.
+MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& config = {});
 
 /// m, distance of each map point to the truth's surface as in MapMetrics, at most `cap`; `cap` for
 /// non-finite points and where there is no truth. `map` must already be registered to the truth.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <vector>
@@ -27,6 +28,10 @@ struct MergedMap {
   std::size_t points_in = 0;       ///< before de-duplication
   std::size_t points_refused = 0;  ///< not finite, or absurdly far away
   std::vector<NodeId> unreadable;  ///< submaps that the loader could not give; left out
+  /// The agents whose submaps the map is made of, and for each point of `cloud` the index among them of the
+  /// agent that was first to see its voxel.
+  std::vector<AgentId> agents;
+  std::vector<std::uint8_t> seen_by;
 };
 
 /// The whole map: every submap put where `T_enu_node` says, one point a voxel. Submaps are loaded one by one
