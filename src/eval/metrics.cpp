@@ -48,6 +48,16 @@ std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen:
   return points;
 }
 
+/// Points at even steps, at most `most` of them.
+std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
+  const std::size_t step = points.size() / most + (points.size() % most != 0 ? 1u : 0u);
+  if (step <= 1) return points;
+  std::vector<Eigen::Vector3f> chosen;
+  chosen.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) chosen.push_back(points[i]);
+  return chosen;
+}
+
 /// Neighbours in space become neighbours in memory: searches meet fewer cold cache lines.
 void sort_by_place(std::vector<Eigen::Vector3f>& points) {
   constexpr float kCell = 4.0f;  // m
@@ -101,23 +111,15 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   return registration::icp({target, tree, normals}, {source, none}, Pose::Identity(), icp).T_target_source;
 }
 
-/// Every step-th index, so that at most `most` are taken.
-std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
-  std::vector<std::size_t> indices;
-  const std::size_t step = (count + most - 1) / std::max<std::size_t>(1, most);
-  for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, step)) indices.push_back(i);
-  return indices;
-}
-
 /// Fisher information of the registration: each inlier measures the map's pose along the truth's normal.
-void set_covariance(MapMetrics& metrics, const cloud::PointCloud& map, const std::vector<Foot>& feet,
-                    const TruthSurface& truth, double least_noise) {
+void set_covariance(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map,
+                    const std::vector<Foot>& feet, const TruthSurface& truth, double least_noise) {
   Matrix6d information = Matrix6d::Zero();
   double squares = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < feet.size(); ++i) {
     if (!feet[i].found || feet[i].normal.isZero()) continue;
-    const Eigen::Vector3d p = map.points[i].cast<double>();
+    const Eigen::Vector3d p = map[i].cast<double>();
     const Eigen::Vector3d n = feet[i].normal.cast<double>();
     const double r = n.dot(p - truth.cloud().points[feet[i].truth].cast<double>());
     Vector6d J;
@@ -138,8 +140,7 @@ void set_covariance(MapMetrics& metrics, const cloud::PointCloud& map, const std
 
 void set_density(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map,
                  const MapMetricsConfig& config) {
-  std::vector<Eigen::Vector3f> queries;
-  for (const std::size_t i : evenly(map.size(), config.most_samples)) queries.push_back(map[i]);
+  const std::vector<Eigen::Vector3f> queries = evenly(map, config.most_densities);
   const auto counts = density_at(queries, map, static_cast<float>(config.density_radius));
   const double largest = *std::max_element(counts.begin(), counts.end());
   // Bins of 1, 2 or 5 times a power of ten, so that those of two maps can be laid over each other.
@@ -187,14 +188,14 @@ double set_accuracy(MapMetrics& metrics, const std::vector<Foot>& feet, const Ma
 }
 
 /// From the truth to the map: Eq. 3, completeness. Returns the mean distance, capped.
-double set_completeness(MapMetrics& metrics, const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                        const MapMetricsConfig& config) {
+double set_completeness(MapMetrics& metrics, const cloud::PointCloud& map,
+                        const std::vector<Eigen::Vector3f>& truth, const MapMetricsConfig& config) {
   const cloud::KdTree tree(map);
   const auto farthest = static_cast<float>(std::max(config.truth_reach, config.inlier_distance));
   double sum = 0.0;
   std::size_t matched = 0, reached = 0;
   std::array<std::size_t, 3> within{};
-  for (const Eigen::Vector3f& p : truth.points) {
+  for (const Eigen::Vector3f& p : truth) {
     const auto nearest = tree.nearest(p, farthest);
     const double d = nearest ? std::sqrt(static_cast<double>(nearest->squared_distance)) : HUGE_VAL;
     sum += std::min(d, config.inlier_distance);
@@ -241,7 +242,11 @@ Status MapMetricsConfig::validate() const {
   }
   if (thresholds[2] > inlier_distance || !std::is_sorted(thresholds.begin(), thresholds.end()))
     return failure("thresholds must ascend and not exceed inlier_distance");
-  if (most_samples < 1000) return failure("most_samples must be at least 1000");
+  for (const auto& [name, value] : {std::pair{"most_truth", most_truth},
+                                    {"most_distances", most_distances},
+                                    {"most_densities", most_densities}}) {
+    if (value < 1000) return failure(std::string(name) + " must be at least 1000");
+  }
   return {};
 }
 
@@ -251,7 +256,8 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
   // Near its middle a map's coordinates are small, and turning it does not move it.
   const Eigen::Vector3f middle = middle_of(map);
   cloud::PointCloud thin = thinned({usable(map, middle), {}}, config.resolution);
-  cloud::PointCloud truth_points = thinned({usable(truth, middle), {}}, config.resolution);
+  cloud::PointCloud truth_points =
+      thinned({evenly(usable(truth, middle), config.most_truth), {}}, config.resolution);
   if (thin.empty()) return failure("the map holds no finite point");
   if (truth_points.empty()) return failure("the truth holds no finite point");
   sort_by_place(thin.points);
@@ -259,11 +265,12 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
   const TruthSurface surface(std::move(truth_points));
   const Pose T = registered(thin, surface, config);
   const cloud::PointCloud placed = cloud::transformed(thin, T);
-  const auto feet = surface.feet_of(placed.points, static_cast<float>(config.inlier_distance));
+  const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.most_distances);
+  const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
   const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
-  if (static_cast<std::size_t>(inliers) < std::min(kLeastInliers, thin.size())) {
+  if (static_cast<std::size_t>(inliers) < std::min(kLeastInliers, chosen.size())) {
     return failure("the map and the truth do not overlap: " + std::to_string(inliers) + " of " +
-                   std::to_string(thin.size()) +
+                   std::to_string(chosen.size()) +
                    " points have truth nearby; are both in ENU of the same origin?");
   }
   EvaluatedMap evaluated;
@@ -272,13 +279,17 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
   const Eigen::Translation3d to_middle(middle.cast<double>());
   metrics.T_truth_map = to_middle * T * to_middle.inverse();
   const double there = set_accuracy(metrics, feet, config);
-  const double back = set_completeness(metrics, placed, surface.cloud(), config);
+  const double back =
+      set_completeness(metrics, placed, evenly(surface.cloud().points, config.most_distances), config);
   metrics.chamfer = 0.5 * (there + back);
-  set_covariance(metrics, placed, feet, surface, config.least_noise);
+  set_covariance(metrics, chosen, feet, surface, config.least_noise);
+  // Each point taken stands for as many as were left out.
+  metrics.det_covariance *=
+      std::pow(static_cast<double>(chosen.size()) / static_cast<double>(placed.size()), 6.0);
   metrics.truth_spacing = static_cast<double>(surface.spacing());
   metrics.truth_points = surface.cloud().size();
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    evaluated.points.points.push_back(placed.points[i] + middle);
+    evaluated.points.points.push_back(chosen[i] + middle);
     evaluated.errors.push_back(feet[i].found ? feet[i].surface_distance
                                              : static_cast<float>(config.inlier_distance));
   }

@@ -20,7 +20,9 @@ struct MapMetricsConfig {
   double resolution = 0.05;            ///< m: of each cloud the first point of each voxel of this edge counts
   double registration_distance = 3.0;  ///< m, of the first correspondences of the registration
   double least_noise = 0.005;          ///< m, floor of sigma in det(C)
-  std::size_t most_samples = 200'000;  ///< points whose density is taken, evenly chosen
+  std::size_t most_truth = 10'000'000;     ///< points of the truth that are kept, evenly chosen
+  std::size_t most_distances = 2'000'000;  ///< points of each cloud whose distance is taken, evenly chosen
+  std::size_t most_densities = 200'000;    ///< points of the map whose density is taken, evenly chosen
   Status validate() const;
 };
 
@@ -54,7 +56,7 @@ struct MapMetrics {
   double chamfer = 0.0;          ///< m, mean of both directed mean distances (capped at inlier_distance)
   double truth_spacing = 0.0;    ///< m, between neighbouring truth points, median
   std::size_t map_points = 0;    ///< as given
-  std::size_t truth_points = 0;  ///< N_g, at `resolution`
+  std::size_t truth_points = 0;  ///< N_g, at `resolution` and at most `most_truth`
   double mapped_area = 0.0;      ///< m^2, ground covered by the map's points (1 m cells)
 };
 
@@ -66,7 +68,7 @@ Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::Point
 /// The same, and where the error is.
 struct EvaluatedMap {
   MapMetrics metrics;
-  cloud::PointCloud points;   ///< of the map at `resolution`, registered to the truth
+  cloud::PointCloud points;   ///< those of the map whose distance was taken, registered to the truth
   std::vector<float> errors;  ///< m, of each of them, at most inlier_distance
 };
 Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
