@@ -33,7 +33,7 @@ struct SiteBounds {
 
 /// What the fleet is to drive: the same on every robot. Everything in the ENU frame of the site, metres.
 struct Mission {
-  static constexpr std::size_t kMaxRows = 4096;
+  static constexpr std::size_t kMaxRows = 1024;
   static constexpr std::size_t kMaxPoints = 1'000'000;  ///< of all rows and keep-outs together
 
   std::vector<Row> rows;  ///< in the order in which they lie across the site

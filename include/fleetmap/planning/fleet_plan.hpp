@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/planning/division.hpp"
+#include "fleetmap/planning/mission_config.hpp"
+#include "fleetmap/planning/rendezvous.hpp"
+#include "fleetmap/planning/travel_costs.hpp"
+
+namespace fleetmap::planning {
+
+/// Everything the fleet agrees on before it sets out: each robot computes the same from the same input.
+/// Immutable, so that robots of one process may share it.
+struct FleetPlan {
+  Mission mission;
+  std::vector<RobotAbility> fleet;  ///< in the order of names
+  MissionConfig config;
+  RoutePlanner planner;
+  TravelCosts costs;
+  Division division;  ///< routes in the order of `fleet`, the way to the meeting included
+  std::optional<MeetingPlace> meeting;
+  std::optional<ExchangePlan> exchange;  ///< with division energy: what a stop in between would be worth
+  double completion = 0.0;               ///< s, all rows driven, all met and (if planned) all maps exchanged
+
+  /// Index of a robot in `fleet`.
+  std::optional<std::size_t> find(const AgentId& id) const;
+};
+
+/// Fails, with the remedy, for whatever is wrong with mission, fleet or settings.
+Result<std::shared_ptr<const FleetPlan>> plan_fleet(Mission mission, std::span<const RobotAbility> fleet,
+                                                    const MissionConfig& config);
+
+/// Where a robot is over time if it drives its route; `end` is added behind the last row.
+TimedPath timed_path(const RoutePlanner& planner, const Mission& mission, const RobotAbility& robot,
+                     std::span<const RowVisit> visits, const std::optional<Eigen::Vector2d>& end);
+
+}  // namespace fleetmap::planning

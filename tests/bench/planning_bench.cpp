@@ -1,0 +1,92 @@
+// Prints how long fleets take for generated sites under each division, as a Markdown table.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/planning/fleet_plan.hpp"
+#include "planning/sites.hpp"
+
+namespace {
+
+using namespace fleetmap::planning;
+
+struct Case {
+  testing::SiteSpec spec;
+  bool mixed = false;
+};
+
+std::vector<Case> cases(bool large) {
+  std::vector<Case> all = {
+      {{.name = "rectangle 200 x 200 m", .every = 2}},
+      {{.name = "few long lanes, 400 x 90 m"}, false},
+      {{.name = "triangle 300 x 240 m", .taper = 0.9, .every = 2, .seed = 2}},
+      {{.name = "ragged 300 x 300 m, gaps", .missing = 0.15, .ragged = 0.3, .every = 2, .seed = 3}},
+      {{.name = "turned 20 deg, 300 x 200 m", .taper = 0.4, .turned = 0.35, .every = 2, .seed = 4}},
+      {{.name = "triangle, mixed speeds", .taper = 0.9, .every = 2, .seed = 2}, true},
+  };
+  all[1].spec.width = 400.0;
+  all[1].spec.depth = 90.0;
+  for (const std::size_t k : {2u, 5u}) {
+    all[k].spec.width = 300.0;
+    all[k].spec.depth = 240.0;
+  }
+  all[3].spec.width = all[3].spec.depth = 300.0;
+  all[4].spec.width = 300.0;
+  if (large) {
+    all = {{{.name = "1 km x 1 km"}}, {{.name = "1 km x 1 km, ragged", .ragged = 0.2, .seed = 5}, true}};
+    for (Case& c : all) c.spec.width = c.spec.depth = 1000.0;
+  }
+  return all;
+}
+
+struct Outcome {
+  double makespan = 0.0;
+  double cpu = 0.0;
+  std::size_t left_out = 0;
+  double energy = 0.0;
+};
+
+Outcome run(const Mission& mission, const std::vector<RobotAbility>& robots, DivisionMethod method) {
+  MissionConfig config;
+  config.division.method = method;
+  const double before = fleetmap::thread_cpu_seconds();
+  const auto plan = plan_fleet(mission, robots, config);
+  if (!plan) {
+    std::printf("%s\n", plan.error().message.c_str());
+    return {};
+  }
+  Outcome outcome{(*plan)->division.makespan, fleetmap::thread_cpu_seconds() - before,
+                  (*plan)->division.left_out.size()};
+  for (const RobotRoute& route : (*plan)->division.routes) {
+    outcome.energy = std::max(outcome.energy, route.energy_wh);
+  }
+  return outcome;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool large = argc > 1 && std::strcmp(argv[1], "--large") == 0;
+  std::printf(
+      "| site | rows | N_a | uniform [s] | balanced [s] | ratio | energy [s] | ratio | left out | CPU [s] "
+      "|\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Case& c : cases(large)) {
+    const Mission mission = testing::site(c.spec);
+    for (int count = 2; count <= 5; ++count) {
+      std::vector<RobotAbility> robots = testing::fleet(count, c.mixed);
+      if (c.mixed) robots[0].battery_wh = 25.0;  // and one battery is nearly empty
+      const Outcome uniform = run(mission, robots, DivisionMethod::kUniform);
+      const Outcome balanced = run(mission, robots, DivisionMethod::kBalanced);
+      const Outcome energy = run(mission, robots, DivisionMethod::kEnergy);
+      std::printf("| %s | %zu | %d | %.0f | %.0f | %.3f | %.0f | %.3f | %zu | %.2f |\n", c.spec.name.c_str(),
+                  mission.rows.size(), count, uniform.makespan, balanced.makespan,
+                  balanced.makespan / uniform.makespan, energy.makespan, energy.makespan / uniform.makespan,
+                  energy.left_out, balanced.cpu);
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}
