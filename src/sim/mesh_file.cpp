@@ -1,0 +1,153 @@
+#include "fleetmap/sim/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <system_error>
+
+#include "mesh_formats.hpp"
+
+namespace fleetmap::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, kMaterials> kNames = {"ground", "glass", "metal", "concrete",
+                                                             "vegetation"};
+constexpr std::size_t kFlushBytes = 1 << 20;
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+Result<std::string> content_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return failure(": no such file; give a .obj or .ply mesh");
+  const auto size = fs::file_size(file, error);
+  std::ifstream in(file, std::ios::binary);
+  if (error || !in) return failure(": cannot be read; check its permissions");
+  std::string content(static_cast<std::size_t>(size), '\0');
+  if (!in.read(content.data(), static_cast<std::streamsize>(size)))
+    return failure(": cannot be read to its end; copy it again");
+  return content;
+}
+
+Result<Mesh> parse(const fs::path& file) {
+  const std::string extension = lower_case(file.extension().string());
+  if (extension != ".obj" && extension != ".ply")
+    return failure(": '" + extension + "' is no mesh format known here; give a .obj or .ply mesh");
+  const Result<std::string> content = content_of(file);
+  if (!content) return tl::unexpected(content.error());
+  Result<Mesh> mesh = extension == ".obj" ? parse_obj(*content) : parse_ply(*content);
+  if (mesh && mesh->empty())
+    return failure(": holds no faces; give a mesh of surfaces, not a cloud of points");
+  return mesh;
+}
+
+void add(std::string& text, float value) {
+  std::array<char, 32> buffer;
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  text.append(buffer.data(), end);
+}
+
+void add_bytes(std::string& text, const void* data, std::size_t size) {
+  text.append(static_cast<const char*>(data), size);
+}
+
+using Fill = std::function<void(std::size_t, std::string&)>;
+
+/// Writes `count` pieces, each made by `fill`, a block at a time.
+void write_pieces(std::ofstream& out, std::size_t count, const Fill& fill) {
+  std::string block;
+  for (std::size_t k = 0; k < count; ++k) {
+    fill(k, block);
+    if (block.size() < kFlushBytes && k + 1 < count) continue;
+    out.write(block.data(), static_cast<std::streamsize>(block.size()));
+    block.clear();
+  }
+}
+
+/// Writes next to `file` and renames.
+Status write_whole(const fs::path& file, const std::function<void(std::ofstream&)>& write) {
+  fs::path unfinished = file;
+  unfinished += ".part";
+  std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
+  if (out) write(out);
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(unfinished, file, error);
+  if (out && !error) return {};
+  fs::remove(unfinished, error);
+  return failure(file.string() + ": cannot be written; check the folder and the free space");
+}
+
+}  // namespace
+
+std::string_view name_of(Material material) { return kNames[static_cast<std::size_t>(material)]; }
+
+Material material_named(std::string_view name) {
+  const std::string lower = lower_case(name);
+  const auto has = [&lower](std::string_view word) { return lower.find(word) != std::string::npos; };
+  if (has("glass") || has("panel")) return Material::kGlass;
+  if (has("metal") || has("steel") || has("post")) return Material::kMetal;
+  if (has("tree") || has("leaf") || has("vegetation")) return Material::kVegetation;
+  if (has("ground") || has("terrain")) return Material::kGround;
+  return Material::kConcrete;
+}
+
+Result<Mesh> read_mesh(const fs::path& file) {
+  Result<Mesh> mesh = parse(file);
+  if (!mesh) return failure(file.string() + mesh.error().message);
+  return mesh;
+}
+
+Status write_obj(const fs::path& file, const Mesh& mesh) {
+  return write_whole(file, [&mesh](std::ofstream& out) {
+    out << "# metres: east, north, up\n";
+    write_pieces(out, mesh.vertices.size(), [&mesh](std::size_t k, std::string& text) {
+      text += 'v';
+      for (const float value : mesh.vertices[k]) add(text += ' ', value);
+      text += '\n';
+    });
+    write_pieces(out, mesh.triangles.size(), [&mesh](std::size_t k, std::string& text) {
+      if (k == 0 || mesh.materials[k] != mesh.materials[k - 1]) {
+        text += "usemtl ";
+        text += name_of(mesh.materials[k]);
+        text += '\n';
+      }
+      text += 'f';
+      for (const std::uint32_t index : mesh.triangles[k])
+        (text += ' ') += std::to_string(static_cast<std::uint64_t>(index) + 1);
+      text += '\n';
+    });
+  });
+}
+
+Status write_ply(const fs::path& file, const Mesh& mesh) {
+  return write_whole(file, [&mesh](std::ofstream& out) {
+    out << "ply\nformat binary_little_endian 1.0\ncomment metres: east, north, up\n"
+        << "comment materials: 0 ground, 1 glass, 2 metal, 3 concrete, 4 vegetation\n"
+        << "element vertex " << mesh.vertices.size()
+        << "\nproperty float x\nproperty float y\nproperty float z\n"
+        << "element face " << mesh.triangles.size()
+        << "\nproperty list uchar uint vertex_indices\nproperty uchar material\nend_header\n";
+    write_pieces(out, mesh.vertices.size(), [&mesh](std::size_t k, std::string& bytes) {
+      add_bytes(bytes, mesh.vertices[k].data(), 3 * sizeof(float));
+    });
+    write_pieces(out, mesh.triangles.size(), [&mesh](std::size_t k, std::string& bytes) {
+      bytes += '\3';
+      add_bytes(bytes, mesh.triangles[k].data(), 3 * sizeof(std::uint32_t));
+      bytes += static_cast<char>(mesh.materials[k]);
+    });
+  });
+}
+
+}  // namespace fleetmap::sim
