@@ -46,14 +46,8 @@ json points_json(const config::ExperimentConfig& config, const config::Study& st
     json entry{{"point", point.labels}, {"metrics", json::object()}};
     const auto found = records_at(study, records, point.labels);
     for (const std::string& metric : study.metrics) {
-      std::vector<double> values;
-      for (const CaseRecord* record : found) {
-        if (!record->done()) continue;
-        const auto value = record->result->metrics.find(metric);
-        if (value != record->result->metrics.end()) values.push_back(value->second);
-      }
       const config::MetricSpec* spec = config.metric(metric);
-      if (const Spread all = spread(values, spec && spec->log_scale); all.count > 0)
+      if (const Spread all = spread(values_at(found, metric), spec && spec->log_scale); all.count > 0)
         entry["metrics"][metric] = spread_json(all);
     }
     points.push_back(std::move(entry));

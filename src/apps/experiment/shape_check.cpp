@@ -7,9 +7,12 @@
 
 #include "experiment/student.hpp"
 #include "experiment/study_values.hpp"
+#include "fleetmap/eval/plot.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
+
+std::string short_number(double value) { return eval::short_number(value, 4); }
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace fleetmap::apps::experiment {
@@ -64,6 +63,16 @@ SliceValues values_along(const config::Study& study, const std::vector<CaseRecor
   return out;
 }
 
+std::vector<double> values_at(const std::vector<const CaseRecord*>& records, const std::string& metric) {
+  std::vector<double> values;
+  for (const CaseRecord* record : records) {
+    if (!record->done()) continue;
+    const auto found = record->result->metrics.find(metric);
+    if (found != record->result->metrics.end()) values.push_back(found->second);
+  }
+  return values;
+}
+
 Spread spread(const std::vector<double>& values, bool log_scale) {
   std::vector<double> counted;
   for (const double value : values) {
@@ -85,12 +94,6 @@ Spread spread(const std::vector<double>& values, bool log_scale) {
     out.max = std::exp(out.max);
   }
   return out;
-}
-
-std::string short_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
 }
 
 }  // namespace fleetmap::apps::experiment

@@ -30,14 +30,14 @@ SliceValues values_along(const config::Study& study, const std::vector<CaseRecor
 std::vector<const CaseRecord*> records_at(const config::Study& study, const std::vector<CaseRecord>& records,
                                           const std::vector<std::string>& point);
 
+/// The metric of those cases that gave it.
+std::vector<double> values_at(const std::vector<const CaseRecord*>& records, const std::string& metric);
+
 struct Spread {
   std::size_t count = 0;
   double min = 0.0, mean = 0.0, max = 0.0, deviation = 0.0;  ///< deviation: of a sample, 0 for one value
 };
 /// Of the finite values; of a log-scale metric the geometric mean, and only positive values count.
 Spread spread(const std::vector<double>& values, bool log_scale);
-
-/// Three or four digits that say what matters.
-std::string short_number(double value);
 
 }  // namespace fleetmap::apps::experiment
