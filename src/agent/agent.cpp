@@ -361,6 +361,8 @@ void Agent::log_registration(const NodeId& i, const NodeId& j, const Registered&
   }
 }
 
+void Agent::handle(const exchange::MissionHeard&) {}
+
 void Agent::handle(const exchange::PeerStatus& status) {
   spdlog::debug("{}: {} holds {} nodes, {} submaps", config_.id.str(), status.status.from.str(),
                 status.status.nodes, status.status.submaps);

@@ -96,6 +96,11 @@ Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {
 
 void Exchange::decline_cloud(const NodeId& node) { needed_.erase(node); }
 
+void Exchange::tell(MissionReport report) {
+  report.from = self_;
+  queue_.push(Priority::kState, std::move(report));
+}
+
 std::vector<Event> Exchange::take_events() { return std::exchange(events_, {}); }
 
 // ---- from the links
@@ -203,6 +208,8 @@ void Exchange::handle(const ItemRequest& request, Stamp) {
 }
 
 void Exchange::handle(const AgentStatus& status, Stamp) { events_.push_back(PeerStatus{status}); }
+
+void Exchange::handle(const MissionReport& report, Stamp) { events_.push_back(MissionHeard{report}); }
 
 void Exchange::handle(const SubmapDigest& digest, Stamp now) { submap_receiver_.on_digest(digest, now); }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "cdr.hpp"
@@ -199,6 +200,30 @@ Result<VelocityCommand> decode(ByteView cdr) {
     return refused(type_name::kTwist, "linear.x or angular.z is not finite");
   }
   return command;
+}
+
+Bytes encode(const sensor::Battery& battery) {
+  constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
+  sensors::BatteryState_ out;
+  out.header().stamp(to_ros(battery.stamp));
+  for (auto* value : {&out.voltage(), &out.temperature(), &out.current(), &out.charge(), &out.capacity(),
+                      &out.design_capacity()})
+    *value = kUnknownValue;
+  out.percentage(static_cast<float>(battery.share));
+  out.present(true);
+  return to_cdr(out);
+}
+
+template <>
+Result<sensor::Battery> decode(ByteView cdr) {
+  const auto in = ros_type_from_cdr<sensors::BatteryState_>(cdr, type_name::kBatteryState);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kBatteryState);
+  if (!stamp) return tl::unexpected(stamp.error());
+  const double share = static_cast<double>(in->percentage());
+  if (!(share >= 0.0 && share <= 1.0))
+    return refused(type_name::kBatteryState, "percentage is not in [0, 1]");
+  return sensor::Battery{*stamp, share};
 }
 
 }  // namespace fleetmap::wire

@@ -22,10 +22,16 @@ bus::Topic odometry() { return {Link::kOnboard, "rt/odometry", type_name::kOdome
 bus::Topic global_pose() { return {Link::kOnboard, "fleetmap/global_pose", type_name::kGlobalPose, "state"}; }
 bus::Topic cmd_vel() { return {Link::kOnboard, "rt/cmd_vel", type_name::kTwist, "state"}; }
 
+bus::Topic battery() { return {Link::kOnboard, "rt/battery_state", type_name::kBatteryState, "sensor"}; }
+
 bus::Topic node() { return {Link::kLongRange, "fleetmap/node", type_name::kNode, "small"}; }
 bus::Topic alignment() { return {Link::kLongRange, "fleetmap/alignment", type_name::kAlignment, "small"}; }
 bus::Topic digest() { return {Link::kLongRange, "fleetmap/digest", type_name::kDigest, "small"}; }
 bus::Topic status() { return {Link::kLongRange, "fleetmap/status", type_name::kAgentStatus, "small"}; }
+
+bus::Topic mission_report() {
+  return {Link::kLongRange, "fleetmap/mission_report", type_name::kMissionReport, "small"};
+}
 
 bus::Topic proximity_match(const AgentId& recipient) {
   return to_one(Link::kLongRange, "fleetmap/proximity_match", recipient, type_name::kProximityMatch, "small");
@@ -61,6 +67,7 @@ struct TopicOf {
   bus::Topic operator()(const graph::Alignment&) const { return topics::alignment(); }
   bus::Topic operator()(const exchange::Digest&) const { return topics::digest(); }
   bus::Topic operator()(const exchange::AgentStatus&) const { return topics::status(); }
+  bus::Topic operator()(const exchange::MissionReport&) const { return topics::mission_report(); }
   bus::Topic operator()(const exchange::SubmapDigest&) const { return topics::submap_digest(); }
   bus::Topic operator()(const exchange::ProximityMatch& m) const { return topics::proximity_match(m.to); }
   bus::Topic operator()(const exchange::CloudRequest& m) const { return topics::cloud_request(m.to); }
@@ -79,6 +86,7 @@ std::vector<bus::Topic> inbox_topics(const AgentId& self) {
           topics::alignment(),
           topics::digest(),
           topics::status(),
+          topics::mission_report(),
           topics::proximity_match(self),
           topics::cloud_request(self),
           topics::item_request(self),

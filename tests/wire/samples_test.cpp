@@ -115,5 +115,15 @@ TEST(RosTime, NanosecondsBeyondASecondAreRefused) {
   EXPECT_THAT(decode<sensor::Imu>(bytes).error().message, HasSubstr("is not a time"));
 }
 
+TEST(BatteryMessage, RoundTripAndLimits) {
+  const sensor::Battery battery{Stamp(std::chrono::seconds(100)), 0.25};
+  const auto back = decode<sensor::Battery>(encode(battery));
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->stamp, battery.stamp);
+  EXPECT_EQ(back->share, 0.25);
+  EXPECT_THAT(decode<sensor::Battery>(encode(sensor::Battery{{}, 1.5})).error().message,
+              HasSubstr("percentage"));
+}
+
 }  // namespace
 }  // namespace fleetmap::wire

@@ -18,6 +18,8 @@
 
 namespace fleetmap::agent {
 
+class Navigator;
+
 struct RegistrationCounters {
   std::uint64_t accepted = 0;
   std::uint64_t ambiguous = 0;
@@ -59,6 +61,8 @@ class Agent {
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const RegistrationCounters& registrations() const { return registrations_; }
+  /// What drives the robot, if this agent does.
+  const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of each scan, as LOAM took them.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
 
@@ -78,6 +82,7 @@ class Agent {
   void handle(const exchange::CloudNeeded& needed);
   void handle(const exchange::CloudArrived& arrived);
   void handle(const exchange::PeerStatus& status);
+  void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::ItemConflict& conflict);
   void handle(const exchange::StoreFailed& failed);
   void handle(const exchange::NodeAdded&) {}
@@ -117,6 +122,7 @@ class Agent {
   std::optional<Stamp> waiting_for_gps_since_;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
+  std::shared_ptr<Navigator> navigator_;
   bus::Handle status_timer_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "fleetmap/agent/perception.hpp"
@@ -17,6 +18,8 @@
 
 namespace fleetmap::agent {
 
+struct NavigatorConfig;  // navigator.hpp
+
 /// Everything that can be set of one robot, by component.
 struct AgentConfig {
   AgentId id;
@@ -31,6 +34,7 @@ struct AgentConfig {
   graph::PaperPlacementConfig placement;
   store::StoreConfig store;
   store::MergeConfig map;
+  std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
 
   /// Names the component, the field and the rule that it breaks.
   Status validate() const;

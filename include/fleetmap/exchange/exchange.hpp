@@ -60,6 +60,9 @@ struct CloudArrived {
 struct PeerStatus {
   AgentStatus status;
 };
+struct MissionHeard {
+  MissionReport report;
+};
 /// Another item came under a name that is taken; it was refused. Two robots with one name, or a store that
 /// was lost.
 struct ItemConflict {
@@ -76,7 +79,7 @@ struct MapComplete {
   std::size_t alignments = 0;
 };
 using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           ItemConflict, StoreFailed, MapComplete>;
+                           MissionHeard, ItemConflict, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -109,6 +112,8 @@ class Exchange {
   void decline_cloud(const NodeId& node);
   /// What the next status messages say of position, heading and battery; counters are filled in.
   void set_status(const AgentStatus& status) { status_ = status; }
+  /// Tells all what we do of the mission; a report that still waits is replaced.
+  void tell(MissionReport report);
 
   void on_message(const Message& message, Stamp now);
   std::vector<Outgoing> tick(Stamp now);
@@ -139,6 +144,7 @@ class Exchange {
   void handle(const Digest& digest, Stamp now);
   void handle(const ItemRequest& request, Stamp now);
   void handle(const AgentStatus& status, Stamp now);
+  void handle(const MissionReport& report, Stamp now);
   void handle(const SubmapDigest& digest, Stamp now);
   void handle(const SubmapRequest& request, Stamp now);
   void handle(const SubmapChunk& chunk, Stamp now);

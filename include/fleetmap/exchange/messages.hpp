@@ -78,6 +78,23 @@ struct AgentStatus {
   std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
 };
 
+/// What `from` does of the fleet's mission: carried as it is for the planning, whose rows these are.
+struct MissionReport {
+  struct RowSpan {
+    std::uint32_t first = 0;  ///< rows [first, first + count)
+    std::uint32_t count = 0;
+    bool operator==(const RowSpan&) const = default;
+  };
+  AgentId from;
+  Stamp stamp;
+  std::uint8_t state = 0;  ///< planning::MissionState
+  float east = 0.0f;       ///< m, ENU of the site
+  float north = 0.0f;      ///< m
+  float battery = 1.0f;    ///< share left, [0, 1]
+  std::vector<RowSpan> done;
+  std::vector<std::uint32_t> claimed;  ///< rows, in order
+};
+
 // ---- short range
 // ----------------------------------------------------------------------------------------------
 
@@ -106,7 +123,8 @@ struct SubmapChunk {
   Bytes payload;
 };
 
-using Message = std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment,
-                             Digest, ItemRequest, AgentStatus, SubmapDigest, SubmapRequest, SubmapChunk>;
+using Message =
+    std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment, Digest,
+                 ItemRequest, AgentStatus, MissionReport, SubmapDigest, SubmapRequest, SubmapChunk>;
 
 }  // namespace fleetmap::exchange

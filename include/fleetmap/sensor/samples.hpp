@@ -36,4 +36,10 @@ struct Wheel {
   std::optional<double> yaw_rate;  ///< rad/s, when the source measures it
 };
 
+/// State of the battery.
+struct Battery {
+  Stamp stamp;
+  double share = 1.0;  ///< left, [0, 1]
+};
+
 }  // namespace fleetmap::sensor

@@ -45,6 +45,8 @@ Bytes encode(const sensor::Imu& imu, std::string_view frame_id = "imu");
 Bytes encode(const sensor::Fix& fix, std::string_view frame_id = "gps");
 /// nav_msgs Odometry of which only the twist counts. No yaw rate: its variance (twist.covariance[35]) is -1.
 Bytes encode(const sensor::Wheel& wheel);
+/// What is not known is NaN or 0.
+Bytes encode(const sensor::Battery& battery);
 Bytes encode(const OdometryMsg& odometry);
 Bytes encode(const VelocityCommand& command);
 
@@ -68,5 +70,9 @@ template <>
 Result<OdometryMsg> decode(ByteView cdr);
 template <>
 Result<VelocityCommand> decode(ByteView cdr);
+
+/// Refuses a percentage that is not in [0, 1].
+template <>
+Result<sensor::Battery> decode(ByteView cdr);
 
 }  // namespace fleetmap::wire

@@ -17,12 +17,14 @@ bus::Topic wheel_odometry();  ///< sensor::Wheel
 bus::Topic odometry();        ///< wire::OdometryMsg
 bus::Topic global_pose();     ///< GlobalPose
 bus::Topic cmd_vel();         ///< wire::VelocityCommand
+bus::Topic battery();         ///< sensor::Battery
 
 // ---- long range: to all
 bus::Topic node();
 bus::Topic alignment();
 bus::Topic digest();
 bus::Topic status();
+bus::Topic mission_report();
 // ---- long range: to one
 bus::Topic proximity_match(const AgentId& recipient);
 bus::Topic cloud_request(const AgentId& recipient);

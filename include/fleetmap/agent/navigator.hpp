@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/agent/perception.hpp"
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission_executive.hpp"
+#include "fleetmap/planning/path_follower.hpp"
+
+namespace fleetmap::agent {
+
+/// Which LiDAR returns are obstacles: those at the height of the robot's body, seen from base_link.
+struct ObstacleConfig {
+  double min_height = 0.2;   ///< m above the ground under the robot; what is lower is driven over
+  double max_height = 1.0;   ///< m; what is higher is driven under
+  double slope = 0.12;       ///< m a metre: how much the ground may rise with distance
+  double reach = 6.0;        ///< m
+  double spacing = 0.1;      ///< m, at most one obstacle in a cell of this
+  double base_height = 0.1;  ///< m, of base_link above the ground
+};
+
+/// The obstacles among points in base_link, in base_link (x forward, y left).
+std::vector<Eigen::Vector2d> obstacles_among(const std::vector<Eigen::Vector3f>& points_base,
+                                             const ObstacleConfig& config);
+
+struct NavigatorConfig {
+  /// The whole fleet's plan: the same on every robot.
+  std::shared_ptr<const planning::FleetPlan> plan;
+  planning::PathFollowerConfig follower;
+  ObstacleConfig obstacles;
+  Duration report_period = std::chrono::seconds(5);
+};
+
+/// Drives one robot through its part of the mission: pose and scan in, cmd_vel out; tells the others how far
+/// it is and takes over what they cannot do. Uses the EKF's pose for where to go and the scan for where it is
+/// free.
+class Navigator {
+ public:
+  using Tell = std::function<void(exchange::MissionReport)>;
+  /// `site`: the ENU frame of the plan. `tell` brings a report to the others.
+  Navigator(const NavigatorConfig& config, const AgentId& self, const GeoPoint& site, bus::Bus& bus,
+            Tell tell);
+
+  /// After every scan.
+  void on_perceived(const Perceived& perceived);
+  void on_report(const exchange::MissionReport& report);
+  /// Once a second. `maps_exchanged`: everything that the fleet has is held by all.
+  void tick(bool maps_exchanged);
+  /// Stands still from now on.
+  void stop();
+
+  /// Nothing is left to do for this robot.
+  bool done() const { return done_; }
+  /// Every row of the mission has been driven, as far as this robot knows.
+  bool all_rows_driven() const { return executive_.all_rows_done(); }
+  planning::MissionState state() const { return executive_.report().state; }
+  std::optional<double> battery() const { return battery_; }
+
+ private:
+  void drive(const planning::Command& command);
+  std::optional<planning::Pose2> pose_of(const GlobalPose& G) const;
+
+  NavigatorConfig config_;
+  LocalFrame site_;
+  bus::Bus& bus_;
+  Tell tell_;
+  planning::MissionExecutive executive_;
+  planning::PathFollower follower_;
+  std::optional<planning::Pose2> pose_;
+  std::uint64_t path_version_ = 0;
+  bool holding_ = true;
+  bool done_ = false;
+  bool stopped_ = false;
+  std::optional<double> battery_;
+  std::optional<Stamp> next_report_;
+  bus::Handle battery_subscription_;
+};
+
+}  // namespace fleetmap::agent
