@@ -28,6 +28,12 @@ class FleetFeed {
   virtual std::optional<GeoPoint> origin() const = 0;
   /// Schedules samples on `network`; both arguments outlive the feed's events.
   virtual Status begin(bus::LocalNetwork& network, Deliver deliver) = 0;
+  /// What the member's base was told (cmd_vel): m/s forward, rad/s to the left. A recording cannot obey.
+  virtual void command(std::size_t member, double forward_speed, double yaw_rate) {
+    static_cast<void>(member), static_cast<void>(forward_speed), static_cast<void>(yaw_rate);
+  }
+  /// The mission is over: no samples are wanted any more.
+  virtual void stop() {}
   /// No more samples come for this member.
   virtual bool ended(std::size_t member) const = 0;
   /// Why the feed could not give all that it should; empty if it could.
@@ -36,6 +42,11 @@ class FleetFeed {
   virtual recording::Counters counters(std::size_t member) const = 0;
   /// Where the member really is, if the feed knows (ENU).
   virtual std::optional<bus::EnuPosition> position(std::size_t member) const = 0;
+  /// Share of the battery that is left, if the feed knows.
+  virtual std::optional<double> battery(std::size_t member) const {
+    static_cast<void>(member);
+    return std::nullopt;
+  }
 };
 
 }  // namespace fleetmap::apps

@@ -38,7 +38,7 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options,
 
 Result<std::unique_ptr<FleetFeed>> feed_of(const config::FleetConfig& config) {
   std::vector<config::RecordingConfig> recordings;
-  for (const auto& member : config.members) recordings.push_back(member.recording);
+  for (const auto& member : config.members) recordings.push_back(*member.recording);
   return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
 }
 

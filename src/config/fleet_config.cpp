@@ -51,7 +51,7 @@ Result<FleetConfig> read_fleet(Document& document) {
     if (section.has("fleet")) section.problem("fleet", "a fleet's file lists its agents under 'agents'");
     const auto recording = read_recording(section);
     if (!recording) section.problem("recording", "expected recording: {path: ...}");
-    if (recording) member.recording = *recording;
+    member.recording = recording;
     section.finish();
     for (const FleetConfig::Member& other : fleet.members) {
       if (other.agent.id == member.agent.id)

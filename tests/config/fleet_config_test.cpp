@@ -121,11 +121,11 @@ agents:
   EXPECT_EQ(a.agent.perception.lidar.name, "hdl64e");
   EXPECT_DOUBLE_EQ(a.agent.perception.odometry.max_range, 30.0);
   EXPECT_DOUBLE_EQ(b.agent.perception.odometry.max_range, 20.0);
-  EXPECT_EQ(a.recording.path, folder_.path() / "data/drive") << "relative to the file";
-  EXPECT_EQ(a.recording.reader.kitti.last_frame, 95u);
-  EXPECT_EQ(b.recording.reader.kitti.first_frame, 60u);
-  EXPECT_EQ(b.recording.start, 2.5);
-  EXPECT_EQ(a.recording.start, std::nullopt);
+  EXPECT_EQ(a.recording->path, folder_.path() / "data/drive") << "relative to the file";
+  EXPECT_EQ(a.recording->reader.kitti.last_frame, 95u);
+  EXPECT_EQ(b.recording->reader.kitti.first_frame, 60u);
+  EXPECT_EQ(b.recording->start, 2.5);
+  EXPECT_EQ(a.recording->start, std::nullopt);
   EXPECT_EQ(a.agent.exchange.fleet.size(), 2u);
   EXPECT_DOUBLE_EQ(a.agent.nodes.spacing, 4.0) << "--set goes to every agent";
   EXPECT_DOUBLE_EQ(b.agent.nodes.spacing, 4.0);
@@ -146,7 +146,7 @@ TEST_F(FleetConfigTest, FleetOfRecordingsNeedsNoFile) {
                               {{"lidar.max_range", "25"}});
   ASSERT_TRUE(fleet) << fleet.error().message;
   ASSERT_EQ(fleet->members.size(), 2u);
-  EXPECT_EQ(fleet->members[1].recording.path, "two");
+  EXPECT_EQ(fleet->members[1].recording->path, "two");
   EXPECT_EQ(fleet->members[0].agent.perception.lidar.name, "vlp16");
   EXPECT_DOUBLE_EQ(fleet->members[0].agent.perception.odometry.max_range, 25.0);
 }

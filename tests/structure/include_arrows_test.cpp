@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"planning", {"geometry"}},
     {"eval", {"registration"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
-    {"config", {"agent", "bus", "recording", "sim", "eval"}},
+    {"config", {"agent", "bus", "recording", "sim", "planning", "eval"}},
     {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
 };
 

@@ -10,7 +10,9 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/bus/local_bus.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/planning/mission_config.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/sim/robot_twin.hpp"
 
 /// The only place that reads YAML configurations. Every problem is reported with file, line and key, all at
 /// once.
@@ -39,19 +41,30 @@ struct RobotConfig {
   std::optional<RecordingConfig> recording;
 };
 
-/// A whole fleet in one process: FLEET.yaml.
+/// The digital twin of a fleet: its world, and what the robots do there.
+struct TwinConfig {
+  std::filesystem::path world;        ///< WORLD.yaml
+  std::optional<std::uint64_t> seed;  ///< instead of the world's own; robots' seeds follow from it
+  planning::MissionConfig mission;
+  double max_time = 3600.0;  ///< s of virtual time until robots that have not finished are stopped
+};
+
+/// A whole fleet: FLEET.yaml. Its robots are recordings, or those of the twin.
 struct FleetConfig {
   struct Member {
     agent::AgentConfig agent;
-    RecordingConfig recording;
+    std::optional<RecordingConfig> recording;
+    sim::RobotTwinConfig robot;
+    bus::DdsBusConfig dds;  ///< as a process of its own
   };
   std::vector<Member> members;
+  std::optional<TwinConfig> twin;
   bus::LocalNetworkConfig network;
   double settle_time = 120.0;  ///< s of virtual time that the exchange may take after the last sensor sample
 };
 
 Result<RobotConfig> load_robot(const std::filesystem::path& file, const std::vector<Override>& overrides);
-/// Agents' directories are left empty.
+/// Agents' directories are left empty. Robots over DDS get domains of their own, counted from dds.base_domain.
 Result<FleetConfig> load_fleet(const std::filesystem::path& file, const std::vector<Override>& overrides);
 /// A fleet with default settings (VLP-16), one agent a recording.
 Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesystem::path>>& recordings,

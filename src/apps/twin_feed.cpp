@@ -1,0 +1,93 @@
+#include "twin_feed.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetmap::apps {
+namespace {
+
+/// The world moves and is sensed in steps of this; a scan reaches its robot one step after its last ray.
+constexpr Duration kTick = std::chrono::milliseconds(20);
+constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
+
+}  // namespace
+
+Result<std::unique_ptr<TwinFeed>> TwinFeed::create(std::shared_ptr<const sim::World> world,
+                                                   const GeoPoint& origin,
+                                                   const std::vector<sim::RobotTwinConfig>& robots,
+                                                   unsigned threads) {
+  auto scene = sim::Scene::create(world->mesh());
+  if (!scene) return tl::unexpected(scene.error());
+  std::unique_ptr<TwinFeed> feed(new TwinFeed(std::move(*scene), origin, threads));
+  for (const sim::RobotTwinConfig& config : robots) {
+    auto twin = sim::RobotTwin::create(world, origin, config, feed->start_);
+    if (!twin) return tl::unexpected(twin.error());
+    feed->robots_.push_back({std::move(*twin), {}});
+  }
+  return feed;
+}
+
+Status TwinFeed::begin(bus::LocalNetwork& network, Deliver deliver) {
+  network_ = &network;
+  deliver_ = std::move(deliver);
+  network_->at(start_ + kTick, [this] { tick(); });
+  return {};
+}
+
+void TwinFeed::command(std::size_t member, double forward_speed, double yaw_rate) {
+  robots_[member].twin.command(forward_speed, yaw_rate);
+}
+
+std::optional<bus::EnuPosition> TwinFeed::position(std::size_t member) const {
+  const Eigen::Vector3d p = robots_[member].twin.T_enu_base().translation();
+  return bus::EnuPosition{p.x(), p.y(), p.z()};
+}
+
+std::optional<double> TwinFeed::battery(std::size_t member) const {
+  const sim::RobotTwin& twin = robots_[member].twin;
+  return std::clamp(twin.battery_wh() / twin.config().vehicle.battery_wh, 0.0, 1.0);
+}
+
+void TwinFeed::tick() {
+  deliver_pending();
+  if (stopped_) return;
+  for (std::size_t k = 0; k < robots_.size(); ++k) sense(k);
+  network_->at(network_->now() + kTick, [this] { tick(); });
+}
+
+void TwinFeed::deliver_pending() {
+  // What is delivered may not start new casts, so the queue is emptied in one go.
+  for (; !pending_.empty(); pending_.pop_front()) {
+    Pending& next = pending_.front();
+    next.cast.get();
+    deliver_(next.member, *next.scan, next.scan->stamp);
+  }
+}
+
+void TwinFeed::sense(std::size_t member) {
+  Robot& robot = robots_[member];
+  for (sim::TwinSample& sample : robot.twin.advance(network_->now())) {
+    if (auto* job = std::get_if<sim::ScanJob>(&sample)) {
+      cast(member, std::move(*job));
+    } else if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
+      deliver_(member, *imu, imu->stamp);
+    } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
+      deliver_(member, *fix, fix->stamp);
+    } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) {
+      deliver_(member, *wheel, wheel->stamp);
+    }
+  }
+  const Stamp now = robot.twin.now();
+  if (robot.truth.empty() || now - robot.truth.back().stamp >= kTruthPeriod)
+    robot.truth.push_back({now, robot.twin.T_enu_base()});
+}
+
+void TwinFeed::cast(std::size_t member, sim::ScanJob job) {
+  auto scan = std::make_shared<sensor::Scan>();
+  const sim::LidarSpec& spec = robots_[member].twin.config().lidar;
+  pending_.push_back({member, scan, pool_.run([scene = scene_, &spec, scan, job = std::move(job)] {
+                        *scan = sim::cast_scan(*scene, spec, job);
+                      })});
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fleet_feed.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/core/thread_pool.hpp"
+#include "fleetmap/sim/robot_twin.hpp"
+#include "fleetmap/sim/scene.hpp"
+#include "fleetmap/sim/world.hpp"
+
+namespace fleetmap::apps {
+
+/// Robots of the digital twin, in virtual time: what they are commanded moves them, what they sense is given.
+class TwinFeed final : public FleetFeed {
+ public:
+  /// `threads` cast rays beside the one that runs the events; they have no influence on what comes out.
+  static Result<std::unique_ptr<TwinFeed>> create(std::shared_ptr<const sim::World> world,
+                                                  const GeoPoint& origin,
+                                                  const std::vector<sim::RobotTwinConfig>& robots,
+                                                  unsigned threads);
+
+  Stamp start() const override { return start_; }
+  std::optional<GeoPoint> origin() const override { return origin_; }
+  Status begin(bus::LocalNetwork& network, Deliver deliver) override;
+  void command(std::size_t member, double forward_speed, double yaw_rate) override;
+  void stop() override { stopped_ = true; }
+  bool ended(std::size_t) const override { return stopped_ && pending_.empty(); }
+  std::string problem(std::size_t) const override { return {}; }
+  recording::Counters counters(std::size_t) const override { return {}; }
+  std::optional<bus::EnuPosition> position(std::size_t member) const override;
+  std::optional<double> battery(std::size_t member) const override;
+
+  /// Where the member really was, at every 0.1 s, base_link in ENU.
+  const std::vector<agent::StampedPose>& truth(std::size_t member) const { return robots_[member].truth; }
+  const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
+
+ private:
+  struct Robot {
+    sim::RobotTwin twin;
+    std::vector<agent::StampedPose> truth;
+  };
+  /// A scan whose rays are being cast.
+  struct Pending {
+    std::size_t member = 0;
+    std::shared_ptr<sensor::Scan> scan;
+    std::future<void> cast;
+  };
+  TwinFeed(std::shared_ptr<const sim::Scene> scene, const GeoPoint& origin, unsigned threads)
+      : scene_(std::move(scene)), origin_(origin), pool_(threads) {}
+  void tick();
+  void deliver_pending();
+  void sense(std::size_t member);
+  void cast(std::size_t member, sim::ScanJob job);
+
+  std::shared_ptr<const sim::Scene> scene_;
+  GeoPoint origin_;
+  Stamp start_{std::chrono::hours(24 * 365 * 50)};
+  std::vector<Robot> robots_;
+  std::deque<Pending> pending_;
+  bus::LocalNetwork* network_ = nullptr;
+  Deliver deliver_;
+  bool stopped_ = false;
+  ThreadPool pool_;  ///< last: its threads end before what they write to goes
+};
+
+}  // namespace fleetmap::apps
