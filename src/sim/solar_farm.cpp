@@ -31,11 +31,11 @@ Status first_problem(std::initializer_list<Status> checks) {
 }
 
 Status ranges(const SolarFarmConfig& c) {
-  constexpr double kPi = std::numbers::pi;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
   return first_problem({
       within("size_east", c.size_east, 25.0, 1000.0, " m"),
       within("size_north", c.size_north, 25.0, 1000.0, " m"),
-      within("row_azimuth", c.row_azimuth_rad, -2.0 * kPi, 2.0 * kPi, " rad"),
+      within("row_azimuth", c.row_azimuth_rad * kDegrees, -360.0, 360.0, " deg"),
       within("margin", c.margin, 0.0, 200.0, " m"),
       within("headland", c.headland, 6.0, 100.0, " m"),
       within("row_pitch", c.row_pitch, 2.0, 50.0, " m"),
@@ -43,12 +43,12 @@ Status ranges(const SolarFarmConfig& c) {
       within("table_width", c.table_width, 0.5, 20.0, " m"),
       within("table_thickness", c.table_thickness, 0.005, 0.5, " m"),
       within("table_gap", c.table_gap, 0.0, 20.0, " m"),
-      within("tilt", c.tilt_rad, 0.0, 1.2, " rad"),
+      within("tilt", c.tilt_rad * kDegrees, 0.0, 70.0, " deg"),
       within("lower_edge_height", c.lower_edge_height, 0.2, 5.0, " m"),
       within("post_spacing", c.post_spacing, 0.5, 20.0, " m"),
       within("post_radius", c.post_radius, 0.01, 0.5, " m"),
       within("missing_tables", c.missing_tables, 0.0, 0.9, ""),
-      within("tilt_jitter", c.tilt_jitter_rad, 0.0, 0.1, " rad"),
+      within("tilt_jitter", c.tilt_jitter_rad * kDegrees, 0.0, 5.0, " deg"),
       within("height_jitter", c.height_jitter, 0.0, 0.3, " m"),
       within("road_every", c.road_every, 0, 10000, " tables"),
       within("road_width", c.road_width, c.table_gap, 50.0, " m"),
@@ -56,16 +56,6 @@ Status ranges(const SolarFarmConfig& c) {
       within("trees", c.trees, 0, 5000, ""),
       within("terrain_cell", c.terrain_cell, 0.1, 5.0, " m"),
   });
-}
-
-Status fence_ranges(const FenceConfig& fence) {
-  if (!fence.enabled) return {};
-  return first_problem({within("fence.height", fence.height, 0.5, 5.0, " m"),
-                        within("fence.post_spacing", fence.post_spacing, 1.0, 10.0, " m"),
-                        fence.wire_spacing == 0.0
-                            ? Status{}
-                            : within("fence.wire_spacing", fence.wire_spacing, 0.04, 1.0, " m (or 0)"),
-                        within("fence.wire_width", fence.wire_width, 0.001, 0.05, " m")});
 }
 
 Status fits(const SolarFarmConfig& c) {
@@ -133,9 +123,18 @@ Status lanes_are_free(const World& world) {
 
 }  // namespace
 
+Status FenceConfig::validate() const {
+  if (!enabled) return {};
+  const Status wire =
+      wire_spacing == 0.0 ? Status{} : within("wire_spacing", wire_spacing, 0.04, 1.0, " m (or 0)");
+  return first_problem({within("height", height, 0.5, 5.0, " m"),
+                        within("post_spacing", post_spacing, 1.0, 10.0, " m"), wire,
+                        within("wire_width", wire_width, 0.001, 0.05, " m")});
+}
+
 Status SolarFarmConfig::validate() const {
   const Status single =
-      first_problem({ranges(*this), fence_ranges(fence), named("terrain", terrain.validate()),
+      first_problem({ranges(*this), named("fence", fence.validate()), named("terrain", terrain.validate()),
                      named("drivable", drivable.validate())});
   return single ? fits(*this) : single;
 }

@@ -16,6 +16,7 @@ struct FenceConfig {
   double post_spacing = 3.0;  ///< m
   double wire_spacing = 0.1;  ///< m between the upright wires of a panel; 0: posts and rails only
   double wire_width = 0.01;   ///< m
+  Status validate() const;
 };
 
 /// A photovoltaic power station: rows of tilted tables on posts, centred on the origin. The site is a
