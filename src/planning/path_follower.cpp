@@ -16,10 +16,13 @@ constexpr double kWay = LocalField::kUnreachable;
 constexpr double kCornerSpeed = 0.6;   // m/s
 constexpr double kCreep = 0.25;        // m/s, the slowest that still gets on
 constexpr double kStep = 0.15;         // m, between looked-at points of an arc
-constexpr double kPastCorner = 1.0;    // m that the aim may lie behind a corner ahead
-constexpr double kAligned = 0.35;      // rad, heading error at which turning on the spot ends
+constexpr double kAligned = 0.3;       // rad, heading error at which turning on the spot ends
+constexpr double kDriveOn = 1.5;       // s, after a turn on the spot
 constexpr double kBackOffTime = 1.5;   // s
 constexpr double kRotationGain = 1.8;  // 1/s
+constexpr double kLaneReach = 3.0;     // m to each side in which the borders of a lane are looked for
+constexpr double kLaneLearning = 5.0;  // s, in which a lane corrects the position across it
+constexpr double kLaneMemory = 180.0;  // s, after which an error of the position is no longer believed
 constexpr std::array<double, 21> kCurvatures = {0.0,  0.05, -0.05, 0.1,   -0.1, 0.18,  -0.18,
                                                 0.3,  -0.3, 0.45,  -0.45, 0.65, -0.65, 0.9,
                                                 -0.9, 1.3,  -1.3,  2.0,   -2.0, 3.0,   -3.0};
@@ -49,8 +52,9 @@ struct PathFollower::State {
   Arc best_arc(double length) const;
   Arc roll_out(double curvature, double length) const;
   double speed_limit(const Pose2& pose) const;
+  void learn_lane(const Pose2& pose, double dt);
   Command drive(const Pose2& pose, double speed, Stamp now);
-  Command turn(double error);
+  Command turn(double error, double yaw);
   Command back_off(Stamp now);
   Command held(const Command& wanted, double speed, double dt);
 
@@ -61,7 +65,10 @@ struct PathFollower::State {
   bool gave_up = false;
   bool turning = false;
   double turn_sign = 1.0;
+  double turn_goal = 0.0;  // rad, from east
+  Stamp drive_until{};     // until then it drives on after a turn on the spot
   double curvature = 0.0;
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();  // m, by which the known position seems to be off
   double touch = 0.0;       // m, clearance below which the robot would touch something
   double last_speed = 0.0;  // m/s, commanded
   Stamp last_update{};
@@ -111,7 +118,7 @@ Status PathFollowerConfig::validate() const {
 /// may lie beside it; at a much higher price the rest of the rim, to get around what is in the way.
 std::vector<LocalField::Source> PathFollower::State::sources(const Pose2& pose) const {
   const double corner = path.next_corner();
-  const double ahead = std::min({path.along() + config.horizon, corner + kPastCorner, path.length()});
+  const double ahead = std::min({path.along() + config.horizon, corner, path.length()});
   const Eigen::Vector2d tangent = path.tangent(std::max(0.0, ahead - 1e-6));
   const Eigen::Vector2d side(-tangent.y(), tangent.x());
   const double c = std::cos(pose.yaw);
@@ -125,7 +132,7 @@ std::vector<LocalField::Source> PathFollower::State::sources(const Pose2& pose) 
   for (double y = -config.lateral_doubt; y <= config.lateral_doubt; y += 0.1) {
     const Eigen::Vector2d at = to_base(aim + y * side);
     const double tight = std::max(0.0, 1.0 - field.clearance(at) / config.wanted_clearance);
-    sources.push_back({at, config.lateral_weight * std::abs(y) + tight * tight});
+    sources.push_back({at, config.lateral_weight * (std::abs(y) + 0.3 * y * y) + tight * tight});
   }
   const Eigen::Vector2d aim_base = to_base(aim);
   const double rim = field.reach() - 0.1;
@@ -197,7 +204,8 @@ double PathFollower::State::speed_limit(const Pose2& pose) const {
                   std::sqrt(then * then + 2.0 * 0.6 * config.braking * std::max(0.0, away)));
 }
 
-Command PathFollower::State::turn(double error) {
+Command PathFollower::State::turn(double error, double yaw) {
+  if (!turning) turn_goal = wrap_angle(yaw + error);
   if (!turning || std::abs(error) < 2.5) turn_sign = error >= 0.0 ? 1.0 : -1.0;
   turning = true;
   const double rate = std::clamp(kRotationGain * std::abs(error), 0.3, config.max_yaw_rate);
@@ -215,6 +223,29 @@ Command PathFollower::State::back_off(Stamp now) {
   return {-config.max_reverse, 0.0};
 }
 
+/// Between two borders the lane's middle is where the path means to be: what is missing to it is an error of
+/// the position, which is still there when the robot looks for the entrance of the next lane.
+void PathFollower::State::learn_lane(const Pose2& pose, double dt) {
+  offset *= std::exp(-dt / kLaneMemory);
+  const Eigen::Vector2d tangent = path.tangent(path.along());
+  const double off_course = wrap_angle(std::atan2(tangent.y(), tangent.x()) - pose.yaw);
+  if (std::abs(off_course) > 0.35) return;
+  const Eigen::Vector2d left_base(-std::sin(off_course), std::cos(off_course));
+  const auto border = [&](double sign) {
+    double away = 0.0;
+    while (away < kLaneReach && field.clearance(sign * away * left_base) > 0.15) away += 0.1;
+    return away;
+  };
+  const double left = border(1.0);
+  const double right = border(-1.0);
+  if (left >= kLaneReach || right >= kLaneReach) return;
+  const Eigen::Vector2d normal(-tangent.y(), tangent.x());
+  const double beside = normal.dot(pose.position - path.point(path.along()));
+  const double middle = beside + 0.5 * (left - right);
+  offset += std::min(1.0, dt / kLaneLearning) * middle * normal;
+  if (offset.norm() > config.lateral_doubt) offset *= config.lateral_doubt / offset.norm();
+}
+
 Command PathFollower::State::drive(const Pose2& pose, double speed, Stamp now) {
   // Whoever stands too close to something may still drive away from it.
   const double here = field.clearance(Eigen::Vector2d::Zero());
@@ -222,17 +253,26 @@ Command PathFollower::State::drive(const Pose2& pose, double speed, Stamp now) {
   field.spread(sources(pose), touch);
   if (now < backing_until) return back_off(now);
   const double limit = speed_limit(pose);
-  const double length = std::clamp(1.2 * speed + 0.9, 1.2, 2.7);
   if (field.cost(Eigen::Vector2d::Zero()) >= kWay) {
     backing_until = now + from_seconds(kBackOffTime);
     return back_off(now);
   }
-  const double error = wanted_heading();
-  if (std::abs(error) > config.turn_in_place || (turning && std::abs(error) > kAligned)) return turn(error);
-  turning = false;
+  // An arc that leads beyond the aim says nothing about how to get there.
+  const double to_aim =
+      std::min(field.cost(Eigen::Vector2d::Zero()), std::max(0.0, path.next_corner() - path.along()) + 0.3);
+  const double length = std::clamp(std::min(1.2 * speed + 0.9, 0.8 * to_aim), 3.0 * kStep, 2.7);
+  // A turn once begun is ended, and then driven along for a while: two ways around something may cost the
+  // same.
+  const double wanted = turning ? wrap_angle(turn_goal - pose.yaw) : wanted_heading();
+  const double error = turning && std::abs(wanted) < kAligned ? wanted_heading() : wanted;
+  if (turning && std::abs(wanted) < kAligned) drive_until = now + from_seconds(kDriveOn);
+  turning = turning && std::abs(wanted) >= kAligned;
+  if (turning || (std::abs(error) > config.turn_in_place && now >= drive_until)) {
+    return turn(error, pose.yaw);
+  }
   const Arc arc = best_arc(length);
   if (arc.score >= kWay) {
-    if (std::abs(error) > 0.2) return turn(error);
+    if (std::abs(error) > kAligned) return turn(error, pose.yaw);
     backing_until = now + from_seconds(kBackOffTime);
     return back_off(now);
   }
@@ -274,7 +314,7 @@ void PathFollower::State::note_progress(Stamp now, const Eigen::Vector2d& positi
   }
   const bool end = corner >= path.length();
   if (end && (away <= config.goal_tolerance ||
-              (path.length() - path.along() < 0.05 && away <= config.lateral_doubt))) {
+              (path.length() - path.along() < 0.3 && away <= config.lateral_doubt))) {
     finished = true;
     return;
   }
@@ -303,6 +343,8 @@ void PathFollower::set_path(Polyline path) {
   state.path = PathProgress(path);
   state.finished = state.path.empty();
   state.gave_up = false;
+  state.turning = false;
+  state.drive_until = state.backing_until = Stamp{};
   state.started = false;
   state.nearest_corner = -1.0;
   state.progress_mark = 0.0;
@@ -322,13 +364,16 @@ Command PathFollower::update(const Pose2& pose, double speed,
   }
   const double dt = std::clamp(to_seconds(now - state.last_update), 0.02, 0.5);
   state.last_update = now;
-  state.note_progress(now, pose.position);
+  state.field.see(obstacles_in_base);
+  Pose2 corrected = pose;
+  corrected.position -= state.offset;
+  state.note_progress(now, corrected.position);
   if (state.finished) {
     state.last_speed = 0.0;
     return {};
   }
-  state.field.see(obstacles_in_base);
-  return state.held(state.drive(pose, speed, now), speed, dt);
+  state.learn_lane(corrected, dt);
+  return state.held(state.drive(corrected, speed, now), speed, dt);
 }
 
 double PathFollower::progress() const { return state_->path.along(); }

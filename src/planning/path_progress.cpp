@@ -9,6 +9,7 @@ namespace {
 constexpr double kSharp = 0.5;      // rad; flatter bends are driven through
 constexpr double kShortest = 0.05;  // m; nearer points are one
 constexpr double kWindow = 6.0;     // m ahead in which the robot may be
+constexpr double kAbeam = 0.4;      // m along the path; nearer than this a corner counts as passed
 
 }  // namespace
 
@@ -72,7 +73,7 @@ void PathProgress::advance(const Eigen::Vector2d& p, double tolerance, double ab
     }
     along_ = best;
     const double away = (point(corner) - p).norm();
-    const bool passed = corner - along_ < 1e-6 && away <= abeam;
+    const bool passed = corner - along_ < kAbeam && away <= abeam;
     if (corner >= length() || !(passed || away < tolerance)) {
       // A corner abeam but too far to the side stays ahead.
       if (corner < length() && corner - along_ < 1e-6) along_ = std::max(0.0, corner - 1e-3);

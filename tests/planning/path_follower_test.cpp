@@ -132,7 +132,7 @@ TEST(PathFollower, AWaypointInsideAnObstacleCountsAsReached) {
 TEST(PathFollower, TurnsFromOneAisleIntoTheNext) {
   for (const double bias : {-1.2, 0.0, 1.2}) {
     AisleWorld world;
-    for (const double y : {-1.5, 1.5, 6.5, 9.5}) world.wall({0.0, y}, {30.0, y}, 0.2);
+    for (const double y : {-1.5, 1.5, 4.0, 6.5, 9.5}) world.wall({0.0, y}, {30.0, y}, 0.2);
     world.truth = {{1.0, 0.0}, 0.0};
     PathFollower follower;
     follower.set_path({{1.0, 0.0}, {32.5, 0.0}, {32.5, 8.0}, {1.0, 8.0}});

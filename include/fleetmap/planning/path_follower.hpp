@@ -24,7 +24,7 @@ struct PathFollowerConfig {
   double horizon = 5.5;           ///< m, looked ahead
   double lateral_doubt = 3.0;     ///< m, that the path may lie beside the free lane (error of the position)
   double lateral_weight = 0.25;   ///< m of detour that a metre beside the path is worth
-  double corner_tolerance = 1.5;  ///< m, at which a corner of the path is reached
+  double corner_tolerance = 0.8;  ///< m, at which a corner of the path is reached
   double goal_tolerance = 0.5;    ///< m, at which the end of the path is reached
   double give_up_radius = 4.0;    ///< m: a blocked waypoint this near counts as reached after `give_up_after`
   double give_up_after = 6.0;     ///< s, without getting nearer
