@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission.hpp"
+#include "fleetmap/planning/mission_config.hpp"
+#include "fleetmap/planning/mission_progress.hpp"
+
+namespace fleetmap::planning {
+
+/// What a robot knows of itself, some times a second.
+struct MissionInput {
+  Stamp now;
+  Pose2 pose;
+  double battery = 1.0;  ///< share left, [0, 1]
+  /// The path that the follower is at (MissionAction::path_number), and what it says of it.
+  std::uint64_t path_number = 0;
+  bool finished = false;
+  bool stuck = false;
+  double progress = 0.0;  ///< m along the path
+  /// Everything that was to be exchanged at the rendezvous is.
+  bool maps_exchanged = false;
+};
+
+struct MissionAction {
+  enum class Kind : std::uint8_t {
+    kFollow,  ///< drive `path`
+    kHold,    ///< stand where you are
+    kDone,    ///< the mission is over
+  };
+  Kind kind = Kind::kHold;
+  Polyline path;                  ///< ENU, m
+  std::uint64_t path_number = 0;  ///< a new number, a new path
+};
+
+/// One robot's part in a mission that nobody leads. All start from the same division; from then on each robot
+/// acts on its own knowledge and what it heard:
+/// - what is done is done: knowledge of driven rows only grows and is passed on in every report;
+/// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
+/// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
+///   of them takes which, and whoever still sees nobody at a row after a while takes it;
+/// - a robot with many rows left gives some away when another one has none (the late one, the returned one).
+/// So no row stays undone while a robot remains that can reach it; at worst one is driven twice.
+/// Deterministic, no clock of its own; not thread-safe.
+class MissionExecutive {
+ public:
+  /// Fails if `self` is not in the fleet.
+  static Result<MissionExecutive> create(std::shared_ptr<const FleetPlan> plan, const AgentId& self);
+  /// The same, planning for itself.
+  static Result<MissionExecutive> create(Mission mission, const AgentId& self,
+                                         std::span<const RobotAbility> fleet, const MissionConfig& config);
+  ~MissionExecutive();
+  MissionExecutive(MissionExecutive&&) noexcept;
+  MissionExecutive& operator=(MissionExecutive&&) noexcept;
+
+  /// Of another robot; unknown, own, old and broken ones are ignored.
+  void on_report(const MissionReport& report, Stamp now);
+  MissionAction update(const MissionInput& input);
+  /// As of the last update.
+  MissionReport report() const;
+
+  struct Status {
+    MissionState state = MissionState::kDriving;
+    std::size_t rows = 0;
+    std::size_t done = 0;       ///< by anyone, as far as is known
+    std::size_t mine = 0;       ///< still claimed by this robot
+    std::size_t abandoned = 0;  ///< all who are left gave them up
+    std::vector<AgentId> lost;
+    std::vector<AgentId> expected;  ///< others who are to come to the meeting
+    std::uint64_t replans = 0;      ///< rows taken over or given away
+  };
+  Status status() const;
+  const FleetPlan& plan() const;
+
+ private:
+  struct State;
+  explicit MissionExecutive(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fleetmap::planning

@@ -1,0 +1,388 @@
+#include "fleetmap/planning/mission_executive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "mission_board.hpp"
+
+namespace fleetmap::planning {
+namespace {
+
+constexpr double kAtStart = 5.0;         // m; who starts farther from its start was restarted
+constexpr double kMoved = 3.0;           // m between two places at which it is stuck that are not the same
+constexpr double kCovered = 0.9;         // share of a row that counts as driven if both ends were tried
+constexpr double kTakeoverPeriod = 5.0;  // s between two looks at who takes the orphans
+constexpr double kRecovered = 0.2;       // share of the battery above the low mark at which it is used again
+constexpr double kRouteRetry = 5.0;      // s, when no way was found from where it seems to be
+
+enum class Goal : std::uint8_t { kNone, kRow, kMeeting, kHome };
+
+}  // namespace
+
+struct MissionExecutive::State {
+  State(std::shared_ptr<const FleetPlan> shared, std::size_t index)
+      : plan(std::move(shared)),
+        self(index),
+        board(plan, index),
+        failed(plan->mission.rows.size()),
+        attempts(plan->mission.rows.size(), 0),
+        last_reversed(plan->mission.rows.size(), false),
+        covered(plan->mission.rows.size(), {0.0, 0.0}),
+        orphan_since(plan->mission.rows.size()) {}
+
+  const ExecutiveConfig& rules() const { return plan->config.executive; }
+  const RobotAbility& robot() const { return plan->fleet[self]; }
+
+  void begin(const MissionInput& input);
+  void look_at_follower(const MissionInput& input);
+  void row_stuck(const MissionInput& input);
+  void look_at_battery(const MissionInput& input);
+  void settle_claims(Stamp now);
+  void take_orphans(Stamp now);
+  void give_away(const MissionInput& input);
+  void release_all();
+  void choose(const MissionInput& input);
+  bool start_row(const MissionInput& input);
+  bool go(Goal where, const Eigen::Vector2d& place, const MissionInput& input);
+  void stand() {
+    goal = Goal::kNone;
+    path.clear();
+  }
+  void publish(const MissionInput& input);
+
+  std::shared_ptr<const FleetPlan> plan;
+  std::size_t self;
+  MissionBoard board;
+  MissionState state = MissionState::kDriving;
+  bool begun = false;
+  Stamp listen_until{};
+
+  std::vector<std::size_t> queue;  // rows to drive, the one under way not included
+  std::optional<std::size_t> current;
+  RowSet failed;
+  std::vector<int> attempts;
+  std::vector<bool> last_reversed;
+  std::vector<std::array<double, 2>> covered;  // m of each row driven from its first and its last waypoint
+  std::vector<std::optional<Stamp>> orphan_since;
+  Stamp next_takeover{};
+  Stamp next_offer{};
+  std::uint64_t replans = 0;
+
+  Goal goal = Goal::kNone;
+  Polyline path;
+  std::uint64_t path_number = 0;
+  double row_begins = 0.0;  // m along the path
+  bool arrived = false;     // where it last wanted to go
+  Stamp retry_at{};
+  int stuck_in_a_row = 0;
+  Eigen::Vector2d stuck_at = Eigen::Vector2d::Zero();
+  std::optional<Stamp> all_done_since;
+  MissionReport report;
+};
+
+void MissionExecutive::State::begin(const MissionInput& input) {
+  begun = true;
+  board.begin(input.now);
+  const bool restarted = (input.pose.position - robot().start.position).norm() > kAtStart;
+  listen_until = input.now + from_seconds(restarted ? rules().listen : 0.0);
+  for (const RowVisit& visit : plan->division.routes[self].visits) {
+    const auto row = std::ranges::find(plan->mission.rows, visit.row, &Row::id);
+    queue.push_back(static_cast<std::size_t>(row - plan->mission.rows.begin()));
+  }
+}
+
+void MissionExecutive::State::release_all() {
+  if (current) replans += 1;
+  replans += queue.size();
+  queue.clear();
+  current.reset();
+  stand();
+}
+
+void MissionExecutive::State::row_stuck(const MissionInput& input) {
+  const std::size_t row = *current;
+  current.reset();
+  const double length = plan->costs.along(row).length;
+  double& reached = covered[row][last_reversed[row] ? 1 : 0];
+  reached = std::max(reached, std::clamp(input.progress - row_begins, 0.0, length));
+  if (covered[row][0] + covered[row][1] >= kCovered * length) {
+    board.set_done(row);
+    return;
+  }
+  if (++attempts[row] >= rules().row_attempts) {
+    failed.set(row);
+    ++replans;
+  } else {
+    queue.push_back(row);  // later, from the other end
+  }
+}
+
+void MissionExecutive::State::look_at_follower(const MissionInput& input) {
+  if (goal == Goal::kNone || input.path_number != path_number) return;
+  if (input.finished) {
+    stuck_in_a_row = 0;
+    if (goal == Goal::kRow && current) {
+      board.set_done(*current);
+      current.reset();
+    } else {
+      arrived = true;
+    }
+    stand();
+    return;
+  }
+  const double moved = (input.pose.position - stuck_at).norm();
+  if (state == MissionState::kStuck && moved > kMoved) {
+    // It got on again: what it gave up for this reason may be tried anew.
+    state = MissionState::kDriving;
+    stuck_in_a_row = 0;
+    failed = RowSet(board.rows());
+    std::ranges::fill(attempts, 0);
+  }
+  if (!input.stuck) return;
+  stuck_in_a_row = moved < kMoved ? stuck_in_a_row + 1 : 1;
+  stuck_at = input.pose.position;
+  if (goal == Goal::kRow && current) row_stuck(input);
+  // Near enough to talk to the others is near enough.
+  const bool near = goal == Goal::kMeeting && plan->meeting &&
+                    (plan->meeting->place - stuck_at).norm() < 0.5 * plan->config.meeting.c_max;
+  arrived = near && stuck_in_a_row > 1;
+  retry_at = goal == Goal::kRow ? input.now : input.now + from_seconds(rules().stuck_retry);
+  stand();
+  if (stuck_in_a_row >= rules().stuck_limit && state != MissionState::kLowBattery) {
+    state = MissionState::kStuck;
+    release_all();
+    retry_at = input.now + from_seconds(rules().stuck_retry);
+  }
+}
+
+/// Low is also who only just gets home.
+void MissionExecutive::State::look_at_battery(const MissionInput& input) {
+  if (!std::isfinite(input.battery) || state == MissionState::kDone) return;
+  const double way = 1.4 * (input.pose.position - robot().start.position).norm();
+  const double share_home =
+      energy_of({static_cast<float>(way), 0.0f}, robot()) / robot().battery_wh + 0.5 * rules().low_battery;
+  const double mark = std::max(rules().low_battery, std::min(share_home, 0.5));
+  if (state != MissionState::kLowBattery && input.battery <= mark) {
+    state = MissionState::kLowBattery;
+    arrived = false;
+    release_all();
+  } else if (state == MissionState::kLowBattery && input.battery > mark + kRecovered) {
+    state = MissionState::kDriving;
+    arrived = false;
+    stand();
+  }
+}
+
+void MissionExecutive::State::settle_claims(Stamp now) {
+  std::erase_if(queue, [&](std::size_t row) {
+    return board.done().has(row) || board.outclaimed(row, false, now) || failed.has(row);
+  });
+  if (current && (board.done().has(*current) || board.outclaimed(*current, true, now))) {
+    current.reset();
+    stand();
+  }
+}
+
+void MissionExecutive::State::take_orphans(Stamp now) {
+  const std::vector<std::size_t> orphans = board.orphans(now);
+  for (std::size_t row = 0; row < board.rows(); ++row) {
+    const bool orphan = std::ranges::binary_search(orphans, row);
+    if (!orphan) orphan_since[row].reset();
+    if (orphan && !orphan_since[row]) orphan_since[row] = now;
+  }
+  if (orphans.empty() || now < next_takeover) return;
+  next_takeover = now + from_seconds(kTakeoverPeriod);
+  const std::vector<std::size_t> taker = board.takers(orphans, now);
+  int rank = 1;  // of those who could take them
+  for (std::size_t robot = 0; robot < self; ++robot) rank += board.available(robot, now) ? 1 : 0;
+  for (std::size_t k = 0; k < orphans.size(); ++k) {
+    if (failed.has(orphans[k])) continue;
+    const bool overdue = now - *orphan_since[orphans[k]] > from_seconds(rules().orphan_wait * rank);
+    if (taker[k] != self && !overdue) continue;
+    queue.push_back(orphans[k]);
+    ++replans;
+  }
+}
+
+void MissionExecutive::State::give_away(const MissionInput& input) {
+  if (queue.empty() || input.now < next_offer) return;
+  next_offer = input.now + from_seconds(rules().offer_period);
+  if (!board.orphans(input.now).empty()) return;
+  const double left = std::max(0.0, length_of(path) - input.progress);
+  const double busy = current ? left / robot().speed : 0.0;
+  const Pose2 then = current && !path.empty() ? Pose2{path.back(), input.pose.yaw} : input.pose;
+  const auto given = board.to_give_away(queue, busy, then, rules().offer_gain, input.now);
+  replans += given.size();
+  std::erase_if(queue, [&](std::size_t row) { return std::ranges::find(given, row) != given.end(); });
+}
+
+/// The next row on the shortest way through all that are left.
+bool MissionExecutive::State::start_row(const MissionInput& input) {
+  std::ranges::sort(queue);
+  const Worker me{robot(), plan->costs.from(input.pose)};
+  const std::vector<Travel> to_end =
+      plan->meeting ? plan->costs.to(plan->meeting->positions[self]) : std::vector<Travel>();
+  DivisionConfig config = plan->config.division;
+  config.method = DivisionMethod::kBalanced;
+  std::vector<std::size_t> untried;
+  for (const std::size_t row : queue) {
+    if (attempts[row] == 0) untried.push_back(row);
+  }
+  const std::vector<std::size_t>& rows = untried.empty() ? queue : untried;
+  const Division order = divide_rows(plan->mission, plan->costs, rows, {&me, 1}, to_end, config);
+  const RowVisit next = order.routes.front().visits.front();
+  const auto found = std::ranges::find(plan->mission.rows, next.row, &Row::id);
+  const auto row = static_cast<std::size_t>(found - plan->mission.rows.begin());
+  const bool reversed = attempts[row] > 0 ? !last_reversed[row] : next.reversed;
+  const auto along = plan->planner.along(*found, reversed);
+  const auto way = along ? plan->planner.route(input.pose.position, along->front()) : along;
+  if (!way) {
+    retry_at = input.now + from_seconds(kRouteRetry);
+    return false;
+  }
+  std::erase(queue, row);
+  current = row;
+  last_reversed[row] = reversed;
+  path = *way;
+  row_begins = length_of(path);
+  path.insert(path.end(), along->begin(), along->end());
+  goal = Goal::kRow;
+  ++path_number;
+  arrived = false;
+  return true;
+}
+
+bool MissionExecutive::State::go(Goal where, const Eigen::Vector2d& place, const MissionInput& input) {
+  const auto way = plan->planner.route(input.pose.position, place);
+  if (!way) {
+    retry_at = input.now + from_seconds(kRouteRetry);
+    return false;
+  }
+  path = *way;
+  goal = where;
+  ++path_number;
+  return true;
+}
+
+/// What to do next, if nothing is under way or something better turned up.
+void MissionExecutive::State::choose(const MissionInput& input) {
+  if (state == MissionState::kDone) return;
+  const bool settled = board.all_settled(input.now);
+  if (!settled) all_done_since.reset();
+  if (settled && !all_done_since) all_done_since = input.now;
+  const bool alone_too_long =
+      all_done_since && input.now - *all_done_since > from_seconds(rules().meeting_timeout);
+  if (state == MissionState::kLowBattery) {
+    if (goal == Goal::kNone && !arrived && input.now >= retry_at)
+      go(Goal::kHome, robot().start.position, input);
+    if (settled && arrived && (input.maps_exchanged || alone_too_long)) state = MissionState::kDone;
+    return;
+  }
+  if (state == MissionState::kStuck) {
+    if (goal == Goal::kNone && input.now >= retry_at) {
+      go(Goal::kMeeting, plan->meeting ? plan->meeting->positions[self] : robot().start.position, input);
+    }
+    if (alone_too_long) state = MissionState::kDone;
+    return;
+  }
+  if (current) {
+    state = MissionState::kDriving;
+    return;
+  }
+  if (!queue.empty()) {
+    state = MissionState::kDriving;
+    if (input.now >= retry_at) start_row(input);
+    return;
+  }
+  if (plan->meeting && !arrived) {
+    state = MissionState::kDriving;
+    if (goal != Goal::kMeeting && input.now >= retry_at)
+      go(Goal::kMeeting, plan->meeting->positions[self], input);
+    return;
+  }
+  state = plan->meeting ? MissionState::kMeeting : MissionState::kDriving;
+  if (settled && (!plan->meeting || input.maps_exchanged || alone_too_long)) state = MissionState::kDone;
+}
+
+void MissionExecutive::State::publish(const MissionInput& input) {
+  report.agent = robot().id;
+  report.stamp = input.now;
+  report.state = state;
+  if (input.pose.position.allFinite()) report.position = input.pose.position;
+  report.battery = input.battery;
+  report.current = current ? static_cast<std::uint32_t>(*current) : MissionReport::kNoRow;
+  report.done = board.done();
+  report.claimed = RowSet(board.rows());
+  for (const std::size_t row : queue) report.claimed.set(row);
+  if (current) report.claimed.set(*current);
+  report.failed = failed;
+  board.set_own(report);
+}
+
+MissionExecutive::MissionExecutive(std::unique_ptr<State> state) : state_(std::move(state)) {}
+MissionExecutive::~MissionExecutive() = default;
+MissionExecutive::MissionExecutive(MissionExecutive&&) noexcept = default;
+MissionExecutive& MissionExecutive::operator=(MissionExecutive&&) noexcept = default;
+
+Result<MissionExecutive> MissionExecutive::create(std::shared_ptr<const FleetPlan> plan,
+                                                  const AgentId& self) {
+  const auto index = plan->find(self);
+  if (!index) return failure("mission: robot " + self.str() + " is not in the fleet");
+  return MissionExecutive(std::make_unique<State>(std::move(plan), *index));
+}
+
+Result<MissionExecutive> MissionExecutive::create(Mission mission, const AgentId& self,
+                                                  std::span<const RobotAbility> fleet,
+                                                  const MissionConfig& config) {
+  auto plan = plan_fleet(std::move(mission), fleet, config);
+  if (!plan) return tl::unexpected(plan.error());
+  return create(std::move(*plan), self);
+}
+
+void MissionExecutive::on_report(const MissionReport& report, Stamp now) { state_->board.hear(report, now); }
+
+MissionAction MissionExecutive::update(const MissionInput& input) {
+  State& s = *state_;
+  if (!input.pose.position.allFinite() || !std::isfinite(input.pose.yaw)) {
+    return {MissionAction::Kind::kHold, {}, s.path_number};
+  }
+  if (!s.begun) s.begin(input);
+  s.look_at_follower(input);
+  s.look_at_battery(input);
+  s.settle_claims(input.now);
+  s.publish(input);
+  if (input.now < s.listen_until) return {MissionAction::Kind::kHold, {}, s.path_number};
+  if (s.board.available(s.self, input.now)) {
+    s.take_orphans(input.now);
+    s.give_away(input);
+  }
+  s.choose(input);
+  s.publish(input);
+  if (s.state == MissionState::kDone) return {MissionAction::Kind::kDone, {}, s.path_number};
+  if (s.goal == Goal::kNone) return {MissionAction::Kind::kHold, {}, s.path_number};
+  return {MissionAction::Kind::kFollow, s.path, s.path_number};
+}
+
+MissionReport MissionExecutive::report() const { return state_->report; }
+
+MissionExecutive::Status MissionExecutive::status() const {
+  const State& s = *state_;
+  const Stamp now = s.report.stamp;
+  Status status{s.state, s.board.rows(), s.board.done().count(), s.report.claimed.count(), 0, {},
+                {},      s.replans};
+  for (std::size_t row = 0; row < s.board.rows(); ++row) {
+    status.abandoned += !s.board.done().has(row) && s.board.abandoned(row, now) ? 1 : 0;
+  }
+  for (std::size_t robot = 0; robot < s.board.robots(); ++robot) {
+    if (robot == s.self) continue;
+    if (s.board.lost(robot, now)) status.lost.push_back(s.plan->fleet[robot].id);
+    if (s.board.available(robot, now)) status.expected.push_back(s.plan->fleet[robot].id);
+  }
+  return status;
+}
+
+const FleetPlan& MissionExecutive::plan() const { return *state_->plan; }
+
+}  // namespace fleetmap::planning
