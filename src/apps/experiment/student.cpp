@@ -10,7 +10,7 @@ namespace fleetmap::apps::experiment {
 double student_tail(double t, double freedom) {
   if (std::isnan(t)) return t;
   if (t < 0.0) return 1.0 - student_tail(-t, freedom);
-  constexpr int kIntervals = 2000;
+  constexpr int kIntervals = 400;
   const double from = std::atan(t / std::sqrt(freedom));
   const double step = (0.5 * std::numbers::pi - from) / kIntervals;
   double sum = 0.0;
