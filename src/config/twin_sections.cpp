@@ -114,6 +114,15 @@ void read_twin_vehicle(Section& robot, sim::VehicleSpec& spec) {
   vehicle.check(spec.validate());
 }
 
+/// Robots err differently though nobody sets their seeds (FNV-1a of the name).
+std::uint64_t seed_of(Section& agent) {
+  std::string id;
+  agent.read("id", id);
+  std::uint64_t seed = 0xcbf29ce484222325u;
+  for (const char c : id) seed = (seed ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return seed;
+}
+
 /// Of the agent's own sections; what else stands there is checked by who reads them.
 void read_mounts(Section& agent, sim::RobotTwinConfig& config) {
   agent.section("lidar").read_mount(config.T_base_lidar);
@@ -136,6 +145,7 @@ void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config) {
   read_twin_gps(robot, config.gps);
   read_twin_wheels(robot, config.wheels);
   read_twin_vehicle(robot, config.vehicle);
+  config.seed = seed_of(agent_section);
   robot.read("seed", config.seed);
   robot.finish();
   robot.check(config.lidar.validate());

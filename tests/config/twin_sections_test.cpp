@@ -1,0 +1,102 @@
+#include "twin_sections.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace fleetmap::config {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kSensors = std::string(FLEETMAP_SOURCE_DIR) + "/config/sensors/";
+
+struct Read {
+  sim::RobotTwinConfig robot;
+  std::string problems;
+};
+
+Read read(const std::string& yaml) {
+  Document document = Document::from(YAML::Load(yaml), "fleet.yaml");
+  Section agent(document, document.root(), "");
+  Read result;
+  read_robot_twin(agent, result.robot);
+  if (const Status status = document.status(); !status) result.problems = status.error().message;
+  return result;
+}
+
+TEST(TwinSections, WithoutTheKeyTheRobotCarriesAVlp16) {
+  const Read r = read("{}");
+  EXPECT_EQ(r.problems, "");
+  EXPECT_EQ(r.robot.lidar.name, "vlp16");
+  EXPECT_TRUE(r.robot.validate());
+  EXPECT_FALSE(r.robot.start_given);
+}
+
+TEST(TwinSections, MountsAreThoseOfTheAgent) {
+  const Read r = read(
+      "lidar: {model: vlp16, translation: [0.1, 0, 0.35], rotation_rpy_deg: [0, 0, 90]}\n"
+      "imu: {translation: [0, 0.2, 0], gyro_noise: 0.1}\n"
+      "gps: {translation: [0, 0, 0.6]}\n");
+  EXPECT_EQ(r.problems, "");
+  EXPECT_TRUE(r.robot.T_base_lidar.translation().isApprox(Eigen::Vector3d(0.1, 0, 0.35)));
+  EXPECT_TRUE((r.robot.T_base_lidar.linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(r.robot.T_base_imu.translation().isApprox(Eigen::Vector3d(0, 0.2, 0)));
+  EXPECT_EQ(r.robot.p_base_antenna.z(), 0.6);
+  EXPECT_EQ(r.robot.imu.gyro_noise, sim::ImuSpec{}.gyro_noise);  // the estimator's, not the device's
+}
+
+TEST(TwinSections, EverythingOfTheRobotCanBeSet) {
+  const Read r =
+      read("robot:\n  lidar: " + kSensors +
+           "os1-64.yaml\n"
+           "  lidar_rate: 5\n  range_noise: 0.08\n  max_range: 40\n  start: [3, -4, 90]\n  seed: 9\n"
+           "  imu: {rate: 200, heading_sigma_deg: 10, reports_orientation: false}\n"
+           "  gps: {drift_sigma: 3, outages: [{from: 10, until: 20}, {from: 30, until: 31}],\n"
+           "        jumps: {per_hour: 6, size: 12, duration: 5}}\n"
+           "  wheels: {slip: 0.2}\n  vehicle: {max_speed: 1.2, battery_wh: 50}\n");
+  EXPECT_EQ(r.problems, "");
+  EXPECT_EQ(r.robot.lidar.name, "os1-64");
+  EXPECT_EQ(r.robot.lidar.columns, 1024);
+  EXPECT_EQ(r.robot.lidar.rate, 5.0);
+  EXPECT_EQ(r.robot.lidar.range_noise, 0.08);
+  EXPECT_EQ(r.robot.lidar.max_range, 40.0);
+  EXPECT_TRUE(r.robot.start_given);
+  EXPECT_EQ(r.robot.start, Eigen::Vector2d(3, -4));
+  EXPECT_DOUBLE_EQ(r.robot.start_yaw, std::numbers::pi / 2);
+  EXPECT_EQ(r.robot.seed, 9u);
+  EXPECT_EQ(r.robot.imu.rate, 200.0);
+  EXPECT_FALSE(r.robot.imu.reports_orientation);
+  EXPECT_NEAR(r.robot.imu.heading_sigma, 0.1745, 1e-4);
+  ASSERT_EQ(r.robot.gps.outages.size(), 2u);
+  EXPECT_EQ(r.robot.gps.outages[1].until, 31.0);
+  EXPECT_EQ(r.robot.gps.jump_size, 12.0);
+  EXPECT_EQ(r.robot.wheels.slip, 0.2);
+  EXPECT_EQ(r.robot.vehicle.battery_wh, 50.0);
+}
+
+TEST(TwinSections, RobotsErrDifferently) {
+  EXPECT_NE(read("id: r1").robot.seed, read("id: r2").robot.seed);
+  EXPECT_EQ(read("id: r1").robot.seed, read("id: r1").robot.seed);
+}
+
+TEST(TwinSections, ASlowerVlp16HasMoreColumns) {
+  EXPECT_EQ(read("robot: {lidar_rate: 5}").robot.lidar.columns, 3600);
+}
+
+TEST(TwinSections, ProblemsNameFileLineAndKey) {
+  EXPECT_THAT(read("robot:\n  lidar: none.yaml\n").problems,
+              HasSubstr("fleet.yaml:2: robot.lidar: none.yaml: no such file"));
+  EXPECT_THAT(read("robot:\n  start: [1, 2]\n").problems, HasSubstr("fleet.yaml:2: robot.start: expected"));
+  EXPECT_THAT(read("robot:\n  lidar_rate: 0\n").problems, HasSubstr("fleet.yaml:2: robot.lidar_rate"));
+  EXPECT_THAT(read("robot:\n  max_range: 0.1\n").problems, HasSubstr("robot: max_range: must be greater"));
+  EXPECT_THAT(read("robot:\n  gps:\n    outages: [{from: 5, until: 1}]\n").problems,
+              HasSubstr("fleet.yaml:3: robot.gps.outages[0].until: expected"));
+  EXPECT_THAT(read("robot:\n  vehicle: {radius: -1}\n").problems,
+              HasSubstr("robot.vehicle: radius: must be"));
+  EXPECT_THAT(read("robot:\n  wheel: {}\n").problems, HasSubstr("robot.wheel: unknown key; did you mean"));
+}
+
+}  // namespace
+}  // namespace fleetmap::config
