@@ -17,6 +17,10 @@ constexpr double kTakeoverPeriod = 5.0;  // s between two looks at who takes the
 constexpr double kRecovered = 0.2;       // share of the battery above the low mark at which it is used again
 constexpr double kRouteRetry = 5.0;      // s, when no way was found from where it seems to be
 
+constexpr double kAhead = 2.0;        // m from where it is stuck to what is in the way
+constexpr double kForgotten = 300.0;  // s, after which a blocked place is tried again
+constexpr std::size_t kMostBlockages = 12;
+
 enum class Goal : std::uint8_t { kNone, kRow, kMeeting, kHome };
 
 }  // namespace
@@ -38,6 +42,8 @@ struct MissionExecutive::State {
   void begin(const MissionInput& input);
   void look_at_follower(const MissionInput& input);
   void row_stuck(const MissionInput& input);
+  void remember_blockage(const MissionInput& input);
+  Result<Polyline> way_to(const Eigen::Vector2d& place, const MissionInput& input);
   void look_at_battery(const MissionInput& input);
   void settle_claims(Stamp now);
   void take_orphans(Stamp now);
@@ -78,6 +84,8 @@ struct MissionExecutive::State {
   Stamp retry_at{};
   int stuck_in_a_row = 0;
   Eigen::Vector2d stuck_at = Eigen::Vector2d::Zero();
+  std::vector<Blockage> blockages;
+  std::vector<Stamp> blocked_at;
   std::optional<Stamp> all_done_since;
   MissionReport report;
 };
@@ -119,6 +127,40 @@ void MissionExecutive::State::row_stuck(const MissionInput& input) {
   }
 }
 
+/// What is not on the site's plan is met only on the way; the next way leads around it.
+void MissionExecutive::State::remember_blockage(const MissionInput& input) {
+  double along = input.progress + kAhead;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const Eigen::Vector2d d = path[k] - path[k - 1];
+    if (along > d.norm() && k + 1 < path.size()) {
+      along -= d.norm();
+      continue;
+    }
+    const Eigen::Vector2d toward =
+        d.norm() > 0.0 ? Eigen::Vector2d(d.normalized()) : Eigen::Vector2d(1.0, 0.0);
+    const Blockage blockage{path[k - 1] + along * toward};
+    // Beside the path it is somewhere else than where it thinks to be blocked.
+    if ((blockage.centre - input.pose.position).norm() < blockage.radius + 0.2) return;
+    if (blockages.size() == kMostBlockages) {
+      blockages.erase(blockages.begin());
+      blocked_at.erase(blocked_at.begin());
+    }
+    blockages.push_back(blockage);
+    blocked_at.push_back(input.now);
+    return;
+  }
+}
+
+/// Around what is in the way, or else through it: it may be gone.
+Result<Polyline> MissionExecutive::State::way_to(const Eigen::Vector2d& place, const MissionInput& input) {
+  while (!blocked_at.empty() && input.now - blocked_at.front() > from_seconds(kForgotten)) {
+    blockages.erase(blockages.begin());
+    blocked_at.erase(blocked_at.begin());
+  }
+  auto way = plan->planner.route(input.pose.position, place, blockages);
+  return way || blockages.empty() ? way : plan->planner.route(input.pose.position, place);
+}
+
 void MissionExecutive::State::look_at_follower(const MissionInput& input) {
   if (goal == Goal::kNone || input.path_number != path_number) return;
   if (input.finished) {
@@ -143,6 +185,7 @@ void MissionExecutive::State::look_at_follower(const MissionInput& input) {
   if (!input.stuck) return;
   stuck_in_a_row = moved < kMoved ? stuck_in_a_row + 1 : 1;
   stuck_at = input.pose.position;
+  remember_blockage(input);
   if (goal == Goal::kRow && current) row_stuck(input);
   // Near enough to talk to the others is near enough.
   const bool near = goal == Goal::kMeeting && plan->meeting &&
@@ -237,7 +280,7 @@ bool MissionExecutive::State::start_row(const MissionInput& input) {
   const auto row = static_cast<std::size_t>(found - plan->mission.rows.begin());
   const bool reversed = attempts[row] > 0 ? !last_reversed[row] : next.reversed;
   const auto along = plan->planner.along(*found, reversed);
-  const auto way = along ? plan->planner.route(input.pose.position, along->front()) : along;
+  const auto way = along ? way_to(along->front(), input) : along;
   if (!way) {
     retry_at = input.now + from_seconds(kRouteRetry);
     return false;
@@ -255,7 +298,7 @@ bool MissionExecutive::State::start_row(const MissionInput& input) {
 }
 
 bool MissionExecutive::State::go(Goal where, const Eigen::Vector2d& place, const MissionInput& input) {
-  const auto way = plan->planner.route(input.pose.position, place);
+  const auto way = way_to(place, input);
   if (!way) {
     retry_at = input.now + from_seconds(kRouteRetry);
     return false;

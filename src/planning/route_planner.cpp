@@ -28,6 +28,15 @@ void append(Polyline& line, const Eigen::Vector2d& p) {
   if (line.empty() || (line.back() - p).norm() > 1e-3) line.push_back(p);
 }
 
+bool touches(const Eigen::Vector2d& a, const Eigen::Vector2d& b, std::span<const Blockage> blocked) {
+  const Eigen::Vector2d d = b - a;
+  for (const Blockage& blockage : blocked) {
+    const double on = d.squaredNorm() > 0.0 ? (blockage.centre - a).dot(d) / d.squaredNorm() : 0.0;
+    if ((a + std::clamp(on, 0.0, 1.0) * d - blockage.centre).norm() < blockage.radius) return true;
+  }
+  return false;
+}
+
 RoutePlanner::Leg leg_of(const Polyline& line) {
   RoutePlanner::Leg leg{length_of(line)};
   double last = 0.0;
@@ -93,13 +102,14 @@ RoutePlanner::Anchor RoutePlanner::anchor(const Eigen::Vector2d& p) const {
 }
 
 /// Dijkstra over the graph.
-RoutePlanner::Search RoutePlanner::search(const Anchor& from) const {
+RoutePlanner::Search RoutePlanner::search(const Anchor& from, std::span<const Blockage> blocked) const {
   const VisibilityGraph& graph = state_->graph;
   Search found{std::vector<double>(graph.vertices.size(), kFar),
                std::vector<std::uint32_t>(graph.vertices.size(), kNone)};
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   for (const auto& [vertex, distance] : from.links) {
+    if (touches(from.free, graph.vertices[vertex], blocked)) continue;
     found.distance[vertex] = distance;
     open.emplace(distance, vertex);
   }
@@ -110,6 +120,7 @@ RoutePlanner::Search RoutePlanner::search(const Anchor& from) const {
     for (const auto& [next, length] : graph.edges[vertex]) {
       const double through = distance + length;
       if (through >= found.distance[next]) continue;
+      if (touches(graph.vertices[vertex], graph.vertices[next], blocked)) continue;
       found.distance[next] = through;
       found.parent[next] = vertex;
       open.emplace(through, next);
@@ -118,15 +129,19 @@ RoutePlanner::Search RoutePlanner::search(const Anchor& from) const {
   return found;
 }
 
-Polyline RoutePlanner::unwind(const Search& found, const Anchor& from, const Anchor& to) const {
+Polyline RoutePlanner::unwind(const Search& found, const Anchor& from, const Anchor& to,
+                              std::span<const Blockage> blocked) const {
   if (!from.valid || !to.valid) return {};
   Polyline line;
-  if (!state_->grid.line_clear(from.free, to.free, SiteGrid::kNear)) {
+  const auto straight = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return state_->grid.line_clear(a, b, SiteGrid::kNear) && !touches(a, b, blocked);
+  };
+  if (!straight(from.free, to.free)) {
     double best = kFar;
     std::uint32_t last = kNone;
     for (const auto& [vertex, distance] : to.links) {
       const double whole = found.distance[vertex] + distance;
-      if (whole < best) {
+      if (whole < best && !touches(state_->graph.vertices[vertex], to.free, blocked)) {
         best = whole;
         last = vertex;
       }
@@ -139,7 +154,7 @@ Polyline RoutePlanner::unwind(const Search& found, const Anchor& from, const Anc
   line.push_back(to.free);
   if (std::isfinite(state_->graph.reach)) {  // joined over the lattice: straighten
     for (std::size_t k = 1; k + 1 < line.size();) {
-      if (state_->grid.line_clear(line[k - 1], line[k + 1], SiteGrid::kNear)) {
+      if (straight(line[k - 1], line[k + 1])) {
         line.erase(line.begin() + static_cast<std::ptrdiff_t>(k));
         if (k > 1) --k;
       } else {
@@ -171,7 +186,8 @@ RoutePlanner::Leg RoutePlanner::leg(const Anchor& from, const Anchor& to) const 
 
 std::vector<double> RoutePlanner::distances(const Anchor& from) const { return search(from).distance; }
 
-Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                     std::span<const Blockage> blocked) const {
   const Anchor start = anchor(from);
   const Anchor goal = anchor(to);
   for (const Anchor* end : {&start, &goal}) {
@@ -180,7 +196,7 @@ Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::V
         "no way from " + text(from) + " to " + text(to) + " m: " + text(end->point) +
         " stands in a keep-out or outside the site; move it to clear ground or correct the polygon");
   }
-  Polyline line = unwind(search(start), start, goal);
+  Polyline line = unwind(search(start, blocked), start, goal, blocked);
   if (line.empty()) {
     return failure("no way from " + text(from) + " to " + text(to) +
                    " m keeps the clearance to keep-outs; open a gate in them or lower `clearance`");

@@ -20,6 +20,12 @@ struct RoutePlannerConfig {
   Status validate() const;
 };
 
+/// Ground that turned out to be blocked while driving.
+struct Blockage {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< ENU, m
+  double radius = 1.4;                               ///< m
+};
+
 /// Shortest drivable paths on a site: a visibility graph over the corners of its keep-outs, held off by the
 /// clearance. Exact (to the raster) for up to some thousand corners; on sites with more, corners that lie far
 /// apart are joined over a lattice and paths are straightened, so they may be some percent longer than the
@@ -47,7 +53,9 @@ class RoutePlanner {
 
   /// From `from` to `to`, both included. Fails, with the remedy, if there is no way or an end stands in a
   /// keep-out farther than `snap` from clear ground.
-  Result<Polyline> route(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  /// Paths that touch one of `blocked` are not taken.
+  Result<Polyline> route(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                         std::span<const Blockage> blocked = {}) const;
   /// A row as it is driven: straight between its waypoints as the mission wants it, around keep-outs that
   /// stand on it.
   Result<Polyline> along(const Row& row, bool reversed) const;
@@ -69,8 +77,9 @@ class RoutePlanner {
   struct State;
   struct Search;
   explicit RoutePlanner(std::shared_ptr<const State> state) : state_(std::move(state)) {}
-  Search search(const Anchor& from) const;
-  Polyline unwind(const Search& search, const Anchor& from, const Anchor& to) const;
+  Search search(const Anchor& from, std::span<const Blockage> blocked = {}) const;
+  Polyline unwind(const Search& search, const Anchor& from, const Anchor& to,
+                  std::span<const Blockage> blocked = {}) const;
   std::shared_ptr<const State> state_;
 };
 
