@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
+#include <random>
 #include <unordered_set>
 
 #include "fleetmap/cloud/kd_tree.hpp"
@@ -29,14 +29,21 @@ cloud::PointCloud thinned(const cloud::PointCloud& cloud, double voxel) {
   return merger.cloud();
 }
 
-/// Thinned by doubling voxels until there are few enough.
+/// One point in each voxel, of voxels that are as large as it takes.
 cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::size_t most) {
-  cloud::PointCloud thin = thinned(cloud, voxel);
-  while (thin.size() > most) {
+  while (true) {
+    cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
+    merger.add(cloud);
+    if (merger.voxels() <= most) return merger.cloud();
     voxel *= 1.5;
-    thin = thinned(thin, voxel);
   }
-  return thin;
+}
+
+/// In an order that has nothing to do with their places, always the same.
+cloud::PointCloud shuffled(cloud::PointCloud cloud) {
+  std::mt19937_64 random(1);
+  for (std::size_t i = cloud.size(); i > 1; --i) std::swap(cloud.points[i - 1], cloud.points[random() % i]);
+  return cloud;
 }
 
 std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen::Vector3f& shift) {
@@ -100,7 +107,8 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   in_truth.reserve(target.size());
   for (const Eigen::Vector3f& p : target.points) in_truth.push_back(truth.tree().nearest(p, 1.0f)->index);
   const cloud::Normals normals{truth.normals_at(in_truth), {}};
-  const cloud::PointCloud source = thinned_to(map, 0.3, kSourcePoints);
+  // Of two layers of a wrong map neither is to win.
+  const cloud::PointCloud source = thinned_to(shuffled(map), 0.3, kSourcePoints);
   const cloud::Normals none;
   registration::IcpConfig icp;
   const auto first = static_cast<float>(config.registration_distance);
@@ -108,6 +116,7 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   icp.max_distances_m = {std::max(first, last), std::max(0.5f * first, last), last};
   icp.iterations_per_stage = 12;
   icp.degenerate_share = 1e-3;
+  icp.kernel_share = 1.0f;  // what counts is the RMSE of all inliers
   return registration::icp({target, tree, normals}, {source, none}, Pose::Identity(), icp).T_target_source;
 }
 

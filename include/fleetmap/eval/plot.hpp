@@ -9,9 +9,9 @@ namespace fleetmap::eval {
 
 /// What every plot has. Labels carry their unit: "RMSE [m]". All text is escaped.
 struct Axes {
-  std::string title;
-  std::string x_label;
-  std::string y_label;
+  std::string title = {};
+  std::string x_label = {};
+  std::string y_label = {};
   int width = 640, height = 400;  ///< of the view box; a page scales it
   bool log_y = false;             ///< values that are not positive are left out
   bool equal = false;             ///< a metre is as long on both axes (maps)
