@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   add_odometry(app, exit_code);
   add_register(app, exit_code);
   add_map(app, exit_code);
+  add_world(app, exit_code);
   add_experiment(app, exit_code);
   add_check_config(app, exit_code);
   try {

@@ -1,0 +1,82 @@
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/sim/mesh_file.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+struct WorldOptions {
+  std::string file;
+  std::string out;
+  std::optional<std::uint64_t> seed;
+  double density = 400.0;
+  std::size_t max_points = 20'000'000;
+};
+
+void describe(const sim::World& world, double surface) {
+  const Eigen::Vector2d size = world.bounds().high - world.bounds().low;
+  std::cout << std::fixed << std::setprecision(1) << "size " << size.x() << " m east, " << size.y()
+            << " m north; east " << world.bounds().low.x() << " to " << world.bounds().high.x()
+            << " m, north " << world.bounds().low.y() << " to " << world.bounds().high.y() << " m\n"
+            << "mesh " << world.mesh().triangles.size() << " triangles, " << surface << " m^2 of surface\n"
+            << "lanes " << world.aisles().size() << ", things in the plan " << world.plan().size() << '\n'
+            << "drivable " << 100.0 * world.drivable_share() << " % of the area\n";
+}
+
+Status write(const sim::World& world, double surface, const WorldOptions& options) {
+  const std::filesystem::path folder(options.out);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return failure(options.out + ": " + error.message() + "; give a folder that can be made");
+  if (const Status written = sim::write_ply(folder / "world.ply", world.mesh()); !written) return written;
+  if (const Status written = sim::write_obj(folder / "world.obj", world.mesh()); !written) return written;
+  const cloud::PointCloud truth =
+      sim::sample_surface(world.mesh(), options.density, options.seed.value_or(1), options.max_points);
+  if (const Status written = cloud::write_cloud(folder / "truth.ply", truth); !written) return written;
+  const double density = static_cast<double>(truth.size()) / surface;
+  std::cout << "truth " << truth.size() << " points, " << density << " per m^2";
+  if (density < 0.99 * options.density)
+    std::cout << " (not " << options.density << ": --max-points allows " << options.max_points << ")";
+  std::cout << "\nwritten to " << options.out << ": world.ply world.obj truth.ply\n";
+  return {};
+}
+
+int make(const WorldOptions& options) {
+  const auto spec = config::load_world(options.file);
+  if (!spec) return report(spec.error(), kBadConfiguration);
+  const auto world = config::make_world(options.file, options.seed);
+  if (!world) return report(world.error(), kFailed);
+  const double surface = sim::area((*world)->mesh());
+  describe(**world, surface);
+  if (options.out.empty()) return kDone;
+  if (const Status written = write(**world, surface, options); !written)
+    return report(written.error(), kFailed);
+  return kDone;
+}
+
+}  // namespace
+
+void add_world(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<WorldOptions>();
+  CLI::App* command =
+      app.add_subcommand("world", "make a world of the twin: its mesh and ground-truth points");
+  command->add_option("file", options->file, "WORLD.yaml")->required();
+  command->add_option("--out", options->out,
+                      "folder for world.ply, world.obj and truth.ply; else it is only described");
+  command->add_option("--seed", options->seed, "instead of the file's");
+  command->add_option("--density", options->density, "ground-truth points per m^2 of surface")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-points", options->max_points, "ground-truth points at most")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{200'000'000}));
+  command->callback([options, &exit_code] { exit_code = make(*options); });
+}
+
+}  // namespace fleetmap::apps
