@@ -1,0 +1,92 @@
+#include "thinning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "fleetmap/cloud/voxel_grid.hpp"
+
+namespace fleetmap::eval {
+namespace {
+
+constexpr float kFarthest = 1e6f;  // m: nothing of a site lies farther from its origin
+
+bool is_usable(const Eigen::Vector3f& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest; }
+
+}  // namespace
+
+cloud::PointCloud thinned(const cloud::PointCloud& cloud, double voxel) {
+  cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
+  merger.add(cloud);
+  return merger.cloud();
+}
+
+cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::size_t most) {
+  while (true) {
+    cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
+    merger.add(cloud);
+    if (merger.voxels() <= most) return merger.cloud();
+    voxel *= 1.5;
+  }
+}
+
+cloud::PointCloud shuffled(cloud::PointCloud cloud) {
+  std::mt19937_64 random(1);
+  for (std::size_t i = cloud.size(); i > 1; --i) std::swap(cloud.points[i - 1], cloud.points[random() % i]);
+  return cloud;
+}
+
+std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen::Vector3f& shift) {
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(cloud.size());
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (is_usable(p)) points.push_back(p - shift);
+  }
+  return points;
+}
+
+std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
+  const std::size_t step = points.size() / most + (points.size() % most != 0 ? 1u : 0u);
+  if (step <= 1) return points;
+  std::vector<Eigen::Vector3f> chosen;
+  chosen.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) chosen.push_back(points[i]);
+  return chosen;
+}
+
+void sort_by_place(std::vector<Eigen::Vector3f>& points) {
+  constexpr float kCell = 4.0f;  // m
+  struct Keyed {
+    std::array<std::int32_t, 2> cell;
+    std::uint32_t index;
+  };
+  std::vector<Keyed> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    order[i] = {{static_cast<std::int32_t>(std::floor(points[i].x() / kCell)),
+                 static_cast<std::int32_t>(std::floor(points[i].y() / kCell))},
+                static_cast<std::uint32_t>(i)};
+  }
+  std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.index < b.index;
+  });
+  std::vector<Eigen::Vector3f> sorted;
+  sorted.reserve(points.size());
+  for (const Keyed& k : order) sorted.push_back(points[k.index]);
+  points = std::move(sorted);
+}
+
+Eigen::Vector3f middle_of(const cloud::PointCloud& cloud) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (!is_usable(p)) continue;
+    sum += p.cast<double>();
+    ++count;
+  }
+  if (count == 0) return Eigen::Vector3f::Zero();
+  return (sum / static_cast<double>(count)).array().round().cast<float>();
+}
+
+}  // namespace fleetmap::eval
