@@ -275,4 +275,30 @@ Status write_geojson(const std::filesystem::path& file, const Mission& mission, 
   return {};
 }
 
+Result<Mission> make_mission(const MissionConfig& config, const SitePlan& plan, const LocalFrame& site) {
+  Mission mission;
+  const bool from_file = config.waypoints != "aisles";
+  if (from_file) {
+    auto read = read_geojson(config.waypoints, site);
+    if (!read) return read;
+    mission = std::move(*read);
+    mission.keep_out.insert(mission.keep_out.end(), plan.keep_out.begin(), plan.keep_out.end());
+    mission.bounds = plan.bounds;
+  } else {
+    if (plan.lanes.empty()) {
+      return failure(
+          "mission.waypoints: this site has no lanes; give the path of a GeoJSON file of waypoints");
+    }
+    mission = mission_of_aisles(plan.lanes, config.lanes, plan.keep_out, plan.bounds);
+  }
+  const std::string name = (from_file ? config.waypoints : std::string("mission.waypoints")) + ": ";
+  if (const Status status = mission.validate(); !status) return failure(name + status.error().message);
+  if (plan.bounds) {
+    if (const Status status = check_within(mission, plan.bounds->low, plan.bounds->high); !status) {
+      return failure(name + status.error().message);
+    }
+  }
+  return mission;
+}
+
 }  // namespace fleetmap::planning

@@ -9,6 +9,7 @@
 namespace fleetmap::planning {
 namespace {
 
+constexpr double kSameDistance = 0.5;  // m
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 struct Choice {
@@ -151,10 +152,9 @@ std::vector<Contact> contacts(std::span<const TimedPath> paths, double until,
       for (std::size_t step = 0; step <= steps; ++step) {
         const double time = static_cast<double>(step) * config.sample_period;
         const double distance = (paths[a].at(time) - paths[b].at(time)).norm();
-        if (distance < contact.distance) {
-          contact.distance = distance;
-          contact.time = time;
-        }
+        // The later of equally near places: there is more to exchange by then.
+        if (distance < contact.distance + kSameDistance) contact.time = time;
+        contact.distance = std::min(contact.distance, distance);
         if (distance > config.c_max) continue;
         const double exists = config.map_bytes_per_metre * (paths[a].driven(time) + paths[b].driven(time));
         contact.seconds += config.sample_period;

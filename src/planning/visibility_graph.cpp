@@ -8,8 +8,8 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kMostPairs = 12e6;  // looked at: some seconds
-constexpr double kLattice = 30.0;    // m, between the points that join far corners on huge sites
+constexpr double kMostPairs = 6e6;  // looked at: a few seconds
+constexpr double kLattice = 30.0;   // m, between the points that join far corners on huge sites
 constexpr std::size_t kMostVertices = 60'000;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }

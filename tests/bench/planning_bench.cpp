@@ -24,11 +24,14 @@ std::vector<Case> cases(bool large) {
       {{.name = "triangle 300 x 240 m", .taper = 0.9, .every = 2, .seed = 2}},
       {{.name = "ragged 300 x 300 m, gaps", .missing = 0.15, .ragged = 0.3, .every = 2, .seed = 3}},
       {{.name = "turned 20 deg, 300 x 200 m", .taper = 0.4, .turned = 0.35, .every = 2, .seed = 4}},
+      {{.name = "few long lanes, cut at 100 m", .max_row_length = 100.0}},
       {{.name = "triangle, mixed speeds", .taper = 0.9, .every = 2, .seed = 2}, true},
   };
-  all[1].spec.width = 400.0;
-  all[1].spec.depth = 90.0;
-  for (const std::size_t k : {2u, 5u}) {
+  for (const std::size_t k : {1u, 5u}) {
+    all[k].spec.width = 400.0;
+    all[k].spec.depth = 90.0;
+  }
+  for (const std::size_t k : {2u, 6u}) {
     all[k].spec.width = 300.0;
     all[k].spec.depth = 240.0;
   }

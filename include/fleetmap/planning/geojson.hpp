@@ -6,6 +6,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/planning/mission.hpp"
+#include "fleetmap/planning/mission_config.hpp"
 
 namespace fleetmap::planning {
 
@@ -35,5 +36,17 @@ Result<Mission> parse_geojson(const std::string& text, const std::string& name, 
 std::string to_geojson(const Mission& mission, const LocalFrame& site, FileFrame frame = FileFrame::kWgs84);
 Status write_geojson(const std::filesystem::path& file, const Mission& mission, const LocalFrame& site,
                      FileFrame frame = FileFrame::kWgs84);
+
+/// What a site brings along for any mission on it.
+struct SitePlan {
+  std::vector<Lane> lanes;        ///< sorted across the site; empty if unknown
+  std::vector<KeepOut> keep_out;  ///< what stands there
+  std::optional<SiteBounds> bounds;
+};
+
+/// The mission that `config.waypoints` asks for, on this site: rows of its lanes or of a GeoJSON file, with
+/// the site's keep-outs besides the file's. Fails, with the remedy, if a waypoint lies outside the bounds or
+/// the site knows no lanes.
+Result<Mission> make_mission(const MissionConfig& config, const SitePlan& plan, const LocalFrame& site);
 
 }  // namespace fleetmap::planning
