@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_config.hpp"
+#include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
 
 namespace fleetmap::apps {
@@ -39,7 +40,7 @@ Status write(const sim::World& world, double surface, const WorldOptions& option
   if (const Status written = sim::write_ply(folder / "world.ply", world.mesh()); !written) return written;
   if (const Status written = sim::write_obj(folder / "world.obj", world.mesh()); !written) return written;
   const cloud::PointCloud truth =
-      sim::sample_surface(world.mesh(), options.density, options.seed.value_or(1), options.max_points);
+      sim::ground_truth(world, options.density, options.seed.value_or(1), options.max_points);
   if (const Status written = cloud::write_cloud(folder / "truth.ply", truth); !written) return written;
   const double density = static_cast<double>(truth.size()) / surface;
   std::cout << "truth " << truth.size() << " points, " << density << " per m^2";

@@ -11,6 +11,7 @@ namespace fleetmap::sim {
 namespace {
 
 constexpr std::uint64_t kMissing = 0xA1, kCabin = 0xA2, kTree = 0xA3;  // separate streams of chance
+constexpr double kCrown = 2.4;                                         // m, the widest reach of a tree
 constexpr double kRim = 0.05;                                          // m around what the plan shows
 
 bool road_before(const SolarFarmConfig& config, int table) {
@@ -72,7 +73,7 @@ void place_trees(const SolarFarmConfig& config, SolarFarmLayout& layout) {
     const auto chance = [&](std::uint64_t what) {
       return uniform_at(config.seed, kTree, static_cast<std::uint64_t>(k), what);
     };
-    const double outside = std::lerp(std::min(2.5, 0.5 * config.margin), config.margin - 0.5, chance(0));
+    const double outside = std::lerp(kCrown, std::max(kCrown, config.margin - kCrown), chance(0));
     const double along = 2.0 * chance(1) - 1.0;
     const double side = chance(2) < 0.5 ? -1.0 : 1.0;
     const bool north_or_south = chance(3) < half.x() / (half.x() + half.y());
