@@ -8,8 +8,9 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kMostPairs = 6e6;  // looked at: a few seconds
-constexpr double kLattice = 30.0;   // m, between the points that join far corners on huge sites
+constexpr double kMostPairs = 4e6;     // looked at: a few seconds
+constexpr double kNeighbours = 300.0;  // of each corner that are looked at on larger sites
+constexpr double kLattice = 30.0;      // m, between the points that join far corners on huge sites
 constexpr std::size_t kMostVertices = 60'000;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -96,7 +97,7 @@ VisibilityGraph VisibilityGraph::of(const Mission& mission, const SiteGrid& grid
   const auto count = static_cast<double>(corners.size());
   if (0.5 * count * count > kMostPairs) {
     const Eigen::Vector2d size = grid.high() - grid.low();
-    const double share = 2.0 * kMostPairs / (count * count);
+    const double share = kNeighbours / count;
     graph.reach = std::max(2.0 * kLattice, std::sqrt(share * size.x() * size.y() / 3.1416));
     add_lattice(grid, corners);
   }
