@@ -12,6 +12,7 @@ enum ExitCode : int { kDone = 0, kFailed = 1, kUsage = 2, kBadConfiguration = 78
 /// Each adds its subcommand; when it is chosen, its exit code goes to `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
 void add_agent(CLI::App& app, int& exit_code);
+void add_sim(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_odometry(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
@@ -19,6 +20,7 @@ void add_experiment(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 void add_world(CLI::App& app, int& exit_code);
+void add_eval(CLI::App& app, int& exit_code);
 
 /// Prints the error for a person and gives the code to exit with.
 int report(const Error& error, ExitCode code);

@@ -27,11 +27,13 @@ int run(int argc, char** argv) {
   int exit_code = kDone;
   add_run(app, exit_code);
   add_agent(app, exit_code);
+  add_sim(app, exit_code);
   add_replay(app, exit_code);
   add_odometry(app, exit_code);
   add_register(app, exit_code);
   add_map(app, exit_code);
   add_world(app, exit_code);
+  add_eval(app, exit_code);
   add_experiment(app, exit_code);
   add_check_config(app, exit_code);
   try {

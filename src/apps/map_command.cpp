@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "map_pictures.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -79,6 +80,24 @@ int export_map(const MapOptions& options) {
   return kDone;
 }
 
+int draw_map(const MapOptions& options) {
+  auto map = open_map(options);
+  if (!map) return report(map.error(), kFailed);
+  const store::MergedMap merged = agent::merged_map(map->store, map->placement, map->recipe.merge);
+  auto pictures = pictures_by_robot(merged);
+  if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
+  auto density = picture_of_density(merged.cloud, 1.0);
+  if (density) pictures->push_back(std::move(*density));
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  for (const MapPicture& picture : *pictures) {
+    if (const Status written = write_picture(options.out, picture); !written)
+      return report(written.error(), kFailed);
+    std::cout << (std::filesystem::path(options.out) / picture.file).string() << '\n';
+  }
+  return kDone;
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, int& exit_code) {
@@ -87,7 +106,9 @@ void add_map(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   CLI::App* info_command = command->add_subcommand("info", "what a store holds");
   CLI::App* export_command = command->add_subcommand("export", "the merged map in ENU as PLY or PCD");
-  for (CLI::App* sub : {info_command, export_command}) {
+  CLI::App* picture_command = command->add_subcommand(
+      "picture", "the merged map from above and in perspective, by robot and density");
+  for (CLI::App* sub : {info_command, export_command, picture_command}) {
     sub->add_option("store", options->store, "store.db of an agent")->required();
     sub->add_option("--origin", options->origin_deg,
                     "latitude_deg,longitude_deg,altitude_m of ENU; else that of the agent's last map, or the "
@@ -99,6 +120,8 @@ void add_map(CLI::App& app, int& exit_code) {
   export_command->add_option(
       "--voxel", options->voxel,
       "m, one point is kept in each cube of this edge; else as in the agent's last map");
+  picture_command->add_option("--out", options->out, "folder for the PNG files")->required();
+  picture_command->callback([options, &exit_code] { exit_code = draw_map(*options); });
   info_command->callback([options, &exit_code] { exit_code = info(*options); });
   export_command->callback([options, &exit_code] { exit_code = export_map(*options); });
 }

@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
-#include <sstream>
 
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/eval/html_page.hpp"
+#include "fleetmap/eval/plot.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -85,6 +86,16 @@ json localization_json(const localization::EkfCounters& c) {
           {"clock_restarts", c.restarts}};
 }
 
+json seconds_or_null(const std::optional<double>& seconds) { return seconds ? json(*seconds) : json(); }
+
+json completion_json(const Completion& completion) {
+  json all = {{"mission_s", seconds_or_null(completion.rows_driven)},
+              {"aligned_s", seconds_or_null(completion.aligned)},
+              {"completed_s", seconds_or_null(completion.completed)}};
+  if (!completion.completed) all["why_not"] = completion.why_not;
+  return all;
+}
+
 /// Messages that the bus itself let go, by topic; empty when all went well.
 json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
   json drops = json::object();
@@ -94,52 +105,44 @@ json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
   return drops;
 }
 
-/// Trajectories seen from above, north up.
+/// Trajectories seen from above, north up; empty when there is none.
 std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
-  static constexpr const char* kColours[] = {"#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#ff7f0e"};
-  std::ostringstream lines;
-  double low_x = 1e9, low_y = 1e9, high_x = -1e9, high_y = -1e9;
-  std::size_t colour = 0;
+  std::vector<eval::LineSeries> tracks;
   for (const auto& entry : outcome.agents) {
     const std::string id = entry.agent->config().id.str();
     const auto poses = agent::read_trajectory(out / id / "trajectory.tum");
-    if (!poses) continue;
-    lines << "<polyline fill=\"none\" stroke-width=\"0.5%\" stroke=\""
-          << kColours[colour++ % std::size(kColours)] << "\" points=\"";
+    if (!poses || poses->empty()) continue;
+    eval::LineSeries& track = tracks.emplace_back();
+    track.name = id;
+    track.markers = false;
     for (const agent::StampedPose& pose : *poses) {
-      const Eigen::Vector3d p = pose.T_w_base.translation();
-      low_x = std::min(low_x, p.x()), high_x = std::max(high_x, p.x());
-      low_y = std::min(low_y, -p.y()), high_y = std::max(high_y, -p.y());
-      lines << p.x() << ',' << -p.y() << ' ';
+      track.x.push_back(pose.T_w_base.translation().x());
+      track.y.push_back(pose.T_w_base.translation().y());
     }
-    lines << "\"><title>" << id << "</title></polyline>\n";
   }
-  if (low_x > high_x) return "";
-  const double margin = 2.0 + 0.05 * std::max(high_x - low_x, high_y - low_y);
-  std::ostringstream svg;
-  svg << "<svg viewBox=\"" << low_x - margin << ' ' << low_y - margin << ' ' << high_x - low_x + 2 * margin
-      << ' ' << high_y - low_y + 2 * margin << "\" width=\"600\">\n"
-      << lines.str() << "</svg>\n";
-  return svg.str();
+  if (tracks.empty()) return "";
+  return eval::line_plot({.title = "Trajectories in ENU, north up",
+                          .x_label = "east [m]",
+                          .y_label = "north [m]",
+                          .height = 480,
+                          .equal = true},
+                         tracks);
 }
 
-std::string html(const json& report, const std::string& svg) {
-  std::ostringstream page;
-  page << "<!doctype html><meta charset=\"utf-8\"><title>fleetmap report</title>\n"
-       << "<style>body{font:14px sans-serif;margin:2em}table{border-collapse:collapse}td,th{border:1px solid "
-          "#ccc;padding:4px 8px;text-align:right}</style>\n"
-       << "<h1>fleetmap report</h1>\n<h2>Trajectories in ENU, north up</h2>\n"
-       << svg
-       << "<h2>Agents</h2>\n<table><tr><th>agent<th>scans<th>nodes<th>alignments<th>submaps<th>map "
-          "points<th>map hash<th>odometry ms (p50)<th>long-range bytes</tr>\n";
+eval::HtmlPage html(const json& report, const std::string& svg) {
+  eval::HtmlPage page("fleetmap report");
+  if (!svg.empty()) page.figure(svg);
+  page.heading("Agents");
+  eval::Table rows{{"agent", "scans", "nodes", "alignments", "submaps", "map points", "map hash",
+                    "odometry ms (p50)", "long-range bytes"}};
   for (const auto& [id, agent] : report["agents"].items()) {
-    page << "<tr><td>" << id << "<td>" << agent["sensors"]["scans"] << "<td>" << agent["nodes"] << "<td>"
-         << agent["alignments"] << "<td>" << agent["submaps"] << "<td>" << agent.value("map_points", 0)
-         << "<td>" << agent.value("map_hash", "") << "<td>" << agent["sensors"]["odometry_cpu_ms"]["p50"]
-         << "<td>" << agent["exchange"]["long_range_wire_bytes"] << "</tr>\n";
+    rows.push_back({id, agent["sensors"]["scans"].dump(), agent["nodes"].dump(), agent["alignments"].dump(),
+                    agent["submaps"].dump(), std::to_string(agent.value("map_points", 0)),
+                    agent.value("map_hash", ""),
+                    eval::short_number(agent["sensors"]["odometry_cpu_ms"]["p50"].get<double>()),
+                    agent["exchange"]["long_range_wire_bytes"].dump()});
   }
-  page << "</table>\n<h2>Everything</h2>\n<pre>" << report.dump(2) << "</pre>\n";
-  return page.str();
+  return page.table(rows).details("Everything", report.dump(2));
 }
 
 Status write_text(const std::filesystem::path& file, const std::string& text) {
@@ -209,6 +212,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
                  {"settled", outcome.settled},
                  {"wall_time_s", wall_seconds},
                  {"links", links_json(outcome.links)}};
+  if (outcome.completion) report["completion"] = completion_json(*outcome.completion);
   if (outcome.origin_known) report["origin"] = origin_json(outcome.origin);
   for (const auto& entry : outcome.agents) {
     json& agent = report["agents"][entry.agent->config().id.str()];
@@ -217,7 +221,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
   }
   if (const Status written = write_text(out / "report.json", report.dump(2) + "\n"); !written) return written;
-  return write_text(out / "report.html", html(report, map_svg(out, outcome)));
+  return html(report, map_svg(out, outcome)).write(out / "report.html");
 }
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,

@@ -1,0 +1,78 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "evaluation.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+struct EvalOptions {
+  std::string directory;
+  EvaluationInputs inputs;
+  bool no_pictures = false;
+};
+
+void print_map(const nlohmann::json& map) {
+  std::cout << "map: " << map["map_points"] << " points, " << map["mapped_area"].get<double>() << " m^2, "
+            << map["mean_density"].get<double>() << " points within " << map["density_radius"] << " m\n";
+  if (!map.contains("rmse")) return;
+  const auto percent = [&](const char* key, std::size_t k) { return 100.0 * map[key][k].get<double>(); };
+  std::cout << "    RMSE " << map["rmse"].get<double>() << " m, fitness " << map["fitness"].get<double>()
+            << ", det(C) " << map["det_covariance"] << ", Chamfer " << map["chamfer"].get<double>() << " m\n"
+            << "    within 5 / 10 / 20 cm: accuracy " << percent("accuracy", 0) << " / "
+            << percent("accuracy", 1) << " / " << percent("accuracy", 2) << " %, completeness "
+            << percent("completeness", 0) << " / " << percent("completeness", 1) << " / "
+            << percent("completeness", 2) << " %\n";
+}
+
+void print_summary(const std::string& directory, const nlohmann::json& evaluation) {
+  std::cout << std::setprecision(4);
+  if (evaluation.contains("map")) print_map(evaluation["map"]);
+  for (const auto& [id, agent] : evaluation["agents"].items()) {
+    if (!agent.contains("ate_rmse")) continue;
+    std::cout << id << ": ATE " << agent["ate_rmse"].get<double>() << " m, aligned "
+              << agent["ate_rmse_aligned"].get<double>() << " m, over " << agent["path_length"].get<double>()
+              << " m\n";
+  }
+  for (const auto& pair : evaluation["pairs"]) {
+    std::cout << pair["a"].get<std::string>() << " - " << pair["b"].get<std::string>()
+              << ": relative position " << pair["translation_rmse"].get<double>() << " m\n";
+  }
+  for (const auto& note : evaluation["notes"]) std::cout << "note: " << note.get<std::string>() << '\n';
+  std::cout << "evaluation: " << directory << "/evaluation.html\n";
+}
+
+int run(EvalOptions& options) {
+  options.inputs.pictures = !options.no_pictures;
+  const auto evaluation = evaluate_run(options.directory, options.inputs);
+  if (!evaluation) return report(evaluation.error(), kFailed);
+  print_summary(options.directory, *evaluation);
+  return kDone;
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<EvalOptions>();
+  CLI::App* command = app.add_subcommand("eval", "measures a run's maps and trajectories against the truth");
+  command->add_option("directory", options->directory, "the --out of fleetmap run")->required();
+  command->add_option(
+      "--truth", options->inputs.truth_file,
+      "cloud (.ply, .pcd), mesh (.obj, .ply) or world (.yaml) in ENU of the run's origin; else "
+      "truth.ply of the folder");
+  command->add_option(
+      "--truth-trajectories", options->inputs.truth_trajectories,
+      "folder of NAME.tum or NAME/truth.tum, stamped like the run; else NAME/truth.tum of the "
+      "run's folder");
+  command->add_option("--inlier-distance", options->inputs.map.inlier_distance, "m, of Eq. 2 and Eq. 3")
+      ->capture_default_str();
+  command->add_option("--density-radius", options->inputs.map.density_radius, "m, r_d of Eq. 4")
+      ->capture_default_str();
+  command->add_flag("--no-pictures", options->no_pictures, "numbers only");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps

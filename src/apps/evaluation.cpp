@@ -1,0 +1,284 @@
+#include "evaluation.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "evaluation_page.hpp"
+#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/eval/trajectory.hpp"
+#include "map_pictures.hpp"
+#include "run_folder.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kErrorBin = 0.02;  // m
+
+json pose_json(const Pose& T) {
+  const Eigen::Vector3d t = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+/// What needs no truth.
+json description_json(const eval::MapMetrics& m, const eval::MapMetricsConfig& config) {
+  return {{"map_points", m.map_points},     {"mapped_area", m.mapped_area},
+          {"mean_density", m.mean_density}, {"density_histogram", m.density_histogram},
+          {"density_bin", m.density_bin},   {"density_radius", config.density_radius}};
+}
+
+json map_json(const eval::EvaluatedMap& evaluated, const eval::MapMetricsConfig& config) {
+  const eval::MapMetrics& m = evaluated.metrics;
+  json map = description_json(m, config);
+  map["T_truth_map"] = pose_json(m.T_truth_map);
+  map["rmse"] = m.rmse;
+  map["rmse_points"] = m.rmse_points;
+  map["fitness"] = m.fitness;
+  map["inliers"] = m.inliers;
+  map["inlier_distance"] = config.inlier_distance;
+  map["det_covariance"] = m.det_covariance;
+  map["sigma"] = m.sigma;
+  map["thresholds"] = config.thresholds;
+  map["accuracy"] = m.accuracy;
+  map["completeness"] = m.completeness;
+  map["f1"] = m.f1;
+  map["reach"] = m.reach;
+  map["completeness_in_reach"] = m.completeness_in_reach;
+  map["f1_in_reach"] = m.f1_in_reach;
+  map["chamfer"] = m.chamfer;
+  map["truth_points"] = m.truth_points;
+  map["truth_spacing"] = m.truth_spacing;
+  std::vector<double> shares(static_cast<std::size_t>(std::ceil(config.inlier_distance / kErrorBin)) + 1);
+  for (const float error : evaluated.errors) {
+    const auto bin = static_cast<std::size_t>(static_cast<double>(error) / kErrorBin);
+    shares[std::min(bin, shares.size() - 1)] += 1.0 / static_cast<double>(evaluated.errors.size());
+  }
+  map["error_histogram"] = shares;  // the last bin holds all from inlier_distance on
+  map["error_bin"] = kErrorBin;
+  return map;
+}
+
+json errors_json(const eval::TrajectoryErrors& e) {
+  return {{"poses", e.pairs},
+          {"ate_rmse", e.ate_rmse},
+          {"ate_rmse_aligned", e.ate_rmse_aligned},
+          {"ate_max", e.ate_max},
+          {"rpe_translation", e.rpe_translation},
+          {"rpe_rotation", e.rpe_rotation},
+          {"rpe_length", e.rpe_length},
+          {"rpe_segments", e.rpe_segments},
+          {"path_length", e.path_length}};
+}
+
+/// Errors of one track, or a note why there are none.
+json compared(const std::optional<eval::Trajectory>& estimate, const AgentFolder& agent, const char* name,
+              std::vector<std::string>& notes) {
+  if (!estimate || !agent.truth) return nullptr;
+  const auto errors = eval::compare(*estimate, *agent.truth);
+  if (errors) return errors_json(*errors);
+  notes.push_back((agent.directory / name).string() + ": " + errors.error().message);
+  return nullptr;
+}
+
+json agents_json(RunFolder& run) {
+  json agents = json::object();
+  for (const AgentFolder& agent : run.agents) {
+    json one = compared(agent.trajectory, agent, "trajectory.tum", run.notes);
+    if (one.is_null()) one = json::object();
+    if (json ekf = compared(agent.ekf, agent, "ekf.tum", run.notes); !ekf.is_null()) one["ekf"] = ekf;
+    if (json odometry = compared(agent.odometry, agent, "odometry.tum", run.notes); !odometry.is_null()) {
+      // In a frame of its own: only what does not depend on where that lies.
+      for (const char* key : {"ate_rmse", "ate_max"}) odometry.erase(key);
+      one["odometry"] = odometry;
+    }
+    agents[agent.id.str()] = one;
+  }
+  return agents;
+}
+
+json pairs_json(const RunFolder& run) {
+  json pairs = json::array();
+  for (std::size_t i = 0; i < run.agents.size(); ++i) {
+    for (std::size_t k = i + 1; k < run.agents.size(); ++k) {
+      const AgentFolder &a = run.agents[i], &b = run.agents[k];
+      if (!a.trajectory || !b.trajectory || !a.truth || !b.truth) continue;
+      const auto error = eval::compare_pairwise(*a.trajectory, *b.trajectory, *a.truth, *b.truth);
+      if (!error) continue;
+      pairs.push_back({{"a", a.id.str()},
+                       {"b", b.id.str()},
+                       {"poses", error->pairs},
+                       {"translation_rmse", error->translation_rmse},
+                       {"rotation_rmse", error->rotation_rmse}});
+    }
+  }
+  return pairs;
+}
+
+/// Bytes by link and robot, from the report's list of links.
+json links_json(const json& report, double mapped_area) {
+  if (!report.is_object() || !report.contains("links") || !report["links"].is_array()) return nullptr;
+  json links = {{"long_range_bytes", 0}, {"short_range_bytes", 0}, {"per_agent", json::object()}};
+  double all = 0.0;
+  for (const json& row : report["links"]) {
+    if (!row.is_object()) continue;
+    const std::string link = row.value("link", "");
+    if (link != "long_range" && link != "short_range") continue;
+    const std::uint64_t bytes = row.value("wire_bytes", std::uint64_t{0});
+    const std::string key = link + "_bytes";
+    links[key] = links[key].get<std::uint64_t>() + bytes;
+    json& agent = links["per_agent"][row.value("agent", "")];
+    if (agent.is_null()) agent = json::object();
+    agent[key] = agent.value(key, std::uint64_t{0}) + bytes;
+    agent[link + "_airtime_s"] = agent.value(link + "_airtime_s", 0.0) + row.value("airtime_s", 0.0);
+    all += static_cast<double>(bytes);
+  }
+  if (mapped_area > 0.0) {
+    links["bytes_per_m2"] = all / mapped_area;
+    links["long_range_bytes_per_m2"] = links["long_range_bytes"].get<double>() / mapped_area;
+    links["short_range_bytes_per_m2"] = links["short_range_bytes"].get<double>() / mapped_area;
+  }
+  return links;
+}
+
+Result<std::optional<cloud::PointCloud>> truth_of(const fs::path& directory, const EvaluationInputs& inputs) {
+  if (inputs.truth) return inputs.truth;
+  fs::path file = inputs.truth_file;
+  std::error_code error;
+  if (file.empty() && fs::exists(directory / "truth.ply", error)) file = directory / "truth.ply";
+  if (file.empty()) return std::nullopt;
+  auto truth = truth_cloud(file, inputs.points_per_m2);
+  if (!truth) return tl::unexpected(truth.error());
+  return std::optional(std::move(*truth));
+}
+
+/// Adds "map" (and "maps") and draws the pictures of the map that most robots hold.
+class MapEvaluation {
+ public:
+  MapEvaluation(RunFolder& run, const EvaluationInputs& inputs, std::optional<cloud::PointCloud> truth)
+      : run_(run), inputs_(inputs), truth_(std::move(truth)) {}
+
+  Status add_to(json& evaluation) {
+    const std::vector<DistinctMap> maps = distinct_maps(run_);
+    for (std::size_t k = 0; k < maps.size(); ++k) {
+      auto one = evaluate(maps[k], k == 0);
+      if (!one) return tl::unexpected(one.error());
+      json holders = json::array();
+      for (const AgentId& id : maps[k].agents) holders.push_back(id.str());
+      (*one)["agents"] = holders;
+      (*one)["hash"] = maps[k].hash;
+      if (k == 0) evaluation["map"] = *one;
+      if (maps.size() > 1) evaluation["maps"].push_back(*one);
+    }
+    return {};
+  }
+  std::vector<MapPicture> pictures;
+
+ private:
+  Result<json> evaluate(const DistinctMap& map, bool draw) {
+    const auto cloud = cloud::read_cloud(map.file);
+    if (!cloud) return tl::unexpected(cloud.error());
+    if (draw && inputs_.pictures) {
+      draw_by_robot(map, *cloud);
+      keep(picture_of_density(*cloud, inputs_.map.density_radius));
+    }
+    if (!truth_) return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
+    const auto evaluated = eval::evaluate_map_points(*cloud, *truth_, inputs_.map);
+    if (!evaluated) {
+      run_.notes.push_back(map.file.string() + ": " + evaluated.error().message);
+      return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
+    }
+    if (draw && inputs_.pictures) keep(picture_of_errors(evaluated->points, evaluated->errors));
+    return map_json(*evaluated, inputs_.map);
+  }
+
+  void draw_by_robot(const DistinctMap& map, const cloud::PointCloud& cloud) {
+    auto merged = map_with_sources(map.file.parent_path() / "store.db");
+    if (!merged) {
+      run_.notes.push_back(merged.error().message + "; the pictures do not tell the robots apart");
+      merged = store::MergedMap{};
+      merged->cloud = cloud;
+    }
+    auto drawn = pictures_by_robot(*merged);
+    if (!drawn) return run_.notes.push_back("no picture by robot: " + drawn.error().message);
+    for (MapPicture& picture : *drawn) pictures.push_back(std::move(picture));
+  }
+
+  void keep(Result<MapPicture> picture) {
+    if (picture) {
+      pictures.push_back(std::move(*picture));
+    } else {
+      run_.notes.push_back("a picture is missing: " + picture.error().message);
+    }
+  }
+
+  RunFolder& run_;
+  const EvaluationInputs& inputs_;
+  std::optional<cloud::PointCloud> truth_;
+};
+
+/// The file appears whole or not at all.
+Status write_json(const fs::path& file, const json& content) {
+  fs::path part = file;
+  part += ".part";
+  std::ofstream out(part, std::ios::trunc);
+  out << content.dump(2) << '\n';
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(part, file, error);
+  if (!out || error) return failure(file.string() + ": cannot be written; is the disk full?");
+  return {};
+}
+
+void note_missing_truth(RunFolder& run, bool have_truth) {
+  if (!have_truth) {
+    run.notes.push_back(
+        "no true surface (--truth, or truth.ply in the folder): the map is described, not "
+        "compared");
+  }
+  for (const AgentFolder& agent : run.agents) {
+    if (!agent.truth)
+      run.notes.push_back("no true trajectory of " + agent.id.str() + ": its errors are not known");
+  }
+}
+
+}  // namespace
+
+Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inputs) {
+  if (const Status valid = inputs.map.validate(); !valid) return tl::unexpected(valid.error());
+  auto run = open_run(directory, inputs.truth_trajectories);
+  if (!run) return tl::unexpected(run.error());
+  auto truth = truth_of(directory, inputs);
+  if (!truth) return tl::unexpected(truth.error());
+  note_missing_truth(*run, truth->has_value());
+  json evaluation = json::object();
+  evaluation["agents"] = agents_json(*run);
+  evaluation["pairs"] = pairs_json(*run);
+  MapEvaluation maps(*run, inputs, std::move(*truth));
+  if (const Status done = maps.add_to(evaluation); !done) return tl::unexpected(done.error());
+  const double area = evaluation.contains("map") ? evaluation["map"].value("mapped_area", 0.0) : 0.0;
+  if (json links = links_json(run->report, area); !links.is_null()) evaluation["links"] = links;
+  evaluation["notes"] = run->notes;
+
+  for (const MapPicture& picture : maps.pictures) {
+    if (const Status written = write_picture(directory, picture); !written)
+      return tl::unexpected(written.error());
+  }
+  if (const Status written = write_json(directory / "evaluation.json", evaluation); !written)
+    return tl::unexpected(written.error());
+  if (run->report.is_object()) {
+    run->report["evaluation"] = evaluation;
+    if (const Status written = write_json(directory / "report.json", run->report); !written)
+      return tl::unexpected(written.error());
+  }
+  if (inputs.page) {
+    const auto page = evaluation_page(*run, evaluation, maps.pictures);
+    if (const Status written = page.write(directory / "evaluation.html"); !written)
+      return tl::unexpected(written.error());
+  }
+  return evaluation;
+}
+
+}  // namespace fleetmap::apps

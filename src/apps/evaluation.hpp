@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/eval/metrics.hpp"
+
+namespace fleetmap::apps {
+
+struct EvaluationInputs {
+  /// The true surface in ENU of the run's origin; else that of `truth_file`, else that of DIR/truth.ply.
+  std::optional<cloud::PointCloud> truth = std::nullopt;
+  std::filesystem::path truth_file = {};          ///< a cloud, a mesh or a world
+  std::filesystem::path truth_trajectories = {};  ///< NAME.tum or NAME/truth.tum; else DIR/NAME/truth.tum
+  eval::MapMetricsConfig map = {};
+  double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
+  bool pictures = true;
+  bool page = true;  ///< evaluation.html
+};
+
+/// Measures what a run left in `directory`. Writes evaluation.json, and as asked evaluation.html and
+/// map_top.png, map_perspective.png, map_error.png, map_density.png beside it, and puts the numbers into
+/// report.json under "evaluation". What a missing truth does not allow is left out and said in "notes".
+///
+/// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, links, notes.
+Result<nlohmann::json> evaluate_run(const std::filesystem::path& directory, const EvaluationInputs& inputs);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,167 @@
+#include "evaluation_page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "fleetmap/eval/plot.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+using eval::short_number;
+using nlohmann::json;
+
+constexpr std::size_t kPlottedPoses = 2000;
+
+std::string text(const json& object, const char* key, double factor = 1.0) {
+  if (!object.is_object() || !object.contains(key) || !object[key].is_number()) return "-";
+  return short_number(factor * object[key].get<double>(), 4);
+}
+
+std::string three(const json& map, const char* key) {
+  if (!map.contains(key)) return "-";
+  std::string out;
+  for (const json& share : map[key])
+    out += (out.empty() ? "" : " / ") + short_number(100.0 * share.get<double>(), 3);
+  return out + " %";
+}
+
+void add_map(eval::HtmlPage& page, const json& map) {
+  page.heading("Map");
+  eval::Table rows{{"metric", "value"}};
+  if (map.contains("rmse")) {
+    rows.push_back({"RMSE to the truth's surface (Eq. 2)", text(map, "rmse") + " m"});
+    rows.push_back({"RMSE to the truth's points", text(map, "rmse_points") + " m"});
+    rows.push_back({"fitness N_c / N_g (Eq. 3)", text(map, "fitness")});
+    rows.push_back({"det(C)", text(map, "det_covariance")});
+    rows.push_back({"accuracy at 5 / 10 / 20 cm", three(map, "accuracy")});
+    rows.push_back({"completeness, of all truth", three(map, "completeness")});
+    rows.push_back({"completeness, of truth in reach", three(map, "completeness_in_reach")});
+    rows.push_back({"F1, of all truth", three(map, "f1")});
+    rows.push_back({"Chamfer distance", text(map, "chamfer") + " m"});
+    rows.push_back({"truth points", text(map, "truth_points")});
+  }
+  rows.push_back({"mean density within " + text(map, "density_radius") + " m (Eq. 4)",
+                  text(map, "mean_density") + " points"});
+  rows.push_back({"map points", text(map, "map_points")});
+  rows.push_back({"mapped area", text(map, "mapped_area") + " m^2"});
+  page.table(rows);
+  const auto histogram = [&](const char* title, const char* label, const char* key, const char* bin) {
+    if (!map.contains(key)) return;
+    page.figure(eval::histogram({.title = title, .x_label = label, .y_label = "share of points"},
+                                {{"", map[key].get<std::vector<double>>()}}, map[bin].get<double>()));
+  };
+  histogram("Density", "points within r_d", "density_histogram", "density_bin");
+  histogram("Error", "distance to the truth [m]", "error_histogram", "error_bin");
+}
+
+eval::LineSeries track(const std::string& name, const eval::Trajectory& trajectory) {
+  eval::LineSeries series;
+  series.name = name;
+  series.markers = false;
+  const std::size_t step = trajectory.size() / kPlottedPoses + 1;
+  for (std::size_t i = 0; i < trajectory.size(); i += step) {
+    series.x.push_back(trajectory[i].T_enu_base.translation().x());
+    series.y.push_back(trajectory[i].T_enu_base.translation().y());
+  }
+  return series;
+}
+
+/// m, against the time since the first pose of all.
+eval::LineSeries error_over_time(const std::string& name, const AgentFolder& agent, Stamp start) {
+  eval::LineSeries series;
+  series.name = name;
+  series.markers = false;
+  const std::size_t step = agent.trajectory->size() / kPlottedPoses + 1;
+  for (std::size_t i = 0; i < agent.trajectory->size(); i += step) {
+    const eval::StampedPose& pose = (*agent.trajectory)[i];
+    const auto truth = eval::pose_at(*agent.truth, pose.stamp);
+    if (!truth) continue;
+    series.x.push_back(to_seconds(pose.stamp - start));
+    series.y.push_back((pose.T_enu_base.translation() - truth->translation()).norm());
+  }
+  return series;
+}
+
+void add_trajectories(eval::HtmlPage& page, const RunFolder& run) {
+  std::vector<eval::LineSeries> tracks, errors;
+  Stamp start = Stamp::max();
+  for (const AgentFolder& agent : run.agents) {
+    if (agent.trajectory) start = std::min(start, agent.trajectory->front().stamp);
+  }
+  for (const AgentFolder& agent : run.agents) {
+    if (!agent.trajectory) continue;
+    tracks.push_back(track(agent.id.str(), *agent.trajectory));
+    if (agent.truth) errors.push_back(error_over_time(agent.id.str(), agent, start));
+  }
+  if (tracks.empty()) return;
+  page.figure(eval::line_plot({.title = "Trajectories, north up",
+                               .x_label = "east [m]",
+                               .y_label = "north [m]",
+                               .height = 480,
+                               .equal = true},
+                              tracks));
+  if (errors.empty()) return;
+  page.figure(eval::line_plot({.title = "Position error",
+                               .x_label = "time [s]",
+                               .y_label = "error [m]",
+                               .height = 480,
+                               .zero_based = true},
+                              errors));
+}
+
+void add_agents(eval::HtmlPage& page, const RunFolder& run, const json& evaluation) {
+  page.heading("Robots");
+  eval::Table rows{{"robot", "path [m]", "ATE [m]", "ATE aligned [m]", "ATE max [m]", "RPE [%]",
+                    "RPE [deg/m]", "EKF ATE [m]", "odometry RPE [%]"}};
+  constexpr double kDegrees = 57.29577951308232;
+  for (const auto& [id, agent] : evaluation["agents"].items()) {
+    rows.push_back({id, text(agent, "path_length"), text(agent, "ate_rmse"), text(agent, "ate_rmse_aligned"),
+                    text(agent, "ate_max"), text(agent, "rpe_translation", 100.0),
+                    text(agent, "rpe_rotation", kDegrees), text(agent.value("ekf", json()), "ate_rmse"),
+                    text(agent.value("odometry", json()), "rpe_translation", 100.0)});
+  }
+  page.table(rows);
+  add_trajectories(page, run);
+  if (evaluation["pairs"].empty()) return;
+  page.heading("Where robots see each other");
+  eval::Table pairs{{"robots", "position [m]", "heading and tilt [deg]"}};
+  for (const json& pair : evaluation["pairs"]) {
+    pairs.push_back({pair.value("a", "") + " - " + pair.value("b", ""), text(pair, "translation_rmse"),
+                     text(pair, "rotation_rmse", kDegrees)});
+  }
+  page.table(pairs);
+}
+
+void add_links(eval::HtmlPage& page, const json& links) {
+  page.heading("Links");
+  eval::Table rows{{"robot", "long range [kB]", "short range [kB]"}};
+  std::vector<std::string> ids;
+  eval::Bars far{"long range", {}}, near{"short range", {}};
+  for (const auto& [id, use] : links["per_agent"].items()) {
+    rows.push_back({id, text(use, "long_range_bytes", 1e-3), text(use, "short_range_bytes", 1e-3)});
+    ids.push_back(id);
+    far.values.push_back(1e-3 * use.value("long_range_bytes", 0.0));
+    near.values.push_back(1e-3 * use.value("short_range_bytes", 0.0));
+  }
+  rows.push_back({"all", text(links, "long_range_bytes", 1e-3), text(links, "short_range_bytes", 1e-3)});
+  rows.push_back({"per mapped m^2, bytes", text(links, "long_range_bytes_per_m2"),
+                  text(links, "short_range_bytes_per_m2")});
+  page.table(rows);
+  page.figure(eval::bar_plot({.title = "Sent by robot", .y_label = "kB", .log_y = true}, ids, {far, near}));
+}
+
+}  // namespace
+
+eval::HtmlPage evaluation_page(const RunFolder& run, const json& evaluation,
+                               const std::vector<MapPicture>& pictures) {
+  eval::HtmlPage page("fleetmap evaluation");
+  for (const json& note : evaluation["notes"]) page.paragraph(note.get<std::string>());
+  for (const MapPicture& picture : pictures) page.picture(picture.png, picture.caption);
+  if (evaluation.contains("map")) add_map(page, evaluation["map"]);
+  add_agents(page, run, evaluation);
+  if (evaluation.contains("links")) add_links(page, evaluation["links"]);
+  page.details("Everything, as in evaluation.json", evaluation.dump(2));
+  return page;
+}
+
+}  // namespace fleetmap::apps

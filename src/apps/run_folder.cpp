@@ -1,0 +1,159 @@
+#include "run_folder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "fleetmap/agent/results.hpp"
+#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/sim/mesh.hpp"
+#include "fleetmap/sim/mesh_file.hpp"
+#include "fleetmap/sim/world.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostTruth = 10'000'000;  // points
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+std::optional<eval::Trajectory> trajectory_in(const fs::path& file, std::vector<std::string>& notes) {
+  if (!is_there(file)) return std::nullopt;
+  auto read = eval::read_tum(file);
+  if (!read) {
+    notes.push_back(read.error().message);
+    return std::nullopt;
+  }
+  if (read->empty()) {
+    notes.push_back(file.string() + ": holds no pose");
+    return std::nullopt;
+  }
+  return std::move(*read);
+}
+
+fs::path truth_file(const fs::path& truths, const AgentFolder& agent) {
+  if (truths.empty()) return agent.directory / "truth.tum";
+  const fs::path flat = truths / (agent.id.str() + ".tum");
+  return is_there(flat) ? flat : truths / agent.id.str() / "truth.tum";
+}
+
+nlohmann::json report_in(const fs::path& file, std::vector<std::string>& notes) {
+  std::ifstream in(file);
+  if (!in) return nullptr;
+  auto report = nlohmann::json::parse(in, nullptr, false);
+  if (report.is_object()) return report;
+  notes.push_back(file.string() + ": is not the JSON of a run's report; left alone");
+  return nullptr;
+}
+
+std::string hash_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  return to_hex(content_hash(bytes));
+}
+
+/// A PLY whose header says that it has faces.
+bool is_mesh(const fs::path& file) {
+  if (file.extension() == ".obj") return true;
+  if (file.extension() != ".ply") return false;
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  for (int k = 0; k < 200 && std::getline(in, line) && !line.starts_with("end_header"); ++k) {
+    std::istringstream words(line);
+    std::string element, face;
+    long long count = 0;
+    if (words >> element >> face >> count && element == "element" && face == "face" && count > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
+  RunFolder run;
+  run.directory = directory;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    const auto id = AgentId::parse(entry.path().filename().string());
+    if (!id || !entry.is_directory(error)) continue;
+    const fs::path& path = entry.path();
+    if (!is_there(path / "trajectory.tum") && !is_there(path / "map.ply") && !is_there(path / "odometry.tum"))
+      continue;
+    AgentFolder agent;
+    agent.id = *id;
+    agent.directory = path;
+    run.agents.push_back(std::move(agent));
+  }
+  if (error) return failure(directory.string() + ": cannot be read: " + error.message());
+  if (run.agents.empty()) {
+    return failure(
+        directory.string() +
+        ": holds no robot's folder with trajectory.tum or map.ply; give the --out of fleetmap run");
+  }
+  std::ranges::sort(run.agents, {}, &AgentFolder::id);
+  for (AgentFolder& agent : run.agents) {
+    agent.trajectory = trajectory_in(agent.directory / "trajectory.tum", run.notes);
+    agent.ekf = trajectory_in(agent.directory / "ekf.tum", run.notes);
+    agent.odometry = trajectory_in(agent.directory / "odometry.tum", run.notes);
+    agent.truth = trajectory_in(truth_file(truths, agent), run.notes);
+    if (!truths.empty() && !agent.truth)
+      run.notes.push_back(truths.string() + ": holds no usable true trajectory of " + agent.id.str());
+  }
+  run.report = report_in(directory / "report.json", run.notes);
+  return run;
+}
+
+std::vector<DistinctMap> distinct_maps(RunFolder& run) {
+  std::vector<DistinctMap> maps;
+  for (const AgentFolder& agent : run.agents) {
+    const fs::path file = agent.directory / "map.ply";
+    if (!is_there(file)) {
+      run.notes.push_back(file.string() + ": is missing: " + agent.id.str() + " has no map");
+      continue;
+    }
+    const std::string hash = hash_of(file);
+    const auto same = std::ranges::find(maps, hash, &DistinctMap::hash);
+    if (same != maps.end()) {
+      same->agents.push_back(agent.id);
+    } else {
+      maps.push_back({{agent.id}, file, hash});
+    }
+  }
+  std::ranges::stable_sort(maps, std::greater{}, [](const DistinctMap& map) { return map.agents.size(); });
+  return maps;
+}
+
+Result<store::MergedMap> map_with_sources(const fs::path& store_file) {
+  auto store = store::Store::open_read_only(store_file);
+  if (!store) return tl::unexpected(store.error());
+  const auto recipe = agent::map_recipe(*store);
+  if (!recipe) return failure(store_file.string() + ": no map was made of it yet");
+  return agent::merged_map(*store, agent::place(*store, recipe->origin, recipe->placement), recipe->merge);
+}
+
+Result<cloud::PointCloud> truth_cloud(const fs::path& file, double points_per_m2) {
+  const auto sampled = [&](const sim::Mesh& mesh) -> Result<cloud::PointCloud> {
+    auto cloud = sim::sample_surface(mesh, points_per_m2, 1, kMostTruth);
+    if (cloud.empty()) return failure(file.string() + ": the mesh has no surface");
+    return cloud;
+  };
+  if (file.extension() == ".yaml" || file.extension() == ".yml") {
+    const auto world = config::make_world(file);
+    if (!world) return tl::unexpected(world.error());
+    return sampled((*world)->mesh());
+  }
+  if (!is_mesh(file)) return cloud::read_cloud(file);
+  const auto mesh = sim::read_mesh(file);
+  if (!mesh) return tl::unexpected(mesh.error());
+  return sampled(*mesh);
+}
+
+}  // namespace fleetmap::apps

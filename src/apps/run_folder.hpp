@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/store/map_merge.hpp"
+
+namespace fleetmap::apps {
+
+/// What a run left of one robot; what is not there is empty.
+struct AgentFolder {
+  AgentId id;
+  std::filesystem::path directory;
+  std::optional<eval::Trajectory> trajectory, ekf, odometry, truth;
+};
+
+/// What `fleetmap run` left in a folder.
+struct RunFolder {
+  std::filesystem::path directory;
+  std::vector<AgentFolder> agents;  ///< by name
+  nlohmann::json report;            ///< report.json, or null
+  std::vector<std::string> notes;   ///< what could not be read
+};
+
+/// Fails when `directory` holds no robot's folder. `truths` (may be empty) holds NAME.tum or NAME/truth.tum;
+/// else each robot's own truth.tum is taken.
+Result<RunFolder> open_run(const std::filesystem::path& directory, const std::filesystem::path& truths);
+
+/// Agents that hold the same map.
+struct DistinctMap {
+  std::vector<AgentId> agents;
+  std::filesystem::path file;
+  std::string hash;
+};
+/// Most holders first.
+std::vector<DistinctMap> distinct_maps(RunFolder& run);
+
+/// The map made again from the agent's store, so that it tells which robot saw what.
+Result<store::MergedMap> map_with_sources(const std::filesystem::path& store_file);
+
+/// A truth: a cloud (.ply, .pcd) as it is, points on the surface of a mesh (.obj, or .ply with faces) or of a
+/// world (.yaml).
+Result<cloud::PointCloud> truth_cloud(const std::filesystem::path& file, double points_per_m2);
+
+}  // namespace fleetmap::apps
