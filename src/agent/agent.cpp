@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/place/ball_tree.hpp"
@@ -16,6 +17,7 @@
 namespace fleetmap::agent {
 namespace {
 
+constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// Without G no node can be made; said once when it lasts this long.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
@@ -80,6 +82,17 @@ Status Agent::start() {
   link_ = std::make_unique<FleetLink>(config_.id, bus_, *exchange_, [this] { on_events(); });
   perception_ = std::make_unique<Perception>(
       config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); });
+  if (config_.navigator) {
+    if (!config_.site_origin) return failure(config_.id.str() + ": a mission needs site.origin");
+    auto navigator =
+        Navigator::create(*config_.navigator, config_.id, *config_.site_origin, bus_,
+                          [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
+    if (!navigator) return tl::unexpected(navigator.error());
+    navigator_ = std::move(*navigator);
+    navigator_timer_ = bus_.every(kNavigatorPeriod, [this] {
+      navigator_->tick(exchange_->complete() && exchange_->fleet_caught_up());
+    });
+  }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
   if (session_ > 0) {
     spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store",
@@ -98,12 +111,15 @@ void Agent::stop() {
   perception_->stop();
   link_->stop();
   status_timer_.reset();
+  navigator_timer_.reset();
+  if (navigator_) navigator_->stop();
 }
 
 void Agent::on_perceived(Perceived&& perceived) {
   if (perception_->odometry_counters().map_restarts > map_restarts_) begin_session();
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
+  if (navigator_) navigator_->on_perceived(perceived);
   if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
     spdlog::error("{}", written.error().message);
   }
@@ -361,7 +377,9 @@ void Agent::log_registration(const NodeId& i, const NodeId& j, const Registered&
   }
 }
 
-void Agent::handle(const exchange::MissionHeard&) {}
+void Agent::handle(const exchange::MissionHeard& heard) {
+  if (navigator_) navigator_->on_report(heard.report);
+}
 
 void Agent::handle(const exchange::PeerStatus& status) {
   spdlog::debug("{}: {} holds {} nodes, {} submaps", config_.id.str(), status.status.from.str(),
@@ -396,6 +414,7 @@ void Agent::update_status() {
     status.heading = static_cast<float>(rpy_from_rotation(G->q_enu_base.toRotationMatrix()).z());
     status.position_stddev = static_cast<float>(place::horizontal_sigma(G->covariance));
   }
+  if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
 }
 

@@ -15,38 +15,29 @@ namespace fleetmap::agent {
 namespace {
 
 exchange::MissionReport to_wire(const planning::MissionReport& report) {
-  exchange::MissionReport out;
-  out.from = report.agent;
-  out.stamp = report.stamp;
-  out.state = static_cast<std::uint8_t>(report.state);
-  out.east = static_cast<float>(report.position.x());
-  out.north = static_cast<float>(report.position.y());
-  out.battery = static_cast<float>(std::clamp(report.battery, 0.0, 1.0));
-  const std::set<planning::RowId> done(report.done.begin(), report.done.end());
-  for (const planning::RowId row : done) {
-    if (!out.done.empty() && out.done.back().first + out.done.back().count == row) {
-      ++out.done.back().count;
-    } else {
-      out.done.push_back({row, 1});
-    }
-  }
-  out.claimed = report.claimed;
-  return out;
+  return {report.agent,
+          report.stamp,
+          static_cast<std::uint8_t>(report.state),
+          static_cast<float>(report.position.x()),
+          static_cast<float>(report.position.y()),
+          static_cast<float>(std::clamp(report.battery, 0.0, 1.0)),
+          report.current,
+          report.done.bytes(),
+          report.claimed.bytes(),
+          report.failed.bytes()};
 }
 
-planning::MissionReport from_wire(const exchange::MissionReport& report) {
+planning::MissionReport from_wire(const exchange::MissionReport& report, std::size_t rows) {
   planning::MissionReport out;
   out.agent = report.from;
   out.stamp = report.stamp;
   out.state = static_cast<planning::MissionState>(report.state);
   out.position = {static_cast<double>(report.east), static_cast<double>(report.north)};
   out.battery = static_cast<double>(report.battery);
-  for (const auto& span : report.done) {
-    // A span may claim a million rows; no mission has more than kMaxRows.
-    const std::uint32_t count = std::min<std::uint32_t>(span.count, planning::Mission::kMaxRows);
-    for (std::uint32_t k = 0; k < count; ++k) out.done.push_back(span.first + k);
-  }
-  out.claimed = report.claimed;
+  out.current = report.current;
+  out.done = planning::RowSet(rows, report.done);
+  out.claimed = planning::RowSet(rows, report.claimed);
+  out.failed = planning::RowSet(rows, report.failed);
   return out;
 }
 
@@ -71,18 +62,25 @@ std::vector<Eigen::Vector2d> obstacles_among(const std::vector<Eigen::Vector3f>&
   return obstacles;
 }
 
-Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, const GeoPoint& site, bus::Bus& bus,
-                     Tell tell)
+Result<std::unique_ptr<Navigator>> Navigator::create(const NavigatorConfig& config, const AgentId& self,
+                                                     const GeoPoint& site, bus::Bus& bus, Tell tell) {
+  auto executive = planning::MissionExecutive::create(config.plan, self);
+  if (!executive) return tl::unexpected(executive.error());
+  return std::unique_ptr<Navigator>(new Navigator(config, std::move(*executive), site, bus, std::move(tell)));
+}
+
+Navigator::Navigator(const NavigatorConfig& config, planning::MissionExecutive executive,
+                     const GeoPoint& site, bus::Bus& bus, Tell tell)
     : config_(config),
       site_(site),
       bus_(bus),
       tell_(std::move(tell)),
-      executive_(config.plan, self),
+      executive_(std::move(executive)),
       follower_(config.follower) {
   bus_.advertise(wire::topics::cmd_vel());
-  battery_subscription_ = bus_.subscribe(wire::topics::battery(), [this](const Bytes& cdr) {
+  handles_.push_back(bus_.subscribe(wire::topics::battery(), [this](const Bytes& cdr) {
     if (const auto battery = wire::decode<sensor::Battery>(cdr)) battery_ = battery->share;
-  });
+  }));
 }
 
 std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
@@ -102,18 +100,44 @@ void Navigator::on_perceived(const Perceived& perceived) {
   if (stopped_) return;
   if (perceived.G) pose_ = pose_of(*perceived.G);
   // Without a pose there is no telling where to; the robot waits.
-  if (!perceived.G || !pose_ || holding_) return drive({});
+  if (!perceived.G || !pose_ || action_.kind != planning::MissionAction::Kind::kFollow) return drive({});
   const double speed = perceived.odometry.twist.x();
   drive(follower_.update(*pose_, speed, obstacles_among(perceived.odometry.points.points, config_.obstacles),
                          bus_.now()));
 }
 
 void Navigator::on_report(const exchange::MissionReport& report) {
-  executive_.on_report(from_wire(report), bus_.now());
+  executive_.on_report(from_wire(report, executive_.status().rows), bus_.now());
+}
+
+void Navigator::tick(bool maps_exchanged) {
+  if (stopped_ || !pose_) return;
+  planning::MissionInput input;
+  input.now = bus_.now();
+  input.pose = *pose_;
+  input.battery = battery_.value_or(1.0);
+  input.path_number = action_.path_number;
+  input.finished = follower_.finished();
+  input.stuck = follower_.stuck(input.now);
+  input.progress = follower_.progress();
+  input.maps_exchanged = maps_exchanged;
+  planning::MissionAction next = executive_.update(input);
+  if (next.kind == planning::MissionAction::Kind::kFollow && next.path_number != action_.path_number)
+    follower_.set_path(next.path);
+  action_ = std::move(next);
+  if (next_report_ && input.now < *next_report_) return;
+  next_report_ = input.now + config_.report_period;
+  tell_(to_wire(executive_.report()));
+}
+
+bool Navigator::all_rows_driven() const {
+  const auto status = executive_.status();
+  return status.done + status.abandoned >= status.rows;
 }
 
 void Navigator::stop() {
   stopped_ = true;
+  handles_.clear();
   drive({});
 }
 

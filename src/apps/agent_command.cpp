@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/agent/agent.hpp"
+#include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
@@ -13,6 +14,7 @@
 #include "options.hpp"
 #include "report.hpp"
 #include "sample_player.hpp"
+#include "twin_setup.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -25,6 +27,8 @@ constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 struct AgentOptions {
   std::string config;
   std::string record;
+  std::string as;
+  std::string out = ".";
   double exit_after_idle = 0.0;
   std::vector<std::string> set;
 };
@@ -61,20 +65,28 @@ class SensorRecorder {
 
 void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   const store::Store& store = agent.store();
+  if (const agent::Navigator* navigator = agent.navigator()) {
+    const auto mission = navigator->status();
+    spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
+                 agent.config().id.str(), planning::to_string(mission.state), mission.done, mission.rows,
+                 mission.mine);
+  }
   spdlog::info("{}: {} scans, {} nodes, {} alignments, {} of {} submaps, last sensor {:.1f} s ago",
                agent.config().id.str(), agent.perception().counters().scans, store.nodes().size(),
                store.alignments().size(), store.submap_set().size(), store.nodes().size(),
                to_seconds(bus.now() - agent.last_sensor()));
 }
 
-/// Whether it is time to end by itself: sensors and exchange have both been silent for `patience`, and
-/// everything is held. Where something is still missing, others get a minute more to come and bring it.
+/// Whether it is time to end by itself: the mission is done or the sensors are silent, the exchange has been
+/// silent for `patience`, and everything is held. Where something is still missing, others get a minute more
+/// to come and bring it.
 bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
+  const bool mission_done = agent.navigator() != nullptr && agent.navigator()->done();
   const bool sensors_silent =
       bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
-  if (!sensors_silent) {
+  if (!sensors_silent && !mission_done) {
     rest_frozen = false;
     return false;
   }
@@ -110,10 +122,27 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
   return folder;
 }
 
+/// One robot of a fleet's file, as a process of its own on this machine.
+Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
+                                            const std::vector<config::Override>& overrides) {
+  auto fleet = config::load_fleet(options.config, overrides);
+  if (!fleet) return tl::unexpected(fleet.error());
+  if (fleet->twin) {
+    if (const auto setup = set_up_twin(*fleet); !setup) return tl::unexpected(setup.error());
+  }
+  for (auto& member : fleet->members) {
+    if (member.agent.id.str() != options.as) continue;
+    member.agent.directory = std::filesystem::path(options.out) / options.as;
+    return config::RobotConfig{std::move(member.agent), std::move(member.dds), std::move(member.recording)};
+  }
+  return failure(options.config + ": has no agent '" + options.as + "'");
+}
+
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  const auto config = config::load_robot(options.config, *overrides);
+  const auto config = options.as.empty() ? config::load_robot(options.config, *overrides)
+                                         : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
   auto bus = bus::DdsBus::create(config->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
@@ -157,7 +186,9 @@ void add_agent(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AgentOptions>();
   CLI::App* command =
       app.add_subcommand("agent", "one robot over DDS; ends with SIGINT or SIGTERM and writes its map");
-  command->add_option("-c,--config", options->config, "AGENT.yaml")->required();
+  command->add_option("-c,--config", options->config, "AGENT.yaml, or FLEET.yaml with --as")->required();
+  command->add_option("--as", options->as, "this agent of FLEET.yaml, all on this machine");
+  command->add_option("--out", options->out, "with --as: the agent keeps its files in OUT/NAME");
   command->add_option("--record", options->record,
                       "write the sensor topics as a rosbag2 bag into this folder");
   command->add_option("--exit-after-idle", options->exit_after_idle,

@@ -2,21 +2,30 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 #include "commands.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
 #include "report.hpp"
+#include "twin_feed.hpp"
+#include "twin_results.hpp"
+#include "twin_setup.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
 namespace {
+
+constexpr Duration kPerceptionTime = std::chrono::milliseconds(40);
+constexpr Duration kBackgroundTime = std::chrono::milliseconds(300);
 
 struct RunOptions {
   std::string config;
   std::vector<std::string> recordings;
   std::string out;
   std::string record;
+  std::size_t agents = 0;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::string> set;
 };
 
@@ -36,7 +45,25 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options,
   return config::fleet_of(recordings, overrides);
 }
 
-Result<std::unique_ptr<FleetFeed>> feed_of(const config::FleetConfig& config) {
+/// The recordings, or the robots of the twin.
+Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const RunOptions& options) {
+  const unsigned threads = options.threads > 1 ? options.threads : 0;
+  config.network.threads = threads;
+  if (config.twin) {
+    const auto setup = set_up_twin(config);
+    if (!setup) return tl::unexpected(setup.error());
+    // What perception and background work take on a robot; also lets the robots' work overlap.
+    config.network.perception_time = kPerceptionTime;
+    config.network.background_time = kBackgroundTime;
+    std::vector<sim::RobotTwinConfig> robots;
+    for (const auto& member : config.members) robots.push_back(member.robot);
+    auto feed = TwinFeed::create(setup->world, setup->origin, robots, threads);
+    if (!feed) return tl::unexpected(feed.error());
+    std::filesystem::create_directories(options.out);
+    if (const Status written = write_truth_cloud(options.out, *setup->world); !written)
+      return tl::unexpected(written.error());
+    return std::unique_ptr<FleetFeed>(std::move(*feed));
+  }
   std::vector<config::RecordingConfig> recordings;
   for (const auto& member : config.members) recordings.push_back(*member.recording);
   return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
@@ -66,6 +93,13 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
     std::cout << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
                  "report.json\n";
   }
+  if (outcome.completion) {
+    if (outcome.completion->completed) {
+      std::cout << "mission completed after " << *outcome.completion->completed << " s\n";
+    } else {
+      std::cout << "mission not completed: " << outcome.completion->why_not << '\n';
+    }
+  }
   std::cout << "report: " << (out / "report.html").string() << '\n';
 }
 
@@ -78,15 +112,26 @@ int run(const RunOptions& options) {
   if (!overrides) return report(overrides.error(), kUsage);
   auto config = fleet_config(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
+  if (options.agents > config->members.size()) {
+    return report({"--agents " + std::to_string(options.agents) + ": " + options.config + " has only " +
+                   std::to_string(config->members.size()) + " agents"},
+                  kUsage);
+  }
+  if (options.agents > 0) config->keep_first(options.agents);
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
   if (!options.record.empty()) record = options.record;
-  auto feed = feed_of(*config);
-  if (!feed) return report(feed.error(), kFailed);
+  auto feed = feed_of(*config, options);
+  if (!feed) return report(feed.error(), config->twin ? kBadConfiguration : kFailed);
+  const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
   auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
   if (!fleet) return report(fleet.error(), kFailed);
   const auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
+  for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
+    const Status written = write_truth(outcome->agents[k].agent->config().directory, twin->truth(k));
+    if (!written) return report(written.error(), kFailed);
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
     return report(written.error(), kFailed);
@@ -100,8 +145,8 @@ int run(const RunOptions& options) {
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command =
-      app.add_subcommand("run", "a whole fleet in one process, in virtual time, from recordings");
+  CLI::App* command = app.add_subcommand(
+      "run", "a whole fleet in one process, in virtual time, from the twin or from recordings");
   command->add_option("-c,--config", options->config, "FLEET.yaml");
   command
       ->add_option("--recording", options->recordings,
@@ -110,6 +155,9 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "folder for maps, trajectories and the report")->required();
   command->add_option("--record", options->record,
                       "also write each robot's sensor samples as a bag into DIR/NAME");
+  command->add_option("--agents", options->agents, "only the first N agents of the file");
+  command->add_option("--threads", options->threads, "at most so many; no influence on the result")
+      ->check(CLI::Range(1u, 256u));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "fleetmap/agent/navigator.hpp"
+#include "fleetmap/planning/mission_complete.hpp"
+#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/wire/topics.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -62,9 +66,66 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
   if (!written) error_ = written.error().message;
 }
 
-void VirtualFleet::update_positions() {
+Status VirtualFleet::begin() {
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    members_[k].commands = members_[k].bus->subscribe(wire::topics::cmd_vel(), [this, k](const Bytes& cdr) {
+      const auto command = wire::decode<wire::VelocityCommand>(cdr);
+      if (command) feed_->command(k, command->forward_speed, command->yaw_rate);
+    });
+  }
+  if (has_mission()) completion_.emplace();
+  return feed_->begin(*network_, [this](std::size_t member, const recording::Sample& sample, Stamp stamp) {
+    deliver(member, sample, stamp);
+  });
+}
+
+bool VirtualFleet::has_mission() const {
+  return std::ranges::any_of(members_, [](const Member& m) { return m.agent->navigator() != nullptr; });
+}
+
+void VirtualFleet::end_mission(Duration elapsed) {
+  if (!has_mission() || mission_ended_) return;
+  const bool done = std::ranges::all_of(members_, [](const Member& m) {
+    return m.agent->navigator() == nullptr || m.agent->navigator()->done();
+  });
+  const bool late = config_.twin && elapsed > from_seconds(config_.twin->max_time);
+  if (!done && !late) return;
+  if (!done) spdlog::warn("max_time is up: robots are stopped before the mission's end");
+  mission_ended_ = true;
+  feed_->stop();
+}
+
+void VirtualFleet::note_completion(Duration elapsed) {
+  if (!completion_ || completion_->completed) return;
+  const double now = to_seconds(elapsed);
+  std::vector<AgentId> agents;
+  std::vector<planning::PairAlignment> pairs;
+  bool shared = true, driven = true;
+  for (const Member& member : members_) {
+    const store::Store& store = member.agent->store();
+    agents.push_back(member.agent->config().id);
+    shared &= store.node_set() == members_.front().agent->store().node_set();
+    driven &= member.agent->navigator() == nullptr || member.agent->navigator()->all_rows_driven();
+    for (const auto& [id, alignment] : store.alignments()) {
+      if (alignment.computed_by == member.agent->config().id)
+        pairs.push_back({alignment.i.agent, alignment.j.agent, alignment.rmse});
+    }
+  }
+  if (driven && !completion_->rows_driven) completion_->rows_driven = now;
+  if (!completion_->aligned && planning::mapping_complete(agents, pairs, true, graph::kGoodRmse).complete)
+    completion_->aligned = now;
+  const planning::Completeness complete = planning::mapping_complete(agents, pairs, shared, graph::kGoodRmse);
+  completion_->why_not = driven ? complete.why_not : "rows are left to drive";
+  if (driven && complete.complete) completion_->completed = now;
+}
+
+void VirtualFleet::update_states() {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const AgentId& id = members_[k].agent->config().id;
+    if (const auto share = feed_->battery(k)) {
+      members_[k].bus->publish(wire::topics::battery(),
+                               wire::encode(sensor::Battery{network_->now(), *share}));
+    }
     if (const auto truth = feed_->position(k)) {
       network_->set_position(id, *truth);
       continue;
@@ -102,23 +163,25 @@ bool VirtualFleet::settled() {
 void VirtualFleet::report_progress(Duration elapsed) const {
   for (const Member& member : members_) {
     const store::Store& store = member.agent->store();
-    spdlog::info("{:.0f} s {}: {} nodes, {} alignments, {} submaps", to_seconds(elapsed),
-                 member.agent->config().id.str(), store.nodes().size(), store.alignments().size(),
-                 store.submap_set().size());
+    const agent::Navigator* navigator = member.agent->navigator();
+    spdlog::info("{:.0f} s {}: {}{} nodes, {} alignments, {} submaps", to_seconds(elapsed),
+                 member.agent->config().id.str(),
+                 navigator ? std::string(planning::to_string(navigator->status().state)) + ", " : "",
+                 store.nodes().size(), store.alignments().size(), store.submap_set().size());
   }
 }
 
 Result<FleetOutcome> VirtualFleet::run() {
   const Stamp start = network_->now();
-  const Status begun = feed_->begin(*network_, [this](std::size_t member, const recording::Sample& sample,
-                                                      Stamp stamp) { deliver(member, sample, stamp); });
-  if (!begun) return tl::unexpected(begun.error());
+  if (const Status begun = begin(); !begun) return tl::unexpected(begun.error());
   FleetOutcome outcome;
   Stamp last_sample = start;
   Stamp next_report = start + kReportEvery;
   while (error_.empty()) {
     network_->run_until(network_->now() + kStep);
-    update_positions();
+    update_states();
+    end_mission(network_->now() - start);
+    note_completion(network_->now() - start);
     if (playing()) last_sample = network_->now();
     outcome.settled = settled();
     if (outcome.settled || network_->now() - last_sample > from_seconds(config_.settle_time)) break;
@@ -129,6 +192,7 @@ Result<FleetOutcome> VirtualFleet::run() {
   if (!error_.empty()) return failure(error_);
   outcome.virtual_time = network_->now() - start;
   outcome.settle_time = network_->now() - last_sample;
+  outcome.completion = completion_;
   outcome.links = network_->link_use();
   outcome.origin_known = origin_.has_value();
   if (origin_) outcome.origin = *origin_;

@@ -16,6 +16,14 @@
 
 namespace fleetmap::apps {
 
+/// When the mission's ends were reached, s from the start of the run; empty: never.
+struct Completion {
+  std::optional<double> rows_driven;  ///< every row of the mission
+  std::optional<double> aligned;      ///< every agent joined to the fleet by alignments with E <= 0.4
+  std::optional<double> completed;    ///< both, and all nodes shared: the paper's end of mapping
+  std::string why_not;                ///< not completed
+};
+
 /// What a run in virtual time gave.
 struct FleetOutcome {
   struct AgentOutcome {
@@ -28,9 +36,10 @@ struct FleetOutcome {
   std::vector<bus::LinkUse> links;
   GeoPoint origin;
   bool origin_known = false;
-  Duration virtual_time{};  ///< from the first sensor sample to the end of the exchange
-  Duration settle_time{};   ///< of it, after the last sensor sample
-  bool settled = false;     ///< the exchange came to its end by itself
+  Duration virtual_time{};               ///< from the first sensor sample to the end of the exchange
+  Duration settle_time{};                ///< of it, after the last sensor sample
+  bool settled = false;                  ///< the exchange came to its end by itself
+  std::optional<Completion> completion;  ///< of a mission
 };
 
 /// A whole fleet in one process, in virtual time: each member's samples come from a feed onto its bus.
@@ -51,14 +60,21 @@ class VirtualFleet {
     bus::Bus* bus = nullptr;
     std::unique_ptr<agent::Agent> agent;
     std::optional<recording::BagWriter> bag;
+    bus::Handle commands;
     bool rest_frozen = false;
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
   Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
+  Status begin();
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
-  void update_positions();
+  /// What the network and the agents learn of the robots once a second: where they are, their batteries.
+  void update_states();
   bool playing() const;
+  bool has_mission() const;
+  /// Tells the feed when nobody has anything left to drive, or time is up.
+  void end_mission(Duration elapsed);
+  void note_completion(Duration elapsed);
   bool settled();
   void report_progress(Duration elapsed) const;
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
@@ -68,6 +84,8 @@ class VirtualFleet {
   std::optional<GeoPoint> origin_;
   std::unique_ptr<bus::LocalNetwork> network_;
   std::vector<Member> members_;
+  std::optional<Completion> completion_;
+  bool mission_ended_ = false;
   std::string error_;
 };
 

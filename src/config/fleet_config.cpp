@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "mission_section.hpp"
 #include "robot_sections.hpp"
+#include "twin_sections.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {
@@ -26,13 +28,77 @@ YAML::Node agent_keys_of(const YAML::Node& root, const std::set<std::string>& fl
   return keys;
 }
 
-const std::set<std::string> kFleetKeys{"agents", "defaults", "network", "settle_time"};
+const std::set<std::string> kFleetKeys{"agents", "defaults", "network",  "settle_time",
+                                       "world",  "mission",  "max_time", "dds"};
+
+/// The odometry is told of the LiDAR that the twin carries, where the configuration does not say otherwise.
+void suit_estimator(FleetConfig::Member& member, Section lidar) {
+  agent::PerceptionConfig& perception = member.agent.perception;
+  if (!lidar.has("model")) {
+    if (const auto model = odometry::lidar_model(member.robot.lidar.model)) perception.lidar = *model;
+  }
+  if (!lidar.has("scan_period")) perception.lidar.scan_period = 1.0 / member.robot.lidar.rate;
+}
+
+std::optional<TwinConfig> read_twin(Section& top) {
+  if (!top.has("world")) {
+    for (const char* key : {"mission", "max_time"}) {
+      if (top.has(key)) top.problem(key, "is for the twin, which needs world: {file: WORLD.yaml}");
+    }
+    return std::nullopt;
+  }
+  TwinConfig twin;
+  Section world = top.section("world");
+  world.read_path("file", twin.world);
+  if (twin.world.empty()) world.problem("file", "expected the world's file, e.g. ../worlds/farm_200.yaml");
+  if (world.has("seed")) {
+    std::uint64_t seed = 0;
+    world.read("seed", seed);
+    twin.seed = seed;
+  }
+  world.finish();
+  read_mission(top, twin.mission);
+  top.read("max_time", twin.max_time);
+  if (!(twin.max_time > 0.0)) top.problem("max_time", "expected seconds > 0");
+  return twin;
+}
+
+/// Every robot on this machine: an onboard domain each, the radios shared, all over the loopback.
+struct LoopbackDomains {
+  std::uint32_t base = 40;
+  std::filesystem::path qos = "qos";
+};
+
+LoopbackDomains read_loopback(Section& top) {
+  LoopbackDomains domains;
+  Section dds = top.section("dds");
+  dds.read("base_domain", domains.base);
+  dds.read_path("qos", domains.qos);
+  dds.finish();
+  if (domains.base > 200) dds.problem("base_domain", "expected at most 200: DDS has domains up to 232");
+  return domains;
+}
+
+bus::DdsBusConfig dds_of(const AgentId& agent, std::size_t index, const LoopbackDomains& domains) {
+  bus::DdsBusConfig dds;
+  dds.agent = agent;
+  dds.qos_directory = domains.qos;
+  const auto domain = [&](std::size_t offset) { return static_cast<int>(domains.base + offset); };
+  dds.long_range.domain = domain(0);
+  dds.short_range.domain = domain(1);
+  dds.onboard.domain = domain(2 + index);
+  dds.long_range.address = dds.short_range.address = "127.0.0.1";
+  dds.long_range.peers = dds.short_range.peers = {"127.0.0.1"};
+  return dds;
+}
 
 Result<FleetConfig> read_fleet(Document& document) {
   FleetConfig fleet;
   Section top(document, document.root(), "");
   read_network(top, fleet.network);
   top.read("settle_time", fleet.settle_time);
+  fleet.twin = read_twin(top);
+  const LoopbackDomains domains = read_loopback(top);
   const YAML::Node& root = document.root();
   const YAML::Node defaults = root["defaults"];
   const YAML::Node agents = root["agents"];
@@ -49,10 +115,16 @@ Result<FleetConfig> read_fleet(Document& document) {
     if (section.has("directory"))
       section.problem("directory", "a run decides where its agents keep their files");
     if (section.has("fleet")) section.problem("fleet", "a fleet's file lists its agents under 'agents'");
-    const auto recording = read_recording(section);
-    if (!recording) section.problem("recording", "expected recording: {path: ...}");
-    member.recording = recording;
+    member.recording = read_recording(section);
+    read_robot_twin(section, member.robot);
+    if (!fleet.twin && !member.recording)
+      section.problem("recording",
+                      "expected recording: {path: ...}, or for the whole fleet world: {file: ...}");
+    if (fleet.twin) suit_estimator(member, section.section("lidar"));
+    if (fleet.twin && member.recording)
+      section.problem("recording", "a fleet of the twin (world) has no recordings");
     section.finish();
+    member.dds = dds_of(member.agent.id, k, domains);
     for (const FleetConfig::Member& other : fleet.members) {
       if (other.agent.id == member.agent.id)
         section.problem("id", "'" + member.agent.id.str() + "' is taken by another agent");
@@ -98,6 +170,13 @@ Result<RobotConfig> read_robot(Document& document) {
 }
 
 }  // namespace
+
+void FleetConfig::keep_first(std::size_t count) {
+  members.resize(std::min(count, members.size()));
+  std::vector<AgentId> names;
+  for (const Member& member : members) names.push_back(member.agent.id);
+  for (Member& member : members) member.agent.exchange.fleet = names;
+}
 
 Result<Override> parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -231,22 +231,17 @@ Bytes encode(const exchange::MissionReport& report) {
   out.east(report.east);
   out.north(report.north);
   out.battery(report.battery);
-  for (const auto& span : report.done) {
-    if (out.done().size() == kMaxMissionRows) break;
-    out.done().emplace_back();
-    out.done().back().first(span.first);
-    out.done().back().count(span.count);
-  }
-  const std::size_t claimed = std::min(report.claimed.size(), kMaxMissionRows);
-  out.claimed({report.claimed.begin(), report.claimed.begin() + static_cast<std::ptrdiff_t>(claimed)});
+  out.current(report.current);
+  out.done(bounded(report.done, kMaxRowSet));
+  out.claimed(bounded(report.claimed, kMaxRowSet));
+  out.failed(bounded(report.failed, kMaxRowSet));
   return to_cdr(out);
 }
 
 template <>
 Result<exchange::MissionReport> decode(ByteView cdr) {
-  const auto in = fleet_type_from_cdr<msg::MissionReport>(cdr, type_name::kMissionReport);
+  auto in = fleet_type_from_cdr<msg::MissionReport>(cdr, type_name::kMissionReport);
   if (!in) return tl::unexpected(in.error());
-  constexpr std::uint32_t kMaxRow = 1u << 20;
   FieldCheck check(type_name::kMissionReport);
   exchange::MissionReport report;
   report.from = check.agent(in->sender(), "sender");
@@ -255,19 +250,17 @@ Result<exchange::MissionReport> decode(ByteView cdr) {
   check.within(static_cast<double>(in->east()), kMaxMetres, "east");
   check.within(static_cast<double>(in->north()), kMaxMetres, "north");
   check.size(static_cast<double>(in->battery()), 1.0, "battery");
-  check.require(in->done().size() <= kMaxMissionRows, "done has more than 64 spans");
-  check.require(in->claimed().size() <= kMaxMissionRows, "claimed has more than 64 rows");
-  for (const msg::RowSpan& span : in->done()) {
-    check.require(span.first() < kMaxRow && span.count() > 0 && span.count() < kMaxRow,
-                  "done has an empty or impossible span of rows");
-    report.done.push_back({span.first(), span.count()});
-  }
-  for (const std::uint32_t row : in->claimed()) check.require(row < kMaxRow, "claimed has an impossible row");
+  const bool sets_fit = in->done().size() <= kMaxRowSet && in->claimed().size() <= kMaxRowSet &&
+                        in->failed().size() <= kMaxRowSet;
+  check.require(sets_fit, "a set of rows is beyond 512 bytes");
   report.state = in->state();
   report.east = in->east();
   report.north = in->north();
   report.battery = in->battery();
-  report.claimed = in->claimed();
+  report.current = in->current();
+  report.done = std::move(in->done());
+  report.claimed = std::move(in->claimed());
+  report.failed = std::move(in->failed());
   return check.finish(std::move(report));
 }
 

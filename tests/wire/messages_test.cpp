@@ -143,7 +143,9 @@ TEST(Wire, SizesOnTheWire) {
   EXPECT_EQ(encode(exchange::ProximityMatch{}).size(), 56u);
   EXPECT_EQ(encode(exchange::CloudRequest{}).size(), 40u);
   EXPECT_EQ(encode(exchange::AgentStatus{}).size(), 76u);
-  EXPECT_LE(encode(exchange::MissionReport{{}, {}, 0, 0, 0, 1, {{0, 9}, {12, 1}}, {9, 10, 11}}).size(), 96u);
+  exchange::MissionReport report;
+  report.done = report.claimed = report.failed = Bytes(25);  // 200 rows
+  EXPECT_EQ(encode(report).size(), 148u);
   EXPECT_EQ(encode(exchange::SubmapRequest{}).size(), 44u);
   const exchange::Range range{id("r1"), 0, 9};
   EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}}).size(), 24u + 3 * 16u);

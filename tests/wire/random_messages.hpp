@@ -130,7 +130,7 @@ class RandomMessages {
             exchange::Digest{agent(), ranges(20), ranges(20)},
             exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
             exchange::AgentStatus{agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1},
-            exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, {{0, 4}, {7, 1}}, {5, 4}},
+            exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
             exchange::SubmapDigest{agent(), ranges(200)},
             exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
             chunk()};

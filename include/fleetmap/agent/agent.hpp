@@ -122,8 +122,9 @@ class Agent {
   std::optional<Stamp> waiting_for_gps_since_;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
-  std::shared_ptr<Navigator> navigator_;
+  std::unique_ptr<Navigator> navigator_;
   bus::Handle status_timer_;
+  bus::Handle navigator_timer_;
 };
 
 }  // namespace fleetmap::agent

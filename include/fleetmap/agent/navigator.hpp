@@ -44,26 +44,30 @@ struct NavigatorConfig {
 class Navigator {
  public:
   using Tell = std::function<void(exchange::MissionReport)>;
-  /// `site`: the ENU frame of the plan. `tell` brings a report to the others.
-  Navigator(const NavigatorConfig& config, const AgentId& self, const GeoPoint& site, bus::Bus& bus,
-            Tell tell);
+  /// `site`: the ENU frame of the plan. `tell` brings a report to the others. Fails if the plan does not know
+  /// `self`.
+  static Result<std::unique_ptr<Navigator>> create(const NavigatorConfig& config, const AgentId& self,
+                                                   const GeoPoint& site, bus::Bus& bus, Tell tell);
 
   /// After every scan.
   void on_perceived(const Perceived& perceived);
   void on_report(const exchange::MissionReport& report);
-  /// Once a second. `maps_exchanged`: everything that the fleet has is held by all.
+  /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
+  /// of.
   void tick(bool maps_exchanged);
   /// Stands still from now on.
   void stop();
 
   /// Nothing is left to do for this robot.
-  bool done() const { return done_; }
-  /// Every row of the mission has been driven, as far as this robot knows.
-  bool all_rows_driven() const { return executive_.all_rows_done(); }
-  planning::MissionState state() const { return executive_.report().state; }
+  bool done() const { return action_.kind == planning::MissionAction::Kind::kDone; }
+  /// Every row of the mission has been driven or given up by all, as far as this robot knows.
+  bool all_rows_driven() const;
+  planning::MissionExecutive::Status status() const { return executive_.status(); }
   std::optional<double> battery() const { return battery_; }
 
  private:
+  Navigator(const NavigatorConfig& config, planning::MissionExecutive executive, const GeoPoint& site,
+            bus::Bus& bus, Tell tell);
   void drive(const planning::Command& command);
   std::optional<planning::Pose2> pose_of(const GlobalPose& G) const;
 
@@ -73,14 +77,12 @@ class Navigator {
   Tell tell_;
   planning::MissionExecutive executive_;
   planning::PathFollower follower_;
+  planning::MissionAction action_;
   std::optional<planning::Pose2> pose_;
-  std::uint64_t path_version_ = 0;
-  bool holding_ = true;
-  bool done_ = false;
   bool stopped_ = false;
-  std::optional<double> battery_;
+  std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;
-  bus::Handle battery_subscription_;
+  std::vector<bus::Handle> handles_;
 };
 
 }  // namespace fleetmap::agent

@@ -60,6 +60,8 @@ struct FleetConfig {
   std::vector<Member> members;
   std::optional<TwinConfig> twin;
   bus::LocalNetworkConfig network;
+  /// Leaves the first `count` robots, as if the file named no more.
+  void keep_first(std::size_t count);
   double settle_time = 120.0;  ///< s of virtual time that the exchange may take after the last sensor sample
 };
 

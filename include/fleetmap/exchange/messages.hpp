@@ -78,21 +78,19 @@ struct AgentStatus {
   std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
 };
 
-/// What `from` does of the fleet's mission: carried as it is for the planning, whose rows these are.
+/// What `from` does of the fleet's mission: planning::MissionReport as it goes to the others. Rows are
+/// counted in the mission's order; sets of rows have row k as bit k % 8 of byte k / 8.
 struct MissionReport {
-  struct RowSpan {
-    std::uint32_t first = 0;  ///< rows [first, first + count)
-    std::uint32_t count = 0;
-    bool operator==(const RowSpan&) const = default;
-  };
   AgentId from;
   Stamp stamp;
-  std::uint8_t state = 0;  ///< planning::MissionState
-  float east = 0.0f;       ///< m, ENU of the site
-  float north = 0.0f;      ///< m
-  float battery = 1.0f;    ///< share left, [0, 1]
-  std::vector<RowSpan> done;
-  std::vector<std::uint32_t> claimed;  ///< rows, in order
+  std::uint8_t state = 0;     ///< planning::MissionState
+  float east = 0.0f;          ///< m, ENU of the site
+  float north = 0.0f;         ///< m
+  float battery = 1.0f;       ///< share left, [0, 1]
+  std::uint32_t current = 0;  ///< row under way; 2^32 - 1: none
+  Bytes done;                 ///< rows driven by anyone, as far as `from` knows
+  Bytes claimed;              ///< rows that `from` is going to drive
+  Bytes failed;               ///< rows that `from` gave up
 };
 
 // ---- short range

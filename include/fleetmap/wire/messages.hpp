@@ -23,7 +23,7 @@ inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one s
 inline constexpr std::size_t kMaxRanges = 256;               ///< in a Digest or ItemRequest, per kind
 inline constexpr std::size_t kMaxSubmapRanges = 1'024;       ///< in a SubmapDigest
 inline constexpr std::size_t kMaxMissing = 256;              ///< in a CloudRequest
-inline constexpr std::size_t kMaxMissionRows = 64;           ///< in a MissionReport, spans and rows each
+inline constexpr std::size_t kMaxRowSet = 512;               ///< bytes of each set of rows in a MissionReport
 inline constexpr std::uint32_t kMaxSeq = (1u << 24) - 1;     ///< of nodes and alignments
 inline constexpr std::uint32_t kMaxSubmapBytes = 64u << 20;  ///< of one encoded submap
 
