@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBlock = 16;                   ///< columns cast together: one packet a ring
 constexpr float kPulseLength = 1.0f;                 ///< m, echoes closer than this are one
+constexpr std::size_t kLasers = 4;                   ///< behind the prisms, firing in turn
 constexpr double kPrismRates[2] = {121.57, -77.73};  ///< turns/s, 7294 and -4664 rpm
 
 /// Share of the light that comes back from a surface hit head on.
@@ -170,37 +171,44 @@ void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& ca
   }
 }
 
-/// Two prisms bend the beam by a quarter of the field of view each (azimuthal equidistant).
-Eigen::Vector2d rosette(double field_of_view, double turns_a, double turns_b) {
-  const double a = 2.0 * kPi * (turns_a - std::floor(turns_a));
-  const double b = 2.0 * kPi * (turns_b - std::floor(turns_b));
-  return 0.25 * field_of_view * Eigen::Vector2d(std::cos(a) + std::cos(b), std::sin(a) + std::sin(b));
+/// The sum of two counter-turning bends of a quarter of the field of view each: by `bend` (rad, may be
+/// negative) from the x axis towards `side` in the y-z plane (azimuthal equidistant).
+struct Deflection {
+  double bend;
+  Eigen::Vector2d side;
+};
+Deflection rosette(double field_of_view, double seconds, std::size_t laser) {
+  const auto angle = [](double turns) { return 2.0 * kPi * (turns - std::floor(turns)); };
+  const double middle = angle(0.5 * (kPrismRates[0] + kPrismRates[1]) * seconds) +
+                        kPi * static_cast<double>(laser) / static_cast<double>(kLasers);
+  const double apart = angle(0.5 * (kPrismRates[0] - kPrismRates[1]) * seconds);
+  return {0.5 * field_of_view * std::cos(apart), {std::cos(middle), std::sin(middle)}};
 }
 
 void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, BeamCaster& caster,
                   std::vector<sensor::ScanPoint>& points) {
   const auto rays = static_cast<std::size_t>(spec.rays);
   const double period = 1.0 / spec.rate, begin_time = static_cast<double>(scan) * period;
-  for (std::size_t begin = 0; begin < rays; begin += kBlock) {
-    const std::size_t size = std::min(kBlock, rays - begin);
-    for (std::size_t k = begin; k < begin + size; ++k) {
-      const double time = period * static_cast<double>(k) / spec.rays;
-      const double running = begin_time + time;
-      const Eigen::Vector2d bend =
-          rosette(spec.field_of_view, kPrismRates[0] * running, kPrismRates[1] * running);
-      const double angle = bend.norm();
-      const Eigen::Vector2d side = angle > 1e-9 ? Eigen::Vector2d(bend / angle) : Eigen::Vector2d(1.0, 0.0);
-      const double c = std::cos(angle), s = std::sin(angle);
-      Eigen::Matrix3d R;
-      Eigen::Vector3d origin;
-      poses.at(time, R, origin);
-      const Eigen::Vector3d axis(c, s * side.x(), s * side.y());
-      const Eigen::Vector3d aside(-s, c * side.x(), c * side.y()), above(0.0, -side.y(), side.x());
-      caster.add(
-          {axis.cast<float>(), aside.cast<float>(), above.cast<float>(), static_cast<float>(time), 0, k},
-          R.cast<float>(), origin.cast<float>());
+  for (std::size_t begin = 0, count; begin < rays; begin += count) {
+    const std::size_t lasers = std::min(kLasers, rays - begin);
+    const std::size_t rounds = std::clamp<std::size_t>((rays - begin) / kLasers, 1, kBlock);
+    count = lasers * rounds;
+    for (std::size_t laser = 0; laser < lasers; ++laser) {  // rays of one laser lie side by side
+      for (std::size_t k = begin + laser; k < begin + count; k += lasers) {
+        const double time = period * static_cast<double>(k) / spec.rays;
+        const auto [bend, side] = rosette(spec.field_of_view, begin_time + time, laser);
+        const double c = std::cos(bend), s = std::sin(bend);
+        Eigen::Matrix3d R;
+        Eigen::Vector3d origin;
+        poses.at(time, R, origin);
+        const Eigen::Vector3d axis(c, s * side.x(), s * side.y());
+        const Eigen::Vector3d aside(-s, c * side.x(), c * side.y()), above(0.0, -side.y(), side.x());
+        caster.add(
+            {axis.cast<float>(), aside.cast<float>(), above.cast<float>(), static_cast<float>(time), 0, k},
+            R.cast<float>(), origin.cast<float>());
+      }
     }
-    caster.flush(1, size, points);
+    caster.flush(lasers, rounds, points);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/geometry/se3.hpp"
@@ -34,12 +35,20 @@ class PoseTrack {
     R = segment.R;
     if (angle > 0.0) {
       const Eigen::Matrix3d Rk = segment.R * segment.axis;
-      R += std::sin(angle) * Rk + (1.0 - std::cos(angle)) * Rk * segment.axis;
+      const auto [sine, versine] = sine_and_versine(angle);
+      R += sine * Rk + versine * Rk * segment.axis;
     }
     t = segment.t + alpha * segment.move;
   }
 
  private:
+  /// sin(x) and 1 - cos(x); the series of a small angle is exact to 1e-15.
+  static std::pair<double, double> sine_and_versine(double x) {
+    if (x > 0.03) return {std::sin(x), 1.0 - std::cos(x)};
+    const double q = x * x;
+    return {x * (1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0))),
+            q / 2.0 * (1.0 - q / 12.0 * (1.0 - q / 30.0))};
+  }
   struct Segment {
     Eigen::Matrix3d R;
     Eigen::Vector3d t, move;
