@@ -93,7 +93,7 @@ void draw_bar(PlotFrame& frame, double left, double right, double value, const s
 
 std::string line_plot(const Axes& axes, const std::vector<LineSeries>& series) {
   const auto [x, y] = ranges_of(axes, series);
-  PlotFrame frame(axes, x, y);
+  PlotFrame frame(axes, x, y, names_of(series));
   for (std::size_t k = 0; k < series.size(); ++k) {
     if (has_band(series[k])) draw_band(frame, series[k], plot_colour(k));
   }
@@ -101,14 +101,14 @@ std::string line_plot(const Axes& axes, const std::vector<LineSeries>& series) {
     draw_line(frame, series[k], plot_colour(k));
     if (series[k].markers) draw_markers(frame, series[k], plot_colour(k), 1.0);
   }
-  return frame.finish(names_of(series));
+  return frame.finish();
 }
 
 std::string scatter_plot(const Axes& axes, const std::vector<LineSeries>& series) {
   const auto [x, y] = ranges_of(axes, series);
-  PlotFrame frame(axes, x, y);
+  PlotFrame frame(axes, x, y, names_of(series));
   for (std::size_t k = 0; k < series.size(); ++k) draw_markers(frame, series[k], plot_colour(k), 0.6);
-  return frame.finish(names_of(series));
+  return frame.finish();
 }
 
 std::string histogram(const Axes& axes, const std::vector<HistogramSeries>& series, double bin_width,
@@ -123,7 +123,7 @@ std::string histogram(const Axes& axes, const std::vector<HistogramSeries>& seri
   }
   Axes based = axes;
   based.zero_based = true;
-  PlotFrame frame(based, x, y);
+  PlotFrame frame(based, x, y, names_of(series));
   const double opacity = series.size() > 1 ? 0.5 : 0.85;
   for (std::size_t k = 0; k < series.size(); ++k) {
     for (std::size_t i = 0; i < series[k].shares.size(); ++i) {
@@ -134,7 +134,7 @@ std::string histogram(const Axes& axes, const std::vector<HistogramSeries>& seri
                opacity, tooltip(series[k].name, from, share));
     }
   }
-  return frame.finish(names_of(series));
+  return frame.finish();
 }
 
 std::string bar_plot(const Axes& axes, const std::vector<std::string>& groups,
@@ -147,7 +147,7 @@ std::string bar_plot(const Axes& axes, const std::vector<std::string>& groups,
   }
   Axes based = axes;
   based.zero_based = true;
-  PlotFrame frame(based, x, y, groups.empty() ? std::vector<std::string>{""} : groups);
+  PlotFrame frame(based, x, y, names_of(bars), groups.empty() ? std::vector<std::string>{""} : groups);
   const double width = 0.8 / static_cast<double>(std::max<std::size_t>(1, bars.size()));
   for (std::size_t k = 0; k < bars.size(); ++k) {
     for (std::size_t g = 0; g < std::min(groups.size(), bars[k].values.size()); ++g) {
@@ -160,7 +160,7 @@ std::string bar_plot(const Axes& axes, const std::vector<std::string>& groups,
                title);
     }
   }
-  return frame.finish(names_of(bars));
+  return frame.finish();
 }
 
 }  // namespace fleetmap::eval

@@ -21,7 +21,7 @@ std::vector<double> round_ticks(double low, double high, int wanted) {
   }
   std::vector<double> ticks;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && ticks.size() < 50; ++k)
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // no -0
   return ticks;
 }
 
@@ -119,15 +119,44 @@ std::string short_number(double value, int digits) {
   return out.data();
 }
 
-PlotFrame::PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string> categories)
-    : axes_(axes), categories_(std::move(categories)) {
+PlotFrame::PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string> names,
+                     std::vector<std::string> categories)
+    : axes_(axes), names_(std::move(names)), categories_(std::move(categories)) {
   axes_.width = std::clamp(axes_.width, 200, 4000);
   axes_.height = std::clamp(axes_.height, 150, 4000);
   left_ = axes_.y_label.empty() ? 62 : 80;
   top_ = axes_.title.empty() ? 16 : 40;
   right_ = axes_.width - 18;
   bottom_ = axes_.height - (axes_.x_label.empty() ? 34 : 54);
+  place_legend();
   fit(x, y);
+}
+
+/// In rows between the title and the drawing, which gives way.
+void PlotFrame::place_legend() {
+  constexpr double kRow = 18.0, kLetter = 7.0, kBox = 30.0;
+  double x = left_, y = top_;
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    if (names_[k].empty()) continue;
+    const double width = kBox + kLetter * static_cast<double>(names_[k].size());
+    if (x > left_ && x + width > right_) {
+      x = left_;
+      y += kRow;
+    }
+    entries_.push_back({x, y, k});
+    x += width;
+  }
+  if (!entries_.empty()) top_ = std::min(y + kRow, bottom_ - 60.0);
+}
+
+std::string PlotFrame::legend() const {
+  std::string out;
+  for (const Entry& entry : entries_) {
+    out += "<rect x=\"" + pixel(entry.x) + "\" y=\"" + pixel(entry.y - 6) +
+           "\" width=\"12\" height=\"10\" fill=\"" + plot_colour(entry.series) + "\"/>\n";
+    out += text(entry.x + 16, entry.y + 3, "start", names_[entry.series]);
+  }
+  return out;
 }
 
 void PlotFrame::fit(Range x, Range y) {
@@ -198,7 +227,7 @@ std::string PlotFrame::ticks_y() const {
   return out;
 }
 
-std::string PlotFrame::finish(const std::vector<std::string>& names) const {
+std::string PlotFrame::finish() const {
   const double width = axes_.width, height = axes_.height;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " +
                     pixel(height) + "\" width=\"" + pixel(width) +
@@ -218,14 +247,7 @@ std::string PlotFrame::finish(const std::vector<std::string>& names) const {
     svg += text(18, 0.5 * (top_ + bottom_), "middle", axes_.y_label, 13,
                 " transform=\"rotate(-90 18 " + at + ")\"");
   }
-  double row = top_ + 16;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (names[k].empty()) continue;
-    svg += "<rect x=\"" + pixel(right_ - 14) + "\" y=\"" + pixel(row - 9) +
-           "\" width=\"12\" height=\"10\" fill=\"" + plot_colour(k) + "\"/>\n";
-    svg += text(right_ - 20, row, "end", names[k]);
-    row += 17;
-  }
+  svg += legend();
   return svg + "</svg>\n";
 }
 

@@ -18,8 +18,10 @@ struct Range {
 /// The drawing area of a plot: axes, ticks, legend, and the map from values to pixels.
 class PlotFrame {
  public:
-  /// Fits the axes to the ranges. `categories` (may be empty) replace the ticks of x, at 0, 1, 2, ...
-  PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string> categories = {});
+  /// Fits the axes to the ranges. The legend has those of `names` that are not empty; colour k is that of
+  /// names[k]. `categories` (may be empty) replace the ticks of x, at 0, 1, 2, ...
+  PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string> names,
+            std::vector<std::string> categories = {});
 
   /// Pixels, with two decimals.
   std::string x(double value) const;
@@ -30,14 +32,22 @@ class PlotFrame {
   bool shows_y(double value) const;
 
   std::ostringstream body;  ///< what is drawn, clipped to the area
-  /// A legend of those names that are not empty; colour k belongs to names[k].
-  std::string finish(const std::vector<std::string>& names) const;
+  /// The whole plot.
+  std::string finish() const;
 
  private:
   void fit(Range x, Range y);
+  void place_legend();
+  std::string legend() const;
   std::string ticks_x() const;
   std::string ticks_y() const;
+  struct Entry {
+    double x, y;
+    std::size_t series;
+  };
   Axes axes_;
+  std::vector<std::string> names_;
+  std::vector<Entry> entries_;  ///< of the legend
   std::vector<std::string> categories_;
   Range x_, y_;
   double left_, top_, right_, bottom_;

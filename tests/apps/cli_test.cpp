@@ -42,7 +42,8 @@ TEST_F(CommandLine, UsageErrorsExitWith2) {
 TEST_F(CommandLine, HelpExitsWith0AndNamesEveryCommand) {
   run({"--help"});
   EXPECT_EQ(exit_code_, 0);
-  for (const char* command : {"run", "agent", "replay", "odometry", "register", "check-config", "map"}) {
+  for (const char* command :
+       {"run", "agent", "replay", "odometry", "register", "check-config", "map", "eval"}) {
     EXPECT_THAT(output_, HasSubstr(command));
   }
 }
@@ -105,6 +106,48 @@ TEST_F(CommandLine, RegisterPrintsAVerdictForUnusableClouds) {
   run({"register", path("a.ply"), path("b.ply")});
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, HasSubstr("b.ply"));
+}
+
+TEST_F(CommandLine, EvalSaysWhatItMeasuredAndWhatIsMissing) {
+  run({"eval", path("none")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("none: cannot be read"));
+  std::filesystem::create_directories(path("empty"));
+  run({"eval", path("empty")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("give the --out of fleetmap run"));
+
+  std::string track;
+  for (int k = 0; k < 40; ++k) track += std::to_string(k) + " " + std::to_string(k) + " 0 0 0 0 0 1\n";
+  folder_.write("run/r1/trajectory.tum", track);
+  folder_.write("run/r1/truth.tum", track);
+  folder_.write("run/r2/trajectory.tum", "0 0 0 nan 0 0 0 1\n");
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  for (int k = 0; k < 400; ++k) ply += std::to_string(k % 20) + " " + std::to_string(k / 20) + " 0\n";
+  folder_.write("run/r1/map.ply", ply);
+  folder_.write("run/report.json",
+                R"({"links": [{"agent": "r1", "link": "long_range", "wire_bytes": 800}]})");
+  run({"eval", path("run")});
+  EXPECT_EQ(exit_code_, 0);
+  EXPECT_THAT(output_, HasSubstr("r1: ATE 0 m"));
+  EXPECT_THAT(output_, HasSubstr("trajectory.tum:1: expected"));
+  EXPECT_THAT(output_, HasSubstr("no true surface"));
+  for (const char* file : {"evaluation.json", "evaluation.html", "map_top.png", "map_density.png"})
+    EXPECT_TRUE(std::filesystem::exists(path("run") + "/" + file)) << file;
+  std::ifstream report(path("run/report.json"));
+  const std::string content{std::istreambuf_iterator<char>(report), {}};
+  EXPECT_THAT(content, HasSubstr("\"evaluation\""));
+  EXPECT_THAT(content, HasSubstr("\"long_range_bytes_per_m2\": 2.0"));
+
+  run({"eval", path("run"), "--truth", path("run/r1/map.ply")});
+  EXPECT_EQ(exit_code_, 0);
+  EXPECT_THAT(output_, HasSubstr("fitness 1"));
+  EXPECT_TRUE(std::filesystem::exists(path("run/map_error.png")));
+  run({"eval", path("run"), "--truth", path("none.ply")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("none.ply"));
 }
 
 }  // namespace
