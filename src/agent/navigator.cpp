@@ -54,7 +54,7 @@ std::vector<Eigen::Vector2d> obstacles_among(const std::vector<Eigen::Vector3f>&
     if (!(distance2 <= reach2)) continue;
     const double height = p.z() + config.base_height;
     const double rise = config.slope * std::sqrt(distance2);
-    if (height < config.min_height + rise || height > config.max_height + rise) continue;
+    if (!(height >= config.min_height + rise && height <= config.max_height + rise)) continue;
     const std::pair cell{static_cast<int>(std::floor(p.x() / config.spacing)),
                          static_cast<int>(std::floor(p.y() / config.spacing))};
     if (cells.insert(cell).second) obstacles.emplace_back(p.head<2>());

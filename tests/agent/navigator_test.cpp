@@ -1,0 +1,242 @@
+#include "fleetmap/agent/navigator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// base_link is 0.1 m above the ground.
+constexpr float kGround = -0.1f;
+
+TEST(ObstaclesAmong, TheGroundIsNone) {
+  std::vector<Eigen::Vector3f> points;
+  for (float x = -6.0f; x <= 6.0f; x += 0.25f)
+    for (float y = -6.0f; y <= 6.0f; y += 0.25f) points.emplace_back(x, y, kGround);
+  EXPECT_TRUE(obstacles_among(points, {}).empty());
+}
+
+TEST(ObstaclesAmong, GroundThatRisesWithDistanceIsNone) {
+  std::vector<Eigen::Vector3f> points;
+  for (float x = 0.5f; x <= 6.0f; x += 0.1f) points.emplace_back(x, 0.0f, kGround + 0.1f * x);
+  EXPECT_TRUE(obstacles_among(points, {}).empty());
+}
+
+TEST(ObstaclesAmong, APostIsOneWhereItStands) {
+  std::vector<Eigen::Vector3f> points;
+  for (float z = 0.0f; z < 2.0f; z += 0.05f) points.emplace_back(3.01f, -1.01f, kGround + z);
+  const auto obstacles = obstacles_among(points, {});
+  ASSERT_EQ(obstacles.size(), 1u) << "one cell, one obstacle";
+  EXPECT_NEAR(obstacles[0].x(), 3.01, 1e-6);
+  EXPECT_NEAR(obstacles[0].y(), -1.01, 1e-6);
+}
+
+TEST(ObstaclesAmong, APanelOverheadAndWhatIsFarAreNone) {
+  EXPECT_TRUE(obstacles_among({{1.0f, 0.0f, kGround + 1.2f}, {6.5f, 0.0f, kGround + 1.5f}}, {}).empty());
+  ObstacleConfig tall;
+  tall.max_height = 1.5;
+  EXPECT_EQ(obstacles_among({{1.0f, 0.0f, kGround + 1.2f}}, tall).size(), 1u);
+}
+
+TEST(ObstaclesAmong, PointsThatAreNotFiniteAreLeftOut) {
+  const std::vector<Eigen::Vector3f> points{{kNan, 0.0f, 0.4f}, {1.0f, kNan, 0.4f},
+                                            {1.0f, 0.0f, kNan}, {kInfinity, 0.0f, 0.4f},
+                                            {2.0f, 0.0f, 0.4f}, {1.0f, 1.0f, kInfinity}};
+  const auto obstacles = obstacles_among(points, {});
+  ASSERT_EQ(obstacles.size(), 1u);
+  EXPECT_NEAR(obstacles[0].x(), 2.0, 1e-6);
+}
+
+/// Two rows of 20 m to the east for two robots on open ground.
+std::shared_ptr<const planning::FleetPlan> small_plan() {
+  planning::Mission mission;
+  mission.rows = {{0, {{2.0, 0.0}, {22.0, 0.0}}}, {1, {{2.0, 8.0}, {22.0, 8.0}}}};
+  std::vector<planning::RobotAbility> fleet(2);
+  fleet[0].id = AgentId::parse("r1").value();
+  fleet[1].id = AgentId::parse("r2").value();
+  fleet[1].start.position = {0.0, 8.0};
+  auto plan = planning::plan_fleet(mission, fleet, {});
+  EXPECT_TRUE(plan) << plan.error().message;
+  return plan ? *plan : nullptr;
+}
+
+class NavigatorTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto network = bus::LocalNetwork::create({});
+    ASSERT_TRUE(network);
+    network_ = std::move(*network);
+    bus_ = &network_->add_robot(self_);
+    subscription_ = bus_->subscribe(wire::topics::cmd_vel(), [this](const Bytes& cdr) {
+      commands_.push_back(wire::decode<wire::VelocityCommand>(cdr).value());
+    });
+    NavigatorConfig config;
+    config.plan = small_plan();
+    ASSERT_TRUE(config.plan);
+    auto made = Navigator::create(config, self_, site_, *bus_, [this](exchange::MissionReport report) {
+      told_.push_back(std::move(report));
+    });
+    ASSERT_TRUE(made) << made.error().message;
+    navigator_ = std::move(*made);
+  }
+
+  /// A scan at `p` (ENU) with the robot's nose to `yaw`.
+  Perceived at(const Eigen::Vector2d& p, double yaw) const {
+    Perceived perceived;
+    perceived.G.emplace();
+    perceived.G->position = LocalFrame(site_).to_geo({p.x(), p.y(), 0.0});
+    perceived.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+    return perceived;
+  }
+  /// Scans and ticks at one place for `seconds`.
+  void stand(const Perceived& perceived, int seconds) {
+    for (int k = 0; k < 2 * seconds; ++k) {
+      network_->run_until(network_->now() + std::chrono::milliseconds(500));
+      navigator_->on_perceived(perceived);
+      navigator_->tick(false);
+    }
+    network_->run_until(network_->now());
+  }
+  exchange::MissionReport report_of(const char* id, Bytes done) const {
+    exchange::MissionReport report;
+    report.from = AgentId::parse(id).value();
+    report.stamp = network_->now() + std::chrono::seconds(1);
+    report.current = planning::MissionReport::kNoRow;
+    report.done = std::move(done);
+    return report;
+  }
+
+  AgentId self_ = AgentId::parse("r1").value();
+  GeoPoint site_ = geo_point_from_degrees(39.0, -3.0, 600.0);
+  std::unique_ptr<bus::LocalNetwork> network_;
+  bus::Bus* bus_ = nullptr;
+  bus::Handle subscription_;
+  std::vector<wire::VelocityCommand> commands_;
+  std::vector<exchange::MissionReport> told_;
+  std::unique_ptr<Navigator> navigator_;
+};
+
+TEST_F(NavigatorTest, DrivesAlongItsRow) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  ASSERT_FALSE(commands_.empty());
+  EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
+  EXPECT_NEAR(commands_.back().yaw_rate, 0.0, 0.3);
+}
+
+TEST_F(NavigatorTest, TurnsTowardsItsRow) {
+  stand(at({0.0, 0.0}, -1.57), 2);
+  ASSERT_FALSE(commands_.empty());
+  EXPECT_GT(commands_.back().yaw_rate, 0.2) << "the row lies to the left";
+  commands_.clear();
+  stand(at({0.0, 0.0}, 1.57), 2);
+  EXPECT_LT(commands_.back().yaw_rate, -0.2) << "the row lies to the right";
+}
+
+TEST_F(NavigatorTest, StandsStillWithoutAPose) {
+  stand({}, 3);
+  ASSERT_FALSE(commands_.empty()) << "it says so";
+  stand(at({0.0, 0.0}, 0.0), 2);
+  commands_.clear();
+  stand({}, 1);
+  ASSERT_FALSE(commands_.empty());
+  for (const auto& command : commands_) {
+    EXPECT_EQ(command.forward_speed, 0.0) << "the pose was lost on the way";
+    EXPECT_EQ(command.yaw_rate, 0.0);
+  }
+}
+
+TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
+  Perceived broken = at({0.0, 0.0}, 0.0);
+  broken.G->position.latitude = std::numeric_limits<double>::quiet_NaN();
+  stand(broken, 2);
+  for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0);
+  EXPECT_TRUE(told_.empty());
+}
+
+TEST_F(NavigatorTest, StopsInFrontOfAWall) {
+  Perceived perceived = at({0.0, 0.0}, 0.0);
+  for (float y = -8.0f; y <= 8.0f; y += 0.05f) {
+    for (float z = 0.2f; z < 1.0f; z += 0.1f) perceived.odometry.points.points.emplace_back(0.55f, y, z);
+  }
+  stand(perceived, 3);
+  ASSERT_FALSE(commands_.empty());
+  for (const auto& command : commands_) EXPECT_LE(command.forward_speed, 0.11);
+}
+
+TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
+  stand({}, 6);
+  EXPECT_TRUE(told_.empty()) << "there is nothing to tell without a pose";
+  stand(at({0.0, 0.0}, 0.0), 16);
+  ASSERT_GE(told_.size(), 3u);
+  EXPECT_LE(told_.size(), 4u);
+  EXPECT_EQ(told_.back().from, self_);
+  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
+  EXPECT_EQ(told_.back().claimed.size(), 1u);
+  EXPECT_NE(told_.back().claimed[0], 0) << "it claims its row";
+}
+
+TEST_F(NavigatorTest, HearsOfItsBattery) {
+  EXPECT_FALSE(navigator_->battery());
+  bus_->publish(wire::topics::battery(), wire::encode(sensor::Battery{network_->now(), 0.25}));
+  network_->run_until(network_->now());
+  ASSERT_TRUE(navigator_->battery());
+  EXPECT_NEAR(*navigator_->battery(), 0.25, 1e-6);
+  stand(at({0.0, 0.0}, 0.0), 2);
+  ASSERT_FALSE(told_.empty());
+  EXPECT_NEAR(told_.back().battery, 0.25, 1e-6);
+}
+
+TEST_F(NavigatorTest, RowsThatOthersDroveAreDriven) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  EXPECT_FALSE(navigator_->all_rows_driven());
+  navigator_->on_report(report_of("r2", {0b11}));
+  stand(at({0.0, 0.0}, 0.0), 2);
+  EXPECT_TRUE(navigator_->all_rows_driven());
+}
+
+TEST_F(NavigatorTest, ReportsThatCannotBeAreHarmless) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  const auto before = navigator_->status();
+  exchange::MissionReport beyond = report_of("r2", Bytes(128, 0xfc));
+  beyond.claimed = Bytes(128, 0xfc);
+  beyond.failed = Bytes(128, 0xfc);
+  beyond.current = 900;
+  beyond.state = 250;
+  beyond.east = std::numeric_limits<float>::quiet_NaN();
+  navigator_->on_report(beyond);
+  navigator_->on_report(report_of("r9", {0b11}));
+  navigator_->on_report(report_of("r1", {0b11}));
+  stand(at({0.0, 0.0}, 0.0), 8);
+  EXPECT_EQ(navigator_->status().rows, before.rows);
+  EXPECT_EQ(navigator_->status().done, 0u) << "rows beyond the mission, a stranger's and its own word";
+  EXPECT_GT(commands_.back().forward_speed, 0.2);
+}
+
+TEST_F(NavigatorTest, OnceStoppedItStandsForGood) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  commands_.clear();
+  navigator_->stop();
+  stand(at({0.0, 0.0}, 0.0), 2);
+  ASSERT_EQ(commands_.size(), 1u);
+  EXPECT_EQ(commands_[0].forward_speed, 0.0);
+}
+
+TEST_F(NavigatorTest, WhoIsNotInThePlanHasNoNavigator) {
+  NavigatorConfig config;
+  config.plan = small_plan();
+  const auto none = Navigator::create(config, AgentId::parse("r7").value(), site_, *bus_, [](auto) {});
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("r7"), std::string::npos) << none.error().message;
+}
+
+}  // namespace
+}  // namespace fleetmap::agent

@@ -1,0 +1,82 @@
+// A whole mission in the twin in virtual time: from the world's file to equal maps, and the same again.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/eval/trajectory.hpp"
+#include "small_twin.hpp"
+
+namespace fleetmap {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Content hash of a file's bytes; empty if there is none.
+std::string hash_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  return bytes.empty() ? "" : to_hex(content_hash(bytes));
+}
+
+/// Share of the true poses at which less than `radius` was free around the robot.
+double share_touching(const eval::Trajectory& truth, const sim::World& world, double radius) {
+  const auto touching = std::ranges::count_if(truth, [&](const eval::StampedPose& pose) {
+    return world.blocked(pose.T_enu_base.translation().head<2>(), radius);
+  });
+  return static_cast<double>(touching) / static_cast<double>(truth.size());
+}
+
+TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
+  const testing::SmallTwin twin;
+  const auto two = twin.run("two", {"--threads", "2"});
+  ASSERT_EQ(two.exit_code, 0) << two.output;
+  ASSERT_TRUE(two.report.is_object());
+  EXPECT_TRUE(two.report["settled"].get<bool>());
+  const auto& completion = two.report["completion"];
+  ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
+  EXPECT_LT(completion["completed_s"].get<double>(), 200.0);
+  EXPECT_LE(completion["mission_s"].get<double>(), completion["completed_s"].get<double>());
+  EXPECT_TRUE(fs::exists(two.out / "truth.ply"));
+
+  const auto world = config::make_world(twin.path("world.yaml"));
+  ASSERT_TRUE(world);
+  const std::string map_hash = two.report["agents"]["r1"]["map_hash"];
+  EXPECT_EQ(two.report["agents"].size(), 3u);
+  for (const auto& [id, agent] : two.report["agents"].items()) {
+    EXPECT_EQ(agent["map_hash"], map_hash) << id;
+    EXPECT_EQ(agent["missing_submaps"], 0) << id;
+    EXPECT_EQ(agent["aligned_groups"].size(), 1u) << id;
+    EXPECT_GT(agent["map_points"].get<std::size_t>(), 50'000u) << id;
+    const auto truth = eval::read_tum(two.out / id / "truth.tum");
+    const auto placed = eval::read_tum(two.out / id / "trajectory.tum");
+    const auto odometry = eval::read_tum(two.out / id / "odometry.tum");
+    ASSERT_TRUE(truth && placed && odometry) << id;
+    const auto errors = eval::compare(*odometry, *truth);
+    ASSERT_TRUE(errors) << id << ": " << errors.error().message;
+    EXPECT_GT(errors->path_length, 15.0) << id << " drove";
+    EXPECT_LT(errors->ate_rmse_aligned, 0.25) << id;
+    const auto placed_errors = eval::compare(*placed, *truth);
+    ASSERT_TRUE(placed_errors) << id;
+    EXPECT_LT(placed_errors->ate_rmse, 3.0) << id << ": as far off as GPS is";
+    EXPECT_LT(share_touching(*truth, **world, 0.3), 0.02) << id;
+  }
+
+  const auto one = twin.run("one", {"--threads", "1"});
+  ASSERT_EQ(one.exit_code, 0) << one.output;
+  const auto other = twin.run("other", {"--threads", "2", "--set", "world.seed=2"});
+  ASSERT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_NE(hash_of(two.out / "truth.ply"), hash_of(other.out / "truth.ply"));
+  for (const std::string id : {"r1", "r2", "r3"}) {
+    for (const char* file : {"map.ply", "odometry.tum", "trajectory.tum", "alignments.csv", "truth.tum"}) {
+      const std::string hash = hash_of(two.out / id / file);
+      EXPECT_FALSE(hash.empty()) << id << "/" << file;
+      EXPECT_EQ(hash, hash_of(one.out / id / file)) << id << "/" << file << " with one thread";
+      EXPECT_NE(hash, hash_of(other.out / id / file)) << id << "/" << file << " of another seed";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fleetmap
