@@ -2,7 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
 
+#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
@@ -26,6 +31,20 @@ double share_touching(const eval::Trajectory& truth, const sim::World& world, do
     return world.blocked(pose.T_enu_base.translation().head<2>(), radius);
   });
   return static_cast<double>(touching) / static_cast<double>(truth.size());
+}
+
+/// Looks again until `condition` holds; false after two minutes. A process's progress shows only in its
+/// files.
+bool eventually(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  std::mutex mutex;
+  std::condition_variable never;
+  std::unique_lock lock(mutex);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    never.wait_for(lock, std::chrono::milliseconds(100));
+  }
+  return true;
 }
 
 TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
@@ -76,6 +95,44 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
       EXPECT_NE(hash, hash_of(other.out / id / file)) << id << "/" << file << " of another seed";
     }
   }
+}
+
+TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
+  const testing::SmallTwin twin;
+  // Domains of this process, so that test runs beside each other do not meet.
+  twin.write_fleet("dds: {base_domain: " + std::to_string(60 + (getpid() % 20) * 6) +
+                   ", qos: " + FLEETMAP_SOURCE_DIR + "/qos}\n");
+  const std::string fleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
+  const std::string config = twin.path("fleet.yaml").string();
+  testing::Process sim({fleetmap, "sim", "-c", config, "--out", twin.path("truth").string()},
+                       twin.path("sim.log"));
+  testing::Process agent(
+      {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()},
+      twin.path("agent.log"));
+  const bool drove = eventually([&] {
+    const auto poses = agent::read_trajectory(twin.path("agents/r1/odometry.tum"));
+    return poses && !poses->empty() && poses->back().T_w_base.translation().norm() > 1.5;
+  });
+  agent.signal(SIGINT);
+  EXPECT_EQ(agent.wait(), 0) << agent.output();
+  sim.signal(SIGINT);
+  EXPECT_EQ(sim.wait(), 0) << sim.output();
+  ASSERT_TRUE(drove) << agent.output() << sim.output();
+
+  std::ifstream file(twin.path("agents/r1/report.json"));
+  ASSERT_TRUE(file);
+  const auto sensors = nlohmann::json::parse(file)["sensors"];
+  for (const char* sensor : {"scans", "imu", "fixes", "wheel"})
+    EXPECT_GT(sensors[sensor].get<int>(), 3) << sensor << agent.output();
+  const auto moved = [&](const std::string& id) {
+    const auto truth = eval::read_tum(twin.path("truth") / id / "truth.tum");
+    if (!truth || truth->empty()) return -1.0;
+    return (truth->back().T_enu_base.translation() - truth->front().T_enu_base.translation()).norm();
+  };
+  EXPECT_GT(moved("r1"), 1.0) << "it obeyed its agent";
+  EXPECT_GE(moved("r2"), 0.0);
+  EXPECT_LT(moved("r2"), 0.1) << "nobody drives it";
+  EXPECT_TRUE(fs::exists(twin.path("truth/truth.ply")));
 }
 
 }  // namespace
