@@ -1,40 +1,75 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and lets two robots make one map: from the real drive if the recordings are beside
-# the checkout (or FLEETMAP_SHARED_DATA names them), else from a small generated recording. Ends with where the maps
-# and the report are.
+# Installs what is missing, builds, and lets three robots map a solar farm of 200 m x 200 m in the digital twin: the twin
+# and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. Ends with
+# the merged map, the report and pictures of the map in one folder.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
 cd "$(dirname "$0")/.."
+fleet=config/fleets/demo.yaml
+robots=(r1 r2 r3)
+limit=270  # s; a robot that is not done by then is told to end
 
 ./deploy/install-dependencies.sh
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+pids=()
+cleanup() {
+  [ "${#pids[@]}" -eq 0 ] || kill "${pids[@]}" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -f "$log"
+}
+trap cleanup EXIT
 echo "building (the first time takes some minutes)"
 cmake --preset release >"$log" 2>&1 || { cat "$log"; exit 1; }
-cmake --build --preset release --target fleetmap make_recording
+cmake --build --preset release --target fleetmap
+fleetmap=build/release/bin/fleetmap
 
 # Only what an earlier demo left goes.
 if [ -e "$out/.fleetmap-demo" ]; then
-  rm -rf "$out/r1" "$out/r2" "$out/recordings" "$out/report.json" "$out/report.html"
-elif [ -e "$out/r1" ] || [ -e "$out/r2" ]; then
+  rm -rf "${out:?}"/r[0-9]* "$out"/*.json "$out"/*.html "$out"/*.png "$out"/*.ply "$out"/*.log
+elif [ -e "$out/r1" ]; then
   echo "$out holds something that is not an earlier demo's; name another folder" >&2
   exit 2
 fi
 mkdir -p "$out"
 touch "$out/.fleetmap-demo"
-recordings=${FLEETMAP_SHARED_DATA:-../shared/data}
-drive=$recordings/kitti_raw_2011_09_26_drive_0005
-fleetmap=build/release/bin/fleetmap
-if [ -d "$drive" ]; then
-  echo "two halves of a real drive (HDL-64E LiDAR, GPS made 1.5 m bad) as two robots"
-  "$fleetmap" run -c config/fleets/kitti_0005.yaml --set "recording.path=$(realpath "$drive")" --out "$out"
-else
-  echo "a generated recording: two robots with VLP-16 that meet in a yard"
-  build/release/bin/make_recording "$out/recordings"
-  "$fleetmap" run --recording "r1=$out/recordings/r1" --recording "r2=$out/recordings/r2" \
-    --set 'lidar.translation=[0,0,0.8]' --set nodes.spacing=4 --out "$out"
-fi
+
+"$fleetmap" sim -c "$fleet" --out "$out" >"$out/sim.log" 2>&1 &
+sim=$!
+pids+=("$sim")
+agents=()
+for robot in "${robots[@]}"; do
+  "$fleetmap" agent -c "$fleet" --as "$robot" --out "$out" --exit-after-idle 5 >"$out/$robot.log" 2>&1 &
+  agents+=("$!")
+  pids+=("$!")
+done
+echo "three robots drive; every 10 s a line of each (all of it: $out/*.log)"
+
+running() {
+  for pid in "${agents[@]}"; do kill -0 "$pid" 2>/dev/null && return 0; done
+  return 1
+}
+begin=$SECONDS
+while running; do
+  kill -0 "$sim" 2>/dev/null || { echo "the twin has stopped:" >&2; tail -n 5 "$out/sim.log" >&2; exit 1; }
+  if [ $((SECONDS - begin)) -ge "$limit" ]; then
+    echo "time is up: the robots end with what they have"
+    kill -TERM "${agents[@]}" 2>/dev/null || true
+    break
+  fi
+  sleep 10
+  echo "-- $((SECONDS - begin)) s"
+  for robot in "${robots[@]}"; do grep -h "rows driven\|nodes," "$out/$robot.log" | tail -n 2 || true; done
+done
+failed=0
+for pid in "${agents[@]}"; do wait "$pid" || failed=1; done
+kill -INT "$sim" 2>/dev/null || true
+wait "$sim" || failed=1
+pids=()
+[ "$failed" -eq 0 ] || { echo "a process failed:" >&2; tail -n 3 "$out"/*.log >&2; exit 1; }
+"$fleetmap" eval "$out"
+
 echo
-echo "map of each robot: $out/r1/map.ply $out/r2/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
-echo "report:            $out/report.html, $out/report.json"
+echo "map of each robot: $out/{r1,r2,r3}/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
+echo "pictures:          $out/map_top.png $out/map_perspective.png (coloured by robot)"
+echo "report:            $out/evaluation.html, and $out/r1/report.json of each robot"

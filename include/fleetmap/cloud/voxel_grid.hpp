@@ -38,7 +38,12 @@ class VoxelMerger {
     std::uint32_t count;
   };
   bool add_point(const Eigen::Vector3f& point, float intensity);
-  std::size_t slot_of(const Key& key) const;
+  /// Open addressing. The hash's upper half spares most looks at the keys, which lie elsewhere in memory.
+  struct Slot {
+    std::uint32_t entry = 0;  ///< 1 + index into keys_ and sums_, 0 where free
+    std::uint32_t tag = 0;
+  };
+  std::size_t slot_of(const Key& key, std::uint64_t hash) const;
   void grow(std::size_t slots);
 
   double voxel_m_;
@@ -47,7 +52,7 @@ class VoxelMerger {
   std::size_t refused_ = 0;
   std::vector<Key> keys_;
   std::vector<Sum> sums_;
-  std::vector<std::uint32_t> slots_;  ///< open addressing: 1 + index into keys_ and sums_, 0 where free
+  std::vector<Slot> slots_;
 };
 
 /// The centroid of the points of each voxel, in the order in which the voxels were first hit. Points as in
