@@ -89,9 +89,8 @@ Status Agent::start() {
                           [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
-    navigator_timer_ = bus_.every(kNavigatorPeriod, [this] {
-      navigator_->tick(exchange_->complete() && exchange_->fleet_caught_up());
-    });
+    navigator_timer_ =
+        bus_.every(kNavigatorPeriod, [this] { navigator_->tick(complete() && fleet_caught_up()); });
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
   if (session_ > 0) {
@@ -102,7 +101,13 @@ Status Agent::start() {
   return {};
 }
 
-bool Agent::idle() const { return jobs_ == 0 && perception_->idle() && exchange_->idle(bus_.now()); }
+std::set<AgentId> Agent::lost() const {
+  if (!navigator_) return {};
+  const auto lost = navigator_->status().lost;
+  return {lost.begin(), lost.end()};
+}
+
+bool Agent::idle() const { return jobs_ == 0 && perception_->idle() && exchange_->idle(bus_.now(), lost()); }
 
 // ---- own map
 // ----------------------------------------------------------------------------------------------------

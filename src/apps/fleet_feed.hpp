@@ -32,6 +32,8 @@ class FleetFeed {
   virtual void command(std::size_t member, double forward_speed, double yaw_rate) {
     static_cast<void>(member), static_cast<void>(forward_speed), static_cast<void>(yaw_rate);
   }
+  /// The member as a whole is switched off or on again: while it is off it stands still and senses nothing.
+  virtual void switch_power(std::size_t member, bool on) { static_cast<void>(member), static_cast<void>(on); }
   /// The mission is over: no samples are wanted any more.
   virtual void stop() {}
   /// No more samples come for this member.

@@ -109,7 +109,7 @@ json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
 std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
   std::vector<eval::LineSeries> tracks;
   for (const auto& entry : outcome.agents) {
-    const std::string id = entry.agent->config().id.str();
+    const std::string id = entry.id.str();
     const auto poses = agent::read_trajectory(out / id / "trajectory.tum");
     if (!poses || poses->empty()) continue;
     eval::LineSeries& track = tracks.emplace_back();
@@ -129,6 +129,26 @@ std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcom
                          tracks);
 }
 
+/// What the agent holds, and the map that was made of it.
+void add_holdings(json& report, const store::Store& store, const agent::Results* results) {
+  report["nodes"] = store.nodes().size();
+  report["alignments"] = store.alignments().size();
+  report["submaps"] = store.submap_set().size();
+  if (results == nullptr) return;
+  report["map_points"] = results->map_points;
+  report["map_submaps"] = results->map_submaps;
+  report["missing_submaps"] = results->missing_submaps;
+  report["map_hash"] = results->map_hash;
+  report["origin"] = origin_json(results->origin);
+  json groups = json::array();
+  for (const auto& component : results->placement.components) {
+    json frames = json::array();
+    for (const graph::FrameId& frame : component) frames.push_back(agent::to_string(frame));
+    groups.push_back(frames);
+  }
+  report["aligned_groups"] = groups;
+}
+
 eval::HtmlPage html(const json& report, const std::string& svg) {
   eval::HtmlPage page("fleetmap report");
   if (!svg.empty()) page.figure(svg);
@@ -136,6 +156,12 @@ eval::HtmlPage html(const json& report, const std::string& svg) {
   eval::Table rows{{"agent", "scans", "nodes", "alignments", "submaps", "map points", "map hash",
                     "odometry ms (p50)", "long-range bytes"}};
   for (const auto& [id, agent] : report["agents"].items()) {
+    if (agent.contains("switched_off")) {
+      rows.push_back({id + " (switched off)", "", agent.value("nodes", json()).dump(),
+                      agent.value("alignments", json()).dump(), agent.value("submaps", json()).dump(),
+                      std::to_string(agent.value("map_points", 0)), agent.value("map_hash", ""), "", ""});
+      continue;
+    }
     rows.push_back({id, agent["sensors"]["scans"].dump(), agent["nodes"].dump(), agent["alignments"].dump(),
                     agent["submaps"].dump(), std::to_string(agent.value("map_points", 0)),
                     agent.value("map_hash", ""),
@@ -176,9 +202,6 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
   json report = {{"sensors", perception_json(agent)},
                  {"localization", localization_json(agent.perception().localization_counters())},
                  {"bus_drops", bus_drops_json(agent.bus_stats())},
-                 {"nodes", agent.store().nodes().size()},
-                 {"alignments", agent.store().alignments().size()},
-                 {"submaps", agent.store().submap_set().size()},
                  {"complete", agent.complete()},
                  {"registrations",
                   {{"accepted", registrations.accepted},
@@ -190,19 +213,7 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
                  {"exchange", exchange_json(agent.exchange_stats())}};
-  if (results == nullptr) return report;
-  report["map_points"] = results->map_points;
-  report["map_submaps"] = results->map_submaps;
-  report["missing_submaps"] = results->missing_submaps;
-  report["map_hash"] = results->map_hash;
-  report["origin"] = origin_json(results->origin);
-  json groups = json::array();
-  for (const auto& component : results->placement.components) {
-    json frames = json::array();
-    for (const graph::FrameId& frame : component) frames.push_back(agent::to_string(frame));
-    groups.push_back(frames);
-  }
-  report["aligned_groups"] = groups;
+  add_holdings(report, agent.store(), results);
   return report;
 }
 
@@ -215,8 +226,10 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
   if (outcome.completion) report["completion"] = completion_json(*outcome.completion);
   if (outcome.origin_known) report["origin"] = origin_json(outcome.origin);
   for (const auto& entry : outcome.agents) {
-    json& agent = report["agents"][entry.agent->config().id.str()];
-    agent = agent_report(*entry.agent, entry.results ? &*entry.results : nullptr);
+    json& agent = report["agents"][entry.id.str()];
+    const agent::Results* results = entry.results ? &*entry.results : nullptr;
+    agent = entry.agent ? agent_report(*entry.agent, results) : json{{"switched_off", true}};
+    if (!entry.agent && entry.store) add_holdings(agent, *entry.store, results);
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
   }

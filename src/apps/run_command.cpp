@@ -2,6 +2,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <set>
 #include <thread>
 
 #include "commands.hpp"
@@ -71,9 +72,10 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
 
 void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out) {
   for (const auto& entry : outcome.agents) {
-    const std::string id = entry.agent->config().id.str();
+    const std::string id = entry.id.str();
+    if (!entry.agent) std::cout << id << ": switched off; what its store held:\n";
     if (!entry.results) {
-      std::cout << id << ": no map: " << entry.problem << '\n';
+      std::cout << id << ": no map: " << (entry.problem.empty() ? "it made no node" : entry.problem) << '\n';
       continue;
     }
     std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map_points
@@ -85,10 +87,12 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
                 << " m\n";
     }
   }
-  const bool equal = std::ranges::adjacent_find(outcome.agents, [](const auto& a, const auto& b) {
-                       return !a.results || !b.results || a.results->map_hash != b.results->map_hash;
-                     }) == outcome.agents.end();
-  std::cout << (equal ? "all robots hold the same map\n" : "the robots' maps differ: see report.json\n");
+  std::set<std::string> maps;  // of those who are there at the end
+  for (const auto& entry : outcome.agents) {
+    if (entry.agent) maps.insert(entry.results ? entry.results->map_hash : "none of " + entry.id.str());
+  }
+  std::cout << (maps.size() <= 1 ? "all robots hold the same map\n"
+                                 : "the robots' maps differ: see report.json\n");
   if (!outcome.settled) {
     std::cout << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
                  "report.json\n";
@@ -129,15 +133,16 @@ int run(const RunOptions& options) {
   const auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
   for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
-    const Status written = write_truth(outcome->agents[k].agent->config().directory, twin->truth(k));
+    const Status written = write_truth(outcome->agents[k].directory, twin->truth(k));
     if (!written) return report(written.error(), kFailed);
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
     return report(written.error(), kFailed);
   print_summary(*outcome, options.out);
-  const bool whole = std::ranges::all_of(
-      outcome->agents, [](const auto& entry) { return entry.results.has_value() && entry.problem.empty(); });
+  const bool whole = std::ranges::all_of(outcome->agents, [](const auto& entry) {
+    return (entry.results || !entry.agent) && entry.problem.empty();
+  });
   return whole ? kDone : kFailed;
 }
 

@@ -22,7 +22,7 @@ Result<std::unique_ptr<TwinFeed>> TwinFeed::create(std::shared_ptr<const sim::Wo
   for (const sim::RobotTwinConfig& config : robots) {
     auto twin = sim::RobotTwin::create(world, origin, config, feed->start_);
     if (!twin) return tl::unexpected(twin.error());
-    feed->robots_.push_back({std::move(*twin), {}});
+    feed->robots_.push_back({std::move(*twin), {}, true});
   }
   return feed;
 }
@@ -36,6 +36,11 @@ Status TwinFeed::begin(bus::LocalNetwork& network, Deliver deliver) {
 
 void TwinFeed::command(std::size_t member, double forward_speed, double yaw_rate) {
   robots_[member].twin.command(forward_speed, yaw_rate);
+}
+
+void TwinFeed::switch_power(std::size_t member, bool on) {
+  robots_[member].on = on;
+  robots_[member].twin.command(0.0, 0.0);
 }
 
 std::optional<bus::EnuPosition> TwinFeed::position(std::size_t member) const {
@@ -67,6 +72,7 @@ void TwinFeed::deliver_pending() {
 void TwinFeed::sense(std::size_t member) {
   Robot& robot = robots_[member];
   for (sim::TwinSample& sample : robot.twin.advance(network_->now())) {
+    if (!robot.on) break;
     if (auto* job = std::get_if<sim::ScanJob>(&sample)) {
       cast(member, std::move(*job));
     } else if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {

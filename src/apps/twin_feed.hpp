@@ -29,6 +29,7 @@ class TwinFeed final : public FleetFeed {
   std::optional<GeoPoint> origin() const override { return origin_; }
   Status begin(bus::LocalNetwork& network, Deliver deliver) override;
   void command(std::size_t member, double forward_speed, double yaw_rate) override;
+  void switch_power(std::size_t member, bool on) override;
   void stop() override { stopped_ = true; }
   bool ended(std::size_t) const override { return stopped_ && pending_.empty(); }
   std::string problem(std::size_t) const override { return {}; }
@@ -44,6 +45,7 @@ class TwinFeed final : public FleetFeed {
   struct Robot {
     sim::RobotTwin twin;
     std::vector<agent::StampedPose> truth;
+    bool on = true;
   };
   /// A scan whose rays are being cast.
   struct Pending {

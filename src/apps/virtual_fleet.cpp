@@ -33,8 +33,9 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
   auto network = bus::LocalNetwork::create(config_.network);
   if (!network) return tl::unexpected(network.error());
   network_ = std::move(*network);
-  for (config::FleetConfig::Member& source : config_.members) {
-    agent::AgentConfig& config = source.agent;
+  schedule_blackouts();
+  for (std::size_t k = 0; k < config_.members.size(); ++k) {
+    agent::AgentConfig& config = config_.members[k].agent;
     config.directory = out / config.id.str();
     if (origin_) config.site_origin = origin_;
     std::error_code error;
@@ -42,23 +43,31 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
       return failure(config.directory.string() +
                      ": holds the result of an earlier run; give another --out or delete it");
     }
-    Member member;
-    member.bus = &network_->add_robot(config.id);
-    auto agent = agent::Agent::create(config, *member.bus);
-    if (!agent) return tl::unexpected(agent.error());
-    member.agent = std::move(*agent);
+    Member& member = members_.emplace_back();
+    member.id = config.id;
+    if (const Status started = start_agent(k); !started) return started;
     if (record) {
       auto bag = recording::BagWriter::create(*record / config.id.str());
       if (!bag) return tl::unexpected(bag.error());
       member.bag.emplace(std::move(*bag));
     }
-    members_.push_back(std::move(member));
   }
+  return {};
+}
+
+Status VirtualFleet::start_agent(std::size_t member) {
+  Member& self = members_[member];
+  self.bus = &network_->add_robot(self.id);
+  auto agent = agent::Agent::create(config_.members[member].agent, *self.bus);
+  if (!agent) return tl::unexpected(agent.error());
+  self.agent = std::move(*agent);
+  self.rest_frozen = false;
   return {};
 }
 
 void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, Stamp stamp) {
   Member& self = members_[member];
+  if (!self.agent) return;
   const EncodedSample encoded = encode(sample, self.agent->config().perception.topics);
   self.bus->publish(encoded.topic, encoded.cdr);
   if (!self.bag) return;
@@ -66,13 +75,17 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
   if (!written) error_ = written.error().message;
 }
 
+void VirtualFleet::obey_commands(std::size_t member) {
+  members_[member].commands =
+      members_[member].bus->subscribe(wire::topics::cmd_vel(), [this, member](const Bytes& cdr) {
+        const auto command = wire::decode<wire::VelocityCommand>(cdr);
+        if (command) feed_->command(member, command->forward_speed, command->yaw_rate);
+      });
+}
+
 Status VirtualFleet::begin() {
-  for (std::size_t k = 0; k < members_.size(); ++k) {
-    members_[k].commands = members_[k].bus->subscribe(wire::topics::cmd_vel(), [this, k](const Bytes& cdr) {
-      const auto command = wire::decode<wire::VelocityCommand>(cdr);
-      if (command) feed_->command(k, command->forward_speed, command->yaw_rate);
-    });
-  }
+  for (std::size_t k = 0; k < members_.size(); ++k) obey_commands(k);
+  schedule_power();
   if (has_mission()) completion_.emplace();
   return feed_->begin(*network_, [this](std::size_t member, const recording::Sample& sample, Stamp stamp) {
     deliver(member, sample, stamp);
@@ -80,12 +93,13 @@ Status VirtualFleet::begin() {
 }
 
 bool VirtualFleet::has_mission() const {
-  return std::ranges::any_of(members_, [](const Member& m) { return m.agent->navigator() != nullptr; });
+  return std::ranges::any_of(config_.members, [](const auto& m) { return m.agent.navigator != nullptr; });
 }
 
 void VirtualFleet::end_mission(Duration elapsed) {
   if (!has_mission() || mission_ended_) return;
   const bool done = std::ranges::all_of(members_, [](const Member& m) {
+    if (!m.agent) return m.lost;  // who comes back has something to bring
     return m.agent->navigator() == nullptr || m.agent->navigator()->done();
   });
   const bool late = config_.twin && elapsed > from_seconds(config_.twin->max_time);
@@ -95,22 +109,35 @@ void VirtualFleet::end_mission(Duration elapsed) {
   feed_->stop();
 }
 
+bool VirtualFleet::all_driven() const {
+  return std::ranges::all_of(members_, [](const Member& m) {
+    return !m.agent || m.agent->navigator() == nullptr || m.agent->navigator()->all_rows_driven();
+  });
+}
+
 void VirtualFleet::note_completion(Duration elapsed) {
   if (!completion_ || completion_->completed) return;
   const double now = to_seconds(elapsed);
   std::vector<AgentId> agents;
   std::vector<planning::PairAlignment> pairs;
-  bool shared = true, driven = true;
+  const store::SeqSet* nodes = nullptr;
+  bool shared = true;
   for (const Member& member : members_) {
+    if (member.lost) continue;
+    agents.push_back(member.id);
+    if (!member.agent) {
+      completion_->why_not = member.id.str() + " is switched off";
+      return;
+    }
     const store::Store& store = member.agent->store();
-    agents.push_back(member.agent->config().id);
-    shared &= store.node_set() == members_.front().agent->store().node_set();
-    driven &= member.agent->navigator() == nullptr || member.agent->navigator()->all_rows_driven();
+    shared &= nodes == nullptr || store.node_set() == *nodes;
+    nodes = &store.node_set();
     for (const auto& [id, alignment] : store.alignments()) {
-      if (alignment.computed_by == member.agent->config().id)
+      if (alignment.computed_by == member.id)
         pairs.push_back({alignment.i.agent, alignment.j.agent, alignment.rmse});
     }
   }
+  const bool driven = all_driven();
   if (driven && !completion_->rows_driven) completion_->rows_driven = now;
   if (!completion_->aligned && planning::mapping_complete(agents, pairs, true, graph::kGoodRmse).complete)
     completion_->aligned = now;
@@ -121,8 +148,8 @@ void VirtualFleet::note_completion(Duration elapsed) {
 
 void VirtualFleet::update_states() {
   for (std::size_t k = 0; k < members_.size(); ++k) {
-    const AgentId& id = members_[k].agent->config().id;
-    if (const auto share = feed_->battery(k)) {
+    const AgentId& id = members_[k].id;
+    if (const auto share = feed_->battery(k); share && members_[k].bus != nullptr) {
       members_[k].bus->publish(wire::topics::battery(),
                                wire::encode(sensor::Battery{network_->now(), *share}));
     }
@@ -130,6 +157,7 @@ void VirtualFleet::update_states() {
       network_->set_position(id, *truth);
       continue;
     }
+    if (!members_[k].agent) continue;
     const auto G = members_[k].agent->perception().global_pose();
     if (!G || !origin_) continue;
     const Eigen::Vector3d p = LocalFrame(*origin_).to_enu(G->position);
@@ -149,6 +177,10 @@ bool VirtualFleet::settled() {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     Member& member = members_[k];
     const bool ended = feed_->ended(k);
+    if (!member.agent) {
+      all &= ended || member.lost;
+      continue;
+    }
     if (ended && !member.rest_frozen && member.agent->perception().idle()) {
       member.agent->freeze_rest();
       member.rest_frozen = true;
@@ -162,10 +194,13 @@ bool VirtualFleet::settled() {
 
 void VirtualFleet::report_progress(Duration elapsed) const {
   for (const Member& member : members_) {
+    if (!member.agent) {
+      spdlog::info("{:.0f} s {}: switched off", to_seconds(elapsed), member.id.str());
+      continue;
+    }
     const store::Store& store = member.agent->store();
     const agent::Navigator* navigator = member.agent->navigator();
-    spdlog::info("{:.0f} s {}: {}{} nodes, {} alignments, {} submaps", to_seconds(elapsed),
-                 member.agent->config().id.str(),
+    spdlog::info("{:.0f} s {}: {}{} nodes, {} alignments, {} submaps", to_seconds(elapsed), member.id.str(),
                  navigator ? std::string(planning::to_string(navigator->status().state)) + ", " : "",
                  store.nodes().size(), store.alignments().size(), store.submap_set().size());
   }
@@ -206,10 +241,13 @@ Result<FleetOutcome> VirtualFleet::run() {
 
 Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   Member& self = members_[member];
+  if (!self.agent) return results_of_store(member);
   // Work under way uses the agent and its store.
   self.agent->stop();
-  network_->finish_work(self.agent->config().id);
+  network_->finish_work(self.id);
   FleetOutcome::AgentOutcome result;
+  result.id = self.id;
+  result.directory = self.agent->config().directory;
   auto written = agent::write_results(self.agent->store(), self.agent->config());
   if (written) {
     result.results = std::move(*written);

@@ -27,7 +27,10 @@ struct Completion {
 /// What a run in virtual time gave.
 struct FleetOutcome {
   struct AgentOutcome {
-    std::unique_ptr<agent::Agent> agent;
+    AgentId id;
+    std::filesystem::path directory;
+    std::unique_ptr<agent::Agent> agent;  ///< null: it was switched off to the end, `store` is what it left
+    std::optional<store::Store> store;
     std::optional<agent::Results> results;
     recording::Counters recording;
     std::string problem;  ///< why there are no results, or why they are not of the whole recording
@@ -57,15 +60,25 @@ class VirtualFleet {
 
  private:
   struct Member {
-    bus::Bus* bus = nullptr;
-    std::unique_ptr<agent::Agent> agent;
+    AgentId id;
+    bus::Bus* bus = nullptr;              ///< null while it is switched off
+    std::unique_ptr<agent::Agent> agent;  ///< null while it is switched off
     std::optional<recording::BagWriter> bag;
     bus::Handle commands;
     bool rest_frozen = false;
+    bool lost = false;  ///< switched off, and stays so
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
   Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
+  /// Puts the member's agent onto a bus of its own; what the agent's store holds, it goes on from.
+  Status start_agent(std::size_t member);
+  void obey_commands(std::size_t member);
+  void schedule_power();
+  void schedule_blackouts();
+  /// As when a process is killed: nothing is frozen, nothing is said.
+  void switch_off(std::size_t member, bool for_ever);
+  void switch_on(std::size_t member);
   Status begin();
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
   /// What the network and the agents learn of the robots once a second: where they are, their batteries.
@@ -74,10 +87,13 @@ class VirtualFleet {
   bool has_mission() const;
   /// Tells the feed when nobody has anything left to drive, or time is up.
   void end_mission(Duration elapsed);
+  bool all_driven() const;
   void note_completion(Duration elapsed);
   bool settled();
   void report_progress(Duration elapsed) const;
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
+  /// Of a member that is switched off at the end.
+  FleetOutcome::AgentOutcome results_of_store(std::size_t member);
 
   config::FleetConfig config_;
   std::unique_ptr<FleetFeed> feed_;

@@ -95,7 +95,7 @@ bus::DdsBusConfig dds_of(const AgentId& agent, std::size_t index, const Loopback
 Result<FleetConfig> read_fleet(Document& document) {
   FleetConfig fleet;
   Section top(document, document.root(), "");
-  read_network(top, fleet.network);
+  read_network(top, fleet.network, fleet.blackouts);
   top.read("settle_time", fleet.settle_time);
   fleet.twin = read_twin(top);
   const LoopbackDomains domains = read_loopback(top);
@@ -116,11 +116,13 @@ Result<FleetConfig> read_fleet(Document& document) {
       section.problem("directory", "a run decides where its agents keep their files");
     if (section.has("fleet")) section.problem("fleet", "a fleet's file lists its agents under 'agents'");
     member.recording = read_recording(section);
-    read_robot_twin(section, member.robot);
+    read_robot_twin(section, member.robot, member.switched_off);
     if (!fleet.twin && !member.recording)
       section.problem("recording",
                       "expected recording: {path: ...}, or for the whole fleet world: {file: ...}");
     if (fleet.twin) suit_estimator(member, section.section("lidar"));
+    if (!fleet.twin && !member.switched_off.empty())
+      section.problem("robot", "switched_off is for the twin, which needs world: {file: WORLD.yaml}");
     if (fleet.twin && member.recording)
       section.problem("recording", "a fleet of the twin (world) has no recordings");
     section.finish();
@@ -134,6 +136,11 @@ Result<FleetConfig> read_fleet(Document& document) {
   if (const Status status = document.status(); !status) return tl::unexpected(status.error());
   std::vector<AgentId> names;
   for (const FleetConfig::Member& member : fleet.members) names.push_back(member.agent.id);
+  for (const RadioBlackout& blackout : fleet.blackouts) {
+    if (blackout.agent && std::ranges::find(names, *blackout.agent) == names.end())
+      return failure(document.name() + ": network.blackouts: agent '" + blackout.agent->str() +
+                     "' is not in agents");
+  }
   for (FleetConfig::Member& member : fleet.members) {
     member.agent.exchange.fleet = names;
     member.agent.directory = ".";  // the run puts its own folder here; the rest is checked

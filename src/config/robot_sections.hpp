@@ -15,6 +15,6 @@ std::optional<RecordingConfig> read_recording(Section& top);
 /// `dds`: domains, addresses, peers.
 void read_dds(Section& top, bus::DdsBusConfig& dds);
 /// `network`: the simulated radios of a run in virtual time.
-void read_network(Section& top, bus::LocalNetworkConfig& network);
+void read_network(Section& top, bus::LocalNetworkConfig& network, std::vector<RadioBlackout>& blackouts);
 
 }  // namespace fleetmap::config

@@ -1,5 +1,6 @@
 #include "twin_sections.hpp"
 
+#include <limits>
 #include <numbers>
 
 #include "fleetmap/config/sensor_file.hpp"
@@ -114,6 +115,25 @@ void read_twin_vehicle(Section& robot, sim::VehicleSpec& spec) {
   vehicle.check(spec.validate());
 }
 
+void read_switched_off(Section& robot, std::vector<SwitchedOff>& times) {
+  double free_from = 0.0;
+  for (Section& entry : robot.list("switched_off")) {
+    SwitchedOff off;
+    entry.read("from", off.from);
+    if (entry.has("until")) entry.read("until", off.until.emplace());
+    if (!entry.has("from")) entry.problem("from", "expected s since the start of the run");
+    entry.finish();
+    if (!(off.from >= 0.0 && off.until.value_or(std::numeric_limits<double>::infinity()) > off.from)) {
+      entry.problem(off.until ? "until" : "from",
+                    "expected 0 <= from < until, in s since the start; without until it stays off");
+    } else if (!(off.from >= free_from)) {
+      entry.problem("from", "expected the times in order, each after the end of the one before");
+    }
+    free_from = off.until.value_or(std::numeric_limits<double>::infinity());
+    times.push_back(off);
+  }
+}
+
 /// Robots err differently though nobody sets their seeds (FNV-1a of the name).
 std::uint64_t seed_of(Section& agent) {
   std::string id;
@@ -132,7 +152,8 @@ void read_mounts(Section& agent, sim::RobotTwinConfig& config) {
 
 }  // namespace
 
-void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config) {
+void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config,
+                     std::vector<SwitchedOff>& switched_off) {
   read_mounts(agent_section, config);
   Section robot = agent_section.section("robot");
   read_twin_lidar(robot, config.lidar);
@@ -147,6 +168,7 @@ void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config) {
   read_twin_vehicle(robot, config.vehicle);
   config.seed = seed_of(agent_section);
   robot.read("seed", config.seed);
+  read_switched_off(robot, switched_off);
   robot.finish();
   robot.check(config.lidar.validate());
 }

@@ -101,6 +101,11 @@ bool CloudReceiver::want(const NodeId& node, Stamp now) {
 
 void CloudReceiver::cancel(const NodeId& node) { waiting_.erase(node); }
 
+bool CloudReceiver::idle(const std::set<AgentId>& without) const {
+  return std::ranges::all_of(waiting_,
+                             [&](const auto& entry) { return without.contains(entry.first.agent); });
+}
+
 bool CloudReceiver::consistent(const CloudFragment& f) const {
   return f.to == self_ && f.from == f.node.agent && f.total_bytes > 0 &&
          f.total_bytes <= config_.max_cloud_bytes && f.count == piece_count(f.total_bytes) &&

@@ -276,9 +276,10 @@ bool Encounters::wants(const NodeId& theirs) const {
   });
 }
 
-bool Encounters::idle(Stamp now) const {
+bool Encounters::idle(Stamp now, const std::set<AgentId>& without) const {
   return std::ranges::none_of(encounters_, [&](const auto& entry) {
     const auto& [pair, encounter] = entry;
+    if (without.contains(pair.theirs.agent)) return false;
     const bool busy = encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
     const bool about_to = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
     return busy || (about_to && heard(pair.theirs.agent, now));

@@ -296,19 +296,29 @@ std::vector<Outgoing> Exchange::tick(Stamp now) {
   return out;
 }
 
-bool Exchange::complete() const {
-  return reconcile_.complete(*store_) && store_->submap_set().includes(store_->node_set());
+bool Exchange::complete(const std::set<AgentId>& without) const {
+  if (!reconcile_.complete(*store_, without)) return false;
+  if (store_->submap_set().includes(store_->node_set())) return true;
+  const auto gone = [&](const NodeId& id) {
+    return without.contains(id.agent) && std::ranges::all_of(fleet_, [&](const AgentId& agent) {
+             return agent == self_ || without.contains(agent) || submap_receiver_.lacks(agent, id);
+           });
+  };
+  return std::ranges::all_of(store_->nodes(), [&](const auto& entry) {
+    return store_->has_submap(entry.first) || gone(entry.first);
+  });
 }
 
-bool Exchange::fleet_caught_up() const {
-  return std::ranges::all_of(
-      fleet_, [&](const AgentId& agent) { return agent == self_ || reconcile_.caught_up(agent, *store_); });
+bool Exchange::fleet_caught_up(const std::set<AgentId>& without) const {
+  return std::ranges::all_of(fleet_, [&](const AgentId& agent) {
+    return agent == self_ || without.contains(agent) || reconcile_.caught_up(agent, *store_);
+  });
 }
 
-bool Exchange::idle(Stamp now) const {
+bool Exchange::idle(Stamp now, const std::set<AgentId>& without) const {
   const bool sent = queue_.size(Priority::kControl) == 0 && queue_.size(Priority::kNews) == 0 &&
                     queue_.size(Priority::kBackfill) == 0 && queue_.size(Priority::kCloud) == 0;
-  return sent && needed_.empty() && cloud_receiver_.idle() && encounters_.idle(now) &&
+  return sent && needed_.empty() && cloud_receiver_.idle(without) && encounters_.idle(now, without) &&
          submap_receiver_.idle(*store_, now) && submap_sender_.idle();
 }
 

@@ -59,6 +59,11 @@ bool SubmapReceiver::in_reach(const AgentId& name, Stamp now) const {
   return peer != peers_.end() && now - peer->second.heard <= config_.peer_timeout;
 }
 
+bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
+  const auto known = peers_.find(peer);
+  return known != peers_.end() && !known->second.holds.contains(id.agent, id.seq);
+}
+
 std::vector<AgentId> SubmapReceiver::peers_in_reach(Stamp now) const {
   std::vector<AgentId> names;
   for (const auto& [name, peer] : peers_) {

@@ -14,6 +14,7 @@ const std::string kSensors = std::string(FLEETMAP_SOURCE_DIR) + "/config/sensors
 
 struct Read {
   sim::RobotTwinConfig robot;
+  std::vector<SwitchedOff> switched_off;
   std::string problems;
 };
 
@@ -21,7 +22,7 @@ Read read(const std::string& yaml) {
   Document document = Document::from(YAML::Load(yaml), "fleet.yaml");
   Section agent(document, document.root(), "");
   Read result;
-  read_robot_twin(agent, result.robot);
+  read_robot_twin(agent, result.robot, result.switched_off);
   if (const Status status = document.status(); !status) result.problems = status.error().message;
   return result;
 }
@@ -83,6 +84,22 @@ TEST(TwinSections, RobotsErrDifferently) {
 
 TEST(TwinSections, ASlowerVlp16HasMoreColumns) {
   EXPECT_EQ(read("robot: {lidar_rate: 5}").robot.lidar.columns, 3600);
+}
+
+TEST(TwinSections, ARobotIsSwitchedOffForATimeOrForEver) {
+  const Read r = read("robot:\n  switched_off: [{from: 5, until: 20.5}, {from: 30}]\n");
+  EXPECT_EQ(r.problems, "");
+  ASSERT_EQ(r.switched_off.size(), 2u);
+  EXPECT_EQ(r.switched_off[0].from, 5.0);
+  EXPECT_EQ(r.switched_off[0].until, 20.5);
+  EXPECT_EQ(r.switched_off[1].from, 30.0);
+  EXPECT_FALSE(r.switched_off[1].until);
+  EXPECT_THAT(read("robot:\n  switched_off: [{from: 5, until: 2}]\n").problems,
+              HasSubstr("fleet.yaml:2: robot.switched_off[0].until: expected 0 <= from < until"));
+  EXPECT_THAT(read("robot:\n  switched_off: [{from: 5}, {from: 9}]\n").problems,
+              HasSubstr("fleet.yaml:2: robot.switched_off[1].from: expected the times in order"));
+  EXPECT_THAT(read("robot:\n  switched_off: [{until: 9}]\n").problems,
+              HasSubstr("robot.switched_off[0].from: expected s"));
 }
 
 TEST(TwinSections, ProblemsNameFileLineAndKey) {

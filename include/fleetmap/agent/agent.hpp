@@ -45,10 +45,11 @@ class Agent {
   void stop();
   /// Nothing waits: no scan, no registration, no message.
   bool idle() const;
-  /// Every node, alignment and submap that it has heard of is held.
-  bool complete() const { return exchange_->complete(); }
-  /// Every other agent has told that it holds our nodes and alignments.
-  bool fleet_caught_up() const { return exchange_->fleet_caught_up(); }
+  /// Every node, alignment and submap that it has heard of is held. What only a robot had that the mission
+  /// counts as lost is not waited for.
+  bool complete() const { return exchange_->complete(lost()); }
+  /// Every other agent that is not lost has told that it holds our nodes and alignments.
+  bool fleet_caught_up() const { return exchange_->fleet_caught_up(lost()); }
   /// When a sensor was last heard, and when the last item moved, on the bus's clock.
   Stamp last_sensor() const { return perception_->last_heard(); }
   Stamp last_exchange() const { return link_->counters().last_useful; }
@@ -70,6 +71,8 @@ class Agent {
   Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
         TrajectoryFile odometry_file, GlobalTrackFile global_file);
   Status start();
+  /// Robots that were not heard of for long on a mission.
+  std::set<AgentId> lost() const;
 
   void on_perceived(Perceived&& perceived);
   void freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G);

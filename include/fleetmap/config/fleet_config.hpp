@@ -49,24 +49,42 @@ struct TwinConfig {
   double max_time = 3600.0;  ///< s of virtual time until robots that have not finished are stopped
 };
 
+/// A time in which a robot of the twin is switched off, as if its battery were out: s since the start of the
+/// run.
+struct SwitchedOff {
+  double from = 0.0;
+  std::optional<double> until;  ///< absent: it stays off
+};
+
+/// A time in which a radio passes nothing, for one robot or for all: s since the start of the run.
+struct RadioBlackout {
+  bus::Link link = bus::Link::kShortRange;
+  double from = 0.0;
+  double until = 0.0;
+  std::optional<AgentId> agent;
+};
+
 /// A whole fleet: FLEET.yaml. Its robots are recordings, or those of the twin.
 struct FleetConfig {
   struct Member {
     agent::AgentConfig agent;
     std::optional<RecordingConfig> recording;
     sim::RobotTwinConfig robot;
-    bus::DdsBusConfig dds;  ///< as a process of its own
+    std::vector<SwitchedOff> switched_off;  ///< in the order of time, apart from each other
+    bus::DdsBusConfig dds;                  ///< as a process of its own
   };
   std::vector<Member> members;
   std::optional<TwinConfig> twin;
   bus::LocalNetworkConfig network;
+  std::vector<RadioBlackout> blackouts;
   /// Leaves the first `count` robots, as if the file named no more.
   void keep_first(std::size_t count);
   double settle_time = 120.0;  ///< s of virtual time that the exchange may take after the last sensor sample
 };
 
 Result<RobotConfig> load_robot(const std::filesystem::path& file, const std::vector<Override>& overrides);
-/// Agents' directories are left empty. Robots over DDS get domains of their own, counted from dds.base_domain.
+/// Agents' directories are left empty. Robots over DDS get domains of their own, counted from
+/// dds.base_domain.
 Result<FleetConfig> load_fleet(const std::filesystem::path& file, const std::vector<Override>& overrides);
 /// A fleet with default settings (VLP-16), one agent a recording.
 Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesystem::path>>& recordings,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -86,7 +87,8 @@ class CloudReceiver {
   };
   Due tick(Stamp now);
 
-  bool idle() const { return waiting_.empty(); }
+  /// No cloud is waited for, but for those of the agents in `without`.
+  bool idle(const std::set<AgentId>& without = {}) const;
   bool waits_for(const NodeId& node) const { return waiting_.contains(node); }
   bool full() const { return waiting_.size() >= config_.max_receiving; }
   const CloudReceiverStats& stats() const { return stats_; }

@@ -91,8 +91,8 @@ class Encounters {
 
   /// An encounter waits for the cloud of `theirs`.
   bool wants(const NodeId& theirs) const;
-  /// Nothing is under way or about to be.
-  bool idle(Stamp now) const;
+  /// Nothing is under way or about to be, but for what is with the agents in `without`.
+  bool idle(Stamp now, const std::set<AgentId>& without = {}) const;
   bool has_good_alignment(const AgentId& peer) const { return aligned_.contains(peer); }
   const EncounterStats& stats() const { return stats_; }
 

@@ -119,12 +119,15 @@ class Exchange {
   std::vector<Outgoing> tick(Stamp now);
   std::vector<Event> take_events();
 
-  /// Every node, alignment and submap that any agent has told of is held.
-  bool complete() const;
-  /// Every other agent of the fleet has told that it holds the nodes and alignments that we hold.
-  bool fleet_caught_up() const;
-  /// Nothing waits to be sent, fetched or registered.
-  bool idle(Stamp now) const;
+  /// Every node, alignment and submap that any agent has told of is held. Of the agents in `without`, which
+  /// are lost, what nobody else has is not waited for.
+  bool complete(const std::set<AgentId>& without = {}) const;
+  /// Every other agent of the fleet, but for those in `without`, has told that it holds the nodes and
+  /// alignments that we hold.
+  bool fleet_caught_up(const std::set<AgentId>& without = {}) const;
+  /// Nothing waits to be sent, fetched or registered; what is wanted of the agents in `without` does not
+  /// count.
+  bool idle(Stamp now, const std::set<AgentId>& without = {}) const;
   ExchangeStats stats() const;
   const SendQueue& queue() const { return queue_; }
   /// Agents whose short-range link was heard of late.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
@@ -60,8 +61,8 @@ class Reconcile {
   };
   Due tick(const store::Store& store, Stamp now);
 
-  /// Everything that any agent has told of is held.
-  bool complete(const store::Store& store) const;
+  /// Everything that any agent, but for those in `without`, has told of is held.
+  bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
   /// `peer` has told that it holds all that we hold.
   bool caught_up(const AgentId& peer, const store::Store& store) const;
   const ReconcileStats& stats() const { return stats_; }

@@ -59,6 +59,8 @@ class SubmapReceiver {
   std::vector<SubmapRequest> tick(const store::Store& store, Stamp now);
 
   bool in_reach(const AgentId& peer, Stamp now) const;
+  /// `peer` was heard, and told of no such submap.
+  bool lacks(const AgentId& peer, const NodeId& id) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
   /// Nothing is under way, and no peer in reach has what we lack.
   bool idle(const store::Store& store, Stamp now) const;
