@@ -37,6 +37,9 @@ function(fleetmap_test name)
     endif()
   endif()
   add_executable(test_${name} ${ARG_SOURCES})
+  if(FLEETMAP_SANITIZE AND serial)  # only unit tests run sanitised; the others are built when asked for
+    set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  endif()
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(test_${name} PRIVATE FLEETMAP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   FLEETMAP_BINARY_DIR="${PROJECT_BINARY_DIR}")
