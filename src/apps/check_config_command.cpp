@@ -1,37 +1,82 @@
+#include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "commands.hpp"
+#include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/world_config.hpp"
 #include "options.hpp"
+#include "twin_setup.hpp"
 
 namespace fleetmap::apps {
+namespace {
+
+struct CheckOptions {
+  std::string file;
+  std::vector<std::string> set;
+};
+
+/// What there is to say of a valid fleet: of one of the twin that its world can be built and its mission
+/// planned from where its robots start.
+Result<std::string> check_fleet(const std::string& file, const std::vector<config::Override>& overrides) {
+  auto fleet = config::load_fleet(file, overrides);
+  if (!fleet) return tl::unexpected(fleet.error());
+  if (!fleet->twin) return std::string("a valid fleet configuration");
+  const auto setup = set_up_twin(*fleet);
+  if (!setup) return tl::unexpected(setup.error());
+  std::ostringstream text;
+  text << "a valid fleet configuration of the twin: " << fleet->members.size() << " robots, "
+       << setup->plan->mission.rows.size() << " rows, planned to be driven in " << std::fixed
+       << std::setprecision(0) << setup->plan->completion << " s";
+  return text.str();
+}
+
+Result<std::string> check(const std::string& file, const std::vector<config::Override>& overrides) {
+  const auto kind = config::check(file, overrides);
+  if (!kind) return tl::unexpected(kind.error());
+  switch (*kind) {
+    case config::FileKind::kFleet:
+      return check_fleet(file, overrides);
+    case config::FileKind::kWorld: {
+      const auto world = config::make_world(file);
+      if (!world) return tl::unexpected(world.error());
+      return "a valid world with " + std::to_string((*world)->aisles().size()) + " lanes";
+    }
+    case config::FileKind::kSensor:
+      return std::string("a valid sensor");
+    case config::FileKind::kExperiment: {
+      const auto experiment = config::load_experiment(file, false);
+      if (!experiment) return tl::unexpected(experiment.error());
+      return "a valid experiment with " + std::to_string(experiment->studies.size()) + " studies";
+    }
+    case config::FileKind::kRobot:
+      break;
+  }
+  return std::string("a valid agent configuration");
+}
+
+int run(const CheckOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  const auto checked = check(options.file, *overrides);
+  if (!checked) return report(checked.error(), kBadConfiguration);
+  std::cout << options.file << ": " << *checked << '\n';
+  return kDone;
+}
+
+}  // namespace
 
 void add_check_config(CLI::App& app, int& exit_code) {
-  struct Options {
-    std::string file;
-    std::vector<std::string> set;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("check-config", "says what is wrong with a configuration, file:line by line");
-  command->add_option("file", options->file, "AGENT.yaml or FLEET.yaml")->required();
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand(
+      "check-config", "says what a YAML file is and what is wrong with it, file:line by line");
+  command->add_option("file", options->file, "FLEET.yaml, AGENT.yaml, WORLD.yaml, an experiment or a sensor")
+      ->required();
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
-  command->callback([options, &exit_code] {
-    const auto overrides = parse_overrides(options->set);
-    if (!overrides) {
-      exit_code = report(overrides.error(), kUsage);
-      return;
-    }
-    const auto kind = config::check(options->file, *overrides);
-    if (!kind) {
-      exit_code = report(kind.error(), kBadConfiguration);
-      return;
-    }
-    std::cout << options->file << ": a valid " << (*kind == config::FileKind::kFleet ? "fleet" : "agent")
-              << " configuration\n";
-  });
+  command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 
 }  // namespace fleetmap::apps

@@ -47,7 +47,8 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options,
 }
 
 /// The recordings, or the robots of the twin.
-Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const RunOptions& options) {
+Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const RunOptions& options,
+                                           std::shared_ptr<const sim::World>& world) {
   const unsigned threads = options.threads > 1 ? options.threads : 0;
   config.network.threads = threads;
   if (config.twin) {
@@ -60,9 +61,7 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
     for (const auto& member : config.members) robots.push_back(member.robot);
     auto feed = TwinFeed::create(setup->world, setup->origin, robots, threads);
     if (!feed) return tl::unexpected(feed.error());
-    std::filesystem::create_directories(options.out);
-    if (const Status written = write_truth_cloud(options.out, *setup->world); !written)
-      return tl::unexpected(written.error());
+    world = setup->world;
     return std::unique_ptr<FleetFeed>(std::move(*feed));
   }
   std::vector<config::RecordingConfig> recordings;
@@ -118,18 +117,23 @@ int run(const RunOptions& options) {
   if (!config) return report(config.error(), kBadConfiguration);
   if (options.agents > config->members.size()) {
     return report({"--agents " + std::to_string(options.agents) + ": " + options.config + " has only " +
-                   std::to_string(config->members.size()) + " agents"},
+                   std::to_string(config->members.size()) + " agents; give at most so many"},
                   kUsage);
   }
   if (options.agents > 0) config->keep_first(options.agents);
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
   if (!options.record.empty()) record = options.record;
-  auto feed = feed_of(*config, options);
+  std::shared_ptr<const sim::World> world;
+  auto feed = feed_of(*config, options, world);
   if (!feed) return report(feed.error(), config->twin ? kBadConfiguration : kFailed);
   const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
   auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
   if (!fleet) return report(fleet.error(), kFailed);
+  if (world) {
+    if (const Status written = write_truth_cloud(options.out, *world); !written)
+      return report(written.error(), kFailed);
+  }
   const auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
   for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/sim/robot_twin.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -84,6 +86,27 @@ Status choose_starts(config::FleetConfig& config, const sim::World& world, const
   return {};
 }
 
+/// Every robot stands on free ground, and none in another one.
+Status check_starts(const config::FleetConfig& config, const std::shared_ptr<const sim::World>& world,
+                    const GeoPoint& origin) {
+  for (const auto& member : config.members) {
+    const auto twin = sim::RobotTwin::create(world, origin, member.robot, Stamp{});
+    if (!twin) return failure(member.robot_at + "." + twin.error().message);
+    for (const auto& other : config.members) {
+      if (&other == &member) break;
+      const double apart = (member.robot.start - other.robot.start).norm();
+      const double needed = member.robot.vehicle.radius + other.robot.vehicle.radius;
+      if (apart >= needed) continue;
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    ".start: is %.2f m from that of %s, and %.2f m are needed; move it, or leave start out",
+                    apart, other.agent.id.str().c_str(), needed);
+      return failure(member.robot_at + text);
+    }
+  }
+  return {};
+}
+
 planning::RobotAbility ability_of(const config::FleetConfig::Member& member,
                                   const planning::MissionConfig& mission) {
   planning::RobotAbility ability;
@@ -110,10 +133,12 @@ Result<TwinSetup> set_up_twin(config::FleetConfig& config) {
   if (!mission) return tl::unexpected(mission.error());
   if (const Status started = choose_starts(config, *setup.world, *mission); !started)
     return tl::unexpected(started.error());
+  if (const Status free = check_starts(config, setup.world, setup.origin); !free)
+    return tl::unexpected(free.error());
   std::vector<planning::RobotAbility> fleet;
   for (const auto& member : config.members) fleet.push_back(ability_of(member, twin.mission));
   auto plan = planning::plan_fleet(*mission, fleet, twin.mission);
-  if (!plan) return failure("mission: " + plan.error().message);
+  if (!plan) return failure(twin.mission_at + ": " + plan.error().message);
   setup.plan = *plan;
   std::uint64_t index = 0;
   for (auto& member : config.members) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "fleetmap/config/experiment_config.hpp"
+#include "fleetmap/config/sensor_file.hpp"
+#include "fleetmap/config/world_config.hpp"
 #include "mission_section.hpp"
 #include "robot_sections.hpp"
 #include "twin_sections.hpp"
@@ -79,6 +82,12 @@ LoopbackDomains read_loopback(Section& top) {
   return domains;
 }
 
+/// "file:line: key", for what is found wrong only when worlds are built and missions planned.
+std::string place_of(const Document& document, const YAML::Mark& mark, const std::string& key) {
+  const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
+  return document.name() + line + ": " + key;
+}
+
 bus::DdsBusConfig dds_of(const AgentId& agent, std::size_t index, const LoopbackDomains& domains) {
   bus::DdsBusConfig dds;
   dds.agent = agent;
@@ -102,6 +111,11 @@ Result<FleetConfig> read_fleet(Document& document) {
   const YAML::Node& root = document.root();
   const YAML::Node defaults = root["defaults"];
   const YAML::Node agents = root["agents"];
+  const YAML::Node mission = root["mission"];
+  if (fleet.twin) {
+    fleet.twin->mission_at =
+        place_of(document, mission.IsDefined() ? mission.Mark() : YAML::Mark::null_mark(), "mission");
+  }
   const YAML::Node everywhere = agent_keys_of(root, kFleetKeys);
   if (!agents.IsDefined() || !agents.IsSequence() || agents.size() == 0) {
     top.problem("agents", "expected a list with at least one agent: - {id: r1, recording: {path: ...}}");
@@ -126,6 +140,9 @@ Result<FleetConfig> read_fleet(Document& document) {
     if (fleet.twin && member.recording)
       section.problem("recording", "a fleet of the twin (world) has no recordings");
     section.finish();
+    const YAML::Node robot = agents[k].IsMap() ? agents[k]["robot"] : YAML::Node();
+    member.robot_at = place_of(document, robot.IsDefined() && robot.IsMap() ? robot.Mark() : agents[k].Mark(),
+                               "agents[" + std::to_string(k) + "].robot");
     member.dds = dds_of(member.agent.id, k, domains);
     for (const FleetConfig::Member& other : fleet.members) {
       if (other.agent.id == member.agent.id)
@@ -242,18 +259,35 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   return robot;
 }
 
+namespace {
+
+FileKind kind_of(const YAML::Node& root) {
+  const auto has = [&](const char* key) { return root.IsMap() && root[key].IsDefined(); };
+  if (has("agents")) return FileKind::kFleet;
+  if (has("studies")) return FileKind::kExperiment;
+  if (has("kind")) return FileKind::kWorld;
+  if (has("elevations_deg") || has("pattern") || has("field_of_view_deg")) return FileKind::kSensor;
+  return FileKind::kRobot;
+}
+
+}  // namespace
+
 Result<FileKind> check(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Result<Document> document = load_with(file, overrides);
   if (!document) return tl::unexpected(document.error());
-  const YAML::Node& root = document->root();
-  if (root["agents"].IsDefined()) {
-    const auto fleet = read_fleet(*document);
-    if (!fleet) return tl::unexpected(fleet.error());
-    return FileKind::kFleet;
-  }
-  const auto robot = read_robot(*document);
-  if (!robot) return tl::unexpected(robot.error());
-  return FileKind::kRobot;
+  const FileKind kind = kind_of(document->root());
+  const bool may_override = kind == FileKind::kFleet || kind == FileKind::kRobot;
+  if (!overrides.empty() && !may_override)
+    return failure(file.string() + ": --set changes keys of AGENT.yaml and FLEET.yaml only");
+  const auto checked = [&](const auto& loaded) -> Result<FileKind> {
+    if (!loaded) return tl::unexpected(loaded.error());
+    return kind;
+  };
+  if (kind == FileKind::kFleet) return checked(read_fleet(*document));
+  if (kind == FileKind::kWorld) return checked(load_world(file));
+  if (kind == FileKind::kSensor) return checked(load_lidar_spec(file));
+  if (kind == FileKind::kExperiment) return checked(load_experiment(file, false));
+  return checked(read_robot(*document));
 }
 
 }  // namespace fleetmap::config

@@ -11,7 +11,6 @@ namespace fleetmap {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr const char* kSoonLost = ", lost_after: 12";
 

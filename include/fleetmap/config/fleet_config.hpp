@@ -46,6 +46,7 @@ struct TwinConfig {
   std::filesystem::path world;        ///< WORLD.yaml
   std::optional<std::uint64_t> seed;  ///< instead of the world's own; robots' seeds follow from it
   planning::MissionConfig mission;
+  std::string mission_at;    ///< file, line and key, for messages
   double max_time = 3600.0;  ///< s of virtual time until robots that have not finished are stopped
 };
 
@@ -70,6 +71,7 @@ struct FleetConfig {
     agent::AgentConfig agent;
     std::optional<RecordingConfig> recording;
     sim::RobotTwinConfig robot;
+    std::string robot_at;  ///< file, line and key of it or, without it, of the agent, for messages
     std::vector<SwitchedOff> switched_off;  ///< in the order of time, apart from each other
     bus::DdsBusConfig dds;                  ///< as a process of its own
   };
@@ -94,8 +96,9 @@ Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesyste
 Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& file,
                                  const std::vector<Override>& overrides);
 
-enum class FileKind { kRobot, kFleet };
-/// What `fleetmap check-config` does: loads `file` as what it is.
+enum class FileKind { kRobot, kFleet, kWorld, kSensor, kExperiment };
+/// Loads `file` as what its keys say it is: agents, studies, kind, a LiDAR's pattern, or else one robot's.
+/// Worlds are not built and fleets not planned. Overrides are for robots and fleets only.
 Result<FileKind> check(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 }  // namespace fleetmap::config
