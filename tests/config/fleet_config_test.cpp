@@ -151,6 +151,27 @@ TEST_F(FleetConfigTest, FleetOfRecordingsNeedsNoFile) {
   EXPECT_DOUBLE_EQ(fleet->members[0].agent.perception.odometry.max_range, 25.0);
 }
 
+TEST_F(FleetConfigTest, RadiosOfTheNetworkCanBeSetAndSilenced) {
+  const auto fleet = load_fleet(
+      write("network:\n  short_range: {rate_kbit_s: 6000, delay: 0.01, loss: 0.1, max_range: 45}\n"
+            "  blackouts: [{link: long_range, from: 5, until: 7.5}, {from: 0, until: 1, agent: r1}]\n"
+            "agents: [{id: r1, recording: {path: x}}]\n"),
+      {});
+  ASSERT_TRUE(fleet) << fleet.error().message;
+  EXPECT_EQ(fleet->network.short_range.rate_bit_s, 6e6);
+  EXPECT_EQ(fleet->network.short_range.delay, std::chrono::milliseconds(10));
+  EXPECT_EQ(fleet->network.short_range.loss, 0.1);
+  EXPECT_EQ(fleet->network.short_range.max_range, 45.0);
+  ASSERT_EQ(fleet->blackouts.size(), 2u);
+  EXPECT_EQ(fleet->blackouts[0].link, bus::Link::kLongRange);
+  EXPECT_EQ(fleet->blackouts[0].until, 7.5);
+  EXPECT_FALSE(fleet->blackouts[0].agent);
+  EXPECT_EQ(fleet->blackouts[1].link, bus::Link::kShortRange);
+  EXPECT_EQ(fleet->blackouts[1].agent->str(), "r1");
+  EXPECT_THAT(fleet_error("agents: [{id: r1, recording: {path: x}, robot: {switched_off: [{from: 1}]}}]\n"),
+              HasSubstr("switched_off is for the twin"));
+}
+
 TEST(ShippedConfigurations, AreAllValid) {
   std::size_t files = 0;
   for (const auto& entry :

@@ -184,6 +184,36 @@ TEST(Fleet, kills_at_any_time_lose_nothing) {
   }
 }
 
+TEST(Fleet, what_only_a_lost_robot_had_is_not_waited_for) {
+  SimFleet fleet(kThree, {}, 23);
+  std::set<AgentId> near{agent("r2"), agent("r3")};
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+    return reach == Reach::kLongRange || (near.contains(from) && near.contains(to));
+  };
+  for (const auto& name : kThree) fleet.start(name);
+  drive(fleet, kThree, 5);
+  fleet.run_for(std::chrono::minutes(1));
+  near.clear();
+  drive(fleet, {"r3"}, 2, 20.0);  // all hear of these nodes, nobody gets their submaps
+  fleet.run_for(std::chrono::minutes(1));
+  fleet.kill("r3");
+  const std::set<AgentId> lost{agent("r3")};
+  const auto done = [&](const SimFleet::Robot& robot) {
+    return robot.exchange->complete(lost) && robot.exchange->fleet_caught_up(lost) &&
+           robot.exchange->idle(fleet.now(), lost);
+  };
+  fleet.run_for(std::chrono::minutes(2));
+  EXPECT_FALSE(done(fleet.robot("r1"))) << "r2 may have what r1 lacks, as far as r1 knows";
+  near = {agent("r1"), agent("r2")};
+  fleet.run_for(std::chrono::minutes(5), [&] { return fleet.all(done); });
+  EXPECT_TRUE(fleet.all(done));
+  EXPECT_FALSE(fleet.robot("r1").exchange->complete()) << "should it come back, it is asked";
+  const store::Store& r1 = *fleet.robot("r1").store;
+  EXPECT_EQ(r1.nodes().size(), 17u);
+  EXPECT_EQ(r1.submap_set().size(), 15u) << "with those of r3 that r2 had";
+  EXPECT_TRUE(r1.submap_set() == fleet.robot("r2").store->submap_set());
+}
+
 TEST(Fleet, falls_silent_but_for_digests_and_status_when_all_is_done) {
   SimFleet fleet(kThree, {}, 19);
   fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
