@@ -54,7 +54,7 @@ int make(const WorldOptions& options) {
   const auto spec = config::load_world(options.file);
   if (!spec) return report(spec.error(), kBadConfiguration);
   const auto world = config::make_world(options.file, options.seed);
-  if (!world) return report(world.error(), kFailed);
+  if (!world) return report(world.error(), kBadConfiguration);
   const double surface = sim::area((*world)->mesh());
   describe(**world, surface);
   if (options.out.empty()) return kDone;
