@@ -59,7 +59,7 @@ while running; do
   fi
   sleep 10
   echo "-- $((SECONDS - begin)) s"
-  for robot in "${robots[@]}"; do grep -h "rows driven\|nodes," "$out/$robot.log" | tail -n 2 || true; done
+  for robot in "${robots[@]}"; do grep -h "rows driven\|scans," "$out/$robot.log" | tail -n 2 || true; done
 done
 failed=0
 for pid in "${agents[@]}"; do wait "$pid" || failed=1; done
