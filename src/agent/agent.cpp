@@ -89,8 +89,7 @@ Status Agent::start() {
                           [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
-    navigator_timer_ =
-        bus_.every(kNavigatorPeriod, [this] { navigator_->tick(complete() && fleet_caught_up()); });
+    navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
   if (session_ > 0) {
@@ -145,6 +144,14 @@ void Agent::on_perceived(Perceived&& perceived) {
   }
   perceived.odometry.points = {};
   last_perceived_ = std::move(perceived);
+}
+
+void Agent::navigate() {
+  const bool meeting = navigator_->status().state == planning::MissionState::kMeeting;
+  // What was seen since the last node belongs to the maps that are exchanged at the meeting.
+  if (meeting && !rest_frozen_for_meeting_) freeze_rest();
+  rest_frozen_for_meeting_ = meeting;
+  navigator_->tick(complete() && fleet_caught_up());
 }
 
 void Agent::wait_for_global_pose() {

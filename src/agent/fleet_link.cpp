@@ -20,12 +20,18 @@ bool moves_items(const exchange::Message& message) {
          !std::holds_alternative<exchange::SubmapDigest>(message);
 }
 
+/// Someone still fills its map.
+bool moves_submaps(const exchange::Message& message) {
+  return std::holds_alternative<exchange::SubmapRequest>(message) ||
+         std::holds_alternative<exchange::SubmapChunk>(message);
+}
+
 }  // namespace
 
 FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exchange,
                      std::function<void()> on_events)
     : bus_(bus), exchange_(exchange), on_events_(std::move(on_events)) {
-  counters_.last_useful = bus.now();
+  counters_.last_useful = counters_.last_submap = bus.now();
   for (const bus::Topic& topic : wire::inbox_topics(self)) {
     handles_.push_back(bus_.subscribe(topic, [this, topic](const Bytes& cdr) { receive(topic, cdr); }));
   }
@@ -35,6 +41,7 @@ FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exc
 void FleetLink::tick() {
   for (const exchange::Outgoing& outgoing : exchange_.tick(bus_.now())) {
     if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
+    if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
     bus_.publish(wire::topic_of(outgoing.message), wire::encode(outgoing.message));
   }
   on_events_();
@@ -49,6 +56,7 @@ void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
     return;
   }
   if (moves_items(*message)) counters_.last_useful = bus_.now();
+  if (moves_submaps(*message)) counters_.last_submap = bus_.now();
   exchange_.on_message(*message, bus_.now());
   on_events_();
 }

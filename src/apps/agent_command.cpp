@@ -83,10 +83,15 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
 bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
-  const bool mission_done = agent.navigator() != nullptr && agent.navigator()->done();
+  if (agent.navigator() != nullptr && agent.navigator()->done()) {
+    // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
+    const Duration silence = bus.now() - agent.link_counters().last_submap;
+    const bool all_told = agent.complete() && agent.fleet_caught_up();
+    return all_told ? silence > patience : silence > patience + kPeerPatience;
+  }
   const bool sensors_silent =
       bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
-  if (!sensors_silent && !mission_done) {
+  if (!sensors_silent) {
     rest_frozen = false;
     return false;
   }

@@ -78,6 +78,7 @@ class Agent {
   void freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G);
   /// The odometry lost its way and began anew: what it says from now on is in another frame.
   void begin_session();
+  void navigate();
   void wait_for_global_pose();
   void align_with_earlier_session(const graph::Node& node);
 
@@ -128,6 +129,7 @@ class Agent {
   std::unique_ptr<Navigator> navigator_;
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;
+  bool rest_frozen_for_meeting_ = false;
 };
 
 }  // namespace fleetmap::agent

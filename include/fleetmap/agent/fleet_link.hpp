@@ -13,6 +13,7 @@ namespace fleetmap::agent {
 
 struct FleetLinkCounters {
   std::uint64_t refused_messages = 0;  ///< that could not be decoded: other version, damaged, hostile
+  Stamp last_submap;                   ///< when a piece of a submap, or a request for one, last came or went
   Stamp last_useful;                   ///< when the last message came or went that was more than "I am here"
 };
 
