@@ -145,7 +145,7 @@ TEST(Wire, SizesOnTheWire) {
   EXPECT_EQ(encode(exchange::AgentStatus{}).size(), 76u);
   exchange::MissionReport report;
   report.done = report.claimed = report.failed = Bytes(25);  // 200 rows
-  EXPECT_EQ(encode(report).size(), 148u);
+  EXPECT_EQ(encode(report).size(), 137u);
   EXPECT_EQ(encode(exchange::SubmapRequest{}).size(), 44u);
   const exchange::Range range{id("r1"), 0, 9};
   EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}}).size(), 24u + 3 * 16u);
