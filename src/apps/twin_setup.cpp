@@ -21,24 +21,16 @@ constexpr double kStartClearance = 1.0;  // m, of free ground around a start
 
 Result<planning::Mission> mission_of(const config::TwinConfig& twin, const sim::World& world,
                                      const GeoPoint& origin) {
-  const planning::SiteBounds bounds{world.bounds().low, world.bounds().high};
-  if (twin.mission.waypoints != "aisles") {
-    auto mission = planning::read_geojson(twin.mission.waypoints, LocalFrame(origin));
-    if (!mission) return mission;
-    if (const Status inside = planning::check_within(*mission, bounds.low, bounds.high); !inside)
-      return failure(twin.mission.waypoints + ": " + inside.error().message);
-    mission->keep_out.insert(mission->keep_out.end(), world.plan().begin(), world.plan().end());
-    mission->bounds = bounds;
-    return mission;
-  }
-  if (world.aisles().empty()) {
+  if (twin.mission.waypoints == "aisles" && world.aisles().empty()) {
     return failure(twin.world.string() +
                    ": the world has no aisles; name them there (aisles: [[[x, y], [x, y]]]) or give "
                    "mission.waypoints a GeoJSON file");
   }
-  std::vector<planning::Lane> lanes;
-  for (const sim::Aisle& aisle : world.aisles()) lanes.push_back({aisle.from, aisle.to});
-  return planning::mission_of_aisles(lanes, twin.mission.lanes, world.plan(), bounds);
+  planning::SitePlan site;
+  for (const sim::Aisle& aisle : world.aisles()) site.lanes.push_back({aisle.from, aisle.to});
+  site.keep_out = world.plan();
+  site.bounds = {world.bounds().low, world.bounds().high};
+  return planning::make_mission(twin.mission, site, LocalFrame(origin));
 }
 
 /// Free places near `near`, the nearest first, apart from each other and from `taken`.
