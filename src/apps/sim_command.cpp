@@ -1,6 +1,6 @@
 #include <spdlog/spdlog.h>
 
-#include <deque>
+#include <atomic>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -16,12 +16,12 @@
 #include "sample_player.hpp"
 #include "twin_results.hpp"
 #include "twin_setup.hpp"
+#include "twin_truth.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(20);
-constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
 constexpr Duration kBatteryPeriod = std::chrono::seconds(1);
 constexpr Duration kTooLate = std::chrono::milliseconds(500);
 
@@ -60,7 +60,7 @@ class LiveRobot {
     bus_->finish_work();
   }
   const std::string& name() const { return name_; }
-  const std::vector<agent::StampedPose>& truth() const { return truth_; }
+  const std::vector<agent::StampedPose>& truth() const { return truth_.poses(); }
   double odometer() const { return twin_.odometer(); }
 
  private:
@@ -79,9 +79,8 @@ class LiveRobot {
     }));
     handles_.push_back(bus_->every(kTick, [this] { tick(); }));
     handles_.push_back(bus_->every(kBatteryPeriod, [this] {
-      const double share = twin_.battery_wh() / twin_.config().vehicle.battery_wh;
       bus_->publish(wire::topics::battery(),
-                    wire::encode(sensor::Battery{bus_->now(), std::clamp(share, 0.0, 1.0)}));
+                    wire::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));
     }));
   }
 
@@ -107,8 +106,7 @@ class LiveRobot {
           },
           sample);
     }
-    if (truth_.empty() || twin_.now() - truth_.back().stamp >= kTruthPeriod)
-      truth_.push_back({twin_.now(), twin_.T_enu_base()});
+    truth_.follow(twin_);
   }
 
   void cast(sim::ScanJob job) {
@@ -124,7 +122,7 @@ class LiveRobot {
   std::unique_ptr<bus::DdsBus> bus_;
   sim::RobotTwin twin_;
   std::shared_ptr<const sim::Scene> scene_;
-  std::vector<agent::StampedPose> truth_;
+  TruthTrack truth_;
   bool late_ = false;
   std::vector<bus::Handle> handles_;
   std::atomic<bool> stop_ = false;

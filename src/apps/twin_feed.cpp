@@ -1,6 +1,5 @@
 #include "twin_feed.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace fleetmap::apps {
@@ -8,7 +7,6 @@ namespace {
 
 /// The world moves and is sensed in steps of this; a scan reaches its robot one step after its last ray.
 constexpr Duration kTick = std::chrono::milliseconds(20);
-constexpr Duration kTruthPeriod = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -49,8 +47,7 @@ std::optional<bus::EnuPosition> TwinFeed::position(std::size_t member) const {
 }
 
 std::optional<double> TwinFeed::battery(std::size_t member) const {
-  const sim::RobotTwin& twin = robots_[member].twin;
-  return std::clamp(twin.battery_wh() / twin.config().vehicle.battery_wh, 0.0, 1.0);
+  return battery_share(robots_[member].twin);
 }
 
 void TwinFeed::tick() {
@@ -83,9 +80,7 @@ void TwinFeed::sense(std::size_t member) {
       deliver_(member, *wheel, wheel->stamp);
     }
   }
-  const Stamp now = robot.twin.now();
-  if (robot.truth.empty() || now - robot.truth.back().stamp >= kTruthPeriod)
-    robot.truth.push_back({now, robot.twin.T_enu_base()});
+  robot.truth.follow(robot.twin);
 }
 
 void TwinFeed::cast(std::size_t member, sim::ScanJob job) {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "fleet_feed.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/core/thread_pool.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
 #include "fleetmap/sim/world.hpp"
+#include "twin_truth.hpp"
 
 namespace fleetmap::apps {
 
@@ -38,13 +38,15 @@ class TwinFeed final : public FleetFeed {
   std::optional<double> battery(std::size_t member) const override;
 
   /// Where the member really was, at every 0.1 s, base_link in ENU.
-  const std::vector<agent::StampedPose>& truth(std::size_t member) const { return robots_[member].truth; }
+  const std::vector<agent::StampedPose>& truth(std::size_t member) const {
+    return robots_[member].truth.poses();
+  }
   const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
 
  private:
   struct Robot {
     sim::RobotTwin twin;
-    std::vector<agent::StampedPose> truth;
+    TruthTrack truth;
     bool on = true;
   };
   /// A scan whose rays are being cast.

@@ -1,0 +1,21 @@
+#include "twin_truth.hpp"
+
+#include <algorithm>
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr Duration kPeriod = std::chrono::milliseconds(100);
+
+}  // namespace
+
+void TruthTrack::follow(const sim::RobotTwin& twin) {
+  if (poses_.empty() || twin.now() - poses_.back().stamp >= kPeriod)
+    poses_.push_back({twin.now(), twin.T_enu_base()});
+}
+
+double battery_share(const sim::RobotTwin& twin) {
+  return std::clamp(twin.battery_wh() / twin.config().vehicle.battery_wh, 0.0, 1.0);
+}
+
+}  // namespace fleetmap::apps
