@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "fleetmap/agent/global_track.hpp"
@@ -74,6 +76,45 @@ Status write_alignments(const store::Store& store, const graph::Placement& place
         << q.w() << ',' << a.rmse << ',' << a.inlier_fraction << ',' << (used ? 1 : 0);
     for (int k = 0; k < 6; ++k) out << ',' << a.covariance(k, k);
     out << '\n';
+  }
+  out.flush();
+  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
+  return {};
+}
+
+/// A pose as seven columns: x, y, z, qx, qy, qz, qw.
+std::ostream& write_pose(std::ostream& out, const Pose& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const Eigen::Vector3d t = T.translation();
+  return out << t.x() << ',' << t.y() << ',' << t.z() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ','
+             << q.w();
+}
+
+/// Every node held, by robot and number: O, G (also in ENU, with its sigmas), and where it is placed.
+Status write_nodes(const store::Store& store, const graph::Placement& placement, const LocalFrame& site,
+                   const std::filesystem::path& file) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::ofstream out(file, std::ios::trunc);
+  out.precision(12);
+  out << "agent,seq,session,stamp_ns,odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw,"
+         "latitude_deg,longitude_deg,altitude_m,G_x,G_y,G_z,G_qx,G_qy,G_qz,G_qw,"
+         "sigma_e_m,sigma_n_m,sigma_u_m,sigma_yaw_deg,submap_bytes,"
+         "enu_x,enu_y,enu_z,enu_qx,enu_qy,enu_qz,enu_qw\n";
+  for (const auto& [id, node] : store.nodes()) {
+    out << id.agent.str() << ',' << id.seq << ',' << static_cast<int>(node.session) << ','
+        << to_ns(node.stamp) << ',';
+    write_pose(out, node.T_odom_base)
+        << ',' << node.G.position.latitude * kDegrees << ',' << node.G.position.longitude * kDegrees << ','
+        << node.G.position.altitude << ',';
+    write_pose(out, pose_in(site, node.G));
+    for (const int k : {0, 1, 2}) out << ',' << std::sqrt(node.G.covariance(k, k));
+    out << ',' << std::sqrt(node.G.covariance(5, 5)) * kDegrees << ',' << node.submap_bytes << ',';
+    // A node that is not placed has empty columns.
+    if (const auto placed = placement.T_enu_node.find(id); placed != placement.T_enu_node.end()) {
+      write_pose(out, placed->second) << '\n';
+    } else {
+      out << ",,,,,,\n";
+    }
   }
   out.flush();
   if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
@@ -164,8 +205,10 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config) {
   if (!hash) return tl::unexpected(hash.error());
   results.map_hash = *hash;
   const LocalFrame site(*origin);
-  for (const Status& written : {write_trajectory(results.placement, config), write_global_poses(site, config),
-                                write_alignments(store, results.placement, config)}) {
+  for (const Status& written :
+       {write_trajectory(results.placement, config), write_global_poses(site, config),
+        write_alignments(store, results.placement, config),
+        write_nodes(store, results.placement, site, config.directory / "nodes.csv")}) {
     if (!written) return tl::unexpected(written.error());
   }
   return results;

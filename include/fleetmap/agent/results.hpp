@@ -47,8 +47,8 @@ struct Results {
   std::string map_hash;             ///< content hash of map.ply: equal on agents that hold the same set
 };
 
-/// Writes map.ply, map.pcd, trajectory.tum, ekf.tum and alignments.csv into the agent's directory. Fails when
-/// there is no node yet, or a file cannot be written.
+/// Writes map.ply, map.pcd, trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory.
+/// Fails when there is no node yet, or a file cannot be written.
 Result<Results> write_results(store::Store& store, const AgentConfig& config);
 
 }  // namespace fleetmap::agent
