@@ -1,32 +1,23 @@
 #include "fleetmap/cloud/voxel_grid.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 
 namespace fleetmap::cloud {
 namespace {
 
-constexpr double kLargestCell = 9007199254740992.0;  // 2^53: beyond it neighbouring cells are one double
+constexpr double kLargestCell = 2147483647.0;
+/// Points whose places in the table are fetched ahead: the table of a large map lies outside of every cache.
+constexpr std::size_t kAhead = 16;
 
-std::uint64_t mix(std::uint64_t h) {
-  h ^= h >> 32;
-  h *= 0xd6e8feb86659fd93u;
+std::uint64_t hash_of(std::int32_t x, std::int32_t y, std::int32_t z) {
+  std::uint64_t h = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u +
+                    static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) * 0xc2b2ae3d27d4eb4fu +
+                    static_cast<std::uint64_t>(static_cast<std::uint32_t>(z)) * 0x165667b19e3779f9u;
   h ^= h >> 32;
   h *= 0xd6e8feb86659fd93u;
   return h ^ (h >> 32);
-}
-
-std::uint64_t hash_of(const std::array<std::int64_t, 3>& key) {
-  return mix(static_cast<std::uint64_t>(key[0]) * 0x9e3779b97f4a7c15u +
-             static_cast<std::uint64_t>(key[1]) * 0xc2b2ae3d27d4eb4fu +
-             static_cast<std::uint64_t>(key[2]) * 0x165667b19e3779f9u);
-}
-
-std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(hash >> 32); }
-
-/// Written out: the array's own comparison is a call of memcmp.
-bool same(const std::array<std::int64_t, 3>& a, const std::array<std::int64_t, 3>& b) {
-  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
 }  // namespace
@@ -34,64 +25,96 @@ bool same(const std::array<std::int64_t, 3>& a, const std::array<std::int64_t, 3
 VoxelMerger::VoxelMerger(float voxel_m, VoxelPoint keep)
     : voxel_m_(std::isfinite(voxel_m) && voxel_m > 0.0f ? static_cast<double>(voxel_m) : 0.0), keep_(keep) {}
 
-std::size_t VoxelMerger::slot_of(const Key& key, std::uint64_t hash) const {
+std::size_t VoxelMerger::home_of(const Slot& cell) const {
+  return static_cast<std::size_t>(hash_of(cell.x, cell.y, cell.z)) & (slots_.size() - 1);
+}
+
+VoxelMerger::Slot& VoxelMerger::slot_of(const Slot& cell, std::size_t home) {
   const std::size_t mask = slots_.size() - 1;
-  const std::uint32_t tag = tag_of(hash);
-  std::size_t slot = static_cast<std::size_t>(hash) & mask;
-  while (slots_[slot].entry != 0 && !(slots_[slot].tag == tag && same(keys_[slots_[slot].entry - 1], key)))
-    slot = (slot + 1) & mask;
-  return slot;
+  while (slots_[home].entry != 0 &&
+         !(slots_[home].x == cell.x && slots_[home].y == cell.y && slots_[home].z == cell.z)) {
+    home = (home + 1) & mask;
+  }
+  return slots_[home];
 }
 
 void VoxelMerger::grow(std::size_t slots) {
-  slots_.assign(std::bit_ceil(slots), {});
-  for (std::size_t i = 0; i < keys_.size(); ++i) {
-    const std::uint64_t hash = hash_of(keys_[i]);
-    slots_[slot_of(keys_[i], hash)] = {static_cast<std::uint32_t>(i + 1), tag_of(hash)};
+  std::vector<Slot> old(std::bit_ceil(slots));
+  std::swap(old, slots_);
+  for (const Slot& cell : old) {
+    if (cell.entry != 0) slot_of(cell, home_of(cell)) = cell;
   }
 }
 
-bool VoxelMerger::add_point(const Eigen::Vector3f& point, float intensity) {
-  const Eigen::Vector3d p = point.cast<double>();
-  if (!p.allFinite()) {
-    ++refused_;
-    return false;
-  }
-  if (voxel_m_ == 0.0) {
-    sums_.push_back({p, static_cast<double>(intensity), 1});
-    return true;
-  }
-  const Eigen::Vector3d cell = (p / voxel_m_).array().floor();
-  if (!(cell.cwiseAbs().maxCoeff() < kLargestCell)) {
-    ++refused_;
-    return false;
-  }
-  const Key key{static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
-                static_cast<std::int64_t>(cell.z())};
-  if (2 * (keys_.size() + 1) > slots_.size()) grow(std::max<std::size_t>(1024, 4 * (keys_.size() + 1)));
-  const std::uint64_t hash = hash_of(key);
-  const std::size_t slot = slot_of(key, hash);
-  if (slots_[slot].entry == 0) {
-    keys_.push_back(key);
-    sums_.push_back({p, static_cast<double>(intensity), 1});
-    slots_[slot] = {static_cast<std::uint32_t>(keys_.size()), tag_of(hash)};
+std::optional<VoxelMerger::Slot> VoxelMerger::cell_of(const Eigen::Vector3f& point) const {
+  // Not finite compares false as well.
+  const Eigen::Array3d cell = (point.cast<double>() / voxel_m_).array().floor();
+  if (!(cell.abs() <= kLargestCell).all()) return std::nullopt;
+  return Slot{static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
+              static_cast<std::int32_t>(cell.z()), 0};
+}
+
+bool VoxelMerger::add_point(const Slot& cell, std::size_t home, const Eigen::Vector3f& point,
+                            float intensity) {
+  Slot& slot = slot_of(cell, home);
+  if (slot.entry == 0) {
+    sums_.push_back({point.cast<double>(), static_cast<double>(intensity), 1});
+    slot = cell;
+    slot.entry = static_cast<std::uint32_t>(sums_.size());
     return true;
   }
   if (keep_ == VoxelPoint::centroid) {
-    Sum& sum = sums_[slots_[slot].entry - 1];
-    sum.xyz += p;
+    Sum& sum = sums_[slot.entry - 1];
+    sum.xyz += point.cast<double>();
     sum.intensity += static_cast<double>(intensity);
     ++sum.count;
   }
   return false;
 }
 
+std::size_t VoxelMerger::add_every_point(const PointCloud& cloud) {
+  const std::size_t before = sums_.size();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud.points[i].allFinite()) {
+      ++refused_;
+      continue;
+    }
+    sums_.push_back({cloud.points[i].cast<double>(),
+                     static_cast<double>(cloud.has_intensities() ? cloud.intensities[i] : 0.0f), 1});
+  }
+  return sums_.size() - before;
+}
+
 std::size_t VoxelMerger::add(const PointCloud& cloud) {
   if (cloud.empty()) return 0;
   all_intensities_ = all_intensities_ && cloud.has_intensities();
+  if (voxel_m_ == 0.0) return add_every_point(cloud);
+  struct Ahead {
+    Slot cell;
+    std::size_t home = 0;
+    std::size_t point = 0;
+  };
+  std::array<Ahead, kAhead> block;
   std::size_t added = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    added += add_point(cloud.points[i], cloud.has_intensities() ? cloud.intensities[i] : 0.0f) ? 1u : 0u;
+  for (std::size_t next = 0; next < cloud.size();) {
+    // Never more than half full, so that runs of taken slots stay short.
+    if (2 * (sums_.size() + kAhead) > slots_.size()) grow(std::max<std::size_t>(1024, 2 * slots_.size()));
+    std::size_t count = 0;
+    for (; count < kAhead && next < cloud.size(); ++next) {
+      const auto cell = cell_of(cloud.points[next]);
+      if (!cell) {
+        ++refused_;
+        continue;
+      }
+      block[count] = {*cell, home_of(*cell), next};
+      __builtin_prefetch(&slots_[block[count].home]);
+      ++count;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& [cell, home, i] = block[k];
+      const float intensity = cloud.has_intensities() ? cloud.intensities[i] : 0.0f;
+      added += add_point(cell, home, cloud.points[i], intensity) ? 1u : 0u;
+    }
   }
   return added;
 }

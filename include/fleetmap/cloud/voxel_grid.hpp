@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
@@ -22,7 +22,7 @@ class VoxelMerger {
   /// `voxel_m` is the edge of a voxel in m; where it is not positive and finite every point is its own voxel.
   explicit VoxelMerger(float voxel_m, VoxelPoint keep = VoxelPoint::first);
 
-  /// Returns how many voxels `cloud` is the first to hit. Non-finite points, and points more than 2^53 voxels
+  /// Returns how many voxels `cloud` is the first to hit. Non-finite points, and points more than 2^31 voxels
   /// from the origin, are refused and counted.
   std::size_t add(const PointCloud& cloud);
   /// One point per voxel. It has intensities if every cloud added had them.
@@ -31,26 +31,27 @@ class VoxelMerger {
   std::size_t refused() const { return refused_; }
 
  private:
-  using Key = std::array<std::int64_t, 3>;
   struct Sum {
     Eigen::Vector3d xyz;
     double intensity;
     std::uint32_t count;
   };
-  bool add_point(const Eigen::Vector3f& point, float intensity);
-  /// Open addressing. The hash's upper half spares most looks at the keys, which lie elsewhere in memory.
+  /// Open addressing; a slot holds its whole key, so that most points cost one look into memory.
   struct Slot {
-    std::uint32_t entry = 0;  ///< 1 + index into keys_ and sums_, 0 where free
-    std::uint32_t tag = 0;
+    std::int32_t x = 0, y = 0, z = 0;  ///< of the voxel, in voxels
+    std::uint32_t entry = 0;           ///< 1 + index into sums_, 0 where free
   };
-  std::size_t slot_of(const Key& key, std::uint64_t hash) const;
+  std::optional<Slot> cell_of(const Eigen::Vector3f& point) const;
+  std::size_t home_of(const Slot& cell) const;
+  Slot& slot_of(const Slot& cell, std::size_t home);
+  bool add_point(const Slot& cell, std::size_t home, const Eigen::Vector3f& point, float intensity);
+  std::size_t add_every_point(const PointCloud& cloud);
   void grow(std::size_t slots);
 
   double voxel_m_;
   VoxelPoint keep_;
   bool all_intensities_ = true;
   std::size_t refused_ = 0;
-  std::vector<Key> keys_;
   std::vector<Sum> sums_;
   std::vector<Slot> slots_;
 };
