@@ -9,6 +9,7 @@
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
 #include "fleetmap/sim/world.hpp"
@@ -140,20 +141,19 @@ Result<store::MergedMap> map_with_sources(const fs::path& store_file) {
 }
 
 Result<cloud::PointCloud> truth_cloud(const fs::path& file, double points_per_m2) {
-  const auto sampled = [&](const sim::Mesh& mesh) -> Result<cloud::PointCloud> {
-    auto cloud = sim::sample_surface(mesh, points_per_m2, 1, kMostTruth);
+  const auto unless_empty = [&](cloud::PointCloud cloud) -> Result<cloud::PointCloud> {
     if (cloud.empty()) return failure(file.string() + ": the mesh has no surface");
     return cloud;
   };
   if (file.extension() == ".yaml" || file.extension() == ".yml") {
     const auto world = config::make_world(file);
     if (!world) return tl::unexpected(world.error());
-    return sampled((*world)->mesh());
+    return unless_empty(sim::ground_truth(**world, points_per_m2, 1, kMostTruth));
   }
   if (!is_mesh(file)) return cloud::read_cloud(file);
   const auto mesh = sim::read_mesh(file);
   if (!mesh) return tl::unexpected(mesh.error());
-  return sampled(*mesh);
+  return unless_empty(sim::sample_surface(*mesh, points_per_m2, 1, kMostTruth));
 }
 
 }  // namespace fleetmap::apps

@@ -1,7 +1,7 @@
 #include "twin_results.hpp"
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/sim/mesh.hpp"
+#include "fleetmap/sim/ground_truth.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -21,7 +21,7 @@ Status write_truth(const std::filesystem::path& directory, const std::vector<age
 
 Status write_truth_cloud(const std::filesystem::path& out, const sim::World& world) {
   return cloud::write_cloud(out / "truth.ply",
-                            sim::sample_surface(world.mesh(), kPointsPerSquareMetre, kSeed, kMaxPoints));
+                            sim::ground_truth(world, kPointsPerSquareMetre, kSeed, kMaxPoints));
 }
 
 }  // namespace fleetmap::apps
