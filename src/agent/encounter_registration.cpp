@@ -9,15 +9,28 @@
 #include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::agent {
+namespace {
+
+/// Modes of an ambiguous registration that score at least this share of the best are alternatives to it.
+constexpr double kAlternativeShare = 0.7;
+
+}  // namespace
+
+std::vector<std::pair<NodeId, Pose>> submaps_around(const store::Store& store, const graph::Node& node,
+                                                    double radius) {
+  std::vector<std::pair<NodeId, Pose>> around;
+  for (const graph::Node* other : store.nodes_from({node.id.agent, 0, store.next_node_seq()})) {
+    if (other->frame() != node.frame() || !store.has_submap(other->id)) continue;
+    const Pose T_node_submap = node.T_odom_base.inverse() * other->T_odom_base;
+    if (T_node_submap.translation().norm() <= radius) around.emplace_back(other->id, T_node_submap);
+  }
+  return around;
+}
 
 Surroundings gather(store::Store& store, const graph::Node& node, double radius) {
   Surroundings surroundings{node, {}};
-  const SeqRange all{node.id.agent, 0, store.next_node_seq()};
-  for (const graph::Node* other : store.nodes_from(all)) {
-    if (other->frame() != node.frame() || !store.has_submap(other->id)) continue;
-    const Pose T_node_submap = node.T_odom_base.inverse() * other->T_odom_base;
-    if (T_node_submap.translation().norm() > radius) continue;
-    Result<Bytes> encoded = store.submap(other->id);
+  for (const auto& [id, T_node_submap] : submaps_around(store, node, radius)) {
+    Result<Bytes> encoded = store.submap(id);
     if (encoded) {
       surroundings.submaps.emplace_back(T_node_submap, std::move(*encoded));
     } else {
@@ -55,14 +68,19 @@ registration::Prior prior_of(const graph::Node& target, const graph::Node& sourc
 
 graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& computed_by,
                               const registration::RegistrationResult& result) {
-  graph::Alignment alignment;
-  alignment.i = i;
-  alignment.j = j;
-  alignment.computed_by = computed_by;
-  alignment.T_i_j = result.T_target_source;
-  alignment.rmse = result.rmse;
-  alignment.inlier_fraction = result.inlier_fraction;
-  alignment.covariance = result.covariance;
+  graph::Alignment alignment{i, j, computed_by, 0, {}};
+  if (result.verdict != registration::Verdict::ambiguous) {
+    const double score = result.modes.empty() ? result.agreement : result.modes.front().score;
+    alignment.modes = {
+        {result.T_target_source, result.rmse, result.inlier_fraction, score, result.covariance}};
+    return alignment;
+  }
+  for (const registration::Mode& mode : result.modes) {
+    if (alignment.modes.size() == graph::Alignment::kMaxModes) break;
+    if (mode.score < kAlternativeShare * result.modes.front().score) break;
+    alignment.modes.push_back(
+        {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score, result.covariance});
+  }
   return alignment;
 }
 

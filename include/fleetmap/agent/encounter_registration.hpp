@@ -20,7 +20,11 @@ struct Surroundings {
   std::vector<std::pair<Pose, Bytes>> submaps;  ///< T_node_submap and the encoded points
 };
 
-/// Submaps of nodes of the same odometry frame within `radius` (m) of `node`. Reads the store.
+/// Nodes with a submap, of the same odometry frame and within `radius` (m) of `node`: T_node_submap of each.
+std::vector<std::pair<NodeId, Pose>> submaps_around(const store::Store& store, const graph::Node& node,
+                                                    double radius);
+
+/// Reads these submaps from the store.
 Surroundings gather(store::Store& store, const graph::Node& node, double radius);
 
 /// Alg. 3, first half: M^s around the node, in its base_link. Takes no store, so it may run off its thread.
@@ -30,7 +34,8 @@ Result<registration::SpherizedCloud> spherize(const Surroundings& surroundings,
 /// The relative pose of two nodes according to their G, with the uncertainty of both.
 registration::Prior prior_of(const graph::Node& target, const graph::Node& source);
 
-/// An alignment for the fleet, from a registration of node j (source) onto node i (target).
+/// An alignment for the fleet, from a registration of node j (source) onto node i (target): one mode if it
+/// was accepted, the modes that are good enough to be right if it is ambiguous.
 graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& computed_by,
                               const registration::RegistrationResult& result);
 
