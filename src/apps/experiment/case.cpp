@@ -32,6 +32,7 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
   Case one;
   one.study = study.name;
   one.seed = seed;
+  one.pictures = seed == study.seeds.front();
   one.base = config.base;
   one.agents = study.agents;
   one.name = study.name;

@@ -22,6 +22,7 @@ struct Case {
   std::filesystem::path base;  ///< FLEET.yaml
   std::size_t agents = 1;      ///< the first of `base`
   std::vector<config::Override> overrides;
+  bool pictures = true;  ///< of the map: drawn of the first seed only
 };
 
 /// How many values lie in each bin; bins follow each other from 0.

@@ -116,7 +116,9 @@ Result<CaseResult> ChildEngine::operator()(const Case& one, const fs::path& dire
   const auto ran = run_self(run_arguments(one, directory, threads_), directory / "run.log", *stop_);
   if (const Status good = check_exit(ran, "fleetmap run", directory / "run.log"); !good)
     return tl::unexpected(good.error());
-  const auto evaluated = run_self({"eval", directory.string()}, directory / "eval.log", *stop_);
+  std::vector<std::string> evaluation_arguments{"eval", directory.string()};
+  if (!one.pictures) evaluation_arguments.emplace_back("--no-pictures");
+  const auto evaluated = run_self(evaluation_arguments, directory / "eval.log", *stop_);
   if (const Status good = check_exit(evaluated, "fleetmap eval", directory / "eval.log"); !good)
     return tl::unexpected(good.error());
   const auto report = read_json(directory / "report.json");
