@@ -67,6 +67,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::
       session_(session),
       odometry_file_(std::move(odometry_file)),
       global_file_(std::move(global_file)),
+      own_clouds_(config.spherize),
       submap_(config.submap),
       node_generator_(config.nodes) {}
 
@@ -186,6 +187,11 @@ void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose
   node.stamp = update.stamp;
   node.G = G;
   node.T_odom_base = update.T_odom_base;
+  if (const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
+      previous != nullptr && previous->frame() == node.frame()) {
+    node.odom_covariance =
+        odometry_covariance(previous->T_odom_base.inverse() * node.T_odom_base, config_.odometry_uncertainty);
+  }
   const Result<graph::Node> rounded = wire::quantised(node);
   if (!rounded) {
     spdlog::warn("{}: node refused: {}", to_string(node.id), rounded.error().message);
@@ -236,22 +242,21 @@ void Agent::align_with_earlier_session(const graph::Node& node) {
   }
   if (nearest == nullptr) return;
   struct Job {
-    Surroundings target, source;
+    std::shared_ptr<OwnCloud> target, source;
     Registered registered;
   };
-  const double radius = config_.spherize.radius_m;
-  auto job = std::make_shared<Job>(Job{gather(store_, *nearest, radius), gather(store_, node, radius), {}});
+  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, *nearest), own_clouds_.of(store_, node), {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        const auto target = spherize(job->target, config_.spherize);
-        const auto source = spherize(job->source, config_.spherize);
+        const auto& target = job->target->spherized();
+        const auto& source = job->source->spherized();
         if (target && source) {
           job->registered.result =
               registration::register_clouds(target->decoded, source->decoded, config_.registration,
-                                            prior_of(job->target.node, job->source.node));
+                                            prior_of(job->target->node(), job->source->node()));
         } else {
           job->registered.result = tl::unexpected(target ? source.error() : target.error());
         }
@@ -259,7 +264,7 @@ void Agent::align_with_earlier_session(const graph::Node& node) {
       },
       [this, job] {
         --jobs_;
-        conclude(job->target.node, job->source.node, job->registered, std::nullopt);
+        conclude(job->target->node(), job->source->node(), job->registered, std::nullopt);
       });
 }
 
@@ -275,27 +280,24 @@ void Agent::on_events() {
 void Agent::handle(const exchange::CloudNeeded& needed) {
   const graph::Node* node = store_.node(needed.node);
   if (node == nullptr) return exchange_->decline_cloud(needed.node);
-  struct Job {
-    Surroundings surroundings;
-    Result<registration::SpherizedCloud> cloud = failure("not run");
-  };
-  auto job = std::make_shared<Job>(Job{gather(store_, *node, config_.spherize.radius_m), failure("not run")});
+  const std::shared_ptr<OwnCloud> own = own_clouds_.of(store_, *node);
   ++jobs_;
   bus_.offload(
-      bus::Lane::kBackground, [this, job] { job->cloud = spherize(job->surroundings, config_.spherize); },
-      [this, job] {
+      bus::Lane::kBackground, [own] { own->spherized(); },
+      [this, own] {
         --jobs_;
-        const NodeId id = job->surroundings.node.id;
-        if (!job->cloud) {
+        const NodeId id = own->node().id;
+        const auto& cloud = own->spherized();
+        if (!cloud) {
           ++registrations_.failed;
-          spdlog::warn("{}: no spherized cloud: {}", to_string(id), job->cloud.error().message);
+          spdlog::warn("{}: no spherized cloud: {}", to_string(id), cloud.error().message);
           return exchange_->decline_cloud(id);
         }
         ++registrations_.clouds_made;
         registrations_.largest_cloud_bytes =
-            std::max(registrations_.largest_cloud_bytes, job->cloud->bytes.size());
-        wire::SpherizedCloud message{id, config_.spherize.radius_m, job->cloud->voxel_m,
-                                     static_cast<std::uint32_t>(job->cloud->encoded), job->cloud->bytes};
+            std::max(registrations_.largest_cloud_bytes, cloud->bytes.size());
+        wire::SpherizedCloud message{id, config_.spherize.radius_m, cloud->voxel_m,
+                                     static_cast<std::uint32_t>(cloud->encoded), cloud->bytes};
         const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
         if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
       });
@@ -306,60 +308,62 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
   const graph::Node* theirs = store_.node(arrived.pair.theirs);
   if (ours == nullptr || theirs == nullptr) return exchange_->on_rejected(arrived.pair, bus_.now());
   struct Job {
-    Surroundings target;
+    std::shared_ptr<OwnCloud> target;
     graph::Node source;
     Bytes encoded;
     Registered registered;
   };
-  auto job = std::make_shared<Job>(
-      Job{gather(store_, *ours, config_.spherize.radius_m), *theirs, arrived.cloud, {}});
+  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        job->registered.result = register_encoded(job->target, job->source, job->encoded);
+        job->registered.result = register_encoded(*job->target, job->source, job->encoded);
         job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job, pair = arrived.pair] {
         --jobs_;
-        conclude(job->target.node, job->source, job->registered, pair);
+        conclude(job->target->node(), job->source, job->registered, pair);
       });
 }
 
-Result<registration::RegistrationResult> Agent::register_encoded(const Surroundings& target,
-                                                                 const graph::Node& source,
+Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
                                                                  const Bytes& encoded) const {
   const auto message = wire::decode<wire::SpherizedCloud>(encoded);
   if (!message) return tl::unexpected(message.error());
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
   const auto source_cloud = cloud::decode(message->payload);
   if (!source_cloud) return tl::unexpected(source_cloud.error());
-  const auto target_cloud = spherize(target, config_.spherize);
+  const auto& target_cloud = target.spherized();
   if (!target_cloud) return tl::unexpected(target_cloud.error());
   return registration::register_clouds(target_cloud->decoded, *source_cloud, config_.registration,
-                                       prior_of(target.node, source));
+                                       prior_of(target.node(), source));
 }
 
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
                      const std::optional<exchange::NodePair>& pair) {
   log_registration(i.id, j.id, registered);
-  const bool accepted = registered.result && registered.result->verdict == registration::Verdict::accepted;
+  const auto is = [&](registration::Verdict verdict) {
+    return registered.result && registered.result->verdict == verdict;
+  };
+  const bool accepted = is(registration::Verdict::accepted);
   if (!registered.result) {
     ++registrations_.failed;
   } else {
-    ++(accepted                                                         ? registrations_.accepted
-       : registered.result->verdict == registration::Verdict::ambiguous ? registrations_.ambiguous
-                                                                        : registrations_.rejected);
+    ++(accepted                               ? registrations_.accepted
+       : is(registration::Verdict::ambiguous) ? registrations_.ambiguous
+                                              : registrations_.rejected);
   }
-  if (accepted) {
+  // An ambiguous one goes to the fleet with all its modes: what others find may tell which is right.
+  if (accepted || is(registration::Verdict::ambiguous)) {
     graph::Alignment alignment = alignment_of(i.id, j.id, config_.id, *registered.result);
     alignment.seq = store_.next_alignment_seq();
     const Result<graph::Alignment> rounded = wire::quantised(alignment);
     const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
                                            : Result<store::Put>(tl::unexpected(rounded.error()));
     if (put && *put == store::Put::kAdded) {
-      if (i.id.agent == j.id.agent) joined_sessions_.insert(i.session);
+      if (accepted && i.id.agent == j.id.agent) joined_sessions_.insert(i.session);
       return on_events();
     }
     spdlog::error("{}: alignment with {} not stored: {}", to_string(i.id), to_string(j.id),

@@ -58,36 +58,39 @@ Status write_global_poses(const LocalFrame& site, const AgentConfig& config) {
   return write_trajectory(config.directory / "ekf.tum", poses);
 }
 
-Status write_alignments(const store::Store& store, const graph::Placement& placement,
-                        const AgentConfig& config) {
-  const std::filesystem::path file = config.directory / "alignments.csv";
-  std::ofstream out(file, std::ios::trunc);
-  out.precision(9);
-  out << "i,j,computed_by,seq,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,used";
-  for (int k = 0; k < 6; ++k) out << ",var_" << k;
-  out << '\n';
-  for (const auto& [id, a] : store.alignments()) {
-    const Eigen::Quaterniond q(a.T_i_j.linear());
-    const Eigen::Vector3d t = a.T_i_j.translation();
-    bool used = false;
-    for (const graph::Alignment& u : placement.used) used |= u.computed_by == a.computed_by && u.seq == a.seq;
-    out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ','
-        << t.x() << ',' << t.y() << ',' << t.z() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ','
-        << q.w() << ',' << a.rmse << ',' << a.inlier_fraction << ',' << (used ? 1 : 0);
-    for (int k = 0; k < 6; ++k) out << ',' << a.covariance(k, k);
-    out << '\n';
-  }
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
-}
-
 /// A pose as seven columns: x, y, z, qx, qy, qz, qw.
 std::ostream& write_pose(std::ostream& out, const Pose& T) {
   const Eigen::Quaterniond q(T.linear());
   const Eigen::Vector3d t = T.translation();
   return out << t.x() << ',' << t.y() << ',' << t.z() << ',' << q.x() << ',' << q.y() << ',' << q.z() << ','
              << q.w();
+}
+
+/// Every alignment held, a line for each of its modes.
+Status write_alignments(const store::Store& store, const graph::Placement& placement,
+                        const AgentConfig& config) {
+  const std::filesystem::path file = config.directory / "alignments.csv";
+  std::ofstream out(file, std::ios::trunc);
+  out.precision(9);
+  out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used";
+  for (int k = 0; k < 6; ++k) out << ",var_" << k;
+  out << '\n';
+  for (const auto& [id, a] : store.alignments()) {
+    bool used = false;
+    for (const graph::Alignment& u : placement.used) used |= u.computed_by == a.computed_by && u.seq == a.seq;
+    for (std::size_t m = 0; m < a.modes.size(); ++m) {
+      const graph::AlignmentMode& mode = a.modes[m];
+      out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ',' << m
+          << ',';
+      write_pose(out, mode.T_i_j) << ',' << mode.rmse << ',' << mode.inlier_fraction << ',' << mode.score
+                                  << ',' << (used ? 1 : 0);
+      for (int k = 0; k < 6; ++k) out << ',' << mode.covariance(k, k);
+      out << '\n';
+    }
+  }
+  out.flush();
+  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
+  return {};
 }
 
 /// Every node held, by robot and number: O, G (also in ENU, with its sigmas), and where it is placed.

@@ -82,7 +82,7 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
               << entry.results->map_hash.substr(0, 12) << '\n';
     if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
     for (const graph::Alignment& used : entry.results->placement.used) {
-      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.rmse
+      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.best().rmse
                 << " m\n";
     }
   }

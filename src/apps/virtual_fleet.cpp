@@ -133,8 +133,8 @@ void VirtualFleet::note_completion(Duration elapsed) {
     shared &= nodes == nullptr || store.node_set() == *nodes;
     nodes = &store.node_set();
     for (const auto& [id, alignment] : store.alignments()) {
-      if (alignment.computed_by == member.id)
-        pairs.push_back({alignment.i.agent, alignment.j.agent, alignment.rmse});
+      if (alignment.computed_by == member.id && !alignment.ambiguous())
+        pairs.push_back({alignment.i.agent, alignment.j.agent, alignment.best().rmse});
     }
   }
   const bool driven = all_driven();

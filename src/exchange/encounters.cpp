@@ -158,8 +158,10 @@ void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
   if (first_is_ours == (alignment.j.agent == self_)) return;  // between others, or within our own track
   const NodePair pair =
       first_is_ours ? NodePair{alignment.i, alignment.j} : NodePair{alignment.j, alignment.i};
-  const bool good = alignment.rmse <= graph::kGoodRmse;
-  if (good) aligned_.insert(pair.theirs.agent);
+  // An ambiguous one ends the encounter, for the same clouds would be ambiguous again, but it does not yet
+  // tell how the two lie.
+  const bool good = alignment.best().rmse <= graph::kGoodRmse;
+  if (good && !alignment.ambiguous()) aligned_.insert(pair.theirs.agent);
   const bool by_us = alignment.computed_by == self_;
   if (!by_us && !(good && config_.stop_when_peer_aligned)) return;
   Encounter& encounter = encounters_[pair];  // one from before a restart, or one that the peer alone had

@@ -70,7 +70,7 @@ Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp 
   queue_.push(Priority::kNews, alignment);
   reconcile_.on_item(now);
   encounters_.on_alignment(alignment, now);
-  if (alignment.rmse <= graph::kGoodRmse && config_.encounters.stop_when_peer_aligned) {
+  if (alignment.best().rmse <= graph::kGoodRmse && config_.encounters.stop_when_peer_aligned) {
     // The peer will stop asking when it hears of this.
     const bool i_is_ours = alignment.i.agent == self_;
     queue_.cancel_cloud(i_is_ours ? alignment.j.agent : alignment.i.agent,

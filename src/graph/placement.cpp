@@ -9,7 +9,7 @@ namespace {
 
 using FramePair = std::pair<FrameId, FrameId>;
 
-auto preference(const Alignment& a) { return std::tie(a.rmse, a.computed_by, a.seq); }
+auto preference(const Alignment& a) { return std::tie(a.best().rmse, a.computed_by, a.seq); }
 
 std::vector<Node> sorted_by_id(std::span<const Node> nodes) {
   std::vector<Node> sorted(nodes.begin(), nodes.end());
@@ -17,13 +17,13 @@ std::vector<Node> sorted_by_id(std::span<const Node> nodes) {
   return sorted;
 }
 
-/// The least E_ij of every pair of odometry frames, best pair first. Alignments of unknown nodes wait for
-/// their nodes.
+/// The least E_ij of every pair of odometry frames, best pair first. Ambiguous alignments do not count, and
+/// those of unknown nodes wait for their nodes.
 std::vector<Alignment> best_of_each_pair(std::span<const Alignment> alignments,
                                          const std::map<NodeId, const Node*>& by_id, double max_rmse) {
   std::map<FramePair, const Alignment*> best;
   for (const Alignment& a : alignments) {
-    if (a.rmse > max_rmse || !by_id.contains(a.i) || !by_id.contains(a.j)) continue;
+    if (a.ambiguous() || a.best().rmse > max_rmse || !by_id.contains(a.i) || !by_id.contains(a.j)) continue;
     const FrameId frame_i = by_id.at(a.i)->frame();
     const FrameId frame_j = by_id.at(a.j)->frame();
     if (frame_i == frame_j) continue;
@@ -75,7 +75,7 @@ Placement place_by_least_rmse(std::span<const Node> unsorted_nodes, std::span<co
   for (const Alignment& a : best_of_each_pair(alignments, by_id, config.max_rmse)) {
     const Node& i = *by_id.at(a.i);
     const Node& j = *by_id.at(a.j);
-    const Pose T_odom_i_odom_j = i.T_odom_base * a.T_i_j * j.T_odom_base.inverse();
+    const Pose T_odom_i_odom_j = i.T_odom_base * a.best().T_i_j * j.T_odom_base.inverse();
     if (groups.join(i.frame(), j.frame(), T_odom_i_odom_j)) placement.used.push_back(a);
   }
 

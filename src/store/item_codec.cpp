@@ -102,6 +102,7 @@ Bytes encode(const graph::Node& node) {
   for (int k = 0; k < 4; ++k) w.value(node.G.q_enu_base.coeffs()(k));
   w.matrix(node.G.covariance);
   w.pose(node.T_odom_base);
+  w.matrix(node.odom_covariance);
   w.value(node.submap_hash);
   w.value(node.submap_bytes);
   return w.take();
@@ -113,10 +114,14 @@ Bytes encode(const graph::Alignment& alignment) {
   w.id(alignment.j);
   w.text(alignment.computed_by.str());
   w.value(alignment.seq);
-  w.pose(alignment.T_i_j);
-  w.value(alignment.rmse);
-  w.value(alignment.inlier_fraction);
-  w.matrix(alignment.covariance);
+  w.value(static_cast<std::uint8_t>(alignment.modes.size()));
+  for (const graph::AlignmentMode& mode : alignment.modes) {
+    w.pose(mode.T_i_j);
+    w.value(mode.rmse);
+    w.value(mode.inlier_fraction);
+    w.value(mode.score);
+    w.matrix(mode.covariance);
+  }
   return w.take();
 }
 
@@ -133,6 +138,7 @@ std::optional<graph::Node> decode_node(ByteView bytes) {
   for (int k = 0; k < 4; ++k) node.G.q_enu_base.coeffs()(k) = r.value<double>();
   node.G.covariance = r.matrix();
   node.T_odom_base = r.pose();
+  node.odom_covariance = r.matrix();
   node.submap_hash = r.value<ContentHash>();
   node.submap_bytes = r.value<std::uint32_t>();
   return r.done() ? std::optional(node) : std::nullopt;
@@ -145,10 +151,16 @@ std::optional<graph::Alignment> decode_alignment(ByteView bytes) {
   alignment.j = r.id();
   alignment.computed_by = r.agent();
   alignment.seq = r.value<std::uint32_t>();
-  alignment.T_i_j = r.pose();
-  alignment.rmse = r.value<double>();
-  alignment.inlier_fraction = r.value<double>();
-  alignment.covariance = r.matrix();
+  const auto modes = r.value<std::uint8_t>();
+  if (modes == 0 || modes > graph::Alignment::kMaxModes) return std::nullopt;
+  alignment.modes.resize(modes);
+  for (graph::AlignmentMode& mode : alignment.modes) {
+    mode.T_i_j = r.pose();
+    mode.rmse = r.value<double>();
+    mode.inlier_fraction = r.value<double>();
+    mode.score = r.value<double>();
+    mode.covariance = r.matrix();
+  }
   return r.done() ? std::optional(alignment) : std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #include "fleetmap/store/store.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,17 +27,37 @@ std::uint32_t chunk_size(const graph::Node& node, std::uint32_t chunk) {
   return std::min(Store::kChunkBytes, node.submap_bytes - chunk * Store::kChunkBytes);
 }
 
+/// Symmetric, without negative eigenvalues, and of a size that a place on Earth can have.
+bool is_covariance(const Matrix6d& C) {
+  constexpr double kMost = 1e15;  // m^2 or rad^2
+  return C.allFinite() && C.cwiseAbs().maxCoeff() <= kMost && C == C.transpose() && C.ldlt().isPositive();
+}
+
+/// A rotation, to rounding, and a distance.
+bool is_pose(const Pose& T) {
+  constexpr double kMost = 1e7;  // m
+  return all_finite(T) && T.translation().cwiseAbs().maxCoeff() <= kMost &&
+         (T.linear() * T.linear().transpose()).isIdentity(1e-6);
+}
+
+bool valid(const graph::AlignmentMode& mode) {
+  const auto share = [](double value) { return value >= 0.0 && value <= 1.0; };
+  return is_pose(mode.T_i_j) && is_covariance(mode.covariance) && mode.rmse >= 0.0 &&
+         std::isfinite(mode.rmse) && share(mode.inlier_fraction) && share(mode.score);
+}
+
 bool valid(const graph::Node& node, const StoreConfig& config) {
   return !node.id.agent.empty() && node.id.seq < config.max_seq && is_valid(node.G.position) &&
          node.G.q_enu_base.coeffs().allFinite() && node.G.covariance.allFinite() &&
-         all_finite(node.T_odom_base) && node.submap_bytes <= config.max_submap_bytes;
+         is_pose(node.T_odom_base) && is_covariance(node.odom_covariance) &&
+         node.submap_bytes <= config.max_submap_bytes;
 }
 
 bool valid(const graph::Alignment& a, const StoreConfig& config) {
   return !a.computed_by.empty() && !a.i.agent.empty() && !a.j.agent.empty() && a.i != a.j &&
-         a.seq < config.max_seq && a.i.seq < config.max_seq && a.j.seq < config.max_seq &&
-         all_finite(a.T_i_j) && a.covariance.allFinite() && std::isfinite(a.rmse) &&
-         std::isfinite(a.inlier_fraction);
+         a.seq < config.max_seq && a.i.seq < config.max_seq && a.j.seq < config.max_seq && !a.modes.empty() &&
+         a.modes.size() <= graph::Alignment::kMaxModes &&
+         std::ranges::all_of(a.modes, [](const graph::AlignmentMode& mode) { return valid(mode); });
 }
 
 std::uint32_t end_of(const SeqSet& set, const AgentId& agent) {

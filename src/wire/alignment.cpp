@@ -1,12 +1,38 @@
 #include <algorithm>
 
 #include "cdr.hpp"
+#include "covariance_root.hpp"
 #include "fields.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap_long_range.h"
 #include "type_names.hpp"
 
 namespace fleetmap::wire {
+namespace {
+
+msg::AlignmentMode encoded(const graph::AlignmentMode& mode) {
+  msg::AlignmentMode out;
+  out.translation(to_floats(mode.T_i_j.translation()));
+  out.rotation(encode_rotation<std::int32_t>(mode.T_i_j.linear()));
+  out.rmse(to_float(mode.rmse));
+  out.inlier_fraction(to_float(mode.inlier_fraction));
+  out.score(to_float(mode.score));
+  out.covariance(encode_covariance(mode.covariance));
+  return out;
+}
+
+graph::AlignmentMode decoded(const msg::AlignmentMode& in, FieldCheck& check) {
+  graph::AlignmentMode mode;
+  mode.T_i_j = make_pose(decode_rotation(in.rotation(), check, "rotation is not a rotation vector within pi"),
+                         check.translation(in.translation(), "translation"));
+  mode.rmse = check.size(static_cast<double>(in.rmse()), 1e6, "rmse");
+  mode.inlier_fraction = check.size(static_cast<double>(in.inlier_fraction()), 1.0, "inlier_fraction");
+  mode.score = check.size(static_cast<double>(in.score()), 1.0, "score");
+  mode.covariance = decode_covariance(in.covariance(), check, "covariance");
+  return mode;
+}
+
+}  // namespace
 
 Bytes encode(const graph::Alignment& alignment) {
   msg::Alignment out;
@@ -17,11 +43,8 @@ Bytes encode(const graph::Alignment& alignment) {
   out.seq(alignment.seq);
   out.seq_i(alignment.i.seq);
   out.seq_j(alignment.j.seq);
-  out.translation(to_floats(alignment.T_i_j.translation()));
-  out.rotation(encode_rotation<std::int32_t>(alignment.T_i_j.linear()));
-  out.rmse(to_float(alignment.rmse));
-  out.inlier_fraction(to_float(alignment.inlier_fraction));
-  out.covariance(upper_triangle<float>(alignment.covariance));
+  const std::size_t modes = std::min(alignment.modes.size(), graph::Alignment::kMaxModes);
+  for (std::size_t k = 0; k < modes; ++k) out.modes().push_back(encoded(alignment.modes[k]));
   return to_cdr(out);
 }
 
@@ -35,12 +58,11 @@ Result<graph::Alignment> decode(ByteView cdr) {
   alignment.j = check.node(in->agent_j(), in->seq_j(), "agent_j");
   alignment.computed_by = check.agent(in->computed_by(), "computed_by");
   alignment.seq = check.seq(in->seq(), "seq");
-  alignment.T_i_j =
-      make_pose(decode_rotation(in->rotation(), check, "rotation is not a rotation vector within pi"),
-                check.translation(in->translation(), "translation"));
-  alignment.rmse = check.size(static_cast<double>(in->rmse()), 1e6, "rmse");
-  alignment.inlier_fraction = check.size(static_cast<double>(in->inlier_fraction()), 1.0, "inlier_fraction");
-  alignment.covariance = covariance_from(in->covariance(), check);
+  check.require(!in->modes().empty() && in->modes().size() <= graph::Alignment::kMaxModes,
+                "the number of modes is not 1 to 6");
+  const std::size_t modes = std::min(in->modes().size(), graph::Alignment::kMaxModes);
+  alignment.modes.clear();
+  for (std::size_t k = 0; k < modes; ++k) alignment.modes.push_back(decoded(in->modes()[k], check));
   check.require(alignment.i != alignment.j, "nodes i and j are the same");
   return check.finish(alignment);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cdr.hpp"
+#include "covariance_root.hpp"
 #include "fields.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap_long_range.h"
@@ -61,6 +62,7 @@ Bytes encode(const graph::Node& node) {
   write_covariance(node.G.covariance, out);
   out.odom_translation(to_floats(node.T_odom_base.translation()));
   out.odom_rotation(encode_rotation<std::int16_t>(node.T_odom_base.linear()));
+  out.odom_covariance(encode_covariance(node.odom_covariance));
   out.submap_hash(node.submap_hash);
   out.submap_bytes(node.submap_bytes);
   return to_cdr(out);
@@ -81,6 +83,7 @@ Result<graph::Node> decode(ByteView cdr) {
   node.T_odom_base = make_pose(
       decode_rotation(in->odom_rotation(), check, "odom_rotation is not a rotation vector within pi"),
       check.translation(in->odom_translation(), "odom_translation"));
+  node.odom_covariance = decode_covariance(in->odom_covariance(), check, "odom_covariance");
   node.submap_hash = in->submap_hash();
   node.submap_bytes = in->submap_bytes();
   check.require(node.submap_bytes <= kMaxSubmapBytes, "submap_bytes is beyond 64 MiB");

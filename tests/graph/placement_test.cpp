@@ -57,8 +57,8 @@ struct Fleet {
     a.j = j.id;
     a.computed_by = i.id.agent;
     a.seq = static_cast<std::uint32_t>(alignments.size());
-    a.T_i_j = truth(i).inverse() * truth(j) * error;
-    a.rmse = rmse;
+    a.modes.front().T_i_j = truth(i).inverse() * truth(j) * error;
+    a.modes.front().rmse = rmse;
     alignments.push_back(a);
   }
 };
@@ -104,7 +104,16 @@ TEST(Placement, LeastRmseOfAPairIsKeptAndBadOnesDoNotCount) {
   ASSERT_EQ(placement.used.size(), 1u);
   EXPECT_EQ(placement.used.front().seq, 1u);
 
-  for (Alignment& a : fleet.alignments) a.rmse = 0.5;
+  for (Alignment& a : fleet.alignments) a.modes.front().rmse = 0.5;
+  EXPECT_TRUE(place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site).used.empty());
+}
+
+TEST(Placement, AmbiguousAlignmentsDoNotCount) {
+  Fleet fleet(7);
+  fleet.add_agent("r1", 1.0);
+  fleet.add_agent("r2", 1.0);
+  fleet.align(fleet.node("r1", 5), fleet.node("r2", 7), 0.1);
+  fleet.alignments.front().modes.push_back(fleet.alignments.front().best());
   EXPECT_TRUE(place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site).used.empty());
 }
 
@@ -141,8 +150,8 @@ TEST(Placement, RestartedAgentIsAFrameOfItsOwnUntilAlignedWithItself) {
   const Node before = fleet.node("r1", 10);
   const Node after = fleet.node("r1", 20);
   Alignment alignment{.i = before.id, .j = after.id, .computed_by = before.id.agent};
-  alignment.T_i_j = before.T_odom_base.inverse() * T_before_after * after.T_odom_base;
-  alignment.rmse = 0.1;
+  alignment.modes.front().T_i_j = before.T_odom_base.inverse() * T_before_after * after.T_odom_base;
+  alignment.modes.front().rmse = 0.1;
   const Placement placement = place_by_least_rmse(fleet.nodes, std::vector{alignment}, fleet.site);
   EXPECT_EQ(placement.components.size(), 1u);
   const Pose placed = placement.T_enu_node.at(fleet.node("r1", 0).id).inverse() *

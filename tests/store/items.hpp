@@ -51,6 +51,7 @@ inline graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Byte
   for (int k = 0; k < 36; ++k) node.G.covariance.data()[k] = normal(random);
   node.T_odom_base =
       se3_exp(Vector6d{normal(random), normal(random), normal(random), 0.1, 0.2, normal(random)});
+  node.odom_covariance = 1e-3 / 7.0 * Matrix6d::Identity();
   node.submap_hash = content_hash(submap);
   node.submap_bytes = static_cast<std::uint32_t>(submap.size());
   return node;
@@ -63,10 +64,12 @@ inline graph::Alignment make_alignment(const NodeId& i, const NodeId& j, const A
   alignment.j = j;
   alignment.computed_by = by;
   alignment.seq = seq;
-  alignment.T_i_j = se3_exp(Vector6d{1.0 / 3.0, -2.0 / 7.0, 1e-9, 0.1, -0.2, 0.3});
-  alignment.rmse = rmse;
-  alignment.inlier_fraction = 0.7;
-  alignment.covariance = 1e-4 / 3.0 * Matrix6d::Identity();
+  graph::AlignmentMode& mode = alignment.modes.front();
+  mode.T_i_j = se3_exp(Vector6d{1.0 / 3.0, -2.0 / 7.0, 1e-9, 0.1, -0.2, 0.3});
+  mode.rmse = rmse;
+  mode.inlier_fraction = 0.7;
+  mode.score = 0.6;
+  mode.covariance = 1e-4 / 3.0 * Matrix6d::Identity();
   return alignment;
 }
 

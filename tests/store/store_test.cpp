@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 
 #include <fstream>
+#include <functional>
 
 #include "store/items.hpp"
 
@@ -48,11 +49,12 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   EXPECT_EQ(held->G.q_enu_base.coeffs(), node.G.q_enu_base.coeffs());
   EXPECT_EQ(held->G.covariance, node.G.covariance);
   EXPECT_EQ(held->T_odom_base.matrix(), node.T_odom_base.matrix());
+  EXPECT_EQ(held->odom_covariance, node.odom_covariance);
   EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
   const auto* held_alignment = store.alignment({kPeer, 2});
   ASSERT_TRUE(held_alignment);
-  EXPECT_EQ(held_alignment->T_i_j.matrix(), alignment.T_i_j.matrix());
-  EXPECT_EQ(held_alignment->covariance, alignment.covariance);
+  EXPECT_EQ(held_alignment->best().T_i_j.matrix(), alignment.best().T_i_j.matrix());
+  EXPECT_EQ(held_alignment->best().covariance, alignment.best().covariance);
   EXPECT_EQ(store.meta("boots").value(), random_bytes(3, 1));
   EXPECT_EQ(store.meta("absent").value(), std::nullopt);
   EXPECT_EQ(store.next_node_seq(), 1u);
@@ -64,7 +66,7 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   other.G.position.altitude = std::nextafter(other.G.position.altitude, 1e9);
   EXPECT_EQ(store.put_node(other).value(), Put::kConflict);
   auto other_alignment = alignment;
-  other_alignment.rmse += 1e-12;
+  other_alignment.modes.front().rmse += 1e-12;
   EXPECT_EQ(store.put_alignment(other_alignment).value(), Put::kConflict);
   EXPECT_EQ(store.node({kSelf, 0})->G.position, node.G.position);
   EXPECT_EQ(store.stats().conflicts, 2u);
@@ -87,9 +89,38 @@ TEST(Store, refuses_and_counts_what_breaks_a_rule) {
   EXPECT_EQ(store.put_node(graph::Node{}).value(), Put::kInvalid);
   EXPECT_EQ(store.put_submap({kPeer, 0}, submap).value(), Put::kInvalid);  // no such node
   EXPECT_EQ(store.put_alignment(make_alignment({kPeer, 1}, {kPeer, 1}, kPeer, 0)).value(), Put::kInvalid);
+  node = make_node(kPeer, 0, submap);
+  node.odom_covariance(0, 1) = 1e-3;  // not symmetric
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  node = make_node(kPeer, 0, submap);
+  node.T_odom_base.linear() *= 2.0;
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
   EXPECT_TRUE(store.nodes().empty());
   EXPECT_TRUE(store.alignments().empty());
-  EXPECT_EQ(store.stats().invalid, 7u);
+  EXPECT_EQ(store.stats().invalid, 9u);
+}
+
+TEST(Store, refuses_alignments_with_a_bad_mode) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  const auto refused = [&](const std::function<void(graph::Alignment&)>& spoil) {
+    auto alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 0);
+    alignment.modes.push_back(alignment.best());
+    spoil(alignment);
+    return store.put_alignment(alignment).value() == Put::kInvalid;
+  };
+  EXPECT_TRUE(refused([](auto& a) { a.modes.clear(); }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.resize(graph::Alignment::kMaxModes + 1); }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().covariance(1, 1) = -1.0; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().covariance(0, 1) += 1e-9; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().covariance(2, 2) = std::nan(""); }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().T_i_j.translation().x() = 1e300; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().T_i_j.linear()(0, 0) = 3.0; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().rmse = -0.1; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().inlier_fraction = 1.5; }));
+  EXPECT_TRUE(refused([](auto& a) { a.modes.back().score = std::nan(""); }));
+  EXPECT_FALSE(refused([](auto&) {}));
+  EXPECT_EQ(store.alignments().begin()->second.modes.size(), 2u);
 }
 
 TEST(Store, keeps_the_chunks_of_a_download_over_a_restart) {
@@ -168,8 +199,8 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
   run_sql(folder / "foreign.db", "CREATE TABLE song(name TEXT)");
   EXPECT_THAT(refusal("foreign.db"), HasSubstr("not a fleetmap store"));
   ASSERT_TRUE(Store::open(folder / "newer.db", kSelf));
-  run_sql(folder / "newer.db", "PRAGMA user_version = 2");
-  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 2"));
+  run_sql(folder / "newer.db", "PRAGMA user_version = 3");
+  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 3"));
   ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
   EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
   EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));

@@ -94,7 +94,7 @@ TEST(HostileBytes, AnotherSchemaVersionIsRefusedNamingBoth) {
   Bytes bytes = encode(random.node());
   bytes[kHeader] = 7;
   EXPECT_EQ(refusal<graph::Node>(bytes),
-            "fleetmap::msg::Node: the sender speaks schema version 7, this program version 1; "
+            "fleetmap::msg::Node: the sender speaks schema version 7, this program version 2; "
             "run the same release on all robots");
 }
 
@@ -157,19 +157,25 @@ TEST(HostileBytes, PiecesMustFitTheirWhole) {
 TEST(HostileBytes, NumbersMustMakeSense) {
   RandomMessages random(15);
   auto alignment = random.alignment();
-  alignment.rmse = -1.0;
+  alignment.modes.front().rmse = -1.0;
   EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)),
               HasSubstr("rmse is negative, not finite or too large"));
   alignment = random.alignment();
-  alignment.covariance(2, 2) = -1.0;
-  EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)), HasSubstr("covariance has a negative variance"));
-  alignment = random.alignment();
-  alignment.covariance(0, 1) = 1e3;
+  alignment.modes.back().score = 1.1;
   EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)),
-              HasSubstr("covariance has a correlation beyond 1"));
+              HasSubstr("score is negative, not finite or too large"));
+  alignment.modes.clear();
+  EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)), HasSubstr("the number of modes is not 1 to 6"));
   alignment = random.alignment();
   alignment.j = alignment.i;
   EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)), HasSubstr("nodes i and j are the same"));
+  Bytes mode = encode(random.alignment());
+  // The first element of the covariance's root lies 40 bytes behind the header of 44, in a half float.
+  for (const auto& [high, low] : {std::pair(0x7c, 0x00), {0x7e, 0x00}, {0x80, 0x00}, {0xbc, 0x00}}) {
+    mode[kHeader + 40 + 36] = static_cast<std::uint8_t>(low);
+    mode[kHeader + 40 + 37] = static_cast<std::uint8_t>(high);
+    EXPECT_THAT(refusal<graph::Alignment>(mode), HasSubstr("covariance is not finite or beyond its range"));
+  }
   auto node = random.node();
   node.stamp = stamp_from_ns(-1);
   EXPECT_THAT(refusal<graph::Node>(encode(node)), HasSubstr("stamp is outside 1970 to 2116"));

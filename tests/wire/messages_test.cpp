@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "fleetmap/wire/topics.hpp"
@@ -65,6 +67,7 @@ TEST(Wire, NodeKeepsItsMeaningWithinTheStepsOfTheWire) {
     EXPECT_NEAR(R(3, 3) / (0.5 * (C(3, 3) + C(4, 4))), 1.0, 0.045);
     EXPECT_NEAR(R(5, 5) / C(5, 5), 1.0, 0.045);
     EXPECT_GT(R.llt().matrixL().determinant(), 0.0);
+    EXPECT_LT((received->odom_covariance - node.odom_covariance).cwiseAbs().maxCoeff(), 6e-3);
   }
 }
 
@@ -78,11 +81,16 @@ TEST(Wire, AlignmentKeepsItsMeaningWithinFloat) {
     EXPECT_EQ(received->j, alignment.j);
     EXPECT_EQ(received->computed_by, alignment.computed_by);
     EXPECT_EQ(received->seq, alignment.seq);
-    EXPECT_LT(angle_between(received->T_i_j.linear(), alignment.T_i_j.linear()), 4e-6);
-    EXPECT_LT((received->T_i_j.translation() - alignment.T_i_j.translation()).norm(), 2e-4);
-    EXPECT_NEAR(received->rmse, alignment.rmse, 1e-6);
-    EXPECT_NEAR(received->inlier_fraction, alignment.inlier_fraction, 1e-6);
-    EXPECT_LT((received->covariance - alignment.covariance).cwiseAbs().maxCoeff(), 1e-5);
+    ASSERT_EQ(received->modes.size(), alignment.modes.size());
+    for (std::size_t m = 0; m < alignment.modes.size(); ++m) {
+      const graph::AlignmentMode &got = received->modes[m], &sent = alignment.modes[m];
+      EXPECT_LT(angle_between(got.T_i_j.linear(), sent.T_i_j.linear()), 4e-6);
+      EXPECT_LT((got.T_i_j.translation() - sent.T_i_j.translation()).norm(), 2e-4);
+      EXPECT_NEAR(got.rmse, sent.rmse, 1e-6);
+      EXPECT_NEAR(got.inlier_fraction, sent.inlier_fraction, 1e-6);
+      EXPECT_NEAR(got.score, sent.score, 1e-6);
+      EXPECT_LT((got.covariance - sent.covariance).cwiseAbs().maxCoeff(), 6e-3);
+    }
   }
 }
 
@@ -130,11 +138,61 @@ TEST(Wire, UnknownUncertaintyBecomesTheLargest) {
   EXPECT_GT(received->G.covariance(5, 5), 30.0);
 }
 
+/// A long weak axis in any direction, as along a row of panels: 1 m to 4 m against centimetres.
+Matrix6d degenerate_covariance(RandomMessages& random) {
+  Vector6d weak, stddev;
+  for (int k = 0; k < 6; ++k) {
+    weak(k) = random.real(-1.0, 1.0);
+    stddev(k) = random.real(0.01, 0.05);
+  }
+  weak *= std::exp(random.real(0.0, 1.4)) / weak.norm();
+  return Matrix6d(stddev.cwiseAbs2().asDiagonal()) + weak * weak.transpose();
+}
+
+TEST(Wire, CovarianceKeepsItsShapeHoweverLongItsWeakAxis) {
+  RandomMessages random(6);
+  for (int k = 0; k < 2000; ++k) {
+    graph::Node node = random.node();
+    node.odom_covariance = degenerate_covariance(random);
+    const auto received = quantised(node);
+    ASSERT_TRUE(received) << received.error().message;
+    const auto again = quantised(*received);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_TRUE(again->odom_covariance.isApprox(received->odom_covariance, 1e-12)) << "round " << k;
+    // Relative to the covariance itself: every axis keeps its length, also those that are short.
+    const Eigen::LLT<Matrix6d> root(node.odom_covariance);
+    const Matrix6d whitened =
+        root.matrixL().solve(Matrix6d(root.matrixL().solve(received->odom_covariance).transpose()));
+    const Vector6d ratios = Eigen::SelfAdjointEigenSolver<Matrix6d>(whitened).eigenvalues();
+    EXPECT_GT(ratios.minCoeff(), 0.5) << "round " << k;
+    EXPECT_LT(ratios.maxCoeff(), 2.0) << "round " << k;
+  }
+}
+
+TEST(Wire, WhatIsNoCovarianceCountsAsUnknown) {
+  RandomMessages random(7);
+  Matrix6d no_number = Matrix6d::Identity(), negative = no_number, beyond = no_number;
+  no_number(3, 3) = std::nan("");
+  negative(2, 2) = -1.0;
+  beyond(0, 1) = beyond(1, 0) = 1.1;
+  for (const Matrix6d& bad : {no_number, negative, beyond, Matrix6d(1e300 * Matrix6d::Identity())}) {
+    graph::Alignment alignment = random.alignment();
+    alignment.modes.front().covariance = bad;
+    const auto received = quantised(alignment);
+    ASSERT_TRUE(received) << received.error().message;
+    EXPECT_TRUE(received->best().covariance.isApprox(1e4 * Matrix6d::Identity(), 1e-3));
+  }
+}
+
 TEST(Wire, SizesOnTheWire) {
   RandomMessages random(5);
   for (int k = 0; k < 20; ++k) {
-    EXPECT_EQ(encode(random.node()).size(), 99u);
-    EXPECT_EQ(encode(random.alignment()).size(), 160u);
+    EXPECT_EQ(encode(random.node()).size(), 142u);
+    graph::Alignment alignment = random.alignment();
+    alignment.modes.resize(1);
+    EXPECT_EQ(encode(alignment).size(), 126u);
+    alignment.modes.resize(graph::Alignment::kMaxModes + 3);
+    EXPECT_EQ(encode(alignment).size(), 526u) << "more modes than the bound are cut";
   }
   const auto full = cloud_fragment(25000, 0, 23, 1100);
   EXPECT_EQ(encode(full).size(), 1164u);

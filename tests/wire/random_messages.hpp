@@ -82,6 +82,7 @@ class RandomMessages {
     node.G.q_enu_base = Eigen::Quaterniond(rotation());
     node.G.covariance = covariance();
     node.T_odom_base = pose();
+    node.odom_covariance = covariance();
     node.submap_hash = hash();
     node.submap_bytes = integer(0, kMaxSubmapBytes);
     return node;
@@ -92,10 +93,9 @@ class RandomMessages {
     alignment.j = node_id();
     alignment.computed_by = agent();
     alignment.seq = integer(0, kMaxSeq);
-    alignment.T_i_j = pose();
-    alignment.rmse = real(0.0, 2.0);
-    alignment.inlier_fraction = real(0.0, 1.0);
-    alignment.covariance = covariance();
+    alignment.modes.resize(integer(1, graph::Alignment::kMaxModes));
+    for (graph::AlignmentMode& mode : alignment.modes)
+      mode = {pose(), real(0.0, 2.0), real(0.0, 1.0), real(0.0, 1.0), covariance()};
     return alignment;
   }
   GlobalPose global_pose() {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
-#include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
@@ -99,8 +99,7 @@ class Agent {
     double cpu_seconds = 0.0;
   };
   /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
-  Result<registration::RegistrationResult> register_encoded(const Surroundings& target,
-                                                            const graph::Node& source,
+  Result<registration::RegistrationResult> register_encoded(OwnCloud& target, const graph::Node& source,
                                                             const Bytes& encoded) const;
   void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
                 const std::optional<exchange::NodePair>& pair);
@@ -113,6 +112,7 @@ class Agent {
   std::uint8_t session_;
   TrajectoryFile odometry_file_;
   GlobalTrackFile global_file_;
+  OwnClouds own_clouds_;
   SubmapBuilder submap_;
   place::NodeGenerator node_generator_;
   std::optional<exchange::Exchange> exchange_;

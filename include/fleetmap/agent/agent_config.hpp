@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "fleetmap/agent/odometry_uncertainty.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/core/ids.hpp"
@@ -27,6 +28,7 @@ struct AgentConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
+  OdometryUncertaintyConfig odometry_uncertainty;
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;

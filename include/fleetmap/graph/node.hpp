@@ -24,6 +24,9 @@ struct Node {
   Stamp stamp;
   GlobalPose G;                         ///< T_enu_base at `stamp`, with covariance
   Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`
+  /// Of the odometry since the previous node of the same frame: right tangent of T_previous_this, [m, rad].
+  /// Without meaning for the first node of a frame.
+  Matrix6d odom_covariance = Matrix6d::Zero();
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap

@@ -29,7 +29,8 @@ struct PaperPlacementConfig {
 };
 
 /// The paper's scheme (mode `paper`): one rigid transform per pair of agents, that of the alignment with the
-/// least E_ij; each connected group of agents is then laid on its nodes' global poses G by least squares.
+/// least E_ij, of those with one mode; each connected group of agents is then laid on its nodes' global poses
+/// G by least squares.
 Placement place_by_least_rmse(std::span<const Node> nodes, std::span<const Alignment> alignments,
                               const LocalFrame& site, const PaperPlacementConfig& config = {});
 

@@ -16,7 +16,7 @@
 namespace fleetmap::wire {
 
 /// First octet of every type of module fleetmap. Raised when a member changes.
-inline constexpr std::uint8_t kSchemaVersion = 1;
+inline constexpr std::uint8_t kSchemaVersion = 2;
 
 // Bounds that the IDL and decoding share.
 inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one spherized cloud
@@ -98,10 +98,11 @@ Result<exchange::Message> decode_message(const bus::Topic& topic, ByteView cdr);
 
 /// The value that every receiver of `node` will hold. Its owner must keep this one too, so that the whole
 /// fleet computes with the same numbers; rounding it again changes nothing. Of G's covariance remain the
-/// position's variances and east-north covariance, the mean variance of the tilts, and the yaw's. Fails when
-/// `node` could not be decoded (non-finite pose, position off the Earth, ...).
+/// position's variances and east-north covariance, the mean variance of the tilts, and the yaw's. An
+/// odom_covariance that is none counts as unknown, and so is very large. Fails when `node` could not be
+/// decoded (non-finite pose, position off the Earth, ...).
 Result<graph::Node> quantised(const graph::Node& node);
-/// Likewise for an alignment.
+/// Likewise for an alignment. The first Alignment::kMaxModes modes are kept.
 Result<graph::Alignment> quantised(const graph::Alignment& alignment);
 
 }  // namespace fleetmap::wire
