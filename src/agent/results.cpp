@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -124,11 +125,69 @@ Status write_nodes(const store::Store& store, const graph::Placement& placement,
   return {};
 }
 
+ContentHash hash_of_inputs(const store::Store& store, const graph::Placement& placement,
+                           const store::MergeConfig& config) {
+  Bytes inputs;
+  const auto add = [&inputs](const auto& value) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
+    inputs.insert(inputs.end(), bytes, bytes + sizeof(value));
+  };
+  add(config.voxel_m);
+  add(config.centroids);
+  for (const auto& [id, T] : placement.T_enu_node) {
+    const graph::Node* node = store.node(id);
+    if (node == nullptr || !store.has_submap(id)) continue;
+    for (const char c : id.agent.str()) add(c);
+    add(id.seq);
+    add(node->submap_hash);
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) add(T.matrix()(row, column));
+  }
+  return content_hash(inputs);
+}
+
 Result<std::string> hash_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
   if (!in.good() && !in.eof()) return failure(file.string() + ": cannot be read");
   return to_hex(content_hash(bytes));
+}
+
+constexpr std::array kMapNames{"map.ply", "map.pcd"};
+
+Result<MapFiles> copied_map(const MapFiles& other, const AgentConfig& config) {
+  for (const char* name : kMapNames) {
+    std::error_code error;
+    std::filesystem::copy_file(other.directory / name, config.directory / name,
+                               std::filesystem::copy_options::overwrite_existing, error);
+    if (error) return failure((config.directory / name).string() + ": cannot be written: " + error.message());
+  }
+  MapFiles files = other;
+  files.directory = config.directory;
+  return files;
+}
+
+Result<MapFiles> write_map(store::Store& store, const graph::Placement& placement, const AgentConfig& config,
+                           std::span<const MapFiles> others) {
+  MapFiles files;
+  files.directory = config.directory;
+  files.made_of = hash_of_inputs(store, placement, config.map);
+  if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
+    return copied_map(*same, config);
+  const store::MergedMap map = merged_map(store, placement, config.map);
+  for (const NodeId& id : map.unreadable)
+    spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
+  if (!map.unreadable.empty()) files.made_of = {};  // not for others
+  for (const char* name : kMapNames) {
+    if (const Status written = cloud::write_cloud(config.directory / name, map.cloud); !written)
+      return tl::unexpected(written.error());
+  }
+  const auto hash = hash_of_file(config.directory / "map.ply");
+  if (!hash) return tl::unexpected(hash.error());
+  files.hash = *hash;
+  files.points = map.cloud.size();
+  files.submaps = map.submaps;
+  return files;
 }
 
 }  // namespace
@@ -182,7 +241,8 @@ store::MergedMap merged_map(store::Store& store, const graph::Placement& placeme
   return store::merge(held, load, config);
 }
 
-Result<Results> write_results(store::Store& store, const AgentConfig& config) {
+Result<Results> write_results(store::Store& store, const AgentConfig& config,
+                              std::span<const MapFiles> others) {
   const std::optional<GeoPoint> origin = site_origin(store, config.site_origin);
   if (!origin) {
     return failure(config.id.str() +
@@ -194,19 +254,10 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config) {
     return tl::unexpected(kept.error());
   }
   results.placement = place(store, *origin, config.placement);
-  const store::MergedMap map = merged_map(store, results.placement, config.map);
-  for (const NodeId& id : map.unreadable)
-    spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
-  results.map_points = map.cloud.size();
-  results.map_submaps = map.submaps;
-  results.missing_submaps = store.nodes().size() - map.submaps;
-  for (const char* name : {"map.ply", "map.pcd"}) {
-    if (const Status written = cloud::write_cloud(config.directory / name, map.cloud); !written)
-      return tl::unexpected(written.error());
-  }
-  const auto hash = hash_of_file(config.directory / "map.ply");
-  if (!hash) return tl::unexpected(hash.error());
-  results.map_hash = *hash;
+  auto map = write_map(store, results.placement, config, others);
+  if (!map) return tl::unexpected(map.error());
+  results.map = std::move(*map);
+  results.missing_submaps = store.nodes().size() - results.map.submaps;
   const LocalFrame site(*origin);
   for (const Status& written :
        {write_trajectory(results.placement, config), write_global_poses(site, config),

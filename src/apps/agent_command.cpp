@@ -173,9 +173,9 @@ int run(const AgentOptions& options) {
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr);
   if (!written) return report(written.error(), kFailed);
   if (results) {
-    std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map_points
-              << " points from " << results->map_submaps << " submaps, " << results->missing_submaps
-              << " missing, hash " << results->map_hash << '\n';
+    std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map.points
+              << " points from " << results->map.submaps << " submaps, " << results->missing_submaps
+              << " missing, hash " << results->map.hash << '\n';
   }
   if (results && results->missing_submaps > 0) {
     spdlog::warn(

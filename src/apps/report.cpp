@@ -135,10 +135,10 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
   report["alignments"] = store.alignments().size();
   report["submaps"] = store.submap_set().size();
   if (results == nullptr) return;
-  report["map_points"] = results->map_points;
-  report["map_submaps"] = results->map_submaps;
+  report["map_points"] = results->map.points;
+  report["map_submaps"] = results->map.submaps;
   report["missing_submaps"] = results->missing_submaps;
-  report["map_hash"] = results->map_hash;
+  report["map_hash"] = results->map.hash;
   report["origin"] = origin_json(results->origin);
   json groups = json::array();
   for (const auto& component : results->placement.components) {

@@ -77,9 +77,9 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
       std::cout << id << ": no map: " << (entry.problem.empty() ? "it made no node" : entry.problem) << '\n';
       continue;
     }
-    std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map_points
-              << " points from " << entry.results->map_submaps << " submaps, hash "
-              << entry.results->map_hash.substr(0, 12) << '\n';
+    std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map.points
+              << " points from " << entry.results->map.submaps << " submaps, hash "
+              << entry.results->map.hash.substr(0, 12) << '\n';
     if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
     for (const graph::Alignment& used : entry.results->placement.used) {
       std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.best().rmse
@@ -88,7 +88,7 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
   }
   std::set<std::string> maps;  // of those who are there at the end
   for (const auto& entry : outcome.agents) {
-    if (entry.agent) maps.insert(entry.results ? entry.results->map_hash : "none of " + entry.id.str());
+    if (entry.agent) maps.insert(entry.results ? entry.results->map.hash : "none of " + entry.id.str());
   }
   std::cout << (maps.size() <= 1 ? "all robots hold the same map\n"
                                  : "the robots' maps differ: see report.json\n");

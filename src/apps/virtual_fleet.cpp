@@ -248,8 +248,9 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   FleetOutcome::AgentOutcome result;
   result.id = self.id;
   result.directory = self.agent->config().directory;
-  auto written = agent::write_results(self.agent->store(), self.agent->config());
+  auto written = agent::write_results(self.agent->store(), self.agent->config(), maps_);
   if (written) {
+    maps_.push_back(written->map);
     result.results = std::move(*written);
   } else {
     result.problem = written.error().message;

@@ -101,6 +101,7 @@ class VirtualFleet {
   std::unique_ptr<bus::LocalNetwork> network_;
   std::vector<Member> members_;
   std::optional<Completion> completion_;
+  std::vector<agent::MapFiles> maps_;  ///< written so far
   bool mission_ended_ = false;
   std::string error_;
 };

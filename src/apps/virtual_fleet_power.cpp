@@ -62,8 +62,9 @@ FleetOutcome::AgentOutcome VirtualFleet::results_of_store(std::size_t member) {
     return result;
   }
   result.store.emplace(std::move(*store));
-  auto written = agent::write_results(*result.store, config);
+  auto written = agent::write_results(*result.store, config, maps_);
   if (written) {
+    maps_.push_back(written->map);
     result.results = std::move(*written);
   } else if (!result.store->nodes().empty()) {
     result.problem = written.error().message;

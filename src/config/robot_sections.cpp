@@ -193,7 +193,8 @@ void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
   section.read("spacing", encounters.spacing_m);
   section.read("spacing_aligned", encounters.spacing_aligned_m);
   section.read("spacing_failed", encounters.spacing_failed_m);
-  section.read_seconds("settle", encounters.settle);
+  section.read("ripe_nodes", encounters.ripe_nodes);
+  section.read_seconds("ripe_after", encounters.ripe_after);
   section.read_seconds("retry_after", encounters.retry_after);
   section.read("max_attempts", encounters.max_attempts);
   section.read("stop_when_peer_aligned", encounters.stop_when_peer_aligned);

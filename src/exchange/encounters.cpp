@@ -10,8 +10,8 @@ Status EncounterConfig::validate() const {
   if (!(spacing_m >= 0.0) || !(spacing_aligned_m >= 0.0) || !(spacing_failed_m >= 0.0)) {
     return failure("encounters.spacing_m, spacing_aligned_m and spacing_failed_m must not be negative");
   }
-  if (settle < Duration::zero() || retry_after < Duration::zero()) {
-    return failure("encounters.settle and retry_after must not be negative");
+  if (ripe_after < Duration::zero() || retry_after < Duration::zero()) {
+    return failure("encounters.ripe_after and retry_after must not be negative");
   }
   if (max_attempts < 1 || max_active == 0 || max_waiting == 0) {
     return failure("encounters.max_attempts, max_active and max_waiting must be at least 1");
@@ -29,6 +29,7 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   Track& track = tracks_[node.id.agent];
   if (track.tree.insert(node.G.position) == place::BallTree::kRefused) return;
   track.ids.push_back(node.id);
+  track.newest = std::max(track.newest, node.id.seq);
   if (node.id.agent != self_) {
     find(node, self_, now);
     return;
@@ -61,7 +62,7 @@ Stamp Encounters::replace_farther(const NodePair& pair, double distance, Stamp n
   for (const NodePair& rival : rivals(pair)) {
     const Encounter& other = encounters_.at(rival);
     if (other.phase != Phase::kWaiting || other.distance <= distance) continue;
-    since = std::min(since, other.not_before - config_.settle);
+    since = std::min(since, other.found);
     encounters_.erase(rival);
     ++stats_.redundant;
   }
@@ -70,7 +71,7 @@ Stamp Encounters::replace_farther(const NodePair& pair, double distance, Stamp n
 
 void Encounters::begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer) {
   Encounter encounter;
-  encounter.not_before = now + config_.settle;
+  encounter.found = now;
   encounter.distance = distance;
   encounter.radius = radius;
   encounter.next_match = now;
@@ -189,7 +190,7 @@ std::vector<NodePair> Encounters::on_cloud(const NodeId& theirs) {
 
 void Encounters::fail(Encounter& encounter, Stamp now) {
   encounter.phase = Phase::kFailed;
-  encounter.not_before = now + config_.retry_after;
+  encounter.retry_at = now + config_.retry_after;
 }
 
 void Encounters::on_cloud_lost(const NodeId& theirs, Stamp now) {
@@ -213,7 +214,7 @@ void Encounters::crowd_out() {
   for (auto it = encounters_.begin(); it != encounters_.end(); ++it) {
     if (it->second.phase != Phase::kWaiting) continue;
     ++waiting;
-    if (oldest == encounters_.end() || it->second.not_before < oldest->second.not_before) oldest = it;
+    if (oldest == encounters_.end() || it->second.found < oldest->second.found) oldest = it;
   }
   if (waiting <= config_.max_waiting) return;
   encounters_.erase(oldest);
@@ -224,6 +225,17 @@ bool Encounters::retryable(const NodePair& pair, const Encounter& encounter) con
   return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !redundant(pair);
 }
 
+std::uint32_t Encounters::nodes_since(const NodeId& id) const {
+  const auto track = tracks_.find(id.agent);
+  return track == tracks_.end() || track->second.newest < id.seq ? 0 : track->second.newest - id.seq;
+}
+
+bool Encounters::ripe(const NodePair& pair, const Encounter& encounter, Stamp now) const {
+  if (encounter.phase == Phase::kFailed) return now >= encounter.retry_at;
+  if (now >= encounter.found + config_.ripe_after) return true;
+  return nodes_since(pair.ours) >= config_.ripe_nodes && nodes_since(pair.theirs) >= config_.ripe_nodes;
+}
+
 void Encounters::ask(Due& due, Stamp now) {
   std::size_t active = 0;
   // Agents without a good alignment first, then the newest place: its agents are still near each other.
@@ -232,8 +244,8 @@ void Encounters::ask(Due& due, Stamp now) {
   for (const auto& [pair, encounter] : encounters_) {
     active += encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
     const bool may = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
-    if (!may || now < encounter.not_before || !heard(pair.theirs.agent, now)) continue;
-    ready.emplace_back(aligned_.contains(pair.theirs.agent), -to_ns(encounter.not_before), pair);
+    if (!may || !ripe(pair, encounter, now) || !heard(pair.theirs.agent, now)) continue;
+    ready.emplace_back(aligned_.contains(pair.theirs.agent), -to_ns(encounter.found), pair);
   }
   std::ranges::sort(ready);
   for (const auto& [aligned, age, pair] : ready) {

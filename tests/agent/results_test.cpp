@@ -65,13 +65,44 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
-  EXPECT_EQ(results->map_submaps, 4u);
+  EXPECT_EQ(results->map.submaps, 4u);
   EXPECT_EQ(results->missing_submaps, 0u);
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, *config.site_origin);
   const auto again = merged_map(store, place(store, recipe->origin, recipe->placement), recipe->merge);
-  EXPECT_EQ(again.cloud.size(), results->map_points);
+  EXPECT_EQ(again.cloud.size(), results->map.points);
+}
+
+TEST_F(ResultsTest, AMapOfTheSameSetIsCopiedAndOneOfAnotherSetIsMade) {
+  store::Store store = open();
+  for (int k = 0; k < 3; ++k) add_node(store, 3.0 * k);
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  AgentConfig first = config();
+  first.site_origin = origin_;
+  const auto made = write_results(store, first);
+  ASSERT_TRUE(made) << made.error().message;
+  AgentConfig second = first;
+  second.directory = folder_.path() / "r2";
+  std::filesystem::create_directories(second.directory);
+  ASSERT_TRUE(GlobalTrackFile::append_to(second.directory / "global_track.csv"));
+  const std::vector<MapFiles> others{made->map};
+  const auto size = [](const std::filesystem::path& file) { return std::filesystem::file_size(file); };
+
+  // A copy shows by what was changed in the meantime.
+  std::filesystem::resize_file(folder_.path() / "map.pcd", 7);
+  const auto copied = write_results(store, second, others);
+  ASSERT_TRUE(copied) << copied.error().message;
+  EXPECT_EQ(size(second.directory / "map.pcd"), 7u);
+  EXPECT_EQ(size(second.directory / "map.ply"), size(folder_.path() / "map.ply"));
+  EXPECT_EQ(copied->map.hash, made->map.hash);
+
+  add_node(store, 20.0);
+  const auto other = write_results(store, second, others);
+  ASSERT_TRUE(other) << other.error().message;
+  EXPECT_NE(other->map.hash, made->map.hash);
+  EXPECT_EQ(other->map.submaps, 4u);
+  EXPECT_GT(size(second.directory / "map.pcd"), 7u);
 }
 
 TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
@@ -80,7 +111,7 @@ TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
   const auto results = write_results(store, config());
   ASSERT_TRUE(results) << results.error().message;
-  EXPECT_GT(results->map_points, 0u);
+  EXPECT_GT(results->map.points, 0u);
 }
 
 TEST_F(ResultsTest, SurroundingsAreOfOneOdometryFrameAndWithinTheRadius) {

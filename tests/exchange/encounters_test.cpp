@@ -20,10 +20,16 @@ graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {
   return node;
 }
 
+EncounterConfig at_once() {
+  EncounterConfig config;
+  config.ripe_nodes = 0;
+  return config;
+}
+
 NodePair mirrored(const NodePair& pair) { return {pair.theirs, pair.ours}; }
 
 TEST(Encounters, begin_with_the_nearest_own_node_within_the_radius_of_eq_1) {
-  Encounters a(kA, {});
+  Encounters a(kA, at_once());
   a.on_heard(kB, kStart);
   for (std::uint32_t seq = 0; seq < 5; ++seq) a.on_node(node_at(kA, seq, 5.0 * seq), kStart);
   a.on_node(node_at(kB, 0, 41.0), kStart);  // 21 m from the nearest
@@ -42,8 +48,8 @@ TEST(Encounters, begin_with_the_nearest_own_node_within_the_radius_of_eq_1) {
 }
 
 TEST(Encounters, are_the_same_on_both_ends_without_talk) {
-  Encounters a(kA, {});
-  Encounters b(kB, {});
+  Encounters a(kA, at_once());
+  Encounters b(kB, at_once());
   a.on_heard(kB, kStart);
   b.on_heard(kA, kStart);
   std::set<NodeId> a_wants;
@@ -79,7 +85,7 @@ TEST(Encounters, are_the_same_on_both_ends_without_talk) {
 }
 
 TEST(Encounters, of_one_place_are_not_repeated_until_the_spacing_is_left) {
-  EncounterConfig config;
+  EncounterConfig config = at_once();
   config.spacing_aligned_m = 20.0;
   Encounters a(kA, config);
   a.on_heard(kB, kStart);
@@ -99,7 +105,7 @@ TEST(Encounters, of_one_place_are_not_repeated_until_the_spacing_is_left) {
 }
 
 TEST(Encounters, that_were_rejected_are_tried_again_later_and_not_for_ever) {
-  EncounterConfig config;
+  EncounterConfig config = at_once();
   Encounters a(kA, config);
   a.on_node(node_at(kA, 0, 0.0), kStart);
   a.on_node(node_at(kB, 0, 1.0), kStart);
@@ -118,7 +124,7 @@ TEST(Encounters, that_were_rejected_are_tried_again_later_and_not_for_ever) {
 }
 
 TEST(Encounters, wait_for_an_agent_that_is_not_there) {
-  Encounters a(kA, {});
+  Encounters a(kA, at_once());
   a.on_node(node_at(kA, 0, 0.0), kStart);
   a.on_node(node_at(kB, 0, 1.0), kStart);  // passed on by a third
   EXPECT_TRUE(a.tick(kStart).wanted.empty());
@@ -130,8 +136,8 @@ TEST(Encounters, wait_for_an_agent_that_is_not_there) {
 
 TEST(Encounters, keep_the_smaller_pair_when_the_two_ends_chose_different_ones) {
   // a never got b/1, b never got a/1.
-  Encounters a(kA, {});
-  Encounters b(kB, {});
+  Encounters a(kA, at_once());
+  Encounters b(kB, at_once());
   a.on_heard(kB, kStart);
   b.on_heard(kA, kStart);
   const auto a0 = node_at(kA, 0, 0.0), a1 = node_at(kA, 1, 3.0), b0 = node_at(kB, 0, 3.5),
@@ -159,7 +165,7 @@ TEST(Encounters, keep_the_smaller_pair_when_the_two_ends_chose_different_ones) {
 
 TEST(Encounters, end_when_the_peer_has_aligned_the_pair) {
   for (const bool stop : {true, false}) {
-    EncounterConfig config;
+    EncounterConfig config = at_once();
     config.stop_when_peer_aligned = stop;
     Encounters a(kA, config);
     a.on_heard(kB, kStart);
@@ -172,9 +178,9 @@ TEST(Encounters, end_when_the_peer_has_aligned_the_pair) {
   }
 }
 
-TEST(Encounters, take_the_nearest_pair_that_comes_up_while_they_settle) {
+TEST(Encounters, take_the_nearest_pair_that_comes_up_while_they_ripen) {
   EncounterConfig config;
-  config.settle = std::chrono::seconds(5);
+  config.ripe_nodes = 100;
   Encounters a(kA, config);
   a.on_heard(kB, kStart);
   a.on_node(node_at(kA, 0, 0.0), kStart);
@@ -183,12 +189,28 @@ TEST(Encounters, take_the_nearest_pair_that_comes_up_while_they_settle) {
     a.on_node(node_at(kB, k, 12.0 - 3.0 * k), now);
     EXPECT_TRUE(a.tick(now).wanted.empty());
   }
-  const auto due = a.tick(kStart + config.settle);
+  const auto due = a.tick(kStart + config.ripe_after);
   EXPECT_EQ(due.wanted, (std::vector<NodeId>{{kB, 3}}));  // 3 m away rather than 12
 }
 
+TEST(Encounters, wait_until_both_robots_have_gone_on) {
+  EncounterConfig config;
+  config.ripe_nodes = 2;
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  a.on_node(node_at(kB, 0, 1.0), kStart);
+  for (const std::uint32_t seq : {1u, 2u}) {
+    EXPECT_TRUE(a.tick(kStart).wanted.empty());
+    a.on_node(node_at(kA, seq, 100.0 * seq), kStart);
+    EXPECT_TRUE(a.tick(kStart).wanted.empty());
+    a.on_node(node_at(kB, seq, -100.0 * seq), kStart);
+  }
+  EXPECT_EQ(a.tick(kStart).wanted, (std::vector<NodeId>{{kB, 0}}));
+}
+
 TEST(Encounters, ignore_matches_that_make_no_sense) {
-  Encounters a(kA, {});
+  Encounters a(kA, at_once());
   a.on_heard(kB, kStart);
   a.on_node(node_at(kA, 0, 0.0), kStart);
   a.on_node(node_at(kB, 7, 1000.0), kStart);

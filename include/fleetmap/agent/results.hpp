@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/placement.hpp"
@@ -38,17 +40,27 @@ struct MapRecipe {
 /// The recipe of the last write_results(); empty if there was none.
 std::optional<MapRecipe> map_recipe(const store::Store& store);
 
+/// The files of one merged map.
+struct MapFiles {
+  std::filesystem::path directory;
+  ContentHash made_of{};  ///< of all that the map is a function of: submaps, their poses, how they are merged
+  std::size_t points = 0;
+  std::size_t submaps = 0;
+  std::string hash;  ///< content hash of map.ply: equal on agents that hold the same set
+};
+
 struct Results {
   GeoPoint origin;
   graph::Placement placement;
-  std::size_t map_points = 0;
-  std::size_t map_submaps = 0;
+  MapFiles map;
   std::size_t missing_submaps = 0;  ///< of nodes that are held
-  std::string map_hash;             ///< content hash of map.ply: equal on agents that hold the same set
 };
 
 /// Writes map.ply, map.pcd, trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory.
 /// Fails when there is no node yet, or a file cannot be written.
-Result<Results> write_results(store::Store& store, const AgentConfig& config);
+/// Where several agents of one process hold the same set, `others` spares them to merge it again: a map made
+/// of the same is copied.
+Result<Results> write_results(store::Store& store, const AgentConfig& config,
+                              std::span<const MapFiles> others = {});
 
 }  // namespace fleetmap::agent

@@ -20,8 +20,10 @@ struct EncounterConfig {
   double spacing_aligned_m = 20.0;   ///< m, the same once the two have a good alignment (E_ij <= 0.4)
   double spacing_failed_m =
       5.0;  ///< m from an encounter whose registration was rejected or whose cloud got lost
-  Duration settle = Duration::zero();  ///< s between finding an encounter and asking for its cloud (the
-                                       ///< submaps around a fresh node are still being made)
+  /// A cloud of a few scans tilts and turns, and a nearer pair may come up: the clouds of a pair are asked
+  /// for when both robots have made so many nodes more ...
+  std::uint32_t ripe_nodes = 3;
+  Duration ripe_after = std::chrono::seconds(20);  ///< ... or this long after the pair was found
   Duration retry_after =
       std::chrono::seconds(60);   ///< s until a failed pair is tried again, with fuller clouds
   int max_attempts = 2;           ///< of one pair of nodes
@@ -100,7 +102,8 @@ class Encounters {
   enum class Phase : std::uint8_t { kWaiting, kAsked, kRegistering, kDone, kFailed };
   struct Encounter {
     Phase phase = Phase::kWaiting;
-    Stamp not_before;  ///< of asking
+    Stamp found;
+    Stamp retry_at;  ///< of one that failed
     int attempts = 0;
     double distance = 0.0;  ///< m
     double radius = 0.0;    ///< m
@@ -111,6 +114,7 @@ class Encounters {
   struct Track {
     place::BallTree tree;
     std::vector<NodeId> ids;  ///< by index in the tree
+    std::uint32_t newest = 0;
   };
   void find(const graph::Node& node, const AgentId& other, Stamp now);
   /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
@@ -127,6 +131,8 @@ class Encounters {
   void announce(Due& due, Stamp now);
   bool retryable(const NodePair& pair, const Encounter& encounter) const;
   bool heard(const AgentId& peer, Stamp now) const;
+  bool ripe(const NodePair& pair, const Encounter& encounter, Stamp now) const;
+  std::uint32_t nodes_since(const NodeId& id) const;
 
   AgentId self_;
   EncounterConfig config_;
