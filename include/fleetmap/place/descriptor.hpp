@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::place {
+
+/// What stands around a node, seen from above: a square of 28 x 28 cells of 2.5 m about it, along base_link's
+/// heading and level, each cell unseen, ground, low (0.5 m above the ground around it) or high (1.5 m). What
+/// the place recognition of the fleet compares when no GPS tells where two robots are. After the bird's-eye
+/// grids of Scan Context (Kim and Kim, IROS 2018), but Cartesian, so that it can be shifted as well as
+/// turned: two robots never stand at the same spot.
+class Descriptor {
+ public:
+  static constexpr int kCells = 28;           ///< along each side
+  static constexpr double kCell = 2.5;        ///< m
+  static constexpr std::size_t kBytes = 196;  ///< of encode(): two bits a cell
+
+  /// Nothing seen.
+  Descriptor() = default;
+  /// From points in base_link and the direction against gravity in it (any length; z where it is not finite
+  /// or zero). The points may be of any density, from one scan or many; those farther than 35 m along an axis
+  /// and non-finite ones are left out.
+  static Descriptor of(std::span<const Eigen::Vector3f> points_in_base, const Eigen::Vector3d& up_in_base);
+
+  Bytes encode() const;
+  /// Fails unless there are kBytes bytes with cells that encode() can have written.
+  static Result<Descriptor> decode(ByteView bytes);
+
+  /// Cells seen, and of these those with anything on the ground.
+  int seen() const;
+  int occupied() const;
+  bool operator==(const Descriptor&) const = default;
+
+ private:
+  friend class DescriptorQuery;
+  using Rows =
+      std::array<std::uint32_t, kCells>;  ///< bit x of row y: the cell at ((x, y) - 14 + 1/2) * kCell
+  Rows seen_{};
+  Rows low_{};   ///< at least low
+  Rows high_{};  ///< high
+};
+
+/// How two surroundings fit best.
+struct Likeness {
+  /// [0, 1]: correlation of the heights over the cells that both have seen, less for a small overlap.
+  /// Repeating scenes (rows of panels) look alike everywhere: what is similar is a candidate, no more.
+  double similarity = 0.0;
+  double yaw = 0.0;                                       ///< rad, of b as seen from a, both level
+  Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< m, of b in a's level frame
+  int overlap = 0;                                        ///< cells that both have seen
+};
+
+/// A descriptor made ready to be compared with many: turned by every yaw once (5 deg apart).
+class DescriptorQuery {
+ public:
+  static constexpr int kYaws = 72;
+  static constexpr int kShifts = 4;  ///< cells along each axis to either side that are tried: 10 m
+
+  explicit DescriptorQuery(const Descriptor& b);
+  /// The best of all turns and shifts of b against `a`. Similarity 0 where they have too little in common.
+  Likeness compare(const Descriptor& a) const;
+
+ private:
+  /// Rows two by two in one word; the second set is offset by one row.
+  static constexpr int kWords = Descriptor::kCells / 2;
+  using Words = std::array<std::uint64_t, kWords + 1>;
+  struct Turned {
+    std::array<Words, 2> seen{}, low{}, high{};
+  };
+  std::array<Turned, kYaws> turned_;
+};
+
+/// Likeness of b as seen from a; one comparison by itself.
+Likeness compare(const Descriptor& a, const Descriptor& b);
+
+/// T_a_b (base_link of b in that of a) that the likeness tells, given each one's direction against gravity;
+/// the heights are taken to be equal.
+Pose relative_pose(const Likeness& likeness, const Eigen::Vector3d& up_in_a, const Eigen::Vector3d& up_in_b);
+
+/// The least rotation that turns `up` (any length) to z: base_link to its level frame. Identity where `up` is
+/// zero or not finite.
+Eigen::Matrix3d levelling(const Eigen::Vector3d& up);
+
+}  // namespace fleetmap::place
