@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::agent {
+
+struct LoopClosureConfig {
+  double reach = 12.0;     ///< m between two nodes, as the odometry sees them, to be the same surroundings
+  double min_path = 60.0;  ///< m driven between them: what is nearer on the path has drifted too little
+  double spacing = 15.0;   ///< m driven since the last closure
+  /// A node is used when so many more were made: its surroundings are then seen from both sides.
+  std::uint32_t ripe_nodes = 3;
+  Status validate() const;
+};
+
+/// Two own nodes of one odometry frame that lie near each other though much was driven between them.
+struct LoopClosure {
+  graph::Node earlier;
+  graph::Node later;
+  Matrix6d covariance;  ///< of the odometry from the one to the other, right tangent: [m, rad]
+};
+
+/// Finds where a robot comes back to its own path, for the fleet graph: rows that lie side by side are driven
+/// minutes apart. Only odometry is used, so it needs no GPS.
+class LoopClosures {
+ public:
+  explicit LoopClosures(const LoopClosureConfig& config) : config_(config) {}
+
+  /// Own nodes in their order. At most one closure a node: that with the nearest earlier one.
+  std::optional<LoopClosure> on_own_node(const graph::Node& node);
+
+ private:
+  std::optional<std::size_t> nearest_earlier(std::size_t later) const;
+  Matrix6d covariance_between(std::size_t earlier, std::size_t later) const;
+
+  LoopClosureConfig config_;
+  std::vector<graph::Node> nodes_;  ///< of the current frame
+  std::vector<double> path_;        ///< m driven until each of them
+  std::optional<double> last_closure_;
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,61 @@
+#include "fleetmap/agent/loop_closures.hpp"
+
+#include <cmath>
+
+namespace fleetmap::agent {
+
+Status LoopClosureConfig::validate() const {
+  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
+  if (!positive(reach)) return failure("loop_closures.reach must be > 0 m");
+  if (!(std::isfinite(min_path) && min_path >= reach)) {
+    return failure("loop_closures.min_path must be at least reach");
+  }
+  if (!(std::isfinite(spacing) && spacing >= 0.0)) return failure("loop_closures.spacing must be >= 0 m");
+  return {};
+}
+
+std::optional<LoopClosure> LoopClosures::on_own_node(const graph::Node& node) {
+  if (!nodes_.empty() && nodes_.front().frame() != node.frame()) {
+    nodes_.clear();
+    path_.clear();
+    last_closure_.reset();
+  }
+  const double step = nodes_.empty()
+                          ? 0.0
+                          : (node.T_odom_base.translation() - nodes_.back().T_odom_base.translation()).norm();
+  path_.push_back(path_.empty() ? 0.0 : path_.back() + step);
+  nodes_.push_back(node);
+
+  if (nodes_.size() <= config_.ripe_nodes) return std::nullopt;
+  const std::size_t later = nodes_.size() - 1 - config_.ripe_nodes;
+  if (last_closure_ && path_[later] - *last_closure_ < config_.spacing) return std::nullopt;
+  const auto earlier = nearest_earlier(later);
+  if (!earlier) return std::nullopt;
+  last_closure_ = path_[later];
+  return LoopClosure{nodes_[*earlier], nodes_[later], covariance_between(*earlier, later)};
+}
+
+std::optional<std::size_t> LoopClosures::nearest_earlier(std::size_t later) const {
+  std::optional<std::size_t> nearest;
+  double distance = config_.reach;
+  const Eigen::Vector3d place = nodes_[later].T_odom_base.translation();
+  for (std::size_t k = 0; k < later && path_[later] - path_[k] >= config_.min_path; ++k) {
+    const double d = (nodes_[k].T_odom_base.translation() - place).norm();
+    if (d > distance) continue;
+    distance = d;
+    nearest = k;
+  }
+  return nearest;
+}
+
+Matrix6d LoopClosures::covariance_between(std::size_t earlier, std::size_t later) const {
+  Matrix6d covariance = Matrix6d::Zero();
+  for (std::size_t k = earlier + 1; k <= later; ++k) {
+    // What was uncertain before is seen from the new node's base_link.
+    const Matrix6d Ad = adjoint(nodes_[k].T_odom_base.inverse() * nodes_[k - 1].T_odom_base);
+    covariance = Ad * covariance * Ad.transpose() + nodes_[k].odom_covariance;
+  }
+  return covariance;
+}
+
+}  // namespace fleetmap::agent
