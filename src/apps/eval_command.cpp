@@ -28,9 +28,25 @@ void print_map(const nlohmann::json& map) {
             << percent("completeness", 2) << " %\n";
 }
 
+void print_fleet(const nlohmann::json& evaluation) {
+  if (evaluation.contains("alignments")) {
+    const auto& alignments = evaluation["alignments"];
+    std::cout << "alignments: " << alignments["count"] << " judged, " << alignments["wrong"] << " wrong, "
+              << alignments["ambiguous"] << " ambiguous, " << alignments["used"] << " used, of these "
+              << alignments["wrong_used"] << " wrong\n";
+  }
+  if (evaluation.contains("fleet")) {
+    const auto& fleet = evaluation["fleet"];
+    std::cout << "fleet: joint ATE " << fleet["ate_joint"].get<double>() << " m (between robots "
+              << fleet["between_robots"].get<double>() << ", bends " << fleet["bend"].get<double>()
+              << "), unaligned " << fleet["ate_unaligned"].get<double>() << " m\n";
+  }
+}
+
 void print_summary(const std::string& directory, const nlohmann::json& evaluation) {
   std::cout << std::setprecision(4);
   if (evaluation.contains("map")) print_map(evaluation["map"]);
+  print_fleet(evaluation);
   for (const auto& [id, agent] : evaluation["agents"].items()) {
     if (!agent.contains("ate_rmse")) continue;
     std::cout << id << ": ATE " << agent["ate_rmse"].get<double>() << " m, aligned "

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evaluation_page.hpp"
+#include "fleet_evaluation.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "map_pictures.hpp"
@@ -154,14 +155,23 @@ Result<std::optional<cloud::PointCloud>> truth_of(const fs::path& directory, con
   return std::optional(std::move(*truth));
 }
 
+/// What the robot holds whose map most share; nothing, with a note, where no store tells.
+std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<DistinctMap>& maps) {
+  if (maps.empty()) return std::nullopt;
+  auto held = open_held(maps.front().file.parent_path() / "store.db");
+  if (held) return std::move(*held);
+  run.notes.push_back(held.error().message + "; alignments are not judged, robots not told apart");
+  return std::nullopt;
+}
+
 /// Adds "map" (and "maps") and draws the pictures of the map that most robots hold.
 class MapEvaluation {
  public:
-  MapEvaluation(RunFolder& run, const EvaluationInputs& inputs, std::optional<cloud::PointCloud> truth)
-      : run_(run), inputs_(inputs), truth_(std::move(truth)) {}
+  MapEvaluation(RunFolder& run, const EvaluationInputs& inputs, std::optional<cloud::PointCloud> truth,
+                HeldFleet* held, const eval::TruePoses& nodes)
+      : run_(run), inputs_(inputs), truth_(std::move(truth)), held_(held), nodes_(nodes) {}
 
-  Status add_to(json& evaluation) {
-    const std::vector<DistinctMap> maps = distinct_maps(run_);
+  Status add_to(json& evaluation, const std::vector<DistinctMap>& maps) {
     for (std::size_t k = 0; k < maps.size(); ++k) {
       auto one = evaluate(maps[k], k == 0);
       if (!one) return tl::unexpected(one.error());
@@ -181,7 +191,7 @@ class MapEvaluation {
     const auto cloud = cloud::read_cloud(map.file);
     if (!cloud) return tl::unexpected(cloud.error());
     if (draw && inputs_.pictures) {
-      draw_by_robot(map, *cloud);
+      draw_by_robot(*cloud);
       keep(picture_of_density(*cloud, inputs_.map.density_radius));
     }
     if (!truth_) return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
@@ -191,17 +201,21 @@ class MapEvaluation {
       return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
     }
     if (draw && inputs_.pictures) keep(picture_of_errors(evaluated->points, evaluated->errors));
-    return map_json(*evaluated, inputs_.map);
+    json result = map_json(*evaluated, inputs_.map);
+    if (!draw || held_ == nullptr || nodes_.empty()) return result;
+    json overlap = overlap_json(*held_, nodes_, *truth_, evaluated->metrics.T_truth_map, inputs_.map);
+    if (!overlap.is_null()) result["overlap"] = std::move(overlap);
+    return result;
   }
 
-  void draw_by_robot(const DistinctMap& map, const cloud::PointCloud& cloud) {
-    auto merged = map_with_sources(map.file.parent_path() / "store.db");
-    if (!merged) {
-      run_.notes.push_back(merged.error().message + "; the pictures do not tell the robots apart");
-      merged = store::MergedMap{};
-      merged->cloud = cloud;
+  void draw_by_robot(const cloud::PointCloud& cloud) {
+    store::MergedMap merged;
+    if (held_ != nullptr) {
+      merged = map_with_sources(*held_);
+    } else {
+      merged.cloud = cloud;
     }
-    auto drawn = pictures_by_robot(*merged);
+    auto drawn = pictures_by_robot(merged);
     if (!drawn) return run_.notes.push_back("no picture by robot: " + drawn.error().message);
     for (MapPicture& picture : *drawn) pictures.push_back(std::move(picture));
   }
@@ -217,6 +231,8 @@ class MapEvaluation {
   RunFolder& run_;
   const EvaluationInputs& inputs_;
   std::optional<cloud::PointCloud> truth_;
+  HeldFleet* held_;
+  const eval::TruePoses& nodes_;
 };
 
 /// The file appears whole or not at all.
@@ -256,8 +272,17 @@ Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inp
   json evaluation = json::object();
   evaluation["agents"] = agents_json(*run);
   evaluation["pairs"] = pairs_json(*run);
-  MapEvaluation maps(*run, inputs, std::move(*truth));
-  if (const Status done = maps.add_to(evaluation); !done) return tl::unexpected(done.error());
+  const std::vector<DistinctMap> distinct = distinct_maps(*run);
+  std::optional<HeldFleet> held = held_by_most(*run, distinct);
+  const eval::TruePoses nodes = held ? true_poses(*run, held->store) : eval::TruePoses{};
+  if (json fleet = fleet_json(*run, held ? &*held : nullptr, nodes); !fleet.is_null())
+    evaluation["fleet"] = fleet;
+  if (!nodes.empty()) {
+    evaluation["alignments"] = alignments_json(*run, *held, nodes);
+    evaluation["calibration"] = calibration_json(*run, *held, nodes);
+  }
+  MapEvaluation maps(*run, inputs, std::move(*truth), held ? &*held : nullptr, nodes);
+  if (const Status done = maps.add_to(evaluation, distinct); !done) return tl::unexpected(done.error());
   const double area = evaluation.contains("map") ? evaluation["map"].value("mapped_area", 0.0) : 0.0;
   if (json links = links_json(run->report, area); !links.is_null()) evaluation["links"] = links;
   evaluation["notes"] = run->notes;

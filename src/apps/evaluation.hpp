@@ -25,7 +25,8 @@ struct EvaluationInputs {
 /// map_top.png, map_perspective.png, map_error.png, map_density.png beside it, and puts the numbers into
 /// report.json under "evaluation". What a missing truth does not allow is left out and said in "notes".
 ///
-/// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, links, notes.
+/// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, fleet,
+/// alignments, calibration, links, notes.
 Result<nlohmann::json> evaluate_run(const std::filesystem::path& directory, const EvaluationInputs& inputs);
 
 }  // namespace fleetmap::apps

@@ -54,6 +54,90 @@ void add_map(eval::HtmlPage& page, const json& map) {
   histogram("Error", "distance to the truth [m]", "error_histogram", "error_bin");
 }
 
+std::string shares(const json& object, const char* key) {
+  if (!object.contains(key)) return "-";
+  return short_number(100.0 * object[key][0].get<double>(), 3) + " / " +
+         short_number(100.0 * object[key][1].get<double>(), 3) + " %";
+}
+
+void add_overlap(eval::HtmlPage& page, const json& overlap) {
+  page.heading("Map where at least two robots were");
+  eval::Table rows{{"at 5 / 10 cm", "as placed", "with true poses"}};
+  const json best = overlap.value("with_true_poses", json::object());
+  for (const auto& [title, key] :
+       {std::pair{"F1", "f1"}, {"accuracy", "accuracy"}, {"completeness", "completeness"}})
+    rows.push_back({title, shares(overlap, key), shares(best, key)});
+  rows.push_back({"RMSE [m]", text(overlap, "rmse"), text(best, "rmse")});
+  page.table(rows);
+}
+
+void add_fleet(eval::HtmlPage& page, const json& fleet) {
+  page.heading("Fleet as a whole");
+  eval::Table rows{{"RMS of all poses", "value"}};
+  rows.push_back(
+      {"joint ATE: after one rigid transform of the whole fleet", text(fleet, "ate_joint") + " m"});
+  rows.push_back({"of it between robots", text(fleet, "between_robots") + " m"});
+  rows.push_back({"of it bends of each robot's own track", text(fleet, "bend") + " m"});
+  rows.push_back({"without any transform", text(fleet, "ate_unaligned") + " m"});
+  rows.push_back({"of it the whole fleet's place on Earth", text(fleet, "georeference") + " m"});
+  rows.push_back({"where robots see each other", text(fleet, "inter_robot_translation") + " m, " +
+                                                     text(fleet, "inter_robot_rotation_deg") + " deg"});
+  rows.push_back({"pairs of robots joined / wrongly",
+                  text(fleet, "joined_pairs") + " / " + text(fleet, "wrong_merges")});
+  page.table(rows);
+}
+
+void add_alignments(eval::HtmlPage& page, const json& alignments) {
+  page.heading("Alignments against the truth");
+  page.paragraph("Held " + text(alignments, "held") + ", judged " + text(alignments, "count") + ", wrong " +
+                 text(alignments, "wrong") + ", ambiguous " + text(alignments, "ambiguous") + " (" +
+                 text(alignments, "ambiguous_that_hold_right") + " hold the right one), used " +
+                 text(alignments, "used") + ", used and wrong " + text(alignments, "wrong_used") +
+                 ". Wrong: more than 0.5 m or 2 deg off.");
+  eval::Table rows{
+      {"", "number", "RMS [m]", "50 %", "90 %", "99 %", "max", "RMS [deg]", "50 %", "90 %", "max"}};
+  for (const auto& [title, key] : {std::pair{"right", "errors_of_right"}, {"used", "errors_of_used"}}) {
+    const json& errors = alignments[key];
+    const json &t = errors["translation"], &r = errors["rotation_deg"];
+    rows.push_back({title, text(errors, "count"), text(t, "rms"), text(t, "p50"), text(t, "p90"),
+                    text(t, "p99"), text(t, "max"), text(r, "rms"), text(r, "p50"), text(r, "p90"),
+                    text(r, "max")});
+  }
+  page.table(rows);
+  if (alignments["wrong_list"].empty()) return;
+  eval::Table wrong{{"wrong", "used", "off [m]", "off [deg]"}};
+  for (const json& one : alignments["wrong_list"]) {
+    wrong.push_back({one.value("i", "") + " - " + one.value("j", ""), one.value("used", false) ? "yes" : "no",
+                     text(one, "translation"), text(one, "rotation_deg")});
+  }
+  page.table(wrong);
+}
+
+void add_consistency(eval::Table& rows, const std::string& title, const json& c) {
+  if (!c.is_object() || !c.contains("nees")) return;
+  std::string axes;
+  for (const json& axis : c["axes"]) axes += (axes.empty() ? "" : ", ") + short_number(axis.get<double>(), 3);
+  rows.push_back({title, text(c, "count"), text(c, "nees"), text(c, "nees_median"),
+                  text(c, "expected_median"), text(c, "within_95", 100.0), axes});
+}
+
+void add_calibration(eval::HtmlPage& page, const json& evaluation) {
+  const json calibration = evaluation.value("calibration", json::object());
+  eval::Table rows{{"", "number", "NEES a dimension", "median", "median if honest", "in 95 % ellipsoid [%]",
+                    "error / sigma of each dimension"}};
+  const json ekf = calibration.value("ekf", json::object());
+  for (const auto& [title, key] :
+       {std::pair{"EKF, horizontal", "horizontal"}, {"EKF, up", "up"}, {"EKF, yaw", "yaw"}})
+    add_consistency(rows, title, ekf.value(key, json()));
+  add_consistency(rows, "odometry, from node to node", calibration.value("odometry", json()));
+  add_consistency(rows, "right alignments",
+                  evaluation.value("alignments", json::object()).value("calibration", json()));
+  if (rows.size() == 1) return;
+  page.heading("Do errors keep to their covariances?");
+  page.paragraph("Honest covariances give 1 in the columns of NEES and of error / sigma.");
+  page.table(rows);
+}
+
 eval::LineSeries track(const std::string& name, const eval::Trajectory& trajectory) {
   eval::LineSeries series;
   series.name = name;
@@ -158,7 +242,12 @@ eval::HtmlPage evaluation_page(const RunFolder& run, const json& evaluation,
   for (const json& note : evaluation["notes"]) page.paragraph(note.get<std::string>());
   for (const MapPicture& picture : pictures) page.picture(picture.png, picture.caption);
   if (evaluation.contains("map")) add_map(page, evaluation["map"]);
+  if (evaluation.contains("map") && evaluation["map"].contains("overlap"))
+    add_overlap(page, evaluation["map"]["overlap"]);
+  if (evaluation.contains("fleet")) add_fleet(page, evaluation["fleet"]);
   add_agents(page, run, evaluation);
+  if (evaluation.contains("alignments")) add_alignments(page, evaluation["alignments"]);
+  add_calibration(page, evaluation);
   if (evaluation.contains("links")) add_links(page, evaluation["links"]);
   page.details("Everything, as in evaluation.json", evaluation.dump(2));
   return page;

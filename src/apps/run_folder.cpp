@@ -5,7 +5,6 @@
 #include <map>
 #include <sstream>
 
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -132,12 +131,17 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run) {
   return maps;
 }
 
-Result<store::MergedMap> map_with_sources(const fs::path& store_file) {
+Result<HeldFleet> open_held(const std::filesystem::path& store_file) {
   auto store = store::Store::open_read_only(store_file);
   if (!store) return tl::unexpected(store.error());
   const auto recipe = agent::map_recipe(*store);
   if (!recipe) return failure(store_file.string() + ": no map was made of it yet");
-  return agent::merged_map(*store, agent::place(*store, recipe->origin, recipe->placement), recipe->merge);
+  auto placement = agent::place(*store, recipe->origin, recipe->placement);
+  return HeldFleet{std::move(*store), *recipe, std::move(placement)};
+}
+
+store::MergedMap map_with_sources(HeldFleet& held) {
+  return agent::merged_map(held.store, held.placement, held.recipe.merge);
 }
 
 Result<cloud::PointCloud> truth_cloud(const fs::path& file, double points_per_m2) {

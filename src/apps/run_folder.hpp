@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
@@ -42,8 +43,17 @@ struct DistinctMap {
 /// Most holders first.
 std::vector<DistinctMap> distinct_maps(RunFolder& run);
 
+/// What an agent holds, and where its last results placed it.
+struct HeldFleet {
+  store::Store store;
+  agent::MapRecipe recipe;
+  graph::Placement placement;
+};
+/// Fails when no map was made of the store yet.
+Result<HeldFleet> open_held(const std::filesystem::path& store_file);
+
 /// The map made again from the agent's store, so that it tells which robot saw what.
-Result<store::MergedMap> map_with_sources(const std::filesystem::path& store_file);
+store::MergedMap map_with_sources(HeldFleet& held);
 
 /// A truth: a cloud (.ply, .pcd) as it is, points on the surface of a mesh (.obj, or .ply with faces) or of a
 /// world (.yaml).

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <unordered_set>
 
 #include "fleetmap/cloud/kd_tree.hpp"
@@ -181,8 +182,11 @@ Status MapMetricsConfig::validate() const {
   return {};
 }
 
-Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                                         const MapMetricsConfig& config) {
+namespace {
+
+/// `known` is T_truth_map; else the map is registered.
+Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                      const std::optional<Pose>& known, const MapMetricsConfig& config) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   // Near its middle a map's coordinates are small, and turning it does not move it.
   const Eigen::Vector3f middle = middle_of(map);
@@ -194,7 +198,8 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
   sort_by_place(thin.points);
   sort_by_place(truth_points.points);
   const TruthSurface surface(std::move(truth_points));
-  const Pose T = registered(thin, surface, config);
+  const Eigen::Translation3d to_middle(middle.cast<double>());
+  const Pose T = known ? to_middle.inverse() * *known * to_middle : registered(thin, surface, config);
   const cloud::PointCloud placed = cloud::transformed(thin, T);
   const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.most_distances);
   const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
@@ -207,7 +212,6 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
   EvaluatedMap evaluated;
   MapMetrics& metrics = evaluated.metrics;
   metrics = describe_map(map, config);
-  const Eigen::Translation3d to_middle(middle.cast<double>());
   metrics.T_truth_map = to_middle * T * to_middle.inverse();
   const double there = set_accuracy(metrics, feet, config);
   const double back =
@@ -225,6 +229,21 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
                                              : static_cast<float>(config.inlier_distance));
   }
   return evaluated;
+}
+
+}  // namespace
+
+Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                         const MapMetricsConfig& config) {
+  return evaluated_points(map, truth, std::nullopt, config);
+}
+
+Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                           const Pose& T_truth_map, const MapMetricsConfig& config) {
+  if (!all_finite(T_truth_map)) return failure("T_truth_map must be finite");
+  const auto evaluated = evaluated_points(map, truth, T_truth_map, config);
+  if (!evaluated) return tl::unexpected(evaluated.error());
+  return evaluated->metrics;
 }
 
 Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,

@@ -25,22 +25,36 @@ std::vector<Match> matches_of(const Trajectory& estimate, const Trajectory& trut
 
 double rms(double squares, std::size_t count) { return std::sqrt(squares / static_cast<double>(count)); }
 
-void set_ate(TrajectoryErrors& errors, const std::vector<Match>& matches) {
+struct Positions {
+  Eigen::Matrix3Xd estimated, wanted;
+};
+
+Positions positions_of(const std::vector<Match>& matches) {
   const auto count = static_cast<Eigen::Index>(matches.size());
-  Eigen::Matrix3Xd estimated(3, count), wanted(3, count);
+  Positions positions{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
   for (Eigen::Index i = 0; i < count; ++i) {
-    estimated.col(i) = matches[static_cast<std::size_t>(i)].estimate.translation();
-    wanted.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
+    positions.estimated.col(i) = matches[static_cast<std::size_t>(i)].estimate.translation();
+    positions.wanted.col(i) = matches[static_cast<std::size_t>(i)].truth.translation();
   }
-  const Eigen::VectorXd squares = (estimated - wanted).colwise().squaredNorm();
+  return positions;
+}
+
+/// Sum of squared distances after the best rigid transform.
+double squares_aligned(const Positions& positions) {
+  // About their middles, so that large coordinates do no harm.
+  const Eigen::Vector3d middle = positions.wanted.rowwise().mean();
+  const Eigen::Matrix3Xd from = positions.estimated.colwise() - middle;
+  const Eigen::Matrix3Xd to = positions.wanted.colwise() - middle;
+  const Pose T(Eigen::umeyama(from, to, false));
+  return (T * from - to).colwise().squaredNorm().sum();
+}
+
+void set_ate(TrajectoryErrors& errors, const std::vector<Match>& matches) {
+  const Positions positions = positions_of(matches);
+  const Eigen::VectorXd squares = (positions.estimated - positions.wanted).colwise().squaredNorm();
   errors.ate_rmse = rms(squares.sum(), matches.size());
   errors.ate_max = std::sqrt(squares.maxCoeff());
-  // About their middles, so that large coordinates do no harm.
-  const Eigen::Vector3d middle = wanted.rowwise().mean();
-  const Eigen::Matrix3Xd from = estimated.colwise() - middle;
-  const Eigen::Matrix3Xd to = wanted.colwise() - middle;
-  const Pose T(Eigen::umeyama(from, to, false));
-  errors.ate_rmse_aligned = rms((T * from - to).colwise().squaredNorm().sum(), matches.size());
+  errors.ate_rmse_aligned = rms(squares_aligned(positions), matches.size());
 }
 
 /// Geiger et al., KITTI: error of the motion over segments of a given length of the true path.
@@ -95,6 +109,32 @@ Result<TrajectoryErrors> compare(const Trajectory& estimate, const Trajectory& t
   errors.rpe_length = rpe_length;
   set_ate(errors, matches);
   set_rpe(errors, matches);
+  return errors;
+}
+
+Result<FleetErrors> compare_jointly(std::span<const Track> tracks) {
+  std::vector<Match> all;
+  double bend = 0.0;
+  for (const Track& track : tracks) {
+    const std::vector<Match> matches = matches_of(*track.estimate, *track.truth);
+    if (matches.size() >= 3) bend += squares_aligned(positions_of(matches));
+    all.insert(all.end(), matches.begin(), matches.end());
+  }
+  if (all.size() < 3) {
+    return failure("only " + std::to_string(all.size()) +
+                   " poses of the fleet lie within the truth's times; are all stamped by the same clock?");
+  }
+  const Positions positions = positions_of(all);
+  const double unaligned = (positions.estimated - positions.wanted).colwise().squaredNorm().sum();
+  const double joint = std::min(unaligned, squares_aligned(positions));
+  bend = std::min(bend, joint);
+  FleetErrors errors;
+  errors.poses = all.size();
+  errors.unaligned = rms(unaligned, all.size());
+  errors.joint = rms(joint, all.size());
+  errors.georeference = rms(unaligned - joint, all.size());
+  errors.between_robots = rms(joint - bend, all.size());
+  errors.bend = rms(bend, all.size());
   return errors;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "support/temporary_folder.hpp"
@@ -137,6 +138,29 @@ TEST(TumFile, that_is_wrong_is_refused_with_its_line) {
   }
   EXPECT_NE(problem("1.4 0 0 0 0 0 0 1").find("bad.tum:4: the stamp is before"), std::string::npos);
   EXPECT_FALSE(read_tum(folder.path() / "none.tum"));
+}
+
+TEST(FleetErrors, FallIntoGeoreferenceBetweenRobotsAndBends) {
+  const Trajectory truth_a = drive(), truth_b = moved(se3_exp(Vector6d{0, 20, 0, 0, 0, 0.5}), drive());
+  const Pose everywhere = se3_exp(Vector6d{3.0, -2.0, 1.0, 0, 0, 0.1});
+  const Trajectory a = moved(everywhere, truth_a);
+  Trajectory b = moved(everywhere, truth_b);
+  const auto right = compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}});
+  ASSERT_TRUE(right);
+  EXPECT_LT(right->joint, 1e-6);
+  EXPECT_NEAR(right->georeference, right->unaligned, 1e-6);
+  // One robot's track as a whole is 0.4 m off: 0.2 m each from their best common place, and no bend.
+  b = moved(se3_exp(Vector6d{0, 0, 0.4, 0, 0, 0}), b);
+  const auto apart = compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}});
+  EXPECT_GT(apart->joint, 0.02);
+  EXPECT_LT(apart->joint, 0.2);
+  EXPECT_LT(apart->bend, 1e-6);
+  EXPECT_NEAR(apart->between_robots, apart->joint, 1e-6);
+  const double squares = apart->georeference * apart->georeference + apart->joint * apart->joint;
+  EXPECT_NEAR(squares, apart->unaligned * apart->unaligned, 1e-9);
+  for (StampedPose& pose : b) pose.T_enu_base.translation().x() *= 1.01;
+  EXPECT_GT(compare_jointly(std::array{Track{&a, &truth_a}, Track{&b, &truth_b}})->bend, 0.02);
+  EXPECT_FALSE(compare_jointly({}));
 }
 
 }  // namespace

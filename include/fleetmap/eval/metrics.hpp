@@ -74,6 +74,10 @@ struct EvaluatedMap {
 Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                          const MapMetricsConfig& config = {});
 
+/// The same of a map whose registration to the truth is known already: a part of another one, say.
+Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
+                                           const Pose& T_truth_map, const MapMetricsConfig& config = {});
+
 /// What a map says of itself: density, area and number of points. The other fields stay 0.
 MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& config = {});
 

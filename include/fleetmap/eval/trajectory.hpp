@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
@@ -50,5 +51,23 @@ struct InterRobotError {
 /// At the stamps of `a`; the others are interpolated. Fails when they share no time.
 Result<InterRobotError> compare_pairwise(const Trajectory& a, const Trajectory& b, const Trajectory& truth_a,
                                          const Trajectory& truth_b);
+
+/// A robot's estimated and true poses.
+struct Track {
+  const Trajectory* estimate = nullptr;
+  const Trajectory* truth = nullptr;
+};
+/// All robots' positions at once, RMS in m. Squares add up: unaligned^2 = georeference^2 + joint^2 and
+/// joint^2 = between_robots^2 + bend^2.
+struct FleetErrors {
+  std::size_t poses = 0;
+  double unaligned = 0.0;       ///< both are georeferenced
+  double joint = 0.0;           ///< after the best single rigid transform of the whole fleet: joint ATE
+  double georeference = 0.0;    ///< what that transform takes away: the fleet's map lies elsewhere as a whole
+  double between_robots = 0.0;  ///< what a rigid transform for each robot takes away besides
+  double bend = 0.0;            ///< what remains: each robot's own track is bent
+};
+/// Fails with fewer than three matches in all. A robot with fewer than three counts with the others only.
+Result<FleetErrors> compare_jointly(std::span<const Track> tracks);
 
 }  // namespace fleetmap::eval

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/eval/consistency.hpp"
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+#include "fleetmap/graph/placement.hpp"
+
+/// How right alignments, odometry and placement are, from where the nodes truly were. Only relative poses
+/// count, so the frame of the truth does not matter.
+namespace fleetmap::eval {
+
+/// T_truth_base of each node at its stamp.
+using TruePoses = std::map<NodeId, Pose>;
+
+/// What counts as right.
+struct RightPose {
+  double translation = 0.5;                ///< m
+  double rotation = 0.034906585039886591;  ///< rad, 2 deg
+};
+
+/// An alignment against the truth.
+struct JudgedAlignment {
+  NodeId i, j;
+  bool ambiguous = false;
+  bool used = false;            ///< by the placement
+  bool between_robots = false;  ///< else a loop of one robot
+  /// What follows is of one mode: that which the placement took, else the best.
+  double translation = 0.0;  ///< m
+  double rotation = 0.0;     ///< rad
+  bool right = false;        ///< within RightPose
+  bool holds_right = false;  ///< one of its modes is right
+  Eigen::Vector3d offset;    ///< m, error of where j lies, in base_link of i: along, across, up
+  StatedError stated;        ///< right tangent of T_i_j
+};
+/// Those of which both nodes' true poses are known.
+std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
+                                   const graph::Placement& placement, const TruePoses& truth,
+                                   const RightPose& limits = {});
+
+/// Errors of the odometry from each node to the next of its frame, with the covariance the node states. Nodes
+/// that state none are left out.
+std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, const TruePoses& truth);
+
+/// Two robots that alignments connect.
+struct JoinedPair {
+  AgentId a, b;
+  std::size_t encounters = 0;  ///< pairs of nodes that an alignment names
+  double translation = 0.0;    ///< m, median error of the placed relative pose over them
+  double rotation = 0.0;       ///< rad, likewise
+  bool right = false;
+};
+/// Whether the robots are joined rightly where they met: of every pair with an alignment in use, directly.
+std::vector<JoinedPair> joined_pairs(std::span<const graph::Alignment> alignments,
+                                     const graph::Placement& placement, const TruePoses& truth,
+                                     const RightPose& limits = {});
+
+}  // namespace fleetmap::eval

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/eval/alignment_errors.hpp"
+#include "fleetmap/eval/metrics.hpp"
+#include "run_folder.hpp"
+
+namespace fleetmap::apps {
+
+/// Where the nodes truly were: by the true trajectories, at their stamps.
+eval::TruePoses true_poses(const RunFolder& run, const store::Store& store);
+
+/// Right and wrong alignments, how large their errors are, and whether their covariances tell.
+nlohmann::json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth);
+
+/// Errors of all robots together, and between them; null without truth.
+nlohmann::json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePoses& truth);
+
+/// Normalised errors (NEES) of everything that states a covariance.
+nlohmann::json calibration_json(RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth);
+
+/// The part of the map that at least two robots saw, registered as the whole map is; null where there is
+/// none. A place counts as seen by a robot by where its submaps truly lie, so misplaced points count against
+/// the map.
+nlohmann::json overlap_json(HeldFleet& held, const eval::TruePoses& truth, const cloud::PointCloud& surface,
+                            const Pose& T_truth_map, const eval::MapMetricsConfig& config);
+
+}  // namespace fleetmap::apps

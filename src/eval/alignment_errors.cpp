@@ -1,0 +1,126 @@
+#include "fleetmap/eval/alignment_errors.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace fleetmap::eval {
+namespace {
+
+struct Error {
+  double translation = 0.0, rotation = 0.0;
+  bool within(const RightPose& limits) const {
+    return translation <= limits.translation && rotation <= limits.rotation;
+  }
+};
+
+Error error_of(const Pose& T_true, const Pose& T_estimate) {
+  const Pose E = T_true.inverse() * T_estimate;
+  return {E.translation().norm(), so3_log(E.linear()).norm()};
+}
+
+std::optional<Pose> relative(const std::map<NodeId, Pose>& poses, const NodeId& i, const NodeId& j) {
+  const auto T_i = poses.find(i), T_j = poses.find(j);
+  if (T_i == poses.end() || T_j == poses.end()) return std::nullopt;
+  return T_i->second.inverse() * T_j->second;
+}
+
+using Name = std::pair<AgentId, std::uint32_t>;
+
+/// Those that the placement goes by, each with the one mode that it took.
+std::map<Name, const graph::Alignment*> by_name(const std::vector<graph::Alignment>& alignments) {
+  std::map<Name, const graph::Alignment*> names;
+  for (const graph::Alignment& one : alignments) names.emplace(Name{one.computed_by, one.seq}, &one);
+  return names;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
+                                   const graph::Placement& placement, const TruePoses& truth,
+                                   const RightPose& limits) {
+  const auto used = by_name(placement.used);
+  std::vector<JudgedAlignment> judged;
+  for (const graph::Alignment& alignment : alignments) {
+    const auto T_true = relative(truth, alignment.i, alignment.j);
+    if (!T_true || alignment.modes.empty()) continue;
+    JudgedAlignment one;
+    one.i = alignment.i;
+    one.j = alignment.j;
+    one.ambiguous = alignment.ambiguous();
+    const auto taken = used.find({alignment.computed_by, alignment.seq});
+    one.used = taken != used.end();
+    one.between_robots = alignment.i.agent != alignment.j.agent;
+    const graph::AlignmentMode& mode = one.used ? taken->second->best() : alignment.best();
+    const Error error = error_of(*T_true, mode.T_i_j);
+    one.translation = error.translation;
+    one.rotation = error.rotation;
+    one.right = error.within(limits);
+    one.holds_right = std::ranges::any_of(alignment.modes, [&](const graph::AlignmentMode& any) {
+      return error_of(*T_true, any.T_i_j).within(limits);
+    });
+    one.offset = mode.T_i_j.translation() - T_true->translation();
+    one.stated = {tangent_error(*T_true, mode.T_i_j), mode.covariance};
+    judged.push_back(std::move(one));
+  }
+  return judged;
+}
+
+std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, const TruePoses& truth) {
+  std::map<NodeId, const graph::Node*> by_id;
+  for (const graph::Node& node : nodes) by_id[node.id] = &node;
+  std::vector<StatedError> errors;
+  const graph::Node* previous = nullptr;
+  for (const auto& [id, node] : by_id) {
+    const graph::Node* before = std::exchange(previous, node);
+    if (before == nullptr || before->frame() != node->frame() || before->id.seq + 1 != id.seq) continue;
+    const auto T_true = relative(truth, before->id, id);
+    if (!T_true || node->odom_covariance.isZero()) continue;
+    errors.push_back(
+        {tangent_error(*T_true, before->T_odom_base.inverse() * node->T_odom_base), node->odom_covariance});
+  }
+  return errors;
+}
+
+std::vector<JoinedPair> joined_pairs(std::span<const graph::Alignment> alignments,
+                                     const graph::Placement& placement, const TruePoses& truth,
+                                     const RightPose& limits) {
+  struct Errors {
+    std::vector<double> translation, rotation;
+    bool joined = false;
+  };
+  const auto used = by_name(placement.used);
+  std::map<std::pair<AgentId, AgentId>, Errors> pairs;
+  for (const graph::Alignment& alignment : alignments) {
+    if (alignment.i.agent == alignment.j.agent) continue;
+    const auto T_true = relative(truth, alignment.i, alignment.j);
+    const auto placed = relative(placement.T_enu_node, alignment.i, alignment.j);
+    if (!T_true || !placed) continue;
+    Errors& errors = pairs[std::minmax(alignment.i.agent, alignment.j.agent)];
+    const Error error = error_of(*T_true, *placed);
+    errors.translation.push_back(error.translation);
+    errors.rotation.push_back(error.rotation);
+    errors.joined |= used.contains({alignment.computed_by, alignment.seq});
+  }
+  std::vector<JoinedPair> joined;
+  for (auto& [robots, errors] : pairs) {
+    if (!errors.joined) continue;
+    JoinedPair pair{robots.first,
+                    robots.second,
+                    errors.translation.size(),
+                    median(errors.translation),
+                    median(errors.rotation),
+                    false};
+    pair.right = Error{pair.translation, pair.rotation}.within(limits);
+    joined.push_back(std::move(pair));
+  }
+  return joined;
+}
+
+}  // namespace fleetmap::eval

@@ -1,0 +1,154 @@
+#include "fleetmap/eval/alignment_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fleetmap/eval/places_seen.hpp"
+
+namespace fleetmap::eval {
+namespace {
+
+NodeId node(const char* agent, std::uint32_t seq) { return {*AgentId::parse(agent), seq}; }
+
+Pose at(double x, double y, double yaw = 0.0) {
+  return make_pose(rotation_from_rpy(0.0, 0.0, yaw), {x, y, 0.0});
+}
+
+/// Two robots of three nodes each, side by side; truth in a frame of its own.
+struct TwoRobots {
+  TruePoses truth;
+  graph::Placement placement;
+  std::vector<graph::Alignment> alignments;
+
+  TwoRobots() {
+    const Pose T_truth_enu = se3_exp(Vector6d{5.0, -3.0, 1.0, 0.0, 0.0, 0.4});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      for (const auto& [name, y] : {std::pair{"r1", 0.0}, {"r2", 6.0}}) {
+        placement.T_enu_node[node(name, k)] = at(4.0 * k, y);
+        truth[node(name, k)] = T_truth_enu * at(4.0 * k, y);
+      }
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) add(node("r1", k), node("r2", k));
+  }
+  graph::Alignment& add(const NodeId& i, const NodeId& j) {
+    graph::Alignment alignment;
+    alignment.i = i;
+    alignment.j = j;
+    alignment.computed_by = i.agent;
+    alignment.seq = static_cast<std::uint32_t>(alignments.size());
+    alignment.modes.front().T_i_j = truth.at(i).inverse() * truth.at(j);
+    alignments.push_back(alignment);
+    return alignments.back();
+  }
+};
+
+TEST(AlignmentErrors, RightOnesAreRightInWhateverFrameTheTruthIs) {
+  const TwoRobots fleet;
+  const auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
+  ASSERT_EQ(judged.size(), 3u);
+  for (const JudgedAlignment& one : judged) {
+    EXPECT_TRUE(one.right);
+    EXPECT_TRUE(one.between_robots);
+    EXPECT_FALSE(one.used);
+    EXPECT_LT(one.translation, 1e-9);
+    EXPECT_LT(one.rotation, 1e-6);
+  }
+}
+
+TEST(AlignmentErrors, OneRowOffIsWrongAndSoIsATurn) {
+  TwoRobots fleet;
+  Pose& slipped = fleet.alignments[0].modes.front().T_i_j;
+  slipped = at(0.0, 7.0) * slipped;
+  Pose& turned = fleet.alignments[1].modes.front().T_i_j;
+  turned = turned * at(0.0, 0.0, 0.05);
+  const auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_FALSE(judged[0].right);
+  EXPECT_NEAR(judged[0].offset.y(), 7.0, 1e-9);
+  EXPECT_NEAR(judged[0].translation, 7.0, 1e-9);
+  EXPECT_FALSE(judged[1].right);
+  EXPECT_NEAR(judged[1].rotation, 0.05, 1e-9);
+  EXPECT_TRUE(judged[2].right);
+}
+
+TEST(AlignmentErrors, OfSeveralModesTheOneThatIsTakenCounts) {
+  TwoRobots fleet;
+  graph::Alignment& alignment = fleet.alignments[0];
+  graph::AlignmentMode right = alignment.modes.front();
+  alignment.modes.front().T_i_j = at(0.0, 7.0) * right.T_i_j;
+  alignment.modes.push_back(right);
+  auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_TRUE(judged[0].ambiguous);
+  EXPECT_FALSE(judged[0].right) << "its best mode is one row off";
+  EXPECT_TRUE(judged[0].holds_right);
+  fleet.placement.used = {alignment};
+  fleet.placement.used.front().modes = {right};
+  judged = judge(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_TRUE(judged[0].right) << "the placement took the other mode";
+}
+
+TEST(AlignmentErrors, UnknownNodesAreNotJudged) {
+  TwoRobots fleet;
+  fleet.truth.erase(node("r1", 1));
+  EXPECT_EQ(judge(fleet.alignments, fleet.placement, fleet.truth).size(), 2u);
+}
+
+TEST(AlignmentErrors, RobotsThatAreJoinedARowOffAreAWrongMerge) {
+  TwoRobots fleet;
+  fleet.placement.used = {fleet.alignments[1]};
+  auto pairs = joined_pairs(fleet.alignments, fleet.placement, fleet.truth);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_TRUE(pairs[0].right);
+  EXPECT_EQ(pairs[0].encounters, 3u);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    Pose& T = fleet.placement.T_enu_node[node("r2", k)];
+    T = at(0.0, 7.0) * T;
+  }
+  pairs = joined_pairs(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_FALSE(pairs[0].right);
+  EXPECT_NEAR(pairs[0].translation, 7.0, 1e-9);
+  fleet.placement.used.clear();
+  EXPECT_TRUE(joined_pairs(fleet.alignments, fleet.placement, fleet.truth).empty());
+}
+
+TEST(OdometryErrors, AreThoseBetweenNeighboursOfOneFrame) {
+  TwoRobots fleet;
+  std::vector<graph::Node> nodes(4);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    nodes[k].id = node("r1", k);
+    nodes[k].T_odom_base = at(4.1 * k, 0.0);
+    nodes[k].odom_covariance = 0.01 * Matrix6d::Identity();
+  }
+  nodes[3].id = node("r2", 0);
+  const auto errors = odometry_errors(nodes, fleet.truth);
+  ASSERT_EQ(errors.size(), 2u);
+  for (const StatedError& one : errors) EXPECT_NEAR(one.error[0], 0.1, 1e-9);
+  nodes[2].session = 1;
+  EXPECT_EQ(odometry_errors(nodes, fleet.truth).size(), 1u);
+  nodes[1].odom_covariance.setZero();
+  EXPECT_TRUE(odometry_errors(nodes, fleet.truth).empty());
+}
+
+TEST(PlacesSeen, AreThoseThatEnoughRobotsSawOftenEnough) {
+  const auto points = [](float x, int count) {
+    cloud::PointCloud cloud;
+    for (int k = 0; k < count; ++k) cloud.points.emplace_back(x + 0.1f * static_cast<float>(k), 0.5f, -0.5f);
+    return cloud;
+  };
+  PlacesSeen seen(1.0, 3);
+  seen.add(0, points(0.1f, 5));
+  seen.add(0, points(-2.9f, 5));
+  seen.add(1, points(0.1f, 2));
+  EXPECT_EQ(seen.count(1), 2u);
+  EXPECT_EQ(seen.count(2), 0u);
+  seen.add(1, points(0.5f, 1));
+  seen.add(1, points(std::numeric_limits<float>::quiet_NaN(), 4));
+  EXPECT_EQ(seen.count(2), 1u);
+  cloud::PointCloud queries = points(0.05f, 3);
+  cloud::append(queries, points(-2.95f, 4));
+  EXPECT_EQ(seen.within(queries, 2).size(), 3u);
+  EXPECT_EQ(seen.indices_within(queries, 1).size(), 7u);
+}
+
+}  // namespace
+}  // namespace fleetmap::eval
