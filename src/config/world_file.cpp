@@ -79,6 +79,7 @@ sim::SolarFarmConfig read_solar_farm(Section& top) {
   top.read("headland", farm.headland);
   top.read("cabins", farm.cabins);
   top.read("trees", farm.trees);
+  top.read("trees_inside", farm.trees_inside);
   top.read("terrain_cell", farm.terrain_cell);
   read_tables(top, farm);
   read_fence(top, farm.fence);

@@ -47,13 +47,14 @@ Status ranges(const SolarFarmConfig& c) {
       within("lower_edge_height", c.lower_edge_height, 0.2, 5.0, " m"),
       within("post_spacing", c.post_spacing, 0.5, 20.0, " m"),
       within("post_radius", c.post_radius, 0.01, 0.5, " m"),
-      within("missing_tables", c.missing_tables, 0.0, 0.9, ""),
+      within("missing_tables", c.missing_tables, 0.0, 1.0, ""),
       within("tilt_jitter", c.tilt_jitter_rad * kDegrees, 0.0, 5.0, " deg"),
       within("height_jitter", c.height_jitter, 0.0, 0.3, " m"),
       within("road_every", c.road_every, 0, 10000, " tables"),
       within("road_width", c.road_width, c.table_gap, 50.0, " m"),
       within("cabins", c.cabins, 0, 1000, ""),
       within("trees", c.trees, 0, 5000, ""),
+      within("trees_inside", c.trees_inside, 0, 5000, ""),
       within("terrain_cell", c.terrain_cell, 0.1, 5.0, " m"),
   });
 }

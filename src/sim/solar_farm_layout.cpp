@@ -10,9 +10,10 @@
 namespace fleetmap::sim {
 namespace {
 
-constexpr std::uint64_t kMissing = 0xA1, kCabin = 0xA2, kTree = 0xA3;  // separate streams of chance
-constexpr double kCrown = 2.4;                                         // m, the widest reach of a tree
-constexpr double kRim = 0.05;                                          // m around what the plan shows
+constexpr std::uint64_t kMissing = 0xA1, kCabin = 0xA2, kTree = 0xA3,
+                        kTreeInside = 0xA4;  // separate streams of chance
+constexpr double kCrown = 2.4;               // m, the widest reach of a tree
+constexpr double kRim = 0.05;                // m around what the plan shows
 
 bool road_before(const SolarFarmConfig& config, int table) {
   return config.road_every > 0 && table > 0 && table % config.road_every == 0;
@@ -84,6 +85,20 @@ void place_trees(const SolarFarmConfig& config, SolarFarmLayout& layout) {
   }
 }
 
+/// In the strips of the rows, so that the lanes stay free.
+void place_trees_inside(const SolarFarmConfig& config, SolarFarmLayout& layout) {
+  const double reach = layout.tables.back() + 0.5 * config.table_length;
+  for (int k = 0; k < config.trees_inside; ++k) {
+    const auto chance = [&](std::uint64_t what) {
+      return uniform_at(config.seed, kTreeInside, static_cast<std::uint64_t>(k), what);
+    };
+    const auto row = static_cast<std::size_t>(chance(0) * static_cast<double>(layout.rows.size()));
+    const double across = (chance(1) - 0.5) * layout.depth;
+    layout.trees.push_back(
+        {{(2.0 * chance(2) - 1.0) * reach, layout.rows[row] + across}, 0.1 + 0.15 * chance(3)});
+  }
+}
+
 Footprint rectangle(const SolarFarmLayout& layout, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   return {layout.enu(low), layout.enu({high.x(), low.y()}), layout.enu(high),
           layout.enu({low.x(), high.y()})};
@@ -146,6 +161,7 @@ SolarFarmLayout lay_out(const SolarFarmConfig& config) {
   place_tables(config, layout);
   place_cabins(config, layout);
   place_trees(config, layout);
+  place_trees_inside(config, layout);
   return layout;
 }
 

@@ -45,6 +45,8 @@ struct SolarFarmConfig {
 
   int cabins = 2;  ///< inverter cabins, each in the place of a table next to a road or headland
   int trees = 20;  ///< outside the fence
+  /// Where tables stand or would stand, anywhere in the rows: with missing_tables 1 a wood with lanes.
+  int trees_inside = 0;
   FenceConfig fence;
   TerrainConfig terrain;
   double terrain_cell = 1.0;  ///< m, of the ground's triangles
