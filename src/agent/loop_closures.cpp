@@ -7,8 +7,8 @@ namespace fleetmap::agent {
 Status LoopClosureConfig::validate() const {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   if (!positive(reach)) return failure("loop_closures.reach must be > 0 m");
-  if (!(std::isfinite(min_path) && min_path >= reach)) {
-    return failure("loop_closures.min_path must be at least reach");
+  if (!(std::isfinite(min_path) && min_path >= 2.0 * reach)) {
+    return failure("loop_closures.min_path must be at least twice the reach");
   }
   if (!(std::isfinite(spacing) && spacing >= 0.0)) return failure("loop_closures.spacing must be >= 0 m");
   return {};
@@ -39,12 +39,14 @@ std::optional<std::size_t> LoopClosures::nearest_earlier(std::size_t later) cons
   std::optional<std::size_t> nearest;
   double distance = config_.reach;
   const Eigen::Vector3d place = nodes_[later].T_odom_base.translation();
-  for (std::size_t k = 0; k < later && path_[later] - path_[k] >= config_.min_path; ++k) {
+  for (std::size_t k = 0; k < later && path_[later] - path_[k] > 2.0 * config_.reach; ++k) {
     const double d = (nodes_[k].T_odom_base.translation() - place).norm();
     if (d > distance) continue;
     distance = d;
     nearest = k;
   }
+  // Behind a bend the nearest one is still too fresh; farther ones are no better for being older.
+  if (nearest && path_[later] - path_[*nearest] < config_.min_path) return std::nullopt;
   return nearest;
 }
 
