@@ -13,8 +13,11 @@ using Cell = std::array<std::int32_t, 3>;
 struct InCell {
   Cell cell;
   std::uint32_t index;
+  /// Written out: the array's own comparison is a call of memcmp.
   bool operator<(const InCell& other) const {
-    return cell != other.cell ? cell < other.cell : index < other.index;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (cell[k] != other.cell[k]) return cell[k] < other.cell[k];
+    return index < other.index;
   }
 };
 

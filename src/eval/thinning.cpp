@@ -1,7 +1,6 @@
 #include "thinning.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -59,13 +58,15 @@ std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, 
 void sort_by_place(std::vector<Eigen::Vector3f>& points) {
   constexpr float kCell = 4.0f;  // m
   struct Keyed {
-    std::array<std::int32_t, 2> cell;
+    std::uint64_t cell;
     std::uint32_t index;
+  };
+  const auto ordered = [](float x) {  // as the numbers are, from 0
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::floor(x / kCell))) ^ 0x80000000u;
   };
   std::vector<Keyed> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    order[i] = {{static_cast<std::int32_t>(std::floor(points[i].x() / kCell)),
-                 static_cast<std::int32_t>(std::floor(points[i].y() / kCell))},
+    order[i] = {std::uint64_t{ordered(points[i].x())} << 32 | ordered(points[i].y()),
                 static_cast<std::uint32_t>(i)};
   }
   std::sort(order.begin(), order.end(), [](const Keyed& a, const Keyed& b) {
