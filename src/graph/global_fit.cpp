@@ -38,9 +38,9 @@ Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_co
   std::vector<Pose> T_enu_node(nodes.size());
   std::vector<Matrix6d> information(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    T_enu_node[k] = pose_in(site, nodes[k].G);
+    T_enu_node[k] = pose_in(site, *nodes[k].G);
     information[k] =
-        (nodes[k].G.covariance * shared.at(nodes[k].id.agent) + 1e-12 * Matrix6d::Identity()).inverse();
+        (nodes[k].G->covariance * shared.at(nodes[k].id.agent) + 1e-12 * Matrix6d::Identity()).inverse();
   }
   Pose T_enu_common = T_enu_node.front() * T_common_node.front().inverse();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
@@ -22,14 +24,22 @@ struct Node {
   NodeId id;
   std::uint8_t session = 0;  ///< the odometry frame of O is that of FrameId{id.agent, session}
   Stamp stamp;
-  GlobalPose G;                         ///< T_enu_base at `stamp`, with covariance
+  /// T_enu_base at `stamp`, with covariance; none where GPS has not told, as indoors.
+  std::optional<GlobalPose> G;
   Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`
   /// Of the odometry since the previous node of the same frame: right tangent of T_previous_this, [m, rad].
   /// Without meaning for the first node of a frame.
   Matrix6d odom_covariance = Matrix6d::Zero();
+  /// Against gravity, in base_link: about 1 long.
+  Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
+  /// What stands around (place::Descriptor::encode()), by which the place is known again without GPS; empty
+  /// where there was nothing to describe. At most kMaxDescriptorBytes.
+  Bytes descriptor;
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
+
+  static constexpr std::size_t kMaxDescriptorBytes = 200;
 
   FrameId frame() const { return {id.agent, session}; }
 };

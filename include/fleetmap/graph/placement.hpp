@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
@@ -12,6 +14,34 @@
 
 namespace fleetmap::graph {
 
+/// What became of an alignment.
+enum class Judgement {
+  used,
+  against_gps,     ///< contradicts GPS and odometry
+  against_others,  ///< contradicts alignments that are better supported
+  undecided,       ///< too little speaks for it, or for it rather than another
+  quarantined,     ///< of an agent that mostly computes false ones
+  waiting,         ///< its nodes are not here yet
+  invalid,         ///< has impossible numbers
+};
+const char* to_string(Judgement judgement);
+
+struct JudgedAlignment {
+  NodeId i, j;
+  AgentId computed_by;
+  std::uint32_t seq = 0;
+  Judgement judgement = Judgement::undecided;
+  std::size_t mode = 0;  ///< that is used
+};
+
+/// How far the alignments that an agent computed can be trusted.
+struct AgentCredit {
+  std::size_t used = 0;
+  std::size_t rejected = 0;  ///< contradict GPS, odometry or others
+  std::size_t mistakes = 0;  ///< rejected ones, but those that agree with each other count once
+  bool quarantined = false;
+};
+
 /// Where every node lies in the site's ENU frame. A function of the set of nodes and alignments alone, so
 /// agents that hold the same set hold the same placement, bit for bit, in whatever order the items arrived.
 struct Placement {
@@ -19,8 +49,13 @@ struct Placement {
   std::map<FrameId, Pose> T_enu_odom;
   /// Odometry frames that alignments tie together; each group lies where its nodes' GPS says.
   std::vector<std::vector<FrameId>> components;
-  /// The alignments that tie them.
+  /// The alignments that tie them, each with the one mode that was taken.
   std::vector<Alignment> used;
+
+  // Of mode `fleet` alone.
+  std::vector<JudgedAlignment> judged;     ///< every alignment, by (computed_by, seq)
+  std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
+  std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
 };
 
 struct PaperPlacementConfig {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+
+#include "fleetmap/graph/fleet_placement.hpp"
+#include "fleetmap/graph/placement.hpp"
+
+namespace fleetmap::graph {
+
+enum class PlacementMode {
+  paper,  ///< one rigid transform a pair of agents, that of least E_ij
+  fleet,  ///< the fleet's robust pose graph
+};
+
+struct PlacementConfig {
+  PlacementMode mode = PlacementMode::paper;
+  PaperPlacementConfig paper;
+  FleetPlacementConfig fleet;
+};
+
+/// Where every node lies, by the mode that is set.
+Placement place(std::span<const Node> nodes, std::span<const Alignment> alignments, const LocalFrame& site,
+                const PlacementConfig& config);
+
+}  // namespace fleetmap::graph

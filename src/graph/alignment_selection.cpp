@@ -1,0 +1,318 @@
+#include "alignment_selection.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace fleetmap::graph {
+namespace {
+
+constexpr int kMostRounds = 6;
+constexpr int kMostRestarts = 3;
+/// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
+constexpr double kMargin = 3.0;
+/// Candidates of a pair that is tied already are judged by the odometry from the nearest tie while it knows
+/// better than this.
+constexpr double kNearM = 1.0;
+constexpr double kNearGate = 27.9;
+/// False alignments of a pair that shift by the same are one mistake.
+constexpr double kSameMistakeM = 1.5;
+
+struct Components {
+  std::vector<std::size_t> parent;
+  explicit Components(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0u); }
+  std::size_t root(std::size_t k) const {
+    while (parent[k] != k) k = parent[k];
+    return k;
+  }
+  bool join(std::size_t a, std::size_t b) {
+    a = root(a), b = root(b);
+    if (a == b) return false;
+    parent[std::max(a, b)] = std::min(a, b);
+    return true;
+  }
+};
+
+/// How odometry's uncertainty grows along the frames: sums from the first pillar of each.
+struct Growth {
+  std::vector<double> metres, translation, rotation;
+
+  explicit Growth(const ReducedGraph& graph)
+      : metres(graph.pillars.size()), translation(metres), rotation(metres) {
+    for (const Between& step : graph.odometry) {
+      metres[step.b] = metres[step.a] + step.T_a_b.translation().norm();
+      translation[step.b] = translation[step.a] + step.covariance.diagonal().head<3>().maxCoeff();
+      rotation[step.b] = rotation[step.a] + step.covariance.diagonal().tail<3>().maxCoeff();
+    }
+  }
+  /// At least the variances of the relative pose of two pillars of one frame: m^2 and rad^2.
+  std::pair<double, double> between(std::size_t p, std::size_t q) const {
+    const double length = std::abs(metres[p] - metres[q]);
+    const double turn = std::abs(rotation[p] - rotation[q]);
+    return {std::abs(translation[p] - translation[q]) + turn * length * length, turn};
+  }
+};
+
+struct TreeEdge {
+  Hypothesis hypothesis;
+  double in_favour = 0.0;
+  double against = 0.0;
+};
+
+class Selector {
+ public:
+  Selector(const ReducedGraph& graph, std::span<const Candidate> candidates,
+           std::span<const AgentId> computed_by)
+      : graph_(graph), candidates_(candidates), computed_by_(computed_by), growth_(graph) {
+    for (std::size_t c = 0; c < candidates.size(); ++c) groups_[candidates[c].frames].push_back(c);
+  }
+
+  Selection run(Estimate& estimate) {
+    GraphSolver alone(graph_, {});
+    if (!alone.solve(estimate, 6)) return {};
+    for (const auto& [frames, group] : groups_)
+      alone_.emplace(frames, evaluate(candidates_, group, alone, estimate));
+    const Estimate start = estimate;
+    for (int restart = 0;; ++restart) {
+      estimate = start;
+      rounds(estimate);
+      if (restart == kMostRestarts || !drop_outvoted()) break;
+    }
+    return conclude(estimate);
+  }
+
+ private:
+  void rounds(Estimate& estimate) {
+    taken_.clear();
+    tree_.clear();
+    last_.clear();
+    Components components(graph_.frames.size());
+    bool more = take_from(alone_, components);
+    for (int round = 1; more && round <= kMostRounds; ++round) {
+      GraphSolver solver(graph_, ties());
+      if (!solver.solve(estimate, round == kMostRounds ? 6 : 3)) return;
+      last_.clear();
+      for (const auto& [frames, group] : groups_) {
+        std::vector<std::size_t> open;
+        for (const std::size_t c : group) {
+          if (!taken_.contains(candidates_[c].alignment) && !banned_.contains(candidates_[c].alignment))
+            open.push_back(c);
+        }
+        if (!open.empty()) last_.emplace(frames, evaluate(candidates_, open, solver, estimate));
+      }
+      if (round < kMostRounds) more = take_from(last_, components);
+    }
+    if (!taken_.empty()) {
+      GraphSolver solver(graph_, ties());
+      solver.solve(estimate, 4);
+    }
+  }
+
+  std::vector<Between> ties() const {
+    std::vector<Between> ties;
+    for (const auto& [alignment, candidate] : taken_) ties.push_back(candidates_[candidate].between);
+    return ties;
+  }
+
+  bool is_banned(const Hypothesis& hypothesis) const {
+    return std::ranges::any_of(hypothesis.members,
+                               [&](std::size_t c) { return banned_.contains(candidates_[c].alignment); });
+  }
+
+  /// The best hypothesis of a pair, if it is clearly the best.
+  std::optional<Hypothesis> clear_best(const Evaluation& evaluation) const {
+    const Hypothesis* best = nullptr;
+    for (const Hypothesis& hypothesis : evaluation.hypotheses) {
+      if (is_banned(hypothesis)) continue;
+      if (best != nullptr) {
+        if (best->evidence - hypothesis.evidence < kMargin) return std::nullopt;
+        break;
+      }
+      best = &hypothesis;
+    }
+    if (best == nullptr || best->evidence <= 0.0) return std::nullopt;
+    return *best;
+  }
+
+  void take(const Hypothesis& hypothesis) {
+    for (const std::size_t c : hypothesis.members) taken_.emplace(candidates_[c].alignment, c);
+  }
+
+  /// True if anything was taken.
+  bool take_from(const std::map<FramePair, Evaluation>& evaluations, Components& components) {
+    const std::size_t before = taken_.size();
+    std::vector<Hypothesis> connecting;
+    for (const auto& [frames, evaluation] : evaluations) {
+      take_near_ties(frames, evaluation.left_out);
+      const std::optional<Hypothesis> best = clear_best(evaluation);
+      if (!best) continue;
+      if (components.root(frames.first) == components.root(frames.second)) {
+        take(*best);
+      } else {
+        connecting.push_back(*best);
+      }
+    }
+    std::ranges::stable_sort(connecting, std::ranges::greater(), &Hypothesis::evidence);
+    for (const Hypothesis& hypothesis : connecting) {
+      // What would close a loop now is looked at again when the loop is known.
+      if (!components.join(hypothesis.frames.first, hypothesis.frames.second)) continue;
+      take(hypothesis);
+      tree_.push_back({hypothesis});
+    }
+    return taken_.size() > before;
+  }
+
+  /// Of a pair with very many candidates, those near what is taken follow from it and the odometry.
+  void take_near_ties(const FramePair& frames, const std::vector<std::size_t>& open) {
+    std::vector<const Between*> near;
+    for (const auto& [alignment, c] : taken_) {
+      if (candidates_[c].frames == frames) near.push_back(&candidates_[c].between);
+    }
+    if (near.empty() || frames.first == frames.second) return;
+    for (const std::size_t c : open) {
+      if (taken_.contains(candidates_[c].alignment) || banned_.contains(candidates_[c].alignment)) continue;
+      const Between& one = candidates_[c].between;
+      double metres = kNearM * kNearM, radians = 0.0;
+      const Between* tie = nullptr;
+      for (const Between* other : near) {
+        // Ties of one pair of frames may name the frames in either order.
+        const bool same = graph_.pillars[one.a].frame == graph_.pillars[other->a].frame;
+        const auto first = growth_.between(one.a, same ? other->a : other->b);
+        const auto second = growth_.between(one.b, same ? other->b : other->a);
+        if (first.first + second.first >= metres) continue;
+        metres = first.first + second.first;
+        radians = first.second + second.second;
+        tie = other;
+      }
+      if (tie != nullptr && agrees(one, *tie, metres, radians)) taken_.emplace(candidates_[c].alignment, c);
+    }
+  }
+
+  /// Around the loop of two alignments and the odometry between their ends.
+  bool agrees(const Between& one, const Between& tie, double metres, double radians) const {
+    const bool same = graph_.pillars[one.a].frame == graph_.pillars[tie.a].frame;
+    const Pose T_tie = same ? tie.T_a_b : tie.T_a_b.inverse();
+    const Pose T_a_a = odometry(one.a, same ? tie.a : tie.b);
+    const Pose T_b_b = odometry(same ? tie.b : tie.a, one.b);
+    const Vector6d e = se3_log(one.T_a_b.inverse() * T_a_a * T_tie * T_b_b);
+    Matrix6d S = 4.0 * (one.covariance + tie.covariance);
+    S.diagonal().head<3>().array() += metres + 0.01;
+    S.diagonal().tail<3>().array() += radians + 1e-4;
+    return e.dot(S.llt().solve(e)) < kNearGate;
+  }
+
+  Pose odometry(std::size_t p, std::size_t q) const {
+    return graph_.nodes[graph_.pillars[p].node]->T_odom_base.inverse() *
+           graph_.nodes[graph_.pillars[q].node]->T_odom_base;
+  }
+
+  bool was_taken(const Hypothesis& hypothesis) const {
+    const auto taken = std::ranges::count_if(hypothesis.members, [&](std::size_t c) {
+      const auto it = taken_.find(candidates_[c].alignment);
+      return it != taken_.end() && it->second == c;
+    });
+    return 2 * static_cast<std::size_t>(taken) >= hypothesis.members.size();
+  }
+
+  /// Edges of the tree between two frames.
+  std::vector<std::size_t> path(std::size_t from, std::size_t to) const {
+    std::vector<std::optional<std::size_t>> arrived_by(graph_.frames.size());
+    std::vector<std::size_t> queue{from};
+    for (std::size_t at = 0; at < queue.size() && queue[at] != to; ++at) {
+      for (std::size_t k = 0; k < tree_.size(); ++k) {
+        const auto [a, b] = tree_[k].hypothesis.frames;
+        const std::size_t next = a == queue[at] ? b : a;
+        if ((a != queue[at] && b != queue[at]) || next == from || arrived_by[next]) continue;
+        arrived_by[next] = k;
+        queue.push_back(next);
+      }
+    }
+    std::vector<std::size_t> edges;
+    for (std::size_t at = to; at != from && arrived_by[at];) {
+      edges.push_back(*arrived_by[at]);
+      const auto [a, b] = tree_[*arrived_by[at]].hypothesis.frames;
+      at = a == at ? b : a;
+    }
+    return edges;
+  }
+
+  /// What connected frames first is false if more speaks against it than for it: bans it. True if there was
+  /// any such.
+  bool drop_outvoted() {
+    for (TreeEdge& edge : tree_) edge.in_favour = edge.hypothesis.evidence, edge.against = 0.0;
+    for (const auto& [frames, evaluation] : alone_) {
+      const std::optional<Hypothesis> best = clear_best(evaluation);
+      if (!best || frames.first == frames.second) continue;
+      const std::vector<std::size_t> edges = path(frames.first, frames.second);
+      if (edges.size() < 2) continue;  // the edge itself, or not connected
+      const bool taken = was_taken(*best);
+      for (const std::size_t k : edges) (taken ? tree_[k].in_favour : tree_[k].against) += best->evidence;
+    }
+    const auto worst = std::ranges::max_element(
+        tree_, {}, [](const TreeEdge& edge) { return edge.against - edge.in_favour; });
+    if (worst == tree_.end() || worst->against <= worst->in_favour) return false;
+    for (const std::size_t c : worst->hypothesis.members) banned_.insert(candidates_[c].alignment);
+    return true;
+  }
+
+  Selection conclude(const Estimate& estimate) const {
+    Selection selection;
+    selection.taken = taken_;
+    std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
+    for (const auto& [frames, evaluation] : alone_)
+      for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].first;
+    for (const auto& [frames, evaluation] : last_)
+      for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].second;
+    for (const auto& [frames, group] : groups_) {
+      std::vector<std::pair<Eigen::Vector3d, AgentId>> clusters;
+      for (const std::size_t c : group) {
+        const Candidate& candidate = candidates_[c];
+        if (taken_.contains(candidate.alignment)) continue;
+        const auto [alone, end] = against[candidate.alignment];
+        const bool banned = banned_.contains(candidate.alignment);
+        selection.judged[candidate.alignment] = alone == candidate.modes           ? Judgement::against_gps
+                                                : banned || end == candidate.modes ? Judgement::against_others
+                                                                                   : Judgement::undecided;
+        if (selection.judged[candidate.alignment] != Judgement::undecided && candidate.modes == 1)
+          count_mistake(candidate, estimate, clusters, selection);
+      }
+    }
+    return selection;
+  }
+
+  void count_mistake(const Candidate& candidate, const Estimate& estimate,
+                     std::vector<std::pair<Eigen::Vector3d, AgentId>>& clusters, Selection& selection) const {
+    const Between& between = candidate.between;
+    const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
+    const Eigen::Vector3d shift = -candidate.sign * (estimate.T_enu[between.b].linear() * r.e.head<3>());
+    const AgentId& by = computed_by_[candidate.alignment];
+    for (const auto& [other, agent] : clusters)
+      if (agent == by && (other - shift).norm() < kSameMistakeM) return;
+    clusters.emplace_back(shift, by);
+    const AgentId& first = graph_.frames[candidate.frames.first].id.agent;
+    const AgentId& second = graph_.frames[candidate.frames.second].id.agent;
+    ++selection.mistakes[by][by == first ? second : first];
+  }
+
+  const ReducedGraph& graph_;
+  std::span<const Candidate> candidates_;
+  std::span<const AgentId> computed_by_;
+  Growth growth_;
+  std::map<FramePair, std::vector<std::size_t>> groups_;
+  std::map<FramePair, Evaluation> alone_;  ///< by GPS and odometry
+  std::map<FramePair, Evaluation> last_;   ///< by all that was taken, of the rest
+  std::map<std::size_t, std::size_t> taken_;
+  std::vector<TreeEdge> tree_;
+  std::set<std::size_t> banned_;
+};
+
+}  // namespace
+
+Selection select_alignments(const ReducedGraph& graph, std::span<const Candidate> candidates,
+                            std::span<const AgentId> computed_by, Estimate& estimate) {
+  return Selector(graph, candidates, computed_by).run(estimate);
+}
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "graph_solver.hpp"
+
+namespace fleetmap::graph {
+
+/// Two odometry frames, the smaller first; equal for a loop closure. Indices in ReducedGraph::frames.
+using FramePair = std::pair<std::size_t, std::size_t>;
+
+/// One mode of one alignment.
+struct Candidate {
+  std::size_t alignment = 0;  ///< index among the alignments
+  std::size_t mode = 0;
+  std::size_t modes = 1;  ///< that the alignment has
+  Between between;        ///< pillars of i and j; covariance with the floor
+  FramePair frames;
+  /// +1 if moving the second frame of the pair (the later node of a loop) moves pillar b, else -1.
+  double sign = 1.0;
+};
+
+/// Candidates between two frames that agree with each other, as far as GPS and odometry tell.
+struct Hypothesis {
+  FramePair frames;
+  std::vector<std::size_t> members;  ///< candidates; at most one of each alignment
+  /// What it costs GPS, odometry and the alignments taken so far to move one frame to where these say:
+  /// squared Mahalanobis distance, three degrees of freedom.
+  double shift = 0.0;
+  double evidence = 0.0;  ///< log odds that the hypothesis is right
+};
+
+struct Evaluation {
+  std::vector<Hypothesis> hypotheses;   ///< best evidence first
+  std::set<std::size_t> contradicting;  ///< candidates that do not fit the estimate at all
+  std::vector<std::size_t> left_out;    ///< candidates that were too many to look at
+};
+
+/// The hypotheses among `candidates` (indices in `all`) of one frame pair, seen from a solved graph.
+Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t> candidates,
+                    const GraphSolver& solver, const Estimate& estimate);
+
+/// Which alignments, in which mode, are right.
+struct Selection {
+  std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
+  std::map<std::size_t, Judgement> judged;   ///< alignments that are not taken
+  /// Of each agent: clusters of alignments that contradict, by the other agent of the pair.
+  std::map<AgentId, std::map<AgentId, std::size_t>> mistakes;
+};
+
+/// Takes the hypotheses that connect frames first, best evidence first, solves, looks again at the rest with
+/// what is known then, and so on. `estimate` is that without alignments, and becomes the one with what was
+/// taken. `computed_by` runs by alignment.
+Selection select_alignments(const ReducedGraph& graph, std::span<const Candidate> candidates,
+                            std::span<const AgentId> computed_by, Estimate& estimate);
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,266 @@
+#include "block_cholesky.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cassert>
+
+namespace fleetmap::graph {
+namespace {
+
+template <int R, int C>
+using Block = Eigen::Map<Eigen::Matrix<double, R, C>>;
+template <int R, int C>
+using ConstBlock = Eigen::Map<const Eigen::Matrix<double, R, C>>;
+
+/// A_ik -= L_ij L_kj^T.
+template <int I, int K, int J>
+void subtract(double* a, const double* l_ij, const double* l_kj) {
+  Block<I, K>(a).noalias() -= ConstBlock<I, J>(l_ij).lazyProduct(ConstBlock<K, J>(l_kj).transpose());
+}
+
+using Subtract = void (*)(double*, const double*, const double*);
+Subtract subtraction(int i, int k, int j) {
+  static constexpr Subtract kTable[2][2][2] = {
+      {{subtract<3, 3, 3>, subtract<3, 3, 6>}, {subtract<3, 6, 3>, subtract<3, 6, 6>}},
+      {{subtract<6, 3, 3>, subtract<6, 3, 6>}, {subtract<6, 6, 3>, subtract<6, 6, 6>}}};
+  return kTable[i == 6][k == 6][j == 6];
+}
+
+/// Lower Cholesky factor in place; false if not positive definite.
+template <int J>
+bool factor_diagonal(double* values) {
+  Block<J, J> A(values);
+  const Eigen::LLT<Eigen::Matrix<double, J, J>> llt(A);
+  if (llt.info() != Eigen::Success) return false;
+  A = llt.matrixL();
+  return A.allFinite();
+}
+
+/// L_ij = A_ij L_jj^-T.
+template <int I, int J>
+void divide(double* a, const double* l_jj) {
+  Block<I, J> A(a);
+  const ConstBlock<J, J> L(l_jj);
+  for (int c = 0; c < J; ++c) {
+    for (int k = 0; k < c; ++k) A.col(c) -= L(c, k) * A.col(k);
+    A.col(c) /= L(c, c);
+  }
+}
+
+void divide(int i, int j, double* a, const double* l_jj) {
+  if (i == 6) {
+    j == 6 ? divide<6, 6>(a, l_jj) : divide<6, 3>(a, l_jj);
+  } else {
+    j == 6 ? divide<3, 6>(a, l_jj) : divide<3, 3>(a, l_jj);
+  }
+}
+
+Eigen::Map<const Eigen::MatrixXd> view(const double* values, int rows, int cols) {
+  return {values, rows, cols};
+}
+
+}  // namespace
+
+BlockCholesky::BlockCholesky(std::vector<int> dims, const std::vector<std::pair<int, int>>& pairs,
+                             const std::vector<int>& order)
+    : dims_(std::move(dims)) {
+  for (const int dim : dims_) {
+    own_offset_.push_back(size_);
+    size_ += static_cast<std::size_t>(dim);
+  }
+  to_column_.resize(dims_.size());
+  if (order.empty()) {
+    order_by_degree(pairs);
+  } else {
+    for (std::size_t k = 0; k < order.size(); ++k)
+      to_column_[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+  }
+  analyse(pairs);
+}
+
+void BlockCholesky::order_by_degree(const std::vector<std::pair<int, int>>& pairs) {
+  const int n = static_cast<int>(dims_.size());
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (int i = 0; i < n; ++i) triplets.emplace_back(i, i, 1.0);
+  for (const auto& [i, j] : pairs) {
+    triplets.emplace_back(i, j, 1.0);
+    triplets.emplace_back(j, i, 1.0);
+  }
+  Eigen::SparseMatrix<double> pattern(n, n);
+  pattern.setFromTriplets(triplets.begin(), triplets.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(pattern, order);
+  // order.indices()(k) is the variable that is eliminated as the k-th.
+  for (int k = 0; k < n; ++k) to_column_[static_cast<std::size_t>(order.indices()(k))] = k;
+}
+
+void BlockCholesky::analyse(const std::vector<std::pair<int, int>>& pairs) {
+  const int n = static_cast<int>(dims_.size());
+  std::vector<std::vector<int>> below(dims_.size());
+  for (const auto& [i, j] : pairs) {
+    const int a = to_column_[static_cast<std::size_t>(i)], b = to_column_[static_cast<std::size_t>(j)];
+    if (a != b) below[static_cast<std::size_t>(std::min(a, b))].push_back(std::max(a, b));
+  }
+  columns_.resize(dims_.size());
+  for (int i = 0; i < n; ++i)
+    columns_[static_cast<std::size_t>(to_column_[static_cast<std::size_t>(i)])].dim =
+        dims_[static_cast<std::size_t>(i)];
+  std::size_t values = 0;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    Column& column = columns_[k];
+    std::vector<int>& rows = below[k];
+    std::ranges::sort(rows);
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    // What is left of this column after its elimination fills its parent's.
+    if (rows.size() > 1) {
+      std::vector<int>& parent = below[static_cast<std::size_t>(rows.front())];
+      parent.insert(parent.end(), rows.begin() + 1, rows.end());
+    }
+    column.diagonal = values;
+    values += static_cast<std::size_t>(column.dim * column.dim);
+    column.first = rows_.size();
+    for (const int row : rows) {
+      rows_.push_back({row, values});
+      values += static_cast<std::size_t>(column.dim * columns_[static_cast<std::size_t>(row)].dim);
+    }
+    column.end = rows_.size();
+    rows = {};
+  }
+  values_.assign(values, 0.0);
+  work_.resize(dims_.size());
+  reached_.assign(dims_.size(), false);
+}
+
+void BlockCholesky::set_zero() { std::ranges::fill(values_, 0.0); }
+
+double* BlockCholesky::find(int row, int column) {
+  const Column& c = columns_[static_cast<std::size_t>(column)];
+  if (row == column) return &values_[c.diagonal];
+  const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(c.first);
+  const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(c.end);
+  const auto found =
+      std::lower_bound(first, end, row, [](const Row& r, int wanted) { return r.row < wanted; });
+  assert(found != end && found->row == row);
+  return &values_[found->at];
+}
+
+void BlockCholesky::add(int i, int j, const Eigen::Ref<const Eigen::MatrixXd>& block) {
+  const int a = to_column_[static_cast<std::size_t>(i)], b = to_column_[static_cast<std::size_t>(j)];
+  const int di = dims_[static_cast<std::size_t>(i)], dj = dims_[static_cast<std::size_t>(j)];
+  if (a >= b) {
+    Eigen::Map<Eigen::MatrixXd>(find(a, b), di, dj) += block;
+  } else {
+    Eigen::Map<Eigen::MatrixXd>(find(b, a), dj, di) += block.transpose();
+  }
+}
+
+bool BlockCholesky::factor() {
+  for (const Column& column : columns_) {
+    double* diagonal = &values_[column.diagonal];
+    const bool definite = column.dim == 6 ? factor_diagonal<6>(diagonal) : factor_diagonal<3>(diagonal);
+    if (!definite) return false;
+    for (std::size_t r = column.first; r < column.end; ++r) {
+      divide(columns_[static_cast<std::size_t>(rows_[r].row)].dim, column.dim, &values_[rows_[r].at],
+             diagonal);
+    }
+    for (std::size_t k = column.first; k < column.end; ++k) {
+      const Column& target = columns_[static_cast<std::size_t>(rows_[k].row)];
+      const double* l_kj = &values_[rows_[k].at];
+      subtraction(target.dim, target.dim, column.dim)(&values_[target.diagonal], l_kj, l_kj);
+      std::size_t t = target.first;
+      for (std::size_t i = k + 1; i < column.end; ++i) {
+        while (rows_[t].row != rows_[i].row) ++t;
+        const int dim_i = columns_[static_cast<std::size_t>(rows_[i].row)].dim;
+        subtraction(dim_i, target.dim, column.dim)(&values_[rows_[t].at], &values_[rows_[i].at], l_kj);
+      }
+    }
+  }
+  return true;
+}
+
+Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
+  std::vector<std::size_t> at(columns_.size());
+  std::vector<Eigen::Index> own(columns_.size());
+  std::size_t offset = 0;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    at[k] = offset;
+    offset += static_cast<std::size_t>(columns_[k].dim);
+  }
+  for (std::size_t i = 0; i < dims_.size(); ++i)
+    own[static_cast<std::size_t>(to_column_[i])] = static_cast<Eigen::Index>(own_offset_[i]);
+  const auto part = [&](Eigen::VectorXd& v, std::size_t k) {
+    return v.segment(static_cast<Eigen::Index>(at[k]), columns_[k].dim);
+  };
+  Eigen::VectorXd x(static_cast<Eigen::Index>(size_));
+  for (std::size_t k = 0; k < columns_.size(); ++k) part(x, k) = b.segment(own[k], columns_[k].dim);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    const Column& c = columns_[k];
+    auto x_k = part(x, k);
+    view(&values_[c.diagonal], c.dim, c.dim).triangularView<Eigen::Lower>().solveInPlace(x_k);
+    for (std::size_t r = c.first; r < c.end; ++r) {
+      const auto row = static_cast<std::size_t>(rows_[r].row);
+      part(x, row).noalias() -= view(&values_[rows_[r].at], columns_[row].dim, c.dim).lazyProduct(x_k);
+    }
+  }
+  for (std::size_t k = columns_.size(); k-- > 0;) {
+    const Column& c = columns_[k];
+    auto x_k = part(x, k);
+    for (std::size_t r = c.first; r < c.end; ++r) {
+      const auto row = static_cast<std::size_t>(rows_[r].row);
+      x_k.noalias() -=
+          view(&values_[rows_[r].at], columns_[row].dim, c.dim).transpose().lazyProduct(part(x, row));
+    }
+    view(&values_[c.diagonal], c.dim, c.dim).transpose().triangularView<Eigen::Upper>().solveInPlace(x_k);
+  }
+  Eigen::VectorXd result(static_cast<Eigen::Index>(size_));
+  for (std::size_t k = 0; k < columns_.size(); ++k) result.segment(own[k], columns_[k].dim) = part(x, k);
+  return result;
+}
+
+BlockCholesky::Sparse BlockCholesky::forward(const std::vector<std::pair<int, Columns>>& H_transposed) const {
+  // L^-1 of what starts at a column is not zero on its path to the root of the elimination tree alone.
+  std::vector<int> reach;
+  for (const auto& [variable, block] : H_transposed) {
+    int k = to_column_[static_cast<std::size_t>(variable)];
+    const int start = k;
+    while (!reached_[static_cast<std::size_t>(k)]) {
+      reached_[static_cast<std::size_t>(k)] = true;
+      reach.push_back(k);
+      const Column& c = columns_[static_cast<std::size_t>(k)];
+      work_[static_cast<std::size_t>(k)] = Columns::Zero(c.dim, 6);
+      if (c.first == c.end) break;
+      k = rows_[c.first].row;
+    }
+    work_[static_cast<std::size_t>(start)] += block;
+  }
+  std::ranges::sort(reach);
+  Sparse result;
+  result.reserve(reach.size());
+  for (const int k : reach) {
+    const Column& c = columns_[static_cast<std::size_t>(k)];
+    Columns& z = work_[static_cast<std::size_t>(k)];
+    view(&values_[c.diagonal], c.dim, c.dim).triangularView<Eigen::Lower>().solveInPlace(z);
+    for (std::size_t r = c.first; r < c.end; ++r) {
+      const auto row = static_cast<std::size_t>(rows_[r].row);
+      work_[row].noalias() -= view(&values_[rows_[r].at], columns_[row].dim, c.dim).lazyProduct(z);
+    }
+    result.emplace_back(k, z);
+    reached_[static_cast<std::size_t>(k)] = false;
+  }
+  return result;
+}
+
+Matrix6d BlockCholesky::inner(const Sparse& a, const Sparse& b) {
+  Matrix6d sum = Matrix6d::Zero();
+  auto at_b = b.begin();
+  for (const auto& [column, z_a] : a) {
+    while (at_b != b.end() && at_b->first < column) ++at_b;
+    if (at_b == b.end()) break;
+    if (at_b->first == column) sum.noalias() += z_a.transpose().lazyProduct(at_b->second);
+  }
+  return sum;
+}
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,349 @@
+#include "fleetmap/graph/fleet_placement.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "alignment_selection.hpp"
+#include "graph_solver.hpp"
+#include "reduced_graph.hpp"
+
+namespace fleetmap::graph {
+namespace {
+
+/// Mistakes with one other agent count up to this: its clouds may be at fault.
+constexpr std::size_t kMistakesPerOther = 2;
+constexpr std::size_t kMistakesToQuarantine = 4;
+constexpr std::size_t kMistakesPerUsed = 2;
+constexpr int kMostQuarantines = 3;
+
+constexpr double kMostMetres = 1e6;  // of any coordinate; keeps the numbers apart from their rounding
+
+bool is_pose(const Pose& T) {
+  return all_finite(T) && T.translation().cwiseAbs().maxCoeff() <= kMostMetres &&
+         (T.linear() * T.linear().transpose()).isIdentity(1e-6);
+}
+
+bool is_covariance(const Matrix6d& C) {
+  return C.allFinite() && C.cwiseAbs().maxCoeff() <= 1e12 && C.isApprox(C.transpose(), 1e-9) &&
+         (C.diagonal().array() >= 0.0).all();
+}
+
+bool is_valid(const Node& node) {
+  return node.G && fleetmap::is_valid(node.G->position) && std::abs(node.G->position.altitude) <= 1e5 &&
+         std::abs(node.G->q_enu_base.norm() - 1.0) < 1e-3 && node.G->covariance.diagonal().allFinite() &&
+         (node.G->covariance.diagonal().array() >= 0.0).all() && is_pose(node.T_odom_base) &&
+         is_covariance(node.odom_covariance);
+}
+
+bool is_valid(const AlignmentMode& mode) { return is_pose(mode.T_i_j) && is_covariance(mode.covariance); }
+
+bool is_valid(const Alignment& a) {
+  return a.i != a.j && !a.modes.empty() && a.modes.size() <= Alignment::kMaxModes &&
+         std::ranges::all_of(a.modes, [](const AlignmentMode& mode) { return is_valid(mode); });
+}
+
+/// The items as they take part: valid, sorted by name.
+struct Items {
+  std::vector<const Node*> nodes;
+  std::vector<const Alignment*> alignments;
+  std::vector<AgentId> computed_by;  ///< by alignment
+  std::vector<JudgedAlignment> judged;
+};
+
+Items sorted_items(std::span<const Node> nodes, std::span<const Alignment> alignments,
+                   const LocalFrame& site) {
+  Items items;
+  for (const Node& node : nodes) {
+    if (is_valid(node) && site.to_enu(node.G->position).norm() <= kMostMetres) items.nodes.push_back(&node);
+  }
+  std::ranges::sort(items.nodes, {}, [](const Node* node) -> const NodeId& { return node->id; });
+  for (const Alignment& alignment : alignments) items.alignments.push_back(&alignment);
+  std::ranges::sort(items.alignments, {},
+                    [](const Alignment* a) { return std::tie(a->computed_by, a->seq); });
+  for (const Alignment* a : items.alignments) {
+    items.computed_by.push_back(a->computed_by);
+    items.judged.push_back({a->i, a->j, a->computed_by, a->seq, Judgement::undecided, 0});
+  }
+  return items;
+}
+
+bool holds(const std::vector<const Node*>& nodes, const NodeId& id) {
+  const auto it =
+      std::ranges::lower_bound(nodes, id, {}, [](const Node* node) -> const NodeId& { return node->id; });
+  return it != nodes.end() && (*it)->id == id;
+}
+
+/// Alignments that may take part now; the others are judged.
+std::vector<std::size_t> present(Items& items) {
+  std::vector<std::size_t> present;
+  for (std::size_t k = 0; k < items.alignments.size(); ++k) {
+    const Alignment& a = *items.alignments[k];
+    if (!is_valid(a)) {
+      items.judged[k].judgement = Judgement::invalid;
+    } else if (!holds(items.nodes, a.i) || !holds(items.nodes, a.j)) {
+      items.judged[k].judgement = Judgement::waiting;
+    } else {
+      present.push_back(k);
+    }
+  }
+  return present;
+}
+
+std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::size_t>& present,
+                                     const ReducedGraph& graph, const FleetPlacementConfig& config) {
+  std::vector<Candidate> candidates;
+  for (const std::size_t k : present) {
+    const Alignment& a = *items.alignments[k];
+    const std::size_t i = graph.pillar_of.at(a.i), j = graph.pillar_of.at(a.j);
+    const std::size_t frame_i = graph.pillars[i].frame, frame_j = graph.pillars[j].frame;
+    for (std::size_t m = 0; m < a.modes.size(); ++m) {
+      Candidate candidate;
+      candidate.alignment = k;
+      candidate.mode = m;
+      candidate.modes = a.modes.size();
+      candidate.between = {i, j, a.modes[m].T_i_j, a.modes[m].covariance};
+      Vector6d floor;
+      floor << Eigen::Vector3d::Constant(config.alignment_floor_m),
+          Eigen::Vector3d::Constant(config.alignment_floor_rad);
+      candidate.between.covariance.diagonal() += floor.cwiseAbs2();
+      candidate.frames = std::minmax(frame_i, frame_j);
+      candidate.sign = std::pair(frame_i, i) < std::pair(frame_j, j) ? 1.0 : -1.0;
+      candidates.push_back(candidate);
+    }
+  }
+  return candidates;
+}
+
+/// Each frame as a rigid whole where its fixes say.
+Estimate rigid_frames(const ReducedGraph& graph, const LocalFrame& site, const FleetPlacementConfig& config) {
+  Estimate estimate;
+  estimate.drift.assign(graph.pillars.size(), Eigen::Vector3d::Zero());
+  for (const FrameSpan& frame : graph.frames) {
+    std::vector<Node> nodes;
+    std::vector<Pose> T_odom_node;
+    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p) {
+      if (!graph.pillars[p].has_window) continue;
+      nodes.push_back(*graph.nodes[graph.pillars[p].node]);
+      // Nobody knows better than a kilometre; keeps the equations solvable.
+      Eigen::Matrix<double, 6, 1> variance = nodes.back().G->covariance.diagonal().cwiseMin(1e6);
+      nodes.back().G->covariance = variance.cwiseMax(1e-9).asDiagonal();
+      T_odom_node.push_back(nodes.back().T_odom_base);
+    }
+    const Pose T_enu_odom = fit_to_global_poses(nodes, T_odom_node, site, config.gps_correlation_time);
+    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p)
+      estimate.T_enu.push_back(T_enu_odom * graph.nodes[graph.pillars[p].node]->T_odom_base);
+  }
+  return estimate;
+}
+
+// ---- nodes between pillars
+
+/// A node between pillars a and b: what part of the odometry's error up to b it has.
+struct InBetween {
+  Pose T_a_node = Pose::Identity();
+  Matrix6d P = Matrix6d::Zero();     ///< covariance of T_a_node
+  Matrix6d gain = Matrix6d::Zero();  ///< of the error at b
+};
+
+/// The nodes after pillar a, up to and without pillar b; the odometry's error between the two is spread over
+/// them as its covariance says.
+std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, std::size_t b) {
+  std::vector<InBetween> nodes;
+  const Node& first = *graph.nodes[graph.pillars[a].node];
+  const std::size_t end = graph.pillars[b].node;
+  Matrix6d P = Matrix6d::Zero();
+  for (std::size_t k = graph.pillars[a].node + 1; k <= end; ++k) {
+    const Node& node = *graph.nodes[k];
+    const Matrix6d carry = adjoint(node.T_odom_base.inverse() * graph.nodes[k - 1]->T_odom_base);
+    P = carry * P * carry.transpose() + odometry_step(graph, k);
+    nodes.push_back({first.T_odom_base.inverse() * node.T_odom_base, P, Matrix6d::Zero()});
+  }
+  const Pose T_a_b = nodes.back().T_a_node;
+  const Matrix6d P_b_inverse = nodes.back().P.llt().solve(Matrix6d::Identity());
+  nodes.pop_back();
+  for (InBetween& node : nodes) {
+    const Matrix6d carry = adjoint(T_a_b.inverse() * node.T_a_node);
+    node.gain = node.P * carry.transpose() * P_b_inverse;
+  }
+  return nodes;
+}
+
+void place_nodes(const ReducedGraph& graph, const Estimate& estimate, Placement& placement) {
+  for (std::size_t p = 0; p < graph.pillars.size(); ++p)
+    placement.T_enu_node[graph.nodes[graph.pillars[p].node]->id] = estimate.T_enu[p];
+  for (const Between& step : graph.odometry) {
+    std::size_t k = graph.pillars[step.a].node;
+    if (k + 1 == graph.pillars[step.b].node) continue;
+    const Vector6d error =
+        se3_log(step.T_a_b.inverse() * estimate.T_enu[step.a].inverse() * estimate.T_enu[step.b]);
+    for (const InBetween& node : nodes_between(graph, step.a, step.b))
+      placement.T_enu_node[graph.nodes[++k]->id] =
+          estimate.T_enu[step.a] * node.T_a_node * se3_exp(node.gain * error);
+  }
+  for (const FrameSpan& frame : graph.frames) {
+    const Node& newest = *graph.nodes[frame.end - 1];
+    placement.T_enu_odom[frame.id] = estimate.T_enu[frame.end_pillar - 1] * newest.T_odom_base.inverse();
+  }
+}
+
+Matrix6d covariance_of_node(const ReducedGraph& graph, const GraphSolver& solver, std::size_t k) {
+  const auto after = std::ranges::upper_bound(graph.pillars, k, {}, &Pillar::node);
+  const auto a = static_cast<std::size_t>(after - graph.pillars.begin()) - 1;
+  if (graph.pillars[a].node == k) {
+    const auto z = solver.sensitivity(a);
+    return BlockCholesky::inner(z, z);
+  }
+  const std::size_t b = a + 1;
+  const std::vector<InBetween> between = nodes_between(graph, a, b);
+  const InBetween& node = between[k - graph.pillars[a].node - 1];
+  const Pose T_a_b = graph.nodes[graph.pillars[a].node]->T_odom_base.inverse() *
+                     graph.nodes[graph.pillars[b].node]->T_odom_base;
+  const Matrix6d H_a = adjoint(node.T_a_node.inverse()) - node.gain * adjoint(T_a_b.inverse());
+  const auto z = solver.sensitivity(a, b, H_a, node.gain);
+  const Matrix6d carry = adjoint(T_a_b.inverse() * node.T_a_node);
+  const Matrix6d rest = node.P - node.gain * carry * node.P;
+  return BlockCholesky::inner(z, z) + 0.5 * (rest + rest.transpose());
+}
+
+void add_covariances(const ReducedGraph& graph, const GraphSolver& solver, std::span<const NodeId> wanted,
+                     Placement& placement) {
+  std::map<NodeId, std::size_t> index;
+  for (std::size_t k = 0; k < graph.nodes.size(); ++k) index[graph.nodes[k]->id] = k;
+  for (const NodeId& id : wanted) {
+    if (const auto it = index.find(id); it != index.end())
+      placement.covariance[id] = covariance_of_node(graph, solver, it->second);
+  }
+}
+
+// ---- agents
+
+/// Agents that turn out to be faulty.
+std::set<AgentId> faulty(const Selection& selection, const Items& items,
+                         std::map<AgentId, AgentCredit>& credits) {
+  std::map<AgentId, std::size_t> used;
+  for (const auto& [alignment, candidate] : selection.taken) ++used[items.computed_by[alignment]];
+  std::set<AgentId> found;
+  for (const auto& [agent, by_other] : selection.mistakes) {
+    std::size_t mistakes = 0;
+    for (const auto& [other, count] : by_other) mistakes += std::min(count, kMistakesPerOther);
+    credits[agent].mistakes = mistakes;
+    if (mistakes >= kMistakesToQuarantine && mistakes >= kMistakesPerUsed * used[agent]) found.insert(agent);
+  }
+  return found;
+}
+
+void report(const Selection& selection, const std::vector<Candidate>& candidates, Items& items,
+            Placement& placement) {
+  for (const auto& [alignment, judgement] : selection.judged) items.judged[alignment].judgement = judgement;
+  for (const auto& [alignment, candidate] : selection.taken) {
+    items.judged[alignment].judgement = Judgement::used;
+    items.judged[alignment].mode = candidates[candidate].mode;
+    placement.used.push_back(*items.alignments[alignment]);
+    placement.used.back().modes = {items.alignments[alignment]->modes[candidates[candidate].mode]};
+  }
+  for (const JudgedAlignment& one : items.judged) {
+    AgentCredit& credit = placement.credits[one.computed_by];
+    credit.used += one.judgement == Judgement::used;
+    credit.rejected += one.judgement == Judgement::against_gps || one.judgement == Judgement::against_others;
+  }
+  placement.judged = items.judged;
+}
+
+void add_components(const ReducedGraph& graph, const Selection& selection,
+                    const std::vector<Candidate>& candidates, Placement& placement) {
+  std::vector<std::size_t> group(graph.frames.size());
+  std::iota(group.begin(), group.end(), 0u);
+  for (const auto& [alignment, candidate] : selection.taken) {
+    const auto [a, b] = candidates[candidate].frames;
+    const std::size_t from = std::max(group[a], group[b]), to = std::min(group[a], group[b]);
+    std::ranges::replace(group, from, to);
+  }
+  std::map<std::size_t, std::vector<FrameId>> members;
+  for (std::size_t f = 0; f < group.size(); ++f) members[group[f]].push_back(graph.frames[f].id);
+  for (const auto& [root, frames] : members) placement.components.push_back(frames);
+  std::ranges::sort(placement.components);
+}
+
+}  // namespace
+
+const char* to_string(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::used:
+      return "used";
+    case Judgement::against_gps:
+      return "against GPS";
+    case Judgement::against_others:
+      return "against others";
+    case Judgement::undecided:
+      return "undecided";
+    case Judgement::quarantined:
+      return "quarantined";
+    case Judgement::waiting:
+      return "waiting";
+    case Judgement::invalid:
+      return "invalid";
+  }
+  return "";
+}
+
+Status FleetPlacementConfig::validate() const {
+  if (!(gps_correlation_time > 0.0)) return failure("fleet.gps_correlation_time must be positive");
+  if (!(gps_drift_share > 0.0 && gps_drift_share < 1.0)) {
+    return failure("fleet.gps_drift_share must lie between 0 and 1");
+  }
+  if (!(window_m > 0.0)) return failure("fleet.window_m must be positive");
+  if (!(alignment_floor_m > 0.0) || !(alignment_floor_rad > 0.0)) {
+    return failure("fleet.alignment_floor_m and alignment_floor_rad must be positive");
+  }
+  return {};
+}
+
+Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alignment> alignments,
+                               const LocalFrame& site, const FleetPlacementConfig& config,
+                               std::span<const NodeId> covariance_of) {
+  Placement placement;
+  Items items = sorted_items(nodes, alignments, site);
+  std::vector<std::size_t> taking_part = present(items);
+  if (items.nodes.empty()) {
+    placement.judged = items.judged;
+    return placement;
+  }
+  std::vector<NodeId> ends;
+  for (const std::size_t k : taking_part) {
+    ends.push_back(items.alignments[k]->i);
+    ends.push_back(items.alignments[k]->j);
+  }
+  const ReducedGraph graph = reduce(items.nodes, ends, site, config);
+  const Estimate rigid = rigid_frames(graph, site, config);
+  Estimate estimate;
+  Selection selection;
+  std::vector<Candidate> candidates;
+  for (int attempt = 0;; ++attempt) {
+    candidates = candidates_of(items, taking_part, graph, config);
+    estimate = rigid;
+    selection = select_alignments(graph, candidates, items.computed_by, estimate);
+    const std::set<AgentId> found = faulty(selection, items, placement.credits);
+    if (found.empty() || attempt == kMostQuarantines) break;
+    for (const AgentId& agent : found) placement.credits[agent].quarantined = true;
+    std::erase_if(taking_part, [&](std::size_t k) {
+      if (!found.contains(items.computed_by[k])) return false;
+      items.judged[k].judgement = Judgement::quarantined;
+      return true;
+    });
+  }
+  report(selection, candidates, items, placement);
+  place_nodes(graph, estimate, placement);
+  add_components(graph, selection, candidates, placement);
+  if (!covariance_of.empty()) {
+    std::vector<Between> ties;
+    for (const auto& [alignment, candidate] : selection.taken) ties.push_back(candidates[candidate].between);
+    GraphSolver solver(graph, ties);
+    if (solver.solve(estimate, 1)) add_covariances(graph, solver, covariance_of, placement);
+  }
+  return placement;
+}
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,166 @@
+#include "graph_solver.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace fleetmap::graph {
+namespace {
+
+constexpr double kConverged = 1e-4;  // m or rad
+/// An alignment whose squared error is beyond the 99 % quantile of six degrees of freedom counts less.
+constexpr double kHuber = 16.8;
+
+/// Elimination order of chains: every second pillar first, then every second of the rest, and so on, so that
+/// every pillar is a few steps from the root (cyclic reduction).
+std::vector<int> chain_order(const ReducedGraph& graph, const std::vector<int>& drift_variable) {
+  std::vector<std::tuple<int, std::size_t>> by_level;
+  for (const FrameSpan& frame : graph.frames) {
+    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p) {
+      int level = 0;
+      for (std::size_t k = p - frame.first_pillar + 1; k % 2 == 0; k /= 2) ++level;
+      by_level.emplace_back(level, p);
+    }
+  }
+  std::ranges::sort(by_level);
+  std::vector<int> order;
+  for (const auto& [level, p] : by_level) {
+    order.push_back(static_cast<int>(p));
+    if (drift_variable[p] >= 0) order.push_back(drift_variable[p]);
+  }
+  return order;
+}
+
+}  // namespace
+
+RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b,
+                                   const Pose& T_a_b) {
+  const Pose T_b_a = estimate.T_enu[b].inverse() * estimate.T_enu[a];
+  return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
+}
+
+GraphSolver::GraphSolver(const ReducedGraph& graph, std::vector<Between> ties)
+    : graph_(graph), ties_(std::move(ties)) {
+  std::vector<int> dims(graph.pillars.size(), 6);
+  drift_variable_.assign(graph.pillars.size(), -1);
+  first_drift_.assign(graph.pillars.size(), true);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t p = 0; p < graph.pillars.size(); ++p) {
+    if (!graph.pillars[p].has_window) continue;
+    drift_variable_[p] = static_cast<int>(dims.size());
+    pairs.emplace_back(static_cast<int>(p), drift_variable_[p]);
+    dims.push_back(3);
+  }
+  for (const auto* all : {&graph.odometry, static_cast<const std::vector<Between>*>(&ties_)}) {
+    for (const Between& between : *all)
+      pairs.emplace_back(static_cast<int>(between.a), static_cast<int>(between.b));
+  }
+  for (const DriftLink& link : graph.drift) {
+    pairs.emplace_back(drift_variable_[link.a], drift_variable_[link.b]);
+    first_drift_[link.b] = false;
+  }
+  cholesky_.emplace(std::move(dims), pairs,
+                    ties_.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
+}
+
+void GraphSolver::add_relative(const Estimate& estimate, const Between& between, bool robust) {
+  const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
+  Matrix6d W = between.covariance.llt().solve(Matrix6d::Identity());
+  if (robust) {
+    const double squared = r.e.dot(W * r.e);
+    if (squared > kHuber) W *= std::sqrt(kHuber / squared);
+  }
+  const int a = static_cast<int>(between.a), b = static_cast<int>(between.b);
+  const Matrix6d WH = W * r.H_a;
+  cholesky_->add(a, a, r.H_a.transpose() * WH);
+  cholesky_->add(b, b, W);
+  cholesky_->add(b, a, WH);
+  const Vector6d We = W * r.e;
+  part(a, 6) -= r.H_a.transpose() * We;
+  part(b, 6) -= We;
+}
+
+void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
+  const Pillar& pillar = graph_.pillars[p];
+  const Pose& T = estimate.T_enu[p];
+  const int pose = static_cast<int>(p), drift = drift_variable(p);
+  const Eigen::Vector3d weight = pillar.rest_variance.cwiseInverse();
+  const Eigen::Vector3d r =
+      pillar.fix - T * pillar.lever - pillar.drift_sigma.cwiseProduct(estimate.drift[p]);
+  Eigen::Matrix<double, 3, 6> J;
+  J << T.linear(), -T.linear() * skew(pillar.lever);
+  const Eigen::Matrix<double, 3, 6> WJ = weight.asDiagonal() * J;
+  const Eigen::Vector3d scaled = weight.cwiseProduct(pillar.drift_sigma);
+  Matrix6d A = J.transpose() * WJ;
+  Vector6d right = WJ.transpose() * r;
+  // The orientation of G, about the axes of ENU.
+  const Eigen::Vector3d turn = so3_log(pillar.R_enu_base * T.linear().transpose());
+  const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * T.linear();
+  A.bottomRightCorner<3, 3>() += T.linear().transpose() * WR;
+  right.tail<3>() += WR.transpose() * turn;
+  cholesky_->add(pose, pose, A);
+  cholesky_->add(drift, pose, scaled.asDiagonal() * J);
+  cholesky_->add(drift, drift, Eigen::Matrix3d(scaled.cwiseProduct(pillar.drift_sigma).asDiagonal()));
+  part(pose, 6) += right;
+  part(drift, 3) += scaled.cwiseProduct(r);
+}
+
+void GraphSolver::add_drifts(const Estimate& estimate) {
+  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+    if (drift_variable(p) < 0 || !first_drift_[p]) continue;
+    cholesky_->add(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
+    part(drift_variable(p), 3) -= estimate.drift[p];
+  }
+  for (const DriftLink& link : graph_.drift) {
+    const double weight = 1.0 / (1.0 - link.decay * link.decay);
+    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
+    const int a = drift_variable(link.a), b = drift_variable(link.b);
+    cholesky_->add(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
+    cholesky_->add(b, b, weight * Eigen::Matrix3d::Identity());
+    cholesky_->add(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
+    part(a, 3) += weight * link.decay * r;
+    part(b, 3) -= weight * r;
+  }
+}
+
+void GraphSolver::linearise(const Estimate& estimate) {
+  cholesky_->set_zero();
+  right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
+  for (const Between& between : graph_.odometry) add_relative(estimate, between, false);
+  for (const Between& tie : ties_) add_relative(estimate, tie, true);
+  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+    if (graph_.pillars[p].has_window) add_window(estimate, p);
+  }
+  add_drifts(estimate);
+}
+
+bool GraphSolver::solve(Estimate& estimate, int most) {
+  for (int iteration = 0; iteration < most; ++iteration) {
+    linearise(estimate);
+    if (!cholesky_->factor()) return false;
+    const Eigen::VectorXd step = cholesky_->solve(right_);
+    if (!step.allFinite()) return false;
+    double largest = 0.0;
+    for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+      const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
+      estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
+      largest = std::max(largest, xi.cwiseAbs().maxCoeff());
+      if (drift_variable(p) < 0) continue;
+      estimate.drift[p] += step.segment<3>(static_cast<Eigen::Index>(cholesky_->offset(drift_variable(p))));
+    }
+    if (largest < kConverged) break;
+  }
+  return true;
+}
+
+BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
+                                               const Matrix6d& H_b) const {
+  return cholesky_->forward({{static_cast<int>(a), H_a.transpose()}, {static_cast<int>(b), H_b.transpose()}});
+}
+
+BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t pillar) const {
+  return cholesky_->forward({{static_cast<int>(pillar), Matrix6d::Identity()}});
+}
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "block_cholesky.hpp"
+#include "reduced_graph.hpp"
+
+namespace fleetmap::graph {
+
+/// The variables of the reduced graph, by pillar.
+struct Estimate {
+  std::vector<Pose> T_enu;
+  std::vector<Eigen::Vector3d> drift;  ///< of GPS, in units of the window's sigma; zero without a window
+};
+
+/// How the residual of a relative pose between two pillars depends on them: e + H_a xi_a + xi_b.
+struct RelativeResidual {
+  Vector6d e;  ///< log(T_a_b^-1 T_enu_a^-1 T_enu_b)
+  Matrix6d H_a;
+};
+RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b, const Pose& T_a_b);
+
+/// Gauss-Newton on the reduced graph with a set of alignments.
+class GraphSolver {
+ public:
+  /// Without ties the frames are chains, which are eliminated such that covariances are cheap.
+  GraphSolver(const ReducedGraph& graph, std::vector<Between> ties);
+
+  /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. False if the equations cannot be
+  /// solved. The covariances below are those at the last linearisation.
+  bool solve(Estimate& estimate, int most);
+
+  /// L^-1 H^T of a relative pose between two pillars, whose covariance is the inner product with itself.
+  BlockCholesky::Sparse sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
+                                    const Matrix6d& H_b) const;
+  BlockCholesky::Sparse sensitivity(std::size_t pillar) const;
+
+ private:
+  void linearise(const Estimate& estimate);
+  void add_relative(const Estimate& estimate, const Between& between, bool robust);
+  void add_window(const Estimate& estimate, std::size_t p);
+  void add_drifts(const Estimate& estimate);
+  int drift_variable(std::size_t p) const { return drift_variable_[p]; }
+  auto part(int variable, int dim) {
+    return right_.segment(static_cast<Eigen::Index>(cholesky_->offset(variable)), dim);
+  }
+
+  const ReducedGraph& graph_;
+  std::vector<Between> ties_;
+  std::vector<int> drift_variable_;  ///< by pillar; -1 without a window
+  std::vector<bool> first_drift_;    ///< by pillar
+  std::optional<BlockCholesky> cholesky_;
+  Eigen::VectorXd right_;
+};
+
+}  // namespace fleetmap::graph
