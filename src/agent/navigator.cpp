@@ -111,7 +111,7 @@ void Navigator::on_report(const exchange::MissionReport& report) {
   executive_.on_report(from_wire(report, executive_.status().rows), bus_.now());
 }
 
-void Navigator::tick(bool maps_exchanged) {
+void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   if (stopped_ || !pose_) return;
   planning::MissionInput input;
   input.now = bus_.now();
@@ -122,6 +122,7 @@ void Navigator::tick(bool maps_exchanged) {
   input.stuck = follower_.stuck(input.now);
   input.progress = follower_.progress();
   input.maps_exchanged = maps_exchanged;
+  input.exchanged_with = std::move(exchanged_with);
   planning::MissionAction next = executive_.update(input);
   if (next.kind == planning::MissionAction::Kind::kFollow && next.path_number != action_.path_number)
     follower_.set_path(next.path);

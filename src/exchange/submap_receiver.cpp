@@ -72,6 +72,15 @@ std::vector<AgentId> SubmapReceiver::peers_in_reach(Stamp now) const {
   return names;
 }
 
+std::vector<AgentId> SubmapReceiver::even_with(const store::Store& store, Stamp now) const {
+  const store::SeqSet& held = store.submap_set();
+  std::vector<AgentId> names;
+  for (const auto& [name, peer] : peers_) {
+    if (in_reach(name, now) && held.includes(peer.holds) && peer.holds.includes(held)) names.push_back(name);
+  }
+  return names;
+}
+
 Duration SubmapReceiver::timeout(const Peer& peer) const {
   return std::clamp(from_seconds(peer.delay + 4.0 * peer.spread), config_.min_timeout, config_.max_timeout);
 }

@@ -6,8 +6,6 @@
 namespace fleetmap::planning {
 namespace {
 
-const Row& row_of(const Mission& mission, RowId id) { return *std::ranges::find(mission.rows, id, &Row::id); }
-
 /// Where a robot is after its last row, when, without the way to a meeting.
 Arrival arrival_of(const FleetPlan& plan, std::size_t k) {
   const RobotRoute& route = plan.division.routes[k];
@@ -15,22 +13,6 @@ Arrival arrival_of(const FleetPlan& plan, std::size_t k) {
   if (route.visits.empty()) return {robot.start.position, 0.0, robot.speed};
   const TimedPath path = timed_path(plan.planner, plan.mission, robot, route.visits, std::nullopt);
   return {path.points.back(), path.times.back(), robot.speed};
-}
-
-/// The routes end where the robots meet.
-void include_way_to_meeting(FleetPlan& plan) {
-  if (!plan.meeting) return;
-  plan.division.makespan = plan.meeting->latest;
-  for (std::size_t k = 0; k < plan.fleet.size(); ++k) {
-    const RobotAbility& robot = plan.fleet[k];
-    RobotRoute& route = plan.division.routes[k];
-    const TimedPath path =
-        timed_path(plan.planner, plan.mission, robot, route.visits, plan.meeting->positions[k]);
-    route.length = length_of(path.points);
-    route.time = plan.meeting->arrivals[k];
-    route.energy_wh =
-        path.times.back() * robot.power_idle_w / 3600.0 + route.length * robot.energy_per_metre_wh;
-  }
 }
 
 /// Division and meeting place depend on each other: improved in turns, the best pair is kept.
@@ -65,20 +47,26 @@ Status divide_and_meet(FleetPlan& plan) {
   plan.division = std::move(best_division);
   plan.meeting = std::move(best_meeting);
   plan.completion = best;
-  include_way_to_meeting(plan);
   return {};
 }
 
+/// The routes end where the robots meet, and take the time that stops take.
 void add_exchange(FleetPlan& plan) {
-  std::vector<TimedPath> paths;
-  std::vector<double> speeds;
+  const DivisionConfig& division = plan.config.division;
+  const ExchangeRules rules{division.method == DivisionMethod::kEnergy, division.battery_reserve};
+  plan.exchange = plan_exchange(plan.planner, plan.mission, plan.fleet, plan.division.routes,
+                                plan.meeting->positions, plan.config.meeting, rules);
   for (std::size_t k = 0; k < plan.fleet.size(); ++k) {
-    paths.push_back(timed_path(plan.planner, plan.mission, plan.fleet[k], plan.division.routes[k].visits,
-                               plan.meeting->positions[k]));
-    speeds.push_back(plan.fleet[k].speed);
+    const RobotAbility& robot = plan.fleet[k];
+    RobotRoute& route = plan.division.routes[k];
+    route.time = plan.exchange->arrivals[k];
+    route.length = plan.exchange->lengths[k];
+    route.energy_wh = route.time * robot.power_idle_w / 3600.0 + route.length * robot.energy_per_metre_wh;
   }
-  plan.exchange = plan_exchange(paths, plan.meeting->arrivals, speeds, plan.config.meeting);
-  plan.completion += plan.exchange->transfer_at_meeting;
+  plan.meeting->arrivals = plan.exchange->arrivals;
+  plan.meeting->latest = std::ranges::max(plan.meeting->arrivals);
+  plan.division.makespan = plan.meeting->latest;
+  plan.completion = plan.exchange->completion;
 }
 
 }  // namespace
@@ -94,6 +82,7 @@ Status ExecutiveConfig::validate() const {
   if (row_attempts < 1) return failure("row_attempts: must be at least 1");
   if (stuck_limit < 1) return failure("stuck_limit: must be at least 1");
   if (!positive(stuck_retry)) return failure("stuck_retry: must be > 0 s");
+  if (!positive(stop_patience)) return failure("stop_patience: must be > 0 s");
   if (!positive(meeting_timeout)) return failure("meeting_timeout: must be > 0 s");
   return {};
 }
@@ -141,37 +130,8 @@ Result<std::shared_ptr<const FleetPlan>> plan_fleet(Mission mission, std::span<c
   // The same on every robot, in whatever order it was told of the others.
   std::ranges::sort(plan->fleet, {}, &RobotAbility::id);
   if (const Status status = divide_and_meet(*plan); !status) return tl::unexpected(status.error());
-  if (config.division.method == DivisionMethod::kEnergy && plan->meeting) add_exchange(*plan);
+  if (plan->meeting) add_exchange(*plan);
   return std::shared_ptr<const FleetPlan>(std::move(plan));
-}
-
-TimedPath timed_path(const RoutePlanner& planner, const Mission& mission, const RobotAbility& robot,
-                     std::span<const RowVisit> visits, const std::optional<Eigen::Vector2d>& end) {
-  TimedPath path{{robot.start.position}, {0.0}};
-  double yaw = robot.start.yaw;
-  const auto add = [&](const Polyline& line) {
-    for (const Eigen::Vector2d& p : line) {
-      const Eigen::Vector2d d = p - path.points.back();
-      if (d.norm() < 1e-3) continue;
-      const double heading = std::atan2(d.y(), d.x());
-      const double turn = std::abs(std::remainder(heading - yaw, 6.283185307179586));
-      yaw = heading;
-      path.times.push_back(path.times.back() + turn / robot.yaw_rate);
-      path.points.push_back(path.points.back());
-      path.times.push_back(path.times.back() + d.norm() / robot.speed);
-      path.points.push_back(p);
-    }
-  };
-  for (const RowVisit& visit : visits) {
-    const auto row = planner.along(row_of(mission, visit.row), visit.reversed);
-    if (!row) continue;
-    if (const auto way = planner.route(path.points.back(), row->front())) add(*way);
-    add(*row);
-  }
-  if (end) {
-    if (const auto way = planner.route(path.points.back(), *end)) add(*way);
-  }
-  return path;
 }
 
 }  // namespace fleetmap::planning

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "appointments.hpp"
 #include "mission_board.hpp"
 
 namespace fleetmap::planning {
@@ -21,7 +22,7 @@ constexpr double kAhead = 2.0;        // m from where it is stuck to what is in 
 constexpr double kForgotten = 300.0;  // s, after which a blocked place is tried again
 constexpr std::size_t kMostBlockages = 12;
 
-enum class Goal : std::uint8_t { kNone, kRow, kMeeting, kHome };
+enum class Goal : std::uint8_t { kNone, kRow, kStop, kMeeting, kHome };
 
 }  // namespace
 
@@ -30,6 +31,7 @@ struct MissionExecutive::State {
       : plan(std::move(shared)),
         self(index),
         board(plan, index),
+        appointments(*plan, index),
         failed(plan->mission.rows.size()),
         attempts(plan->mission.rows.size(), 0),
         last_reversed(plan->mission.rows.size(), false),
@@ -47,9 +49,16 @@ struct MissionExecutive::State {
   void look_at_battery(const MissionInput& input);
   void settle_claims(Stamp now);
   void take_orphans(Stamp now);
+  bool on_schedule(Stamp now) const;
   void give_away(const MissionInput& input);
   void release_all();
   void choose(const MissionInput& input);
+  void look_at_appointments();
+  void end_stop(bool kept);
+  bool keep_appointment(const MissionInput& input);
+  double patience(const Appointments::Stop& stop, Stamp now) const;
+  std::vector<std::size_t> mine() const;
+  RowVisit next_row(const MissionInput& input) const;
   bool start_row(const MissionInput& input);
   bool go(Goal where, const Eigen::Vector2d& place, const MissionInput& input);
   void stand() {
@@ -61,8 +70,10 @@ struct MissionExecutive::State {
   std::shared_ptr<const FleetPlan> plan;
   std::size_t self;
   MissionBoard board;
+  Appointments appointments;
   MissionState state = MissionState::kDriving;
   bool begun = false;
+  Stamp begun_at{};
   Stamp listen_until{};
 
   std::vector<std::size_t> queue;  // rows to drive, the one under way not included
@@ -79,8 +90,10 @@ struct MissionExecutive::State {
   Goal goal = Goal::kNone;
   Polyline path;
   std::uint64_t path_number = 0;
-  double row_begins = 0.0;  // m along the path
-  bool arrived = false;     // where it last wanted to go
+  double row_begins = 0.0;           // m along the path
+  bool arrived = false;              // where it last wanted to go
+  std::optional<Stamp> waits_until;  // at a stop: for the partner to come
+  std::optional<Stamp> stays_until;  // at a stop: for the exchange to end
   Stamp retry_at{};
   int stuck_in_a_row = 0;
   Eigen::Vector2d stuck_at = Eigen::Vector2d::Zero();
@@ -92,6 +105,7 @@ struct MissionExecutive::State {
 
 void MissionExecutive::State::begin(const MissionInput& input) {
   begun = true;
+  begun_at = input.now;
   board.begin(input.now);
   const bool restarted = (input.pose.position - robot().start.position).norm() > kAtStart;
   listen_until = input.now + from_seconds(restarted ? rules().listen : 0.0);
@@ -106,6 +120,7 @@ void MissionExecutive::State::release_all() {
   replans += queue.size();
   queue.clear();
   current.reset();
+  appointments.drop_all();
   stand();
 }
 
@@ -119,6 +134,7 @@ void MissionExecutive::State::row_stuck(const MissionInput& input) {
     board.set_done(row);
     return;
   }
+  appointments.drop_all();
   if (++attempts[row] >= rules().row_attempts) {
     failed.set(row);
     ++replans;
@@ -191,7 +207,9 @@ void MissionExecutive::State::look_at_follower(const MissionInput& input) {
   const bool near = goal == Goal::kMeeting && plan->meeting &&
                     (plan->meeting->place - stuck_at).norm() < 0.5 * plan->config.meeting.c_max;
   arrived = near && stuck_in_a_row > 1;
-  retry_at = goal == Goal::kRow ? input.now : input.now + from_seconds(rules().stuck_retry);
+  if (goal == Goal::kStop) end_stop(false);
+  const bool elsewhere = goal == Goal::kRow || goal == Goal::kStop;  // what comes next leads another way
+  retry_at = elsewhere ? input.now : input.now + from_seconds(rules().stuck_retry);
   stand();
   if (stuck_in_a_row >= rules().stuck_limit && state != MissionState::kLowBattery) {
     state = MissionState::kStuck;
@@ -249,8 +267,16 @@ void MissionExecutive::State::take_orphans(Stamp now) {
   }
 }
 
+/// Of a plan with stops, which lets some robots be done before others on purpose.
+bool MissionExecutive::State::on_schedule(Stamp now) const {
+  if (!appointments.keeps_order()) return false;
+  if (appointments.next()) return true;  // whoever comes to the stop counts on it
+  const double end = to_seconds(now - begun_at) + board.remaining(self);
+  return end < plan->division.routes[self].time + rules().offer_gain;
+}
+
 void MissionExecutive::State::give_away(const MissionInput& input) {
-  if (queue.empty() || input.now < next_offer) return;
+  if (queue.empty() || input.now < next_offer || on_schedule(input.now)) return;
   next_offer = input.now + from_seconds(rules().offer_period);
   if (!board.orphans(input.now).empty()) return;
   const double left = std::max(0.0, length_of(path) - input.progress);
@@ -261,9 +287,59 @@ void MissionExecutive::State::give_away(const MissionInput& input) {
   std::erase_if(queue, [&](std::size_t row) { return std::ranges::find(given, row) != given.end(); });
 }
 
-/// The next row on the shortest way through all that are left.
-bool MissionExecutive::State::start_row(const MissionInput& input) {
-  std::ranges::sort(queue);
+std::vector<std::size_t> MissionExecutive::State::mine() const {
+  std::vector<std::size_t> rows = queue;
+  if (current) rows.push_back(*current);
+  return rows;
+}
+
+void MissionExecutive::State::end_stop(bool kept) {
+  kept ? appointments.kept() : appointments.dropped();
+  waits_until.reset();
+  stays_until.reset();
+  arrived = false;
+  if (goal == Goal::kStop) stand();
+}
+
+void MissionExecutive::State::look_at_appointments() {
+  appointments.look(mine(), current);
+  if (!appointments.next() && goal == Goal::kStop) stand();
+}
+
+/// s that it waits for the partner. If it is late itself, the partner may be as late for the same reasons.
+double MissionExecutive::State::patience(const Appointments::Stop& stop, Stamp now) const {
+  const double late = std::max(1.0, to_seconds(now - begun_at) / std::max(1.0, stop.arrival));
+  return std::max(0.0, std::min(late, 2.0) * (stop.partner_arrival - stop.arrival)) + rules().stop_patience;
+}
+
+/// Goes to the next stop, if it is due, and waits there. False once there is none.
+bool MissionExecutive::State::keep_appointment(const MissionInput& input) {
+  if (!appointments.due(queue)) return false;
+  const Appointments::Stop& stop = *appointments.next();
+  const auto partner = appointments.partner(stop, board, input.now);
+  const bool even =
+      std::ranges::find(input.exchanged_with, plan->fleet[stop.partner].id) != input.exchanged_with.end();
+  if (even && partner != Appointments::Partner::kComing) return end_stop(true), false;
+  if (partner == Appointments::Partner::kGone) return end_stop(false), false;
+  if (!arrived) {
+    if (goal != Goal::kStop && !go(Goal::kStop, stop.place, input)) return end_stop(false), false;
+    return true;
+  }
+  if (!waits_until) waits_until = input.now + from_seconds(patience(stop, input.now));
+  const double apart = (board.position(stop.partner) - input.pose.position).norm();
+  if (!stays_until && partner == Appointments::Partner::kDue && apart < plan->config.meeting.c_max) {
+    stays_until = input.now + from_seconds(2.0 * stop.transfer + rules().stop_patience);
+  }
+  if (input.now > stays_until.value_or(*waits_until)) return end_stop(false), false;
+  return true;
+}
+
+/// In the order of the plan if others count on it; else on the shortest way through all that are left.
+RowVisit MissionExecutive::State::next_row(const MissionInput& input) const {
+  if (appointments.keeps_order()) {
+    const Appointments::Visit visit = appointments.next_visit(queue);
+    return {plan->mission.rows[visit.row].id, visit.reversed};
+  }
   const Worker me{robot(), plan->costs.from(input.pose)};
   const std::vector<Travel> to_end =
       plan->meeting ? plan->costs.to(plan->meeting->positions[self]) : std::vector<Travel>();
@@ -275,7 +351,12 @@ bool MissionExecutive::State::start_row(const MissionInput& input) {
   }
   const std::vector<std::size_t>& rows = untried.empty() ? queue : untried;
   const Division order = divide_rows(plan->mission, plan->costs, rows, {&me, 1}, to_end, config);
-  const RowVisit next = order.routes.front().visits.front();
+  return order.routes.front().visits.front();
+}
+
+bool MissionExecutive::State::start_row(const MissionInput& input) {
+  std::ranges::sort(queue);
+  const RowVisit next = next_row(input);
   const auto found = std::ranges::find(plan->mission.rows, next.row, &Row::id);
   const auto row = static_cast<std::size_t>(found - plan->mission.rows.begin());
   const bool reversed = attempts[row] > 0 ? !last_reversed[row] : next.reversed;
@@ -331,6 +412,10 @@ void MissionExecutive::State::choose(const MissionInput& input) {
     return;
   }
   if (current) {
+    state = MissionState::kDriving;
+    return;
+  }
+  if (keep_appointment(input)) {
     state = MissionState::kDriving;
     return;
   }
@@ -401,6 +486,7 @@ MissionAction MissionExecutive::update(const MissionInput& input) {
     s.take_orphans(input.now);
     s.give_away(input);
   }
+  s.look_at_appointments();
   s.choose(input);
   s.publish(input);
   if (s.state == MissionState::kDone) return {MissionAction::Kind::kDone, {}, s.path_number};
@@ -413,8 +499,8 @@ MissionReport MissionExecutive::report() const { return state_->report; }
 MissionExecutive::Status MissionExecutive::status() const {
   const State& s = *state_;
   const Stamp now = s.report.stamp;
-  Status status{s.state, s.board.rows(), s.board.done().count(), s.report.claimed.count(), 0, {},
-                {},      s.replans};
+  Status status{s.state, s.board.rows(), s.board.done().count(),      s.report.claimed.count(),      0, {},
+                {},      s.replans,      s.appointments.count_kept(), s.appointments.count_dropped()};
   for (std::size_t row = 0; row < s.board.rows(); ++row) {
     status.abandoned += !s.board.done().has(row) && s.board.abandoned(row, now) ? 1 : 0;
   }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <string>
 
 namespace fleetmap::planning {
 namespace {
@@ -94,6 +92,7 @@ Status RendezvousConfig::validate() const {
   if (!(positive(spacing) && spacing < c_max)) return failure("spacing: must be > 0 m and below c_max");
   if (!positive(sample_period)) return failure("sample_period: must be > 0 s");
   if (!(std::isfinite(settle_time) && settle_time >= 0.0)) return failure("settle_time: must be >= 0 s");
+  if (!(std::isfinite(least_gain) && least_gain >= 0.0)) return failure("least_gain: must be >= 0 s");
   return {};
 }
 
@@ -119,87 +118,6 @@ Result<MeetingPlace> meeting_place(const RoutePlanner& planner, std::span<const 
   }
   meeting.latest = *std::ranges::max_element(meeting.arrivals);
   return meeting;
-}
-
-Eigen::Vector2d TimedPath::at(double time) const {
-  const auto after = std::ranges::upper_bound(times, time);
-  if (after == times.begin()) return points.front();
-  if (after == times.end()) return points.back();
-  const auto k = static_cast<std::size_t>(after - times.begin());
-  const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
-  return points[k - 1] + share * (points[k] - points[k - 1]);
-}
-
-double TimedPath::driven(double time) const {
-  double sum = 0.0;
-  for (std::size_t k = 1; k < points.size() && times[k - 1] < time; ++k) {
-    const double step = (points[k] - points[k - 1]).norm();
-    const double span = times[k] - times[k - 1];
-    sum += span > 0.0 ? step * std::min(1.0, (time - times[k - 1]) / span) : step;
-  }
-  return sum;
-}
-
-std::vector<Contact> contacts(std::span<const TimedPath> paths, double until,
-                              const RendezvousConfig& config) {
-  std::vector<Contact> found;
-  const double rate = config.bandwidth * config.efficiency / 8.0;  // byte/s
-  const auto steps = static_cast<std::size_t>(std::min(until / config.sample_period, 100'000.0));
-  for (std::size_t a = 0; a < paths.size(); ++a) {
-    for (std::size_t b = a + 1; b < paths.size(); ++b) {
-      if (paths[a].points.empty() || paths[b].points.empty()) continue;
-      Contact contact{a, b, 0.0, kFar, 0.0, 0.0};
-      for (std::size_t step = 0; step <= steps; ++step) {
-        const double time = static_cast<double>(step) * config.sample_period;
-        const double distance = (paths[a].at(time) - paths[b].at(time)).norm();
-        // The later of equally near places: there is more to exchange by then.
-        if (distance < contact.distance + kSameDistance) contact.time = time;
-        contact.distance = std::min(contact.distance, distance);
-        if (distance > config.c_max) continue;
-        const double exists = config.map_bytes_per_metre * (paths[a].driven(time) + paths[b].driven(time));
-        contact.seconds += config.sample_period;
-        contact.bytes =
-            std::min(contact.bytes + rate * config.sample_period, std::max(contact.bytes, exists));
-      }
-      found.push_back(contact);
-    }
-  }
-  return found;
-}
-
-ExchangePlan plan_exchange(std::span<const TimedPath> paths, std::span<const double> arrivals,
-                           std::span<const double> speeds, const RendezvousConfig& config) {
-  ExchangePlan plan;
-  if (paths.size() < 2) return plan;
-  const double latest = *std::ranges::max_element(arrivals);
-  const double rate = config.bandwidth * config.efficiency / 8.0;
-  std::vector<double> maps;
-  for (const TimedPath& path : paths) maps.push_back(config.map_bytes_per_metre * path.driven(latest));
-  const double all_maps = std::accumulate(maps.begin(), maps.end(), 0.0);
-  plan.bytes_total = all_maps * static_cast<double>(paths.size() - 1);
-  // Only what is driven before all have come near the meeting counts as passing.
-  const double until = *std::ranges::min_element(arrivals);
-  plan.passing = contacts(paths, until, config);
-  for (const Contact& contact : plan.passing) plan.bytes_in_passing += contact.bytes;
-  plan.bytes_in_passing = std::min(plan.bytes_in_passing, plan.bytes_total);
-  plan.transfer_at_meeting = (plan.bytes_total - plan.bytes_in_passing) / rate;
-  for (const Contact& contact : plan.passing) {
-    const double exists = config.map_bytes_per_metre *
-                          (paths[contact.a].driven(contact.time) + paths[contact.b].driven(contact.time));
-    const double gain_bytes = std::max(0.0, exists - contact.bytes);
-    const double way = std::max(0.0, contact.distance - 0.8 * config.c_max);
-    // Both drive half of the way there and back, and stand while the maps flow.
-    const double stop =
-        way / std::min(speeds[contact.a], speeds[contact.b]) + config.settle_time + gain_bytes / rate;
-    const double slack = latest - std::max(arrivals[contact.a], arrivals[contact.b]);
-    const Detour detour{contact.a, contact.b, contact.time, std::max(0.0, stop - slack), gain_bytes / rate};
-    if (detour.saving > detour.cost && gain_bytes > 0.0) {
-      plan.worth.push_back(detour);
-    } else {
-      ++plan.rejected;
-    }
-  }
-  return plan;
 }
 
 }  // namespace fleetmap::planning

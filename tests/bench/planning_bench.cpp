@@ -1,4 +1,4 @@
-// Prints how long fleets take for generated sites under each division, as a Markdown table.
+// Prints how long fleets take for generated sites under each division, as Markdown tables.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -48,11 +48,14 @@ struct Outcome {
   double makespan = 0.0;
   double cpu = 0.0;
   std::size_t left_out = 0;
-  double energy = 0.0;
+  double completion = 0.0;
+  double without_stops = 0.0;
+  std::size_t stops = 0;
+  int tried = 0;
 };
 
-Outcome run(const Mission& mission, const std::vector<RobotAbility>& robots, DivisionMethod method) {
-  MissionConfig config;
+Outcome run(const Mission& mission, const std::vector<RobotAbility>& robots, DivisionMethod method,
+            MissionConfig config = {}) {
   config.division.method = method;
   const double before = fleetmap::thread_cpu_seconds();
   const auto plan = plan_fleet(mission, robots, config);
@@ -60,18 +63,17 @@ Outcome run(const Mission& mission, const std::vector<RobotAbility>& robots, Div
     std::printf("%s\n", plan.error().message.c_str());
     return {};
   }
-  Outcome outcome{(*plan)->division.makespan, fleetmap::thread_cpu_seconds() - before,
-                  (*plan)->division.left_out.size()};
-  for (const RobotRoute& route : (*plan)->division.routes) {
-    outcome.energy = std::max(outcome.energy, route.energy_wh);
-  }
-  return outcome;
+  const ExchangePlan& exchange = *(*plan)->exchange;
+  return {(*plan)->division.makespan,
+          fleetmap::thread_cpu_seconds() - before,
+          (*plan)->division.left_out.size(),
+          exchange.completion,
+          exchange.completion_without_stops,
+          exchange.stops.size(),
+          exchange.rejected + static_cast<int>(exchange.stops.size())};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const bool large = argc > 1 && std::strcmp(argv[1], "--large") == 0;
+void compare_divisions(bool large) {
   std::printf(
       "| site | rows | N_a | uniform [s] | balanced [s] | ratio | energy [s] | ratio | left out | CPU [s] "
       "|\n");
@@ -91,5 +93,52 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
     }
   }
+}
+
+struct Radio {
+  const char* name;
+  double bandwidth;      // bit/s
+  double bytes_a_metre;  // of maps
+};
+
+void compare_exchange() {
+  const Radio radios[] = {{"15 Mbit/s, 6 kB/m", 15e6, 6e3},
+                          {"15 Mbit/s, 60 kB/m", 15e6, 60e3},
+                          {"2 Mbit/s, 60 kB/m", 2e6, 60e3},
+                          {"0.5 Mbit/s, 60 kB/m", 0.5e6, 60e3}};
+  std::printf(
+      "| site | radio | N_a | uniform [s] | balanced [s] | energy without stops [s] | energy [s] | saved | "
+      "stops | tried | CPU [s] |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
+  std::vector<Case> sites = cases(false);
+  sites.erase(sites.begin() + 4, sites.begin() + 6);  // nothing new
+  for (const Case& c : sites) {
+    const Mission mission = testing::site(c.spec);
+    for (const Radio& radio : radios) {
+      for (int count = 2; count <= 5; ++count) {
+        const std::vector<RobotAbility> robots = testing::fleet(count, c.mixed);
+        MissionConfig config;
+        config.meeting.bandwidth = radio.bandwidth;
+        config.meeting.map_bytes_per_metre = radio.bytes_a_metre;
+        const Outcome uniform = run(mission, robots, DivisionMethod::kUniform, config);
+        const Outcome balanced = run(mission, robots, DivisionMethod::kBalanced, config);
+        const Outcome energy = run(mission, robots, DivisionMethod::kEnergy, config);
+        const double saved = 1.0 - energy.completion / energy.without_stops;
+        std::printf("| %s | %s | %d | %.0f | %.0f | %.0f | %.0f | %.1f %% | %zu | %d | %.2f |\n",
+                    c.spec.name.c_str(), radio.name, count, uniform.completion, balanced.completion,
+                    energy.without_stops, energy.completion, 100.0 * saved, energy.stops, energy.tried,
+                    energy.cpu);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+/// `--large`: of 1 km²; `--exchange`: when all maps are exchanged, over several radios.
+int main(int argc, char** argv) {
+  const auto asked = [&](const char* what) { return argc > 1 && std::strcmp(argv[1], what) == 0; };
+  asked("--exchange") ? compare_exchange() : compare_divisions(asked("--large"));
   return 0;
 }

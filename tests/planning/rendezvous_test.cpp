@@ -54,48 +54,6 @@ TEST(Rendezvous, ThereIsNoneAcrossAWallWithoutGate) {
   EXPECT_FALSE(meeting_place(planner, {}, {}));
 }
 
-TimedPath straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double seconds) {
-  return {{from, to}, {0.0, seconds}};
-}
-
-TEST(Rendezvous, WhatFlowsInPassingIsBoundedByTimeAndByWhatExists) {
-  RendezvousConfig config;
-  const std::vector<TimedPath> beside = {straight({0, 0}, {600, 0}, 400.0),
-                                         straight({0, 50}, {600, 50}, 400.0)};
-  const auto all = contacts(beside, 400.0, config);
-  ASSERT_EQ(all.size(), 1u);
-  EXPECT_NEAR(all[0].bytes, 2.0 * 600.0 * config.map_bytes_per_metre, 0.02 * all[0].bytes);
-  EXPECT_NEAR(all[0].distance, 50.0, 1e-6);
-  const std::vector<TimedPath> apart = {straight({0, 0}, {600, 0}, 400.0),
-                                        straight({0, 200}, {600, 200}, 400.0)};
-  EXPECT_EQ(contacts(apart, 400.0, config)[0].bytes, 0.0);
-}
-
-TEST(Rendezvous, AStopInBetweenMustBeWorthIt) {
-  RendezvousConfig config;
-  const double arrivals[] = {1000.0, 1000.0};
-  const double speeds[] = {1.5, 1.5};
-  // 95 m apart all the way: a few metres of detour move minutes of transfer to where both wait for nobody.
-  const std::vector<TimedPath> near = {straight({0, 0}, {1400, 0}, 1000.0),
-                                       straight({0, 95}, {1400, 95}, 1000.0)};
-  config.map_bytes_per_metre = 100e3;
-  const ExchangePlan heavy = plan_exchange(near, arrivals, speeds, config);
-  EXPECT_EQ(heavy.bytes_in_passing, 0.0);
-  EXPECT_EQ(heavy.worth.size() + static_cast<std::size_t>(heavy.rejected), 1u);
-  // The transfer itself takes as long there as here, so without waiting time there is nothing to gain.
-  EXPECT_TRUE(heavy.worth.empty());
-  const double waits[] = {1000.0, 1000.0, 2500.0};
-  const double three_speeds[] = {1.5, 1.5, 1.5};
-  std::vector<TimedPath> three = near;
-  three.push_back(straight({0, 2000}, {3000, 2000}, 2500.0));
-  const ExchangePlan slack = plan_exchange(three, waits, three_speeds, config);
-  ASSERT_EQ(slack.worth.size(), 1u);  // the first two wait for the third anyway
-  EXPECT_EQ(slack.worth[0].a, 0u);
-  EXPECT_EQ(slack.worth[0].b, 1u);
-  EXPECT_EQ(slack.worth[0].cost, 0.0);
-  EXPECT_GT(slack.worth[0].saving, 1.0);
-}
-
 TEST(MissionComplete, NeedsAConnectedFleetWithGoodAlignmentsAndTheSameNodes) {
   const AgentId a = testing::name(0), b = testing::name(1), c = testing::name(2);
   const std::vector<AgentId> fleet = {a, b, c};

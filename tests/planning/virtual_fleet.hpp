@@ -3,11 +3,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <set>
 #include <vector>
 
 #include "fleetmap/planning/mission_executive.hpp"
+#include "planning/map_radio.hpp"
 #include "planning/sites.hpp"
 
 namespace fleetmap::planning::testing {
@@ -55,6 +57,8 @@ class VirtualFleet {
   std::vector<Robot> robots;
   std::vector<Obstacle> obstacles;
   std::function<bool(std::size_t, double)> silent = [](std::size_t, double) { return false; };
+  /// Without it, all maps are exchanged as soon as all wait at the meeting.
+  std::optional<MapRadio> radio;
   double now = 0.0;
 
   Stamp stamp() const { return stamp_from_ns(static_cast<std::int64_t>(now * 1e9)); }
@@ -70,6 +74,11 @@ class VirtualFleet {
       input.stuck = following && robot.standing > 15.0;
       input.progress = robot.along;
       input.maps_exchanged = robot.exchanged;
+      if (radio) {
+        for (const std::size_t other : radio->even_with(k)) {
+          input.exchanged_with.push_back(plan->fleet[other].id);
+        }
+      }
       const std::uint64_t before = robot.action.path_number;
       robot.action = robot.executive->update(input);
       if (robot.action.path_number != before) robot.along = robot.standing = 0.0;
@@ -158,6 +167,7 @@ class VirtualFleet {
   }
   /// Maps flow when all who are alive and can move wait at the meeting.
   void exchange() {
+    if (radio) return exchange_by_radio();
     bool all = true;
     for (const Robot& robot : robots) {
       all &= !robot.executive || robot.state == MissionState::kMeeting ||
@@ -165,6 +175,15 @@ class VirtualFleet {
              robot.state == MissionState::kLowBattery;
     }
     for (Robot& robot : robots) robot.exchanged |= all && robot.state == MissionState::kMeeting;
+  }
+
+  void exchange_by_radio() {
+    std::vector<MapRadio::Robot> on_air;
+    for (const Robot& robot : robots) {
+      on_air.push_back({robot.pose.position, robot.driven, robot.executive != nullptr});
+    }
+    radio->step(on_air, 1.0);
+    for (std::size_t k = 0; k < robots.size(); ++k) robots[k].exchanged = radio->all_hold_all();
   }
 
   double loss_;

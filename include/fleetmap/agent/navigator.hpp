@@ -53,8 +53,8 @@ class Navigator {
   void on_perceived(const Perceived& perceived);
   void on_report(const exchange::MissionReport& report);
   /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
-  /// of.
-  void tick(bool maps_exchanged);
+  /// of. `exchanged_with`: robots in reach with whom nothing is left to be exchanged.
+  void tick(bool maps_exchanged, std::vector<AgentId> exchanged_with = {});
   /// Stands still from now on.
   void stop();
 

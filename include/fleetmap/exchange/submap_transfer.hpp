@@ -62,6 +62,8 @@ class SubmapReceiver {
   /// `peer` was heard, and told of no such submap.
   bool lacks(const AgentId& peer, const NodeId& id) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
+  /// Peers in reach that told of all submaps held here and of no others.
+  std::vector<AgentId> even_with(const store::Store& store, Stamp now) const;
   /// Nothing is under way, and no peer in reach has what we lack.
   bool idle(const store::Store& store, Stamp now) const;
   const SubmapReceiverStats& stats() const { return stats_; }

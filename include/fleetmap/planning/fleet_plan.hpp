@@ -7,8 +7,10 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/planning/division.hpp"
+#include "fleetmap/planning/exchange_plan.hpp"
 #include "fleetmap/planning/mission_config.hpp"
 #include "fleetmap/planning/rendezvous.hpp"
+#include "fleetmap/planning/timed_path.hpp"
 #include "fleetmap/planning/travel_costs.hpp"
 
 namespace fleetmap::planning {
@@ -21,10 +23,10 @@ struct FleetPlan {
   MissionConfig config;
   RoutePlanner planner;
   TravelCosts costs;
-  Division division;  ///< routes in the order of `fleet`, the way to the meeting included
+  Division division;  ///< routes in the order of `fleet`, the way to the meeting and stops included
   std::optional<MeetingPlace> meeting;
-  std::optional<ExchangePlan> exchange;  ///< with division energy: what a stop in between would be worth
-  double completion = 0.0;               ///< s, all rows driven, all met and (if planned) all maps exchanged
+  std::optional<ExchangePlan> exchange;  ///< with a meeting; stops before it with division energy only
+  double completion = 0.0;  ///< s, all rows driven and, with a meeting, all met and all maps exchanged
 
   /// Index of a robot in `fleet`.
   std::optional<std::size_t> find(const AgentId& id) const;
@@ -33,9 +35,5 @@ struct FleetPlan {
 /// Fails, with the remedy, for whatever is wrong with mission, fleet or settings.
 Result<std::shared_ptr<const FleetPlan>> plan_fleet(Mission mission, std::span<const RobotAbility> fleet,
                                                     const MissionConfig& config);
-
-/// Where a robot is over time if it drives its route; `end` is added behind the last row.
-TimedPath timed_path(const RoutePlanner& planner, const Mission& mission, const RobotAbility& robot,
-                     std::span<const RowVisit> visits, const std::optional<Eigen::Vector2d>& end);
 
 }  // namespace fleetmap::planning

@@ -22,6 +22,7 @@ struct ExecutiveConfig {
   int row_attempts = 2;        ///< of one robot at one row
   int stuck_limit = 4;         ///< times stuck in a row without getting on until it calls itself stuck
   double stuck_retry = 30.0;   ///< a stuck robot tries again so often
+  double stop_patience = 120.0;  ///< beyond what is planned, at a stop until it goes on without its partner
   double meeting_timeout =
       600.0;  ///< at the rendezvous with all rows done, until a robot ends its mission alone
   Status validate() const;

@@ -26,6 +26,8 @@ struct MissionInput {
   double progress = 0.0;  ///< m along the path
   /// Everything that was to be exchanged at the rendezvous is.
   bool maps_exchanged = false;
+  /// Robots within reach who hold all maps that this one holds, and the other way round.
+  std::vector<AgentId> exchanged_with = {};
 };
 
 struct MissionAction {
@@ -45,7 +47,9 @@ struct MissionAction {
 /// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
 /// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
 ///   of them takes which, and whoever still sees nobody at a row after a while takes it;
-/// - a robot with many rows left gives some away when another one has none (the late one, the returned one).
+/// - a robot with many rows left gives some away when another one has none (the late one, the returned one);
+/// - two whom the plan lets stop to exchange maps drive there in the plan's order of rows and wait for each
+///   other, never for one who is lost or got other rows, nor for ever.
 /// So no row stays undone while a robot remains that can reach it; at worst one is driven twice.
 /// Deterministic, no clock of its own; not thread-safe.
 class MissionExecutive {
@@ -74,6 +78,8 @@ class MissionExecutive {
     std::vector<AgentId> lost;
     std::vector<AgentId> expected;  ///< others who are to come to the meeting
     std::uint64_t replans = 0;      ///< rows taken over or given away
+    std::size_t stops_kept = 0;     ///< maps were exchanged
+    std::size_t stops_dropped = 0;  ///< the partner did not come, or one of the two got other rows
   };
   Status status() const;
   const FleetPlan& plan() const;
