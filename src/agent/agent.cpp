@@ -152,7 +152,7 @@ void Agent::navigate() {
   // What was seen since the last node belongs to the maps that are exchanged at the meeting.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
-  navigator_->tick(complete() && fleet_caught_up());
+  navigator_->tick(complete() && fleet_caught_up(), exchange_->even_with(bus_.now()));
 }
 
 void Agent::wait_for_global_pose() {
