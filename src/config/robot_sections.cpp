@@ -202,6 +202,15 @@ void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
   section.check(encounters.validate());
 }
 
+void read_loop_closures(Section& top, agent::LoopClosureConfig& closures) {
+  Section section = top.section("loop_closures");
+  section.read("reach", closures.reach);
+  section.read("min_path", closures.min_path);
+  section.read("spacing", closures.spacing);
+  section.finish();
+  section.check(closures.validate());
+}
+
 void read_exchange(Section& top, agent::AgentConfig& agent) {
   exchange::ExchangeConfig& exchange = agent.exchange;
   read_encounters(top, exchange.encounters);
@@ -304,6 +313,7 @@ void read_agent(Section& top, agent::AgentConfig& agent) {
   agent.perception.localization.site_origin = agent.site_origin;
   read_map_making(top, agent);
   read_registration(top, agent);
+  read_loop_closures(top, agent.loop_closures);
   read_exchange(top, agent);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/agent/odometry_uncertainty.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
@@ -29,6 +30,8 @@ struct AgentConfig {
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
   OdometryUncertaintyConfig odometry_uncertainty;
+  LoopClosureConfig loop_closures;
+  bool close_loops = false;  ///< register own nodes with each other, too: what the fleet graph can use
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;
