@@ -11,8 +11,9 @@ constexpr double kMostSteps = 5000.0;  // of a forecast; a longer one takes long
 
 class Simulation {
  public:
-  Simulation(std::span<const Itinerary> fleet, std::size_t stops, const RendezvousConfig& config)
-      : fleet_(fleet), config_(config), robots_(fleet.size()), stops_(stops) {
+  Simulation(std::span<const Itinerary> fleet, std::size_t stops, const RendezvousConfig& config,
+             const Pace& pace)
+      : fleet_(fleet), config_(config), pace_(pace), robots_(fleet.size()), stops_(stops) {
     const std::size_t n = fleet.size();
     holds_.assign(n, std::vector<double>(n, 0.0));
     positions_.resize(n);
@@ -26,7 +27,7 @@ class Simulation {
       out_.begins[k].assign(fleet[k].size(), Forecast::kNever);
       double time = 0.0;
       for (const Piece& piece : fleet[k]) {
-        time += piece.path.times.back();
+        time += piece.path.times.back() * pace.of(k);
         if (piece.stop) stops_[*piece.stop].robots[stops_[*piece.stop].robots[0] == kNobody ? 0 : 1] = k;
       }
       longest = std::max(longest, time);
@@ -90,7 +91,7 @@ class Simulation {
     Robot& robot = robots_[k];
     while (!robot.there && !robot.waiting) {
       const Piece& piece = fleet_[k][robot.piece];
-      const double end = robot.since + piece.path.times.back();
+      const double end = robot.since + piece.path.times.back() * pace_.of(k);
       if (end > now) break;
       robot.before += piece.length;
       if (piece.stop) {
@@ -108,8 +109,8 @@ class Simulation {
       positions_[k] = fleet_[k][robot.piece].path.points.back();
     } else {
       const TimedPath& path = fleet_[k][robot.piece].path;
-      positions_[k] = path.at(now - robot.since);
-      driven += path.driven(now - robot.since);
+      positions_[k] = path.at((now - robot.since) / pace_.of(k));
+      driven += path.driven((now - robot.since) / pace_.of(k));
     }
     holds_[k][k] = bytes_per_metre() * driven;
   }
@@ -192,6 +193,7 @@ class Simulation {
 
   std::span<const Itinerary> fleet_;
   const RendezvousConfig& config_;
+  Pace pace_;
   std::vector<Robot> robots_;
   std::vector<Stop> stops_;
   std::vector<std::vector<double>> holds_;  // B, of each robot of each robot's map
@@ -204,8 +206,8 @@ class Simulation {
 }  // namespace
 
 Forecast forecast_exchange(std::span<const Itinerary> fleet, std::size_t stops,
-                           const RendezvousConfig& config, double give_up) {
-  return Simulation(fleet, stops, config).run(give_up);
+                           const RendezvousConfig& config, double give_up, const Pace& pace) {
+  return Simulation(fleet, stops, config, pace).run(give_up);
 }
 
 }  // namespace fleetmap::planning

@@ -36,9 +36,16 @@ struct Forecast {
   double bytes_at_stops = 0.0;
 };
 
+/// Robots that need longer than planned.
+struct Pace {
+  double factor = 1.0;    ///< of the time that slow robots need
+  std::size_t which = 0;  ///< robots k with k % 2 == which are slow
+  double of(std::size_t robot) const { return robot % 2 == which ? factor : 1.0; }
+};
+
 /// Steps through the drives of the whole fleet. Two at a stop go on when both are there and hold the same,
 /// `settle_time` later. Ends without a completion at `give_up` (s), or if not all are in reach at the end.
 Forecast forecast_exchange(std::span<const Itinerary> fleet, std::size_t stops,
-                           const RendezvousConfig& config, double give_up);
+                           const RendezvousConfig& config, double give_up, const Pace& pace = {});
 
 }  // namespace fleetmap::planning

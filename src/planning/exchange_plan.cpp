@@ -15,6 +15,8 @@ namespace {
 constexpr double kWithinReach = 0.8;    // of C_max: what two who stop are apart at most
 constexpr std::size_t kBins = 8;        // of the time of the mission: one stop a pair is tried in each
 constexpr std::size_t kMostTried = 48;  // pairs of gaps between rows, before each stop that is added
+/// Robots are late by some percent; what is gained only if nobody is, is not gained.
+constexpr Pace kLate[] = {{1.05, 0}, {1.05, 1}};
 constexpr double kPrefersEarly = 0.02;  // s a second that a robot waits at a stop, even if it has time
 
 /// Two robots, each before a certain piece of its drive.
@@ -86,6 +88,10 @@ class Planner {
     // Even if nothing were left to be exchanged at the meeting, it could not be worth it.
     if (!std::isfinite(now_.completion) || now_.completion - latest < config_.least_gain) return false;
     double best = now_.completion - std::max(config_.least_gain, 1e-3);
+    std::vector<double> late;
+    for (const Pace& pace : kLate) {
+      late.push_back(forecast_exchange(drives_, plan_.stops.size(), config_, 2.0 * best, pace).completion);
+    }
     Forecast best_forecast;
     std::vector<Itinerary> best_drives;
     Detour best_stop;
@@ -97,7 +103,7 @@ class Planner {
           stop.parts[part] = insert(drives, gap.robots[part], gap.pieces[part], places[part]);
         }
         Forecast forecast = forecast_exchange(drives, plan_.stops.size() + 1, config_, best);
-        if (!(forecast.completion < best) || !batteries_last(forecast)) {
+        if (!(forecast.completion < best) || !batteries_last(forecast) || !lasts(drives, late)) {
           ++plan_.rejected;
           continue;
         }
@@ -212,6 +218,17 @@ class Planner {
     const Eigen::Vector2d stands = to.path.points.back();
     drive.insert(drive.begin() + static_cast<std::ptrdiff_t>(piece), std::move(to));
     return {robot, after, stands, 0.0};
+  }
+
+  /// The gain does not hang on meeting somebody by chance at the right second.
+  bool lasts(const std::vector<Itinerary>& drives, std::span<const double> late) const {
+    for (std::size_t k = 0; k < std::size(kLate); ++k) {
+      const double most = late[k] - std::max(config_.least_gain, 1e-3);
+      const Forecast forecast = forecast_exchange(drives, plan_.stops.size() + 1, config_,
+                                                  std::min(most, 2.0 * now_.completion), kLate[k]);
+      if (!(forecast.completion < most)) return false;
+    }
+    return true;
   }
 
   bool batteries_last(const Forecast& forecast) const {
