@@ -19,6 +19,7 @@ constexpr double kRecovered = 0.2;       // share of the battery above the low m
 constexpr double kRouteRetry = 5.0;      // s, when no way was found from where it seems to be
 
 constexpr double kAhead = 2.0;        // m from where it is stuck to what is in the way
+constexpr double kLongest = 86400.0;  // s, of an exchange that is waited for
 constexpr double kForgotten = 300.0;  // s, after which a blocked place is tried again
 constexpr std::size_t kMostBlockages = 12;
 
@@ -396,8 +397,9 @@ void MissionExecutive::State::choose(const MissionInput& input) {
   const bool settled = board.all_settled(input.now);
   if (!settled) all_done_since.reset();
   if (settled && !all_done_since) all_done_since = input.now;
+  const double planned = plan->exchange ? std::min(plan->exchange->transfer_at_meeting, kLongest) : 0.0;
   const bool alone_too_long =
-      all_done_since && input.now - *all_done_since > from_seconds(rules().meeting_timeout);
+      all_done_since && input.now - *all_done_since > from_seconds(rules().meeting_timeout + planned);
   if (state == MissionState::kLowBattery) {
     if (goal == Goal::kNone && !arrived && input.now >= retry_at)
       go(Goal::kHome, robot().start.position, input);

@@ -17,7 +17,6 @@ MissionConfig settings(DivisionMethod method = DivisionMethod::kEnergy) {
   config.division.search_rounds = 30;
   config.meeting.bandwidth = 2e6;
   config.meeting.map_bytes_per_metre = 60e3;
-  config.executive.meeting_timeout = 4000.0;  // the exchange takes longer than ten minutes
   return config;
 }
 

@@ -24,7 +24,7 @@ struct ExecutiveConfig {
   double stuck_retry = 30.0;   ///< a stuck robot tries again so often
   double stop_patience = 120.0;  ///< beyond what is planned, at a stop until it goes on without its partner
   double meeting_timeout =
-      600.0;  ///< at the rendezvous with all rows done, until a robot ends its mission alone
+      600.0;  ///< at the rendezvous with all rows done, beyond the planned exchange, until a robot ends alone
   Status validate() const;
 };
 
