@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
@@ -18,12 +19,11 @@ namespace fleetmap::agent {
 namespace {
 
 constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
+/// The graph is solved for the live pose at most this often, and only if anything is new.
+constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
-/// Without G no node can be made; said once when it lasts this long.
+/// How long a start waits for the first global pose before it makes nodes without.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
-/// Points seen before the global pose is known are kept up to this many; then only newer ones are worth
-/// keeping.
-constexpr std::size_t kMaxPointsWithoutNode = 3'000'000;
 
 /// Every start of the program has an odometry frame of its own; the first that no own node uses.
 Result<std::uint8_t> next_session(const store::Store& store, const AgentId& self) {
@@ -69,7 +69,8 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::
       global_file_(std::move(global_file)),
       own_clouds_(config.spherize),
       submap_(config.submap),
-      node_generator_(config.nodes) {}
+      node_generator_(config.nodes),
+      loop_closures_(config.loop_closures) {}
 
 Agent::~Agent() = default;
 
@@ -92,6 +93,10 @@ Status Agent::start() {
     navigator_ = std::move(*navigator);
     navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
   }
+  if (config_.placement.mode == graph::PlacementMode::fleet) {
+    live_placement_ = std::make_unique<LivePlacement>(config_, bus_, store_);
+    live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(); });
+  }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
   if (session_ > 0) {
     spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store",
@@ -107,7 +112,10 @@ std::set<AgentId> Agent::lost() const {
   return {lost.begin(), lost.end()};
 }
 
-bool Agent::idle() const { return jobs_ == 0 && perception_->idle() && exchange_->idle(bus_.now(), lost()); }
+bool Agent::idle() const {
+  const bool solving = live_placement_ && !live_placement_->idle();
+  return jobs_ == 0 && !solving && perception_->idle() && exchange_->idle(bus_.now(), lost());
+}
 
 // ---- own map
 // ----------------------------------------------------------------------------------------------------
@@ -116,6 +124,7 @@ void Agent::stop() {
   perception_->stop();
   link_->stop();
   status_timer_.reset();
+  live_timer_.reset();
   navigator_timer_.reset();
   if (navigator_) navigator_->stop();
 }
@@ -125,11 +134,11 @@ void Agent::on_perceived(Perceived&& perceived) {
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
   if (navigator_) navigator_->on_perceived(perceived);
+  if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
     spdlog::error("{}", written.error().message);
   }
   if (perceived.G) {
-    last_G_ = perceived.G;
     if (const Status written = global_file_.add(*perceived.G); !written) {
       spdlog::error("{}", written.error().message);
     }
@@ -137,12 +146,8 @@ void Agent::on_perceived(Perceived&& perceived) {
   // A scan that did not fit the map is at a guessed place: it must not enter what can never be changed.
   if (update.lost) return;
   submap_.add(update.points, update.T_odom_base);
-  if (!perceived.G) {
-    wait_for_global_pose();
-  } else {
-    waiting_for_gps_since_.reset();
-    if (node_generator_.offer(update.T_odom_base)) freeze_node(update, *perceived.G);
-  }
+  const bool wait = !perceived.G && worth_waiting_for_gps();
+  if (!wait && node_generator_.offer(update.T_odom_base)) freeze_node(perceived);
   perceived.odometry.points = {};
   last_perceived_ = std::move(perceived);
 }
@@ -155,19 +160,23 @@ void Agent::navigate() {
   navigator_->tick(complete() && fleet_caught_up(), exchange_->even_with(bus_.now()));
 }
 
-void Agent::wait_for_global_pose() {
-  if (submap_.points() > kMaxPointsWithoutNode) submap_.clear();
-  if (!waiting_for_gps_since_) waiting_for_gps_since_ = bus_.now() + kGpsPatience;
-  if (bus_.now() <= *waiting_for_gps_since_) return;
-  spdlog::warn("{}: no node can be made: the global pose is unknown; check GPS, or drive where there is any",
-               config_.id.str());
-  waiting_for_gps_since_ = bus_.now() + 6 * kGpsPatience;
+bool Agent::worth_waiting_for_gps() {
+  if (!waiting_for_gps_until_) waiting_for_gps_until_ = bus_.now() + kGpsPatience;
+  if (bus_.now() < *waiting_for_gps_until_) return true;
+  if (!told_of_missing_gps_) {
+    spdlog::warn(
+        "{}: the global pose is unknown; nodes are made without, and known again by what they look like",
+        config_.id.str());
+  }
+  told_of_missing_gps_ = true;
+  return false;
 }
 
 void Agent::begin_session() {
   map_restarts_ = perception_->odometry_counters().map_restarts;
   freeze_rest();
   submap_.clear();
+  recent_surroundings_.clear();
   last_perceived_.reset();
   const Result<std::uint8_t> session = next_session(store_, config_.id);
   if (!session) return spdlog::error("{}", session.error().message);
@@ -180,18 +189,22 @@ void Agent::begin_session() {
   spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
 }
 
-void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G) {
+void Agent::freeze_node(const Perceived& perceived) {
+  const odometry::OdometryUpdate& update = perceived.odometry;
   graph::Node node;
   node.id = {config_.id, store_.next_node_seq()};
   node.session = session_;
   node.stamp = update.stamp;
-  node.G = G;
+  node.G = perceived.G;
+  node.up_in_base = perceived.up_in_base;
   node.T_odom_base = update.T_odom_base;
   if (const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
       previous != nullptr && previous->frame() == node.frame()) {
     node.odom_covariance =
         odometry_covariance(previous->T_odom_base.inverse() * node.T_odom_base, config_.odometry_uncertainty);
   }
+  recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
+  node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
   const Result<graph::Node> rounded = wire::quantised(node);
   if (!rounded) {
     spdlog::warn("{}: node refused: {}", to_string(node.id), rounded.error().message);
@@ -217,35 +230,41 @@ void Agent::freeze_node(const odometry::OdometryUpdate& update, const GlobalPose
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   align_with_earlier_session(node);
+  if (const auto closure = loop_closures_.on_own_node(node); closure && config_.close_loops) {
+    register_own(closure->earlier, closure->later, prior_of(*closure));
+  }
   on_events();
 }
 
 void Agent::freeze_rest() {
   if (submap_.points() == 0 || !last_perceived_) return;
-  if (!last_G_) {
-    return spdlog::warn("{}: {} points are left out: the global pose was never known", config_.id.str(),
-                        submap_.points());
-  }
-  freeze_node(last_perceived_->odometry, last_perceived_->G.value_or(*last_G_));
+  freeze_node(*last_perceived_);
 }
 
 void Agent::align_with_earlier_session(const graph::Node& node) {
-  if (session_ == 0) return;
+  if (session_ == 0 || !node.G) return;
   const graph::Node* nearest = nullptr;
   double distance = config_.exchange.encounters.proximity.max_radius;
   for (const graph::Node* other : store_.nodes_from({config_.id, 0, node.id.seq})) {
-    const double d = haversine_distance(other->G.position, node.G.position);
+    if (!other->G) continue;
+    const double d = haversine_distance(other->G->position, node.G->position);
     if (other->session != session_ && !joined_sessions_.contains(other->session) && d < distance) {
       nearest = other;
       distance = d;
     }
   }
-  if (nearest == nullptr) return;
+  if (nearest != nullptr) register_own(*nearest, node, prior_of(*nearest->G, *node.G));
+}
+
+void Agent::register_own(const graph::Node& target, const graph::Node& source,
+                         const registration::Prior& prior) {
   struct Job {
     std::shared_ptr<OwnCloud> target, source;
+    registration::Prior prior;
     Registered registered;
   };
-  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, *nearest), own_clouds_.of(store_, node), {}});
+  auto job =
+      std::make_shared<Job>(Job{own_clouds_.of(store_, target), own_clouds_.of(store_, source), prior, {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
@@ -254,9 +273,8 @@ void Agent::align_with_earlier_session(const graph::Node& node) {
         const auto& target = job->target->spherized();
         const auto& source = job->source->spherized();
         if (target && source) {
-          job->registered.result =
-              registration::register_clouds(target->decoded, source->decoded, config_.registration,
-                                            prior_of(job->target->node(), job->source->node()));
+          job->registered.result = registration::register_clouds(target->decoded, source->decoded,
+                                                                 config_.registration, job->prior);
         } else {
           job->registered.result = tl::unexpected(target ? source.error() : target.error());
         }
@@ -337,8 +355,9 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
   if (!source_cloud) return tl::unexpected(source_cloud.error());
   const auto& target_cloud = target.spherized();
   if (!target_cloud) return tl::unexpected(target_cloud.error());
-  return registration::register_clouds(target_cloud->decoded, *source_cloud, config_.registration,
-                                       prior_of(target.node(), source));
+  return registration::register_clouds(
+      target_cloud->decoded, *source_cloud, config_.registration,
+      prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m));
 }
 
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,

@@ -22,7 +22,7 @@ Status AgentConfig::validate() const {
         odometry_uncertainty.validate(), loop_closures.validate(), of("submap", submap.validate()),
         of("spherize", spherize.validate()), of("registration", registration.validate()),
         of("exchange", complete_exchange.validate(id)), of("store", store.validate()),
-        of("map", map.validate())}) {
+        of("map", map.validate()), placement.validate()}) {
     if (!status) return status;
   }
   return {};

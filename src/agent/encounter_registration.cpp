@@ -7,9 +7,21 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
+#include "fleetmap/place/descriptor.hpp"
+#include "fleetmap/place/proximity_search.hpp"
 
 namespace fleetmap::agent {
 namespace {
+
+/// A start is not better than ICP needs it to be.
+constexpr double kLeastPriorSigma = 0.1;   // m
+constexpr double kLeastPriorAngle = 0.01;  // rad
+
+/// Where the descriptors alone tell how two nodes lie: cells and turns are tried in coarse steps, and what
+/// looks most alike may be a few cells off.
+constexpr double kAlikeSigma = 3.0;       // m
+constexpr double kAlikeYawSigma = 0.06;   // rad
+constexpr double kAlikeTiltSigma = 0.02;  // rad
 
 /// Modes of an ambiguous registration that score at least this share of the best are alternatives to it.
 constexpr double kAlternativeShare = 0.7;
@@ -48,21 +60,49 @@ Result<registration::SpherizedCloud> spherize(const Surroundings& surroundings,
     if (!submap) return tl::unexpected(submap.error());
     merger.add(cloud::transformed(*submap, T_node_submap));
   }
-  const Eigen::Vector3d up = surroundings.node.G.q_enu_base.conjugate() * Eigen::Vector3d::UnitZ();
-  return registration::spherize(merger.cloud(), up.cast<float>(), config);
+  return registration::spherize(merger.cloud(), surroundings.node.up_in_base.cast<float>(), config);
 }
 
-registration::Prior prior_of(const graph::Node& target, const graph::Node& source) {
-  const LocalFrame frame(target.G.position);
+registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source) {
+  const LocalFrame frame(target.position);
   registration::Prior prior;
-  prior.T_target_source = pose_in(frame, target.G).inverse() * pose_in(frame, source.G);
-  const Matrix6d covariance = target.G.covariance + source.G.covariance;
+  prior.T_target_source = pose_in(frame, target).inverse() * pose_in(frame, source);
+  const Matrix6d covariance = target.covariance + source.covariance;
   const Eigen::Vector3d rotation = covariance.diagonal().tail<3>();
   // Yaw moves the other node on a circle around ours: its error is one of position too.
   const double swing = std::sqrt(rotation.z()) * prior.T_target_source.translation().norm();
   prior.sigma_translation_m = std::sqrt(covariance.diagonal().head<3>().maxCoeff() + swing * swing);
   prior.sigma_yaw_rad = std::sqrt(rotation.z());
   prior.sigma_tilt_rad = std::sqrt(std::max(rotation.x(), rotation.y()));
+  return prior;
+}
+
+std::optional<registration::Prior> prior_of(const graph::Node& target, const graph::Node& source,
+                                            double max_sigma) {
+  const auto located = [&](const graph::Node& node) {
+    return node.G && place::horizontal_sigma(node.G->covariance) <= max_sigma;
+  };
+  if (located(target) && located(source)) return prior_of(*target.G, *source.G);
+  const auto looks = place::Descriptor::decode(target.descriptor);
+  const auto other = place::Descriptor::decode(source.descriptor);
+  if (!looks || !other) return std::nullopt;
+  const place::Likeness likeness = place::compare(*looks, *other);
+  if (likeness.similarity <= 0.0) return std::nullopt;
+  registration::Prior prior;
+  prior.T_target_source = place::relative_pose(likeness, target.up_in_base, source.up_in_base);
+  prior.sigma_translation_m = kAlikeSigma;
+  prior.sigma_yaw_rad = kAlikeYawSigma;
+  prior.sigma_tilt_rad = kAlikeTiltSigma;
+  return prior;
+}
+
+registration::Prior prior_of(const LoopClosure& closure) {
+  registration::Prior prior;
+  prior.T_target_source = closure.earlier.T_odom_base.inverse() * closure.later.T_odom_base;
+  const Vector6d variance = closure.covariance.diagonal();
+  prior.sigma_translation_m = std::sqrt(variance.head<3>().maxCoeff()) + kLeastPriorSigma;
+  prior.sigma_yaw_rad = std::sqrt(variance(5)) + kLeastPriorAngle;
+  prior.sigma_tilt_rad = std::sqrt(variance.segment<2>(3).maxCoeff()) + kLeastPriorAngle;
   return prior;
 }
 

@@ -123,7 +123,8 @@ void Perception::finish(Job& job) {
     const odometry::OdometryUpdate& update = *job.update;
     bus_.publish(wire::topics::odometry(),
                  wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
-    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), job.cpu_seconds};
+    const Eigen::Vector3d up = up_in(update.T_odom_base);
+    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), up, job.cpu_seconds};
     if (perceived.G) bus_.publish(wire::topics::global_pose(), wire::encode(*perceived.G));
     on_perceived_(std::move(perceived));
   } else {
@@ -131,6 +132,12 @@ void Perception::finish(Job& job) {
     warn("scan refused", job.update.error().message);
   }
   start_next();
+}
+
+Eigen::Vector3d Perception::up_in(const Pose& T_odom_base) const {
+  const localization::Filter& filter = ekf_.newest();
+  const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(T_odom_base.linear());
+  return R.transpose() * Eigen::Vector3d::UnitZ();
 }
 
 void Perception::warn(const std::string& kind, const std::string& detail) {

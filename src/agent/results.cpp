@@ -11,32 +11,54 @@
 #include <numbers>
 #include <vector>
 
+#include "fleetmap/agent/corrected_pose.hpp"
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/graph/located_nodes.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
 constexpr const char* kRecipeKey = "map_recipe";
-using StoredRecipe = std::array<double, 7>;
+using StoredRecipe = std::array<double, 13>;
 
 Status keep_recipe(store::Store& store, const MapRecipe& recipe) {
   const StoredRecipe values{recipe.origin.latitude,
                             recipe.origin.longitude,
                             recipe.origin.altitude,
-                            recipe.placement.max_rmse,
-                            recipe.placement.gps_correlation_time,
                             recipe.merge.voxel_m,
-                            recipe.merge.centroids ? 1.0 : 0.0};
+                            recipe.merge.centroids ? 1.0 : 0.0,
+                            recipe.placement.mode == graph::PlacementMode::fleet ? 1.0 : 0.0,
+                            recipe.placement.paper.max_rmse,
+                            recipe.placement.paper.gps_correlation_time,
+                            recipe.placement.fleet.gps_correlation_time,
+                            recipe.placement.fleet.gps_drift_share,
+                            recipe.placement.fleet.window_m,
+                            recipe.placement.fleet.alignment_floor_m,
+                            recipe.placement.fleet.alignment_floor_rad};
   Bytes bytes(sizeof(values));
   std::memcpy(bytes.data(), values.data(), sizeof(values));
   return store.set_meta(kRecipeKey, bytes);
 }
 
-/// Every session's odometry, each laid where its odometry frame lies in ENU.
-Status write_trajectory(const graph::Placement& placement, const AgentConfig& config) {
+/// Own nodes of one odometry frame that are placed, by time.
+std::vector<CorrectedNode> corrected_nodes(const store::Store& store, const graph::Placement& placement,
+                                           const graph::FrameId& frame) {
+  std::vector<CorrectedNode> nodes;
+  for (const auto& [id, node] : store.nodes()) {
+    const auto placed = placement.T_enu_node.find(id);
+    if (node.frame() != frame || placed == placement.T_enu_node.end()) continue;
+    nodes.push_back({node.stamp, node.T_odom_base, placed->second});
+  }
+  std::ranges::stable_sort(nodes, {}, &CorrectedNode::stamp);
+  return nodes;
+}
+
+/// Every session's odometry, moved along with its nodes.
+Status write_trajectory(const store::Store& store, const graph::Placement& placement,
+                        const AgentConfig& config) {
   std::vector<StampedPose> trajectory;
   for (const auto& [frame, T_enu_odom] : placement.T_enu_odom) {
     if (frame.agent != config.id) continue;
@@ -46,7 +68,9 @@ Status write_trajectory(const graph::Placement& placement, const AgentConfig& co
       spdlog::warn("{}; left out of trajectory.tum", odometry.error().message);
       continue;
     }
-    for (const StampedPose& pose : *odometry) trajectory.push_back({pose.stamp, T_enu_odom * pose.T_w_base});
+    const std::vector<CorrectedNode> nodes = corrected_nodes(store, placement, frame);
+    for (const StampedPose& pose : *odometry)
+      trajectory.push_back({pose.stamp, corrected_pose(nodes, T_enu_odom, pose)});
   }
   return write_trajectory(config.directory / "trajectory.tum", trajectory);
 }
@@ -67,24 +91,43 @@ std::ostream& write_pose(std::ostream& out, const Pose& T) {
              << q.w();
 }
 
+/// What became of each alignment, by name, and the mode that was taken, if any. Mode `paper` tells only what
+/// it used.
+struct Fate {
+  std::string judgement;
+  std::optional<std::size_t> mode;
+};
+std::map<std::pair<AgentId, std::uint32_t>, Fate> fates(const graph::Placement& placement) {
+  std::map<std::pair<AgentId, std::uint32_t>, Fate> fates;
+  for (const graph::Alignment& used : placement.used)
+    fates[{used.computed_by, used.seq}] = {graph::to_string(graph::Judgement::used), 0};
+  for (const graph::JudgedAlignment& one : placement.judged) {
+    Fate& fate = fates[{one.computed_by, one.seq}];
+    fate.judgement = graph::to_string(one.judgement);
+    if (one.judgement == graph::Judgement::used) fate.mode = one.mode;
+  }
+  return fates;
+}
+
 /// Every alignment held, a line for each of its modes.
 Status write_alignments(const store::Store& store, const graph::Placement& placement,
                         const AgentConfig& config) {
   const std::filesystem::path file = config.directory / "alignments.csv";
   std::ofstream out(file, std::ios::trunc);
   out.precision(9);
-  out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used";
+  out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used,judgement";
   for (int k = 0; k < 6; ++k) out << ",var_" << k;
   out << '\n';
+  const auto judged = fates(placement);
   for (const auto& [id, a] : store.alignments()) {
-    bool used = false;
-    for (const graph::Alignment& u : placement.used) used |= u.computed_by == a.computed_by && u.seq == a.seq;
+    const auto known = judged.find({a.computed_by, a.seq});
+    const Fate fate = known == judged.end() ? Fate{} : known->second;
     for (std::size_t m = 0; m < a.modes.size(); ++m) {
       const graph::AlignmentMode& mode = a.modes[m];
       out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ',' << m
           << ',';
       write_pose(out, mode.T_i_j) << ',' << mode.rmse << ',' << mode.inlier_fraction << ',' << mode.score
-                                  << ',' << (used ? 1 : 0);
+                                  << ',' << (fate.mode == m ? 1 : 0) << ',' << fate.judgement;
       for (int k = 0; k < 6; ++k) out << ',' << mode.covariance(k, k);
       out << '\n';
     }
@@ -94,10 +137,20 @@ Status write_alignments(const store::Store& store, const graph::Placement& place
   return {};
 }
 
+/// G as fourteen columns, empty where there is none.
+std::ostream& write_fix(std::ostream& out, const std::optional<GlobalPose>& G, const LocalFrame& site) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  if (!G) return out << ",,,,,,,,,,,,,";
+  out << G->position.latitude * kDegrees << ',' << G->position.longitude * kDegrees << ','
+      << G->position.altitude << ',';
+  write_pose(out, pose_in(site, *G));
+  for (const int k : {0, 1, 2}) out << ',' << std::sqrt(G->covariance(k, k));
+  return out << ',' << std::sqrt(G->covariance(5, 5)) * kDegrees;
+}
+
 /// Every node held, by robot and number: O, G (also in ENU, with its sigmas), and where it is placed.
 Status write_nodes(const store::Store& store, const graph::Placement& placement, const LocalFrame& site,
                    const std::filesystem::path& file) {
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   std::ofstream out(file, std::ios::trunc);
   out.precision(12);
   out << "agent,seq,session,stamp_ns,odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw,"
@@ -107,12 +160,8 @@ Status write_nodes(const store::Store& store, const graph::Placement& placement,
   for (const auto& [id, node] : store.nodes()) {
     out << id.agent.str() << ',' << id.seq << ',' << static_cast<int>(node.session) << ','
         << to_ns(node.stamp) << ',';
-    write_pose(out, node.T_odom_base)
-        << ',' << node.G.position.latitude * kDegrees << ',' << node.G.position.longitude * kDegrees << ','
-        << node.G.position.altitude << ',';
-    write_pose(out, pose_in(site, node.G));
-    for (const int k : {0, 1, 2}) out << ',' << std::sqrt(node.G.covariance(k, k));
-    out << ',' << std::sqrt(node.G.covariance(5, 5)) * kDegrees << ',' << node.submap_bytes << ',';
+    write_pose(out, node.T_odom_base) << ',';
+    write_fix(out, node.G, site) << ',' << node.submap_bytes << ',';
     // A node that is not placed has empty columns.
     if (const auto placed = placement.T_enu_node.find(id); placed != placement.T_enu_node.end()) {
       write_pose(out, placed->second) << '\n';
@@ -199,9 +248,16 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
   std::memcpy(values.data(), (*stored)->data(), sizeof(values));
   MapRecipe recipe;
   recipe.origin = {values[0], values[1], values[2]};
-  recipe.placement = {.max_rmse = values[3], .gps_correlation_time = values[4]};
-  recipe.merge = {.voxel_m = values[5], .centroids = values[6] != 0.0};
-  if (!is_valid(recipe.origin) || !recipe.merge.validate()) return std::nullopt;
+  recipe.merge = {.voxel_m = values[3], .centroids = values[4] != 0.0};
+  recipe.placement.mode = values[5] != 0.0 ? graph::PlacementMode::fleet : graph::PlacementMode::paper;
+  recipe.placement.paper = {.max_rmse = values[6], .gps_correlation_time = values[7]};
+  recipe.placement.fleet = {.gps_correlation_time = values[8],
+                            .gps_drift_share = values[9],
+                            .window_m = values[10],
+                            .alignment_floor_m = values[11],
+                            .alignment_floor_rad = values[12]};
+  if (!is_valid(recipe.origin) || !recipe.merge.validate() || !recipe.placement.validate())
+    return std::nullopt;
   return recipe;
 }
 
@@ -214,16 +270,19 @@ std::string to_string(const graph::FrameId& frame) {
 std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured) {
   if (configured) return configured;
   if (store.nodes().empty()) return std::nullopt;
-  return store.nodes().begin()->second.G.position;
+  for (const auto& [id, node] : store.nodes()) {
+    if (node.G) return node.G->position;
+  }
+  return GeoPoint{};
 }
 
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
-                       const graph::PaperPlacementConfig& config) {
+                       const graph::PlacementConfig& config) {
   std::vector<graph::Node> nodes;
   for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
   std::vector<graph::Alignment> alignments;
   for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
-  return graph::place_by_least_rmse(nodes, alignments, LocalFrame(origin), config);
+  return graph::place(nodes, alignments, LocalFrame(origin), config);
 }
 
 store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
@@ -254,13 +313,16 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
     return tl::unexpected(kept.error());
   }
   results.placement = place(store, *origin, config.placement);
+  std::vector<graph::Node> nodes;
+  for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
+  results.not_georeferenced = graph::not_georeferenced(nodes, results.placement.components);
   auto map = write_map(store, results.placement, config, others);
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;
   const LocalFrame site(*origin);
   for (const Status& written :
-       {write_trajectory(results.placement, config), write_global_poses(site, config),
+       {write_trajectory(store, results.placement, config), write_global_poses(site, config),
         write_alignments(store, results.placement, config),
         write_nodes(store, results.placement, site, config.directory / "nodes.csv")}) {
     if (!written) return tl::unexpected(written.error());

@@ -7,6 +7,8 @@ namespace fleetmap::exchange {
 
 Status EncounterConfig::validate() const {
   if (auto status = proximity.validate(); !status) return status;
+  if (auto status = lookalikes.validate(); !status) return status;
+  if (!(max_sigma_m > 0.0)) return failure("encounters.max_sigma_m must be positive");
   if (!(spacing_m >= 0.0) || !(spacing_aligned_m >= 0.0) || !(spacing_failed_m >= 0.0)) {
     return failure("encounters.spacing_m, spacing_aligned_m and spacing_failed_m must not be negative");
   }
@@ -22,14 +24,24 @@ Status EncounterConfig::validate() const {
   return {};
 }
 
-Encounters::Encounters(const AgentId& self, const EncounterConfig& config) : self_(self), config_(config) {}
+Encounters::Encounters(const AgentId& self, const EncounterConfig& config)
+    : self_(self), config_(config), lookalikes_(config.lookalikes) {}
+
+bool Encounters::located(const graph::Node& node) const {
+  return node.G && is_valid(node.G->position) &&
+         place::horizontal_sigma(node.G->covariance) <= config_.max_sigma_m;
+}
 
 void Encounters::on_node(const graph::Node& node, Stamp now) {
-  if (!places_.emplace(node.id, node.G.position).second) return;
+  const bool is_located = located(node);
+  Spot spot{std::nullopt, node.frame(), node.T_odom_base.translation()};
+  if (is_located) spot.position = node.G->position;
+  if (!places_.emplace(node.id, spot).second) return;
   Track& track = tracks_[node.id.agent];
-  if (track.tree.insert(node.G.position) == place::BallTree::kRefused) return;
-  track.ids.push_back(node.id);
   track.newest = std::max(track.newest, node.id.seq);
+  find_alike(node, now);
+  if (!is_located || track.tree.insert(node.G->position) == place::BallTree::kRefused) return;
+  track.ids.push_back(node.id);
   if (node.id.agent != self_) {
     find(node, self_, now);
     return;
@@ -39,11 +51,25 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   }
 }
 
+void Encounters::find_alike(const graph::Node& node, Stamp now) {
+  for (const Lookalikes::Pair& alike : lookalikes_.add(node, located(node), self_)) {
+    ++stats_.alike;
+    const bool is_ours = node.id.agent == self_;
+    const NodePair pair = is_ours ? NodePair{alike.fresh, alike.other} : NodePair{alike.other, alike.fresh};
+    if (encounters_.contains(pair)) continue;
+    if (redundant(pair)) {
+      ++stats_.redundant;
+      continue;
+    }
+    begin(pair, alike.distance, config_.proximity.max_radius, now, false);
+  }
+}
+
 void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) {
   const auto track = tracks_.find(other);
   if (track == tracks_.end()) return;
-  const double radius = place::search_radius(node.G.covariance, config_.proximity);
-  const auto nearest = place::nearest_within(track->second.tree, node.G.position, radius);
+  const double radius = place::search_radius(node.G->covariance, config_.proximity);
+  const auto nearest = place::nearest_within(track->second.tree, node.G->position, radius);
   if (!nearest) return;
   ++stats_.found;
   const NodeId partner = track->second.ids[nearest->index];
@@ -85,6 +111,11 @@ double Encounters::spacing(const Encounter& other, const AgentId& peer) const {
   return aligned_.contains(peer) ? std::max(config_.spacing_m, config_.spacing_aligned_m) : config_.spacing_m;
 }
 
+bool Encounters::near(const Spot& a, const Spot& b, double limit) {
+  if (a.position && b.position) return haversine_distance(*a.position, *b.position) < limit;
+  return a.frame == b.frame && (a.p_odom - b.p_odom).norm() < limit;
+}
+
 bool Encounters::redundant(const NodePair& pair, const NodePair* waiver) const {
   const auto ours = places_.find(pair.ours);
   const auto theirs = places_.find(pair.theirs);
@@ -97,8 +128,7 @@ bool Encounters::redundant(const NodePair& pair, const NodePair* waiver) const {
     const auto other_ours = places_.find(other.ours);
     const auto other_theirs = places_.find(other.theirs);
     return other_ours != places_.end() && other_theirs != places_.end() &&
-           haversine_distance(ours->second, other_ours->second) < limit &&
-           haversine_distance(theirs->second, other_theirs->second) < limit;
+           near(ours->second, other_ours->second, limit) && near(theirs->second, other_theirs->second, limit);
   });
 }
 

@@ -5,18 +5,19 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace fleetmap::graph {
 namespace {
 
 constexpr int kMostRounds = 6;
-constexpr int kMostRestarts = 3;
+constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
 /// Candidates of a pair that is tied already are judged by the odometry from the nearest tie while it knows
 /// better than this.
-constexpr double kNearM = 1.0;
-constexpr double kNearGate = 27.9;
+constexpr double kNearM = 1.2;
+constexpr double kNearGate = 16.0;
 /// False alignments of a pair that shift by the same are one mistake.
 constexpr double kSameMistakeM = 1.5;
 
@@ -47,78 +48,85 @@ struct Growth {
       rotation[step.b] = rotation[step.a] + step.covariance.diagonal().tail<3>().maxCoeff();
     }
   }
-  /// At least the variances of the relative pose of two pillars of one frame: m^2 and rad^2.
+  /// Variances of the relative pose of two pillars of one frame, whose heading is a random walk: m^2, rad^2.
   std::pair<double, double> between(std::size_t p, std::size_t q) const {
     const double length = std::abs(metres[p] - metres[q]);
     const double turn = std::abs(rotation[p] - rotation[q]);
-    return {std::abs(translation[p] - translation[q]) + turn * length * length, turn};
+    return {std::abs(translation[p] - translation[q]) + turn * length * length / 3.0, turn};
   }
 };
 
-struct TreeEdge {
-  Hypothesis hypothesis;
-  double in_favour = 0.0;
-  double against = 0.0;
+/// What is taken, and how it came.
+struct State {
+  std::set<std::size_t> banned;              ///< alignments
+  std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
+  std::vector<Hypothesis> tree;              ///< what connected frames first
+  std::map<FramePair, Evaluation> last;      ///< of what is not taken, by all that is
+  double likelihood = 0.0;                   ///< log, of the whole
 };
 
 class Selector {
  public:
   Selector(const ReducedGraph& graph, std::span<const Candidate> candidates,
            std::span<const AgentId> computed_by)
-      : graph_(graph), candidates_(candidates), computed_by_(computed_by), growth_(graph) {
+      : graph_(graph),
+        candidates_(candidates),
+        computed_by_(computed_by),
+        growth_(graph),
+        unaided_(graph, {}) {
     for (std::size_t c = 0; c < candidates.size(); ++c) groups_[candidates[c].frames].push_back(c);
   }
 
   Selection run(Estimate& estimate) {
-    GraphSolver alone(graph_, {});
-    if (!alone.solve(estimate, 6)) return {};
+    if (!unaided_.solve(estimate, 6)) return {};
     for (const auto& [frames, group] : groups_)
-      alone_.emplace(frames, evaluate(candidates_, group, alone, estimate));
+      alone_.emplace(frames, evaluate(candidates_, group, unaided_, estimate));
     const Estimate start = estimate;
-    for (int restart = 0;; ++restart) {
-      estimate = start;
-      rounds(estimate);
-      if (restart == kMostRestarts || !drop_outvoted()) break;
-    }
+    rounds(estimate);
+    doubt(start, estimate);
     return conclude(estimate);
   }
 
  private:
   void rounds(Estimate& estimate) {
-    taken_.clear();
-    tree_.clear();
-    last_.clear();
     Components components(graph_.frames.size());
     bool more = take_from(alone_, components);
-    for (int round = 1; more && round <= kMostRounds; ++round) {
+    for (int round = 1; more; ++round) {
       GraphSolver solver(graph_, ties());
-      if (!solver.solve(estimate, round == kMostRounds ? 6 : 3)) return;
-      last_.clear();
-      for (const auto& [frames, group] : groups_) {
-        std::vector<std::size_t> open;
-        for (const std::size_t c : group) {
-          if (!taken_.contains(candidates_[c].alignment) && !banned_.contains(candidates_[c].alignment))
-            open.push_back(c);
-        }
-        if (!open.empty()) last_.emplace(frames, evaluate(candidates_, open, solver, estimate));
-      }
-      if (round < kMostRounds) more = take_from(last_, components);
+      if (!solver.solve(estimate, 2)) return;
+      look_again(solver, estimate);
+      more = round < kMostRounds && take_from(state_.last, components);
+      if (!more && !solver.solve(estimate, 6)) return;
     }
-    if (!taken_.empty()) {
-      GraphSolver solver(graph_, ties());
-      solver.solve(estimate, 4);
+    state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
+    for (const auto& [frames, evaluation] : alone_) {
+      for (const Hypothesis& hypothesis : evaluation.hypotheses)
+        state_.likelihood += was_taken(hypothesis) ? hypothesis.support : 0.0;
+    }
+  }
+
+  /// Evaluates what is not taken.
+  void look_again(const GraphSolver& solver, const Estimate& estimate) {
+    state_.last.clear();
+    for (const auto& [frames, group] : groups_) {
+      std::vector<std::size_t> open;
+      for (const std::size_t c : group) {
+        const std::size_t alignment = candidates_[c].alignment;
+        if (!state_.taken.contains(alignment) && !state_.banned.contains(alignment)) open.push_back(c);
+      }
+      if (!open.empty()) state_.last.emplace(frames, evaluate(candidates_, open, solver, estimate));
     }
   }
 
   std::vector<Between> ties() const {
     std::vector<Between> ties;
-    for (const auto& [alignment, candidate] : taken_) ties.push_back(candidates_[candidate].between);
+    for (const auto& [alignment, candidate] : state_.taken) ties.push_back(candidates_[candidate].between);
     return ties;
   }
 
   bool is_banned(const Hypothesis& hypothesis) const {
-    return std::ranges::any_of(hypothesis.members,
-                               [&](std::size_t c) { return banned_.contains(candidates_[c].alignment); });
+    return std::ranges::any_of(
+        hypothesis.members, [&](std::size_t c) { return state_.banned.contains(candidates_[c].alignment); });
   }
 
   /// The best hypothesis of a pair, if it is clearly the best.
@@ -137,15 +145,14 @@ class Selector {
   }
 
   void take(const Hypothesis& hypothesis) {
-    for (const std::size_t c : hypothesis.members) taken_.emplace(candidates_[c].alignment, c);
+    for (const std::size_t c : hypothesis.members) state_.taken.emplace(candidates_[c].alignment, c);
   }
 
   /// True if anything was taken.
   bool take_from(const std::map<FramePair, Evaluation>& evaluations, Components& components) {
-    const std::size_t before = taken_.size();
+    const std::size_t before = state_.taken.size();
     std::vector<Hypothesis> connecting;
     for (const auto& [frames, evaluation] : evaluations) {
-      take_near_ties(frames, evaluation.left_out);
       const std::optional<Hypothesis> best = clear_best(evaluation);
       if (!best) continue;
       if (components.root(frames.first) == components.root(frames.second)) {
@@ -159,20 +166,27 @@ class Selector {
       // What would close a loop now is looked at again when the loop is known.
       if (!components.join(hypothesis.frames.first, hypothesis.frames.second)) continue;
       take(hypothesis);
-      tree_.push_back({hypothesis});
+      state_.tree.push_back(hypothesis);
     }
-    return taken_.size() > before;
+    for (const auto& [frames, evaluation] : evaluations) {
+      while (take_near_ties(frames, evaluation.left_out)) {
+      }
+    }
+    return state_.taken.size() > before;
   }
 
   /// Of a pair with very many candidates, those near what is taken follow from it and the odometry.
-  void take_near_ties(const FramePair& frames, const std::vector<std::size_t>& open) {
+  /// True if there were any.
+  bool take_near_ties(const FramePair& frames, const std::vector<std::size_t>& open) {
     std::vector<const Between*> near;
-    for (const auto& [alignment, c] : taken_) {
+    for (const auto& [alignment, c] : state_.taken) {
       if (candidates_[c].frames == frames) near.push_back(&candidates_[c].between);
     }
-    if (near.empty() || frames.first == frames.second) return;
+    if (near.empty() || frames.first == frames.second) return false;
+    const std::size_t before = state_.taken.size();
     for (const std::size_t c : open) {
-      if (taken_.contains(candidates_[c].alignment) || banned_.contains(candidates_[c].alignment)) continue;
+      if (state_.taken.contains(candidates_[c].alignment) || state_.banned.contains(candidates_[c].alignment))
+        continue;
       const Between& one = candidates_[c].between;
       double metres = kNearM * kNearM, radians = 0.0;
       const Between* tie = nullptr;
@@ -186,8 +200,10 @@ class Selector {
         radians = first.second + second.second;
         tie = other;
       }
-      if (tie != nullptr && agrees(one, *tie, metres, radians)) taken_.emplace(candidates_[c].alignment, c);
+      if (tie != nullptr && agrees(one, *tie, metres, radians))
+        state_.taken.emplace(candidates_[c].alignment, c);
     }
+    return state_.taken.size() > before;
   }
 
   /// Around the loop of two alignments and the odometry between their ends.
@@ -210,8 +226,8 @@ class Selector {
 
   bool was_taken(const Hypothesis& hypothesis) const {
     const auto taken = std::ranges::count_if(hypothesis.members, [&](std::size_t c) {
-      const auto it = taken_.find(candidates_[c].alignment);
-      return it != taken_.end() && it->second == c;
+      const auto it = state_.taken.find(candidates_[c].alignment);
+      return it != state_.taken.end() && it->second == c;
     });
     return 2 * static_cast<std::size_t>(taken) >= hypothesis.members.size();
   }
@@ -221,8 +237,8 @@ class Selector {
     std::vector<std::optional<std::size_t>> arrived_by(graph_.frames.size());
     std::vector<std::size_t> queue{from};
     for (std::size_t at = 0; at < queue.size() && queue[at] != to; ++at) {
-      for (std::size_t k = 0; k < tree_.size(); ++k) {
-        const auto [a, b] = tree_[k].hypothesis.frames;
+      for (std::size_t k = 0; k < state_.tree.size(); ++k) {
+        const auto [a, b] = state_.tree[k].frames;
         const std::size_t next = a == queue[at] ? b : a;
         if ((a != queue[at] && b != queue[at]) || next == from || arrived_by[next]) continue;
         arrived_by[next] = k;
@@ -232,46 +248,62 @@ class Selector {
     std::vector<std::size_t> edges;
     for (std::size_t at = to; at != from && arrived_by[at];) {
       edges.push_back(*arrived_by[at]);
-      const auto [a, b] = tree_[*arrived_by[at]].hypothesis.frames;
+      const auto [a, b] = state_.tree[*arrived_by[at]].frames;
       at = a == at ? b : a;
     }
     return edges;
   }
 
-  /// What connected frames first is false if more speaks against it than for it: bans it. True if there was
-  /// any such.
-  bool drop_outvoted() {
-    for (TreeEdge& edge : tree_) edge.in_favour = edge.hypothesis.evidence, edge.against = 0.0;
+  /// What was taken first may be false: where it contradicts the hypotheses of other pairs, leaves out one
+  /// after the other on the loop, and keeps what makes the whole likelier.
+  void doubt(const Estimate& start, Estimate& estimate) {
+    std::set<std::set<std::size_t>> tried;
+    for (int trials = 0; trials < kMostTrials;) {
+      const std::optional<std::set<std::size_t>> next = untried(tried);
+      if (!next) return;
+      tried.insert(*next);
+      ++trials;
+      State kept = std::exchange(state_, {});
+      state_.banned = *next;
+      Estimate trial = start;
+      rounds(trial);
+      if (state_.likelihood > kept.likelihood + kMargin) {
+        estimate = std::move(trial);
+      } else {
+        state_ = std::move(kept);
+      }
+    }
+  }
+
+  /// What is banned now and the members of one more edge that lies on a loop with a rejected hypothesis.
+  std::optional<std::set<std::size_t>> untried(const std::set<std::set<std::size_t>>& tried) const {
     for (const auto& [frames, evaluation] : alone_) {
       const std::optional<Hypothesis> best = clear_best(evaluation);
-      if (!best || frames.first == frames.second) continue;
-      const std::vector<std::size_t> edges = path(frames.first, frames.second);
-      if (edges.size() < 2) continue;  // the edge itself, or not connected
-      const bool taken = was_taken(*best);
-      for (const std::size_t k : edges) (taken ? tree_[k].in_favour : tree_[k].against) += best->evidence;
+      if (!best || frames.first == frames.second || was_taken(*best)) continue;
+      for (const std::size_t k : path(frames.first, frames.second)) {
+        std::set<std::size_t> banned = state_.banned;
+        for (const std::size_t c : state_.tree[k].members) banned.insert(candidates_[c].alignment);
+        if (!tried.contains(banned)) return banned;
+      }
     }
-    const auto worst = std::ranges::max_element(
-        tree_, {}, [](const TreeEdge& edge) { return edge.against - edge.in_favour; });
-    if (worst == tree_.end() || worst->against <= worst->in_favour) return false;
-    for (const std::size_t c : worst->hypothesis.members) banned_.insert(candidates_[c].alignment);
-    return true;
+    return std::nullopt;
   }
 
   Selection conclude(const Estimate& estimate) const {
     Selection selection;
-    selection.taken = taken_;
+    selection.taken = state_.taken;
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
     for (const auto& [frames, evaluation] : alone_)
       for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].first;
-    for (const auto& [frames, evaluation] : last_)
+    for (const auto& [frames, evaluation] : state_.last)
       for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].second;
     for (const auto& [frames, group] : groups_) {
       std::vector<std::pair<Eigen::Vector3d, AgentId>> clusters;
       for (const std::size_t c : group) {
         const Candidate& candidate = candidates_[c];
-        if (taken_.contains(candidate.alignment)) continue;
+        if (state_.taken.contains(candidate.alignment)) continue;
         const auto [alone, end] = against[candidate.alignment];
-        const bool banned = banned_.contains(candidate.alignment);
+        const bool banned = state_.banned.contains(candidate.alignment);
         selection.judged[candidate.alignment] = alone == candidate.modes           ? Judgement::against_gps
                                                 : banned || end == candidate.modes ? Judgement::against_others
                                                                                    : Judgement::undecided;
@@ -300,12 +332,10 @@ class Selector {
   std::span<const Candidate> candidates_;
   std::span<const AgentId> computed_by_;
   Growth growth_;
+  GraphSolver unaided_;  ///< by GPS and odometry
   std::map<FramePair, std::vector<std::size_t>> groups_;
-  std::map<FramePair, Evaluation> alone_;  ///< by GPS and odometry
-  std::map<FramePair, Evaluation> last_;   ///< by all that was taken, of the rest
-  std::map<std::size_t, std::size_t> taken_;
-  std::vector<TreeEdge> tree_;
-  std::set<std::size_t> banned_;
+  std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
+  State state_;
 };
 
 }  // namespace

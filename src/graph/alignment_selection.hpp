@@ -31,7 +31,8 @@ struct Hypothesis {
   /// What it costs GPS, odometry and the alignments taken so far to move one frame to where these say:
   /// squared Mahalanobis distance, three degrees of freedom.
   double shift = 0.0;
-  double evidence = 0.0;  ///< log odds that the hypothesis is right
+  double support = 0.0;   ///< log odds that the hypothesis is right, for the number of its members
+  double evidence = 0.0;  ///< and less what the shift costs
 };
 
 struct Evaluation {
@@ -53,7 +54,8 @@ struct Selection {
 };
 
 /// Takes the hypotheses that connect frames first, best evidence first, solves, looks again at the rest with
-/// what is known then, and so on. `estimate` is that without alignments, and becomes the one with what was
+/// what is known then, and so on. Where what was taken first contradicts others, tries without it, and keeps
+/// what is likeliest as a whole. `estimate` is that without alignments, and becomes the one with what was
 /// taken. `computed_by` runs by alignment.
 Selection select_alignments(const ReducedGraph& graph, std::span<const Candidate> candidates,
                             std::span<const AgentId> computed_by, Estimate& estimate);

@@ -146,14 +146,9 @@ double* BlockCholesky::find(int row, int column) {
   return &values_[found->at];
 }
 
-void BlockCholesky::add(int i, int j, const Eigen::Ref<const Eigen::MatrixXd>& block) {
+double* BlockCholesky::find_block(int i, int j) {
   const int a = to_column_[static_cast<std::size_t>(i)], b = to_column_[static_cast<std::size_t>(j)];
-  const int di = dims_[static_cast<std::size_t>(i)], dj = dims_[static_cast<std::size_t>(j)];
-  if (a >= b) {
-    Eigen::Map<Eigen::MatrixXd>(find(a, b), di, dj) += block;
-  } else {
-    Eigen::Map<Eigen::MatrixXd>(find(b, a), dj, di) += block.transpose();
-  }
+  return find(std::max(a, b), std::min(a, b));
 }
 
 bool BlockCholesky::factor() {

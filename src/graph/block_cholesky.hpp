@@ -25,7 +25,15 @@ class BlockCholesky {
 
   void set_zero();
   /// A_ij += block (d_i x d_j); of a pair i != j only one of both may be given, the other is its transpose.
-  void add(int i, int j, const Eigen::Ref<const Eigen::MatrixXd>& block);
+  template <int I, int J>
+  void add(int i, int j, const Eigen::Matrix<double, I, J>& block) {
+    double* values = find_block(i, j);
+    if (is_transposed(i, j)) {
+      Eigen::Map<Eigen::Matrix<double, J, I>>(values) += block.transpose();
+    } else {
+      Eigen::Map<Eigen::Matrix<double, I, J>>(values) += block;
+    }
+  }
   /// False if A is not positive definite.
   bool factor();
 
@@ -53,6 +61,10 @@ class BlockCholesky {
   };
   void order_by_degree(const std::vector<std::pair<int, int>>& pairs);
   void analyse(const std::vector<std::pair<int, int>>& pairs);
+  bool is_transposed(int i, int j) const {
+    return to_column_[static_cast<std::size_t>(i)] < to_column_[static_cast<std::size_t>(j)];
+  }
+  double* find_block(int i, int j);
   double* find(int row, int column);
 
   std::vector<int> dims_;  ///< by own index

@@ -19,6 +19,8 @@ constexpr std::size_t kMistakesToQuarantine = 4;
 constexpr std::size_t kMistakesPerUsed = 2;
 constexpr int kMostQuarantines = 3;
 
+constexpr std::size_t kMostForRigidFit = 40;
+
 constexpr double kMostMetres = 1e6;  // of any coordinate; keeps the numbers apart from their rounding
 
 bool is_pose(const Pose& T) {
@@ -124,8 +126,8 @@ Estimate rigid_frames(const ReducedGraph& graph, const LocalFrame& site, const F
   for (const FrameSpan& frame : graph.frames) {
     std::vector<Node> nodes;
     std::vector<Pose> T_odom_node;
-    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p) {
-      if (!graph.pillars[p].has_window) continue;
+    const std::size_t stride = 1 + (frame.end_pillar - frame.first_pillar) / kMostForRigidFit;
+    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; p += stride) {
       nodes.push_back(*graph.nodes[graph.pillars[p].node]);
       // Nobody knows better than a kilometre; keeps the equations solvable.
       Eigen::Matrix<double, 6, 1> variance = nodes.back().G->covariance.diagonal().cwiseMin(1e6);

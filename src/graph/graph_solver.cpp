@@ -73,9 +73,9 @@ void GraphSolver::add_relative(const Estimate& estimate, const Between& between,
   }
   const int a = static_cast<int>(between.a), b = static_cast<int>(between.b);
   const Matrix6d WH = W * r.H_a;
-  cholesky_->add(a, a, r.H_a.transpose() * WH);
-  cholesky_->add(b, b, W);
-  cholesky_->add(b, a, WH);
+  cholesky_->add<6, 6>(a, a, r.H_a.transpose() * WH);
+  cholesky_->add<6, 6>(b, b, W);
+  cholesky_->add<6, 6>(b, a, WH);
   const Vector6d We = W * r.e;
   part(a, 6) -= r.H_a.transpose() * We;
   part(b, 6) -= We;
@@ -99,9 +99,9 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
   const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * T.linear();
   A.bottomRightCorner<3, 3>() += T.linear().transpose() * WR;
   right.tail<3>() += WR.transpose() * turn;
-  cholesky_->add(pose, pose, A);
-  cholesky_->add(drift, pose, scaled.asDiagonal() * J);
-  cholesky_->add(drift, drift, Eigen::Matrix3d(scaled.cwiseProduct(pillar.drift_sigma).asDiagonal()));
+  cholesky_->add<6, 6>(pose, pose, A);
+  cholesky_->add<3, 6>(drift, pose, scaled.asDiagonal() * J);
+  cholesky_->add<3, 3>(drift, drift, scaled.cwiseProduct(pillar.drift_sigma).asDiagonal().toDenseMatrix());
   part(pose, 6) += right;
   part(drift, 3) += scaled.cwiseProduct(r);
 }
@@ -109,16 +109,16 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
 void GraphSolver::add_drifts(const Estimate& estimate) {
   for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
     if (drift_variable(p) < 0 || !first_drift_[p]) continue;
-    cholesky_->add(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
+    cholesky_->add<3, 3>(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
     part(drift_variable(p), 3) -= estimate.drift[p];
   }
   for (const DriftLink& link : graph_.drift) {
     const double weight = 1.0 / (1.0 - link.decay * link.decay);
     const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
     const int a = drift_variable(link.a), b = drift_variable(link.b);
-    cholesky_->add(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
-    cholesky_->add(b, b, weight * Eigen::Matrix3d::Identity());
-    cholesky_->add(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
+    cholesky_->add<3, 3>(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
+    cholesky_->add<3, 3>(b, b, weight * Eigen::Matrix3d::Identity());
+    cholesky_->add<3, 3>(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
     part(a, 3) += weight * link.decay * r;
     part(b, 3) -= weight * r;
   }
@@ -152,6 +152,29 @@ bool GraphSolver::solve(Estimate& estimate, int most) {
     if (largest < kConverged) break;
   }
   return true;
+}
+
+double GraphSolver::cost_without_ties(const Estimate& estimate) const {
+  double cost = 0.0;
+  for (const Between& step : graph_.odometry) {
+    const Vector6d e = relative_residual(estimate, step.a, step.b, step.T_a_b).e;
+    cost += e.dot(step.covariance.llt().solve(e));
+  }
+  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+    const Pillar& pillar = graph_.pillars[p];
+    if (!pillar.has_window) continue;
+    const Eigen::Vector3d r =
+        pillar.fix - estimate.T_enu[p] * pillar.lever - pillar.drift_sigma.cwiseProduct(estimate.drift[p]);
+    const Eigen::Vector3d turn = so3_log(pillar.R_enu_base * estimate.T_enu[p].linear().transpose());
+    cost += r.cwiseAbs2().cwiseQuotient(pillar.rest_variance).sum() +
+            turn.cwiseAbs2().cwiseQuotient(pillar.rotation_variance).sum();
+    if (first_drift_[p]) cost += estimate.drift[p].squaredNorm();
+  }
+  for (const DriftLink& link : graph_.drift) {
+    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
+    cost += r.squaredNorm() / (1.0 - link.decay * link.decay);
+  }
+  return cost;
 }
 
 BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,

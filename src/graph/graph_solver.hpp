@@ -32,6 +32,9 @@ class GraphSolver {
   /// solved. The covariances below are those at the last linearisation.
   bool solve(Estimate& estimate, int most);
 
+  /// Sum of squares of all that is no tie (odometry, GPS, orientation, drift), each over its variance.
+  double cost_without_ties(const Estimate& estimate) const;
+
   /// L^-1 H^T of a relative pose between two pillars, whose covariance is the inner product with itself.
   BlockCholesky::Sparse sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
                                     const Matrix6d& H_b) const;

@@ -15,7 +15,6 @@ constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis again
 /// Log odds that a lone accepted registration is right rather than a repetition of the scene. Registrations
 /// of one place go wrong together, so n that agree are worth log2(1 + n) of one.
 constexpr double kTrust = 6.0;
-/// A hypothesis must be better than the next of its pair by this, as log odds.
 constexpr std::size_t kMostLookedAt = 16;
 constexpr std::size_t kMostJoint = 12;
 
@@ -167,7 +166,8 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
     std::ranges::sort(hypothesis.members);
     hypothesis.frames = all[hypothesis.members.front()].frames;
     hypothesis.shift = shift_of(members, seen, S);
-    hypothesis.evidence = kTrust * std::log2(1.0 + weight) - 0.5 * hypothesis.shift;
+    hypothesis.support = kTrust * std::log2(1.0 + weight);
+    hypothesis.evidence = hypothesis.support - 0.5 * hypothesis.shift;
     if (hypothesis.shift < kShiftGate) {
       evaluation.hypotheses.push_back(std::move(hypothesis));
     } else {

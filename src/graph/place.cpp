@@ -1,11 +1,19 @@
 #include "fleetmap/graph/place.hpp"
 
+#include "fleetmap/graph/located_nodes.hpp"
+
 namespace fleetmap::graph {
 
-Placement place(std::span<const Node> nodes, std::span<const Alignment> alignments, const LocalFrame& site,
-                const PlacementConfig& config) {
-  return config.mode == PlacementMode::fleet ? place_by_fleet_graph(nodes, alignments, site, config.fleet)
-                                             : place_by_least_rmse(nodes, alignments, site, config.paper);
+Status PlacementConfig::validate() const { return fleet.validate(); }
+
+Placement place(std::span<const Node> nodes_as_made, std::span<const Alignment> alignments,
+                const LocalFrame& site, const PlacementConfig& config,
+                std::span<const NodeId> covariance_of) {
+  const std::vector<Node> nodes =
+      with_global_poses(nodes_as_made, alignments, site, config.paper.gps_correlation_time);
+  return config.mode == PlacementMode::fleet
+             ? place_by_fleet_graph(nodes, alignments, site, config.fleet, covariance_of)
+             : place_by_least_rmse(nodes, alignments, site, config.paper);
 }
 
 }  // namespace fleetmap::graph

@@ -95,12 +95,18 @@ Bytes encode(const graph::Node& node) {
   w.id(node.id);
   w.value(node.session);
   w.value(to_ns(node.stamp));
-  w.value(to_ns(node.G.stamp));
-  w.value(node.G.position.latitude);
-  w.value(node.G.position.longitude);
-  w.value(node.G.position.altitude);
-  for (int k = 0; k < 4; ++k) w.value(node.G.q_enu_base.coeffs()(k));
-  w.matrix(node.G.covariance);
+  w.value(static_cast<std::uint8_t>(node.G.has_value()));
+  if (node.G) {
+    w.value(to_ns(node.G->stamp));
+    w.value(node.G->position.latitude);
+    w.value(node.G->position.longitude);
+    w.value(node.G->position.altitude);
+    for (int k = 0; k < 4; ++k) w.value(node.G->q_enu_base.coeffs()(k));
+    w.matrix(node.G->covariance);
+  }
+  for (int k = 0; k < 3; ++k) w.value(node.up_in_base(k));
+  w.value(static_cast<std::uint8_t>(node.descriptor.size()));
+  for (const std::uint8_t byte : node.descriptor) w.value(byte);
   w.pose(node.T_odom_base);
   w.matrix(node.odom_covariance);
   w.value(node.submap_hash);
@@ -131,12 +137,18 @@ std::optional<graph::Node> decode_node(ByteView bytes) {
   node.id = r.id();
   node.session = r.value<std::uint8_t>();
   node.stamp = stamp_from_ns(r.value<std::int64_t>());
-  node.G.stamp = stamp_from_ns(r.value<std::int64_t>());
-  node.G.position.latitude = r.value<double>();
-  node.G.position.longitude = r.value<double>();
-  node.G.position.altitude = r.value<double>();
-  for (int k = 0; k < 4; ++k) node.G.q_enu_base.coeffs()(k) = r.value<double>();
-  node.G.covariance = r.matrix();
+  if (r.value<std::uint8_t>() != 0) {
+    GlobalPose& G = node.G.emplace();
+    G.stamp = stamp_from_ns(r.value<std::int64_t>());
+    G.position.latitude = r.value<double>();
+    G.position.longitude = r.value<double>();
+    G.position.altitude = r.value<double>();
+    for (int k = 0; k < 4; ++k) G.q_enu_base.coeffs()(k) = r.value<double>();
+    G.covariance = r.matrix();
+  }
+  for (int k = 0; k < 3; ++k) node.up_in_base(k) = r.value<double>();
+  node.descriptor.resize(r.value<std::uint8_t>());
+  for (std::uint8_t& byte : node.descriptor) byte = r.value<std::uint8_t>();
   node.T_odom_base = r.pose();
   node.odom_covariance = r.matrix();
   node.submap_hash = r.value<ContentHash>();

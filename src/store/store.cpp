@@ -46,9 +46,13 @@ bool valid(const graph::AlignmentMode& mode) {
          std::isfinite(mode.rmse) && share(mode.inlier_fraction) && share(mode.score);
 }
 
+bool valid(const GlobalPose& G) {
+  return is_valid(G.position) && G.q_enu_base.coeffs().allFinite() && G.covariance.allFinite();
+}
+
 bool valid(const graph::Node& node, const StoreConfig& config) {
-  return !node.id.agent.empty() && node.id.seq < config.max_seq && is_valid(node.G.position) &&
-         node.G.q_enu_base.coeffs().allFinite() && node.G.covariance.allFinite() &&
+  return !node.id.agent.empty() && node.id.seq < config.max_seq && (!node.G || valid(*node.G)) &&
+         node.up_in_base.allFinite() && node.descriptor.size() <= graph::Node::kMaxDescriptorBytes &&
          is_pose(node.T_odom_base) && is_covariance(node.odom_covariance) &&
          node.submap_bytes <= config.max_submap_bytes;
 }

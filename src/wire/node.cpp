@@ -17,7 +17,7 @@ constexpr double kCorrelationUnit = 1.0 / 127.0;
 constexpr double kMaxCorrelation = 126.0 / 127.0;  // keeps the covariance invertible after rounding
 
 /// What a node keeps of G's covariance, in codes.
-void write_covariance(const Matrix6d& C, msg::Node& out) {
+void write_covariance(const Matrix6d& C, msg::NodeFix& out) {
   std::array<std::uint16_t, 3> stddev{};
   for (int axis = 0; axis < 3; ++axis) {
     stddev[static_cast<std::size_t>(axis)] = kPositionStddev.encode(std::sqrt(C(axis, axis)));
@@ -31,7 +31,7 @@ void write_covariance(const Matrix6d& C, msg::Node& out) {
   out.yaw_stddev(kAngleStddev.encode(std::sqrt(C(5, 5))));
 }
 
-Matrix6d read_covariance(const msg::Node& in, FieldCheck& check) {
+Matrix6d read_covariance(const msg::NodeFix& in, FieldCheck& check) {
   Vector6d stddev;
   for (int axis = 0; axis < 3; ++axis) {
     stddev(axis) = kPositionStddev.decode(in.position_stddev()[static_cast<std::size_t>(axis)]);
@@ -46,6 +46,46 @@ Matrix6d read_covariance(const msg::Node& in, FieldCheck& check) {
   return C;
 }
 
+msg::NodeFix write_fix(const GlobalPose& G) {
+  msg::NodeFix out;
+  out.latitude(G.position.latitude);
+  out.longitude(G.position.longitude);
+  out.altitude(to_float(G.position.altitude));
+  out.attitude(encode_rotation<std::int16_t>(G.q_enu_base.normalized().toRotationMatrix()));
+  write_covariance(G.covariance, out);
+  return out;
+}
+
+GlobalPose read_fix(const msg::NodeFix& in, Stamp stamp, FieldCheck& check) {
+  GlobalPose G;
+  G.stamp = stamp;
+  G.position = check.position(in.latitude(), in.longitude(), static_cast<double>(in.altitude()));
+  G.q_enu_base = decode_rotation(in.attitude(), check, "attitude is not a rotation vector within pi");
+  G.covariance = read_covariance(in, check);
+  return G;
+}
+
+constexpr double kUpUnit = 1.0 / 32767.0;
+
+/// Codes of a vector that is no direction are all 0.
+std::array<std::int16_t, 3> write_up(const Eigen::Vector3d& up) {
+  std::array<std::int16_t, 3> codes{};
+  if (!up.allFinite() || !(up.norm() > 1e-6)) return codes;
+  // A vector that was read is as long as its codes; to scale it again would round it twice.
+  const double length = std::abs(up.norm() - 1.0) < 1e-3 ? 1.0 : up.norm();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double code = std::round(up(static_cast<Eigen::Index>(axis)) / length / kUpUnit);
+    codes[axis] = static_cast<std::int16_t>(std::clamp(code, -32767.0, 32767.0));
+  }
+  return codes;
+}
+
+Eigen::Vector3d read_up(const std::array<std::int16_t, 3>& codes, FieldCheck& check) {
+  const Eigen::Vector3d up = kUpUnit * Eigen::Vector3d(codes[0], codes[1], codes[2]);
+  check.require(std::abs(up.norm() - 1.0) < 2e-3, "up_in_base is no direction");
+  return up;
+}
+
 }  // namespace
 
 Bytes encode(const graph::Node& node) {
@@ -55,11 +95,9 @@ Bytes encode(const graph::Node& node) {
   out.seq(node.id.seq);
   out.session(node.session);
   out.stamp(to_ns(node.stamp));
-  out.latitude(node.G.position.latitude);
-  out.longitude(node.G.position.longitude);
-  out.altitude(to_float(node.G.position.altitude));
-  out.attitude(encode_rotation<std::int16_t>(node.G.q_enu_base.normalized().toRotationMatrix()));
-  write_covariance(node.G.covariance, out);
+  out.up_in_base(write_up(node.up_in_base));
+  if (node.G) out.fix({write_fix(*node.G)});
+  out.descriptor(bounded(node.descriptor, graph::Node::kMaxDescriptorBytes));
   out.odom_translation(to_floats(node.T_odom_base.translation()));
   out.odom_rotation(encode_rotation<std::int16_t>(node.T_odom_base.linear()));
   out.odom_covariance(encode_covariance(node.odom_covariance));
@@ -76,10 +114,13 @@ Result<graph::Node> decode(ByteView cdr) {
   graph::Node node;
   node.id = check.node(in->agent(), in->seq(), "agent");
   node.session = in->session();
-  node.stamp = node.G.stamp = check.stamp(in->stamp());
-  node.G.position = check.position(in->latitude(), in->longitude(), static_cast<double>(in->altitude()));
-  node.G.q_enu_base = decode_rotation(in->attitude(), check, "attitude is not a rotation vector within pi");
-  node.G.covariance = read_covariance(*in, check);
+  node.stamp = check.stamp(in->stamp());
+  node.up_in_base = read_up(in->up_in_base(), check);
+  check.require(in->fix().size() <= 1, "there is more than one fix");
+  if (!in->fix().empty()) node.G = read_fix(in->fix().front(), node.stamp, check);
+  check.require(in->descriptor().size() <= graph::Node::kMaxDescriptorBytes,
+                "descriptor is beyond 200 bytes");
+  node.descriptor = in->descriptor();
   node.T_odom_base = make_pose(
       decode_rotation(in->odom_rotation(), check, "odom_rotation is not a rotation vector within pi"),
       check.translation(in->odom_translation(), "odom_translation"));

@@ -20,6 +20,9 @@ bus::Topic fix() { return {Link::kOnboard, "rt/fix", type_name::kNavSatFix, "sen
 bus::Topic wheel_odometry() { return {Link::kOnboard, "rt/wheel_odometry", type_name::kOdometry, "sensor"}; }
 bus::Topic odometry() { return {Link::kOnboard, "rt/odometry", type_name::kOdometry, "state"}; }
 bus::Topic global_pose() { return {Link::kOnboard, "fleetmap/global_pose", type_name::kGlobalPose, "state"}; }
+bus::Topic corrected_pose() {
+  return {Link::kOnboard, "fleetmap/corrected_pose", type_name::kGlobalPose, "state"};
+}
 bus::Topic cmd_vel() { return {Link::kOnboard, "rt/cmd_vel", type_name::kTwist, "state"}; }
 
 bus::Topic battery() { return {Link::kOnboard, "rt/battery_state", type_name::kBatteryState, "sensor"}; }

@@ -31,8 +31,9 @@ class ResultsTest : public ::testing::Test {
     node.session = session;
     node.stamp = stamp_from_ns(1'000'000'000 * (node.id.seq + 1));
     node.T_odom_base.translation().x() = x;
-    node.G.stamp = node.stamp;
-    node.G.position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
+    node.G.emplace();
+    node.G->stamp = node.stamp;
+    node.G->position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
     SubmapBuilder builder(SubmapConfig{});
     cloud::PointCloud points;
     for (int k = 0; k < 50; ++k) points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
@@ -105,6 +106,49 @@ TEST_F(ResultsTest, AMapOfTheSameSetIsCopiedAndOneOfAnotherSetIsMade) {
   EXPECT_GT(size(second.directory / "map.pcd"), 7u);
 }
 
+TEST_F(ResultsTest, ACorrectionOfTheFleetsGraphMovesSubmapsAndSendsNone) {
+  store::Store store = open();
+  std::vector<graph::Node> nodes;
+  for (int k = 0; k < 4; ++k) nodes.push_back(add_node(store, 3.0 * k));
+  for (int k = 0; k < 4; ++k) nodes.push_back(add_node(store, 3.0 * k, 1));
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  AgentConfig config = this->config();
+  config.site_origin = origin_;
+  config.placement.mode = graph::PlacementMode::fleet;
+  const auto before = write_results(store, config);
+  ASSERT_TRUE(before) << before.error().message;
+  EXPECT_EQ(before->placement.components.size(), 2u);
+  const auto held = store.submap_set();
+
+  graph::Alignment alignment{nodes[1].id, nodes[5].id, kSelf, 0, {}};
+  graph::AlignmentMode mode;
+  mode.T_i_j.translation().y() = 0.7;
+  mode.covariance = 1e-4 * Matrix6d::Identity();
+  alignment.modes = {mode};
+  ASSERT_EQ(store.put_alignment(alignment).value(), store::Put::kAdded);
+  const auto after = write_results(store, config);
+  ASSERT_TRUE(after) << after.error().message;
+  EXPECT_EQ(after->placement.components.size(), 1u);
+  EXPECT_EQ(after->map.submaps, 8u);
+  EXPECT_NE(after->map.hash, before->map.hash);
+  for (const graph::Node& node : nodes) {
+    EXPECT_GT((after->placement.T_enu_node.at(node.id).translation() -
+               before->placement.T_enu_node.at(node.id).translation())
+                  .norm(),
+              0.1);
+    // A submap is named by its content, which is in the frame of its node.
+    EXPECT_EQ(store.node(node.id)->submap_hash, node.submap_hash);
+  }
+  EXPECT_TRUE(store.submap_set() == held);
+  EXPECT_TRUE(store.partial_submaps().empty());
+  const auto recipe = map_recipe(store);
+  ASSERT_TRUE(recipe);
+  EXPECT_EQ(recipe->placement.mode, graph::PlacementMode::fleet);
+  const graph::Placement again = place(store, recipe->origin, recipe->placement);
+  for (const auto& [id, T] : after->placement.T_enu_node)
+    EXPECT_TRUE(again.T_enu_node.at(id).matrix() == T.matrix());
+}
+
 TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
   store::Store store = open();
   add_node(store, 0.0);
@@ -130,10 +174,10 @@ TEST_F(ResultsTest, PriorIsTheDifferenceOfBothGlobalPoses) {
   store::Store store = open();
   graph::Node a = add_node(store, 0.0);
   graph::Node b = add_node(store, 10.0);
-  a.G.q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
-  a.G.covariance = Vector6d(1, 1, 1, 1e-4, 1e-4, 0.01).asDiagonal();
-  b.G.covariance = Vector6d(3, 3, 3, 1e-4, 1e-4, 0.03).asDiagonal();
-  const registration::Prior prior = prior_of(a, b);
+  a.G->q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
+  a.G->covariance = Vector6d(1, 1, 1, 1e-4, 1e-4, 0.01).asDiagonal();
+  b.G->covariance = Vector6d(3, 3, 3, 1e-4, 1e-4, 0.03).asDiagonal();
+  const registration::Prior prior = prior_of(*a.G, *b.G);
   EXPECT_TRUE(prior.T_target_source.translation().isApprox(Eigen::Vector3d(0, -10, 0), 1e-3));
   EXPECT_NEAR(prior.sigma_yaw_rad, 0.2, 1e-9);
   EXPECT_NEAR(prior.sigma_translation_m, std::sqrt(4.0 + 4.0), 1e-3) << "10 m swung by 0.2 rad are 2 m";

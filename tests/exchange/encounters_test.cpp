@@ -16,7 +16,7 @@ const Stamp kStart = stamp_from_ns(1'000'000'000);
 /// Search radius r_min = 20 m.
 graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {
   auto node = testing::make_node(agent, seq, Bytes{}, east_m);
-  node.G.covariance = 0.01 * Matrix6d::Identity();
+  node.G->covariance = 0.01 * Matrix6d::Identity();
   return node;
 }
 

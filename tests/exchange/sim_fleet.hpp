@@ -93,7 +93,8 @@ class SimFleet {
     Robot& r = robot(name);
     const std::uint32_t seq = r.store->next_node_seq();
     const Bytes submap = random_bytes(submap_bytes, seq + 7919 * static_cast<std::uint32_t>(name.back()));
-    const auto node = make_node(agent(name), seq, submap, east_m, static_cast<std::uint32_t>(name.back()));
+    auto node = make_node(agent(name), seq, submap, east_m, static_cast<std::uint32_t>(name.back()));
+    node.G->covariance = Matrix6d::Identity();
     const auto put = r.exchange->on_own_node(node, submap, now_);
     if (!put || *put != store::Put::kAdded) throw std::runtime_error("own node refused");
     return node;

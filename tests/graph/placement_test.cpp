@@ -36,11 +36,12 @@ struct Fleet {
                                    Eigen::Vector3d(3.0 * k, 10.0 * std::sin(0.2 * k), 0.0));
       const Pose T_enu_base = T * node.T_odom_base;
       const Eigen::Vector3d error(gauss(gps_sigma), gauss(gps_sigma), gauss(gps_sigma));
-      node.G.position = site.to_geo(T_enu_base.translation() + error);
-      node.G.q_enu_base = Eigen::Quaterniond(
-          Eigen::Matrix3d(site.R_enu_local(node.G.position).transpose() * T_enu_base.linear()));
-      node.G.covariance = Matrix6d::Identity() * std::max(1e-6, gps_sigma * gps_sigma);
-      node.G.covariance.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity() * 1e-4;
+      node.G.emplace();
+      node.G->position = site.to_geo(T_enu_base.translation() + error);
+      node.G->q_enu_base = Eigen::Quaterniond(
+          Eigen::Matrix3d(site.R_enu_local(node.G->position).transpose() * T_enu_base.linear()));
+      node.G->covariance = Matrix6d::Identity() * std::max(1e-6, gps_sigma * gps_sigma);
+      node.G->covariance.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity() * 1e-4;
       nodes.push_back(node);
     }
   }

@@ -44,13 +44,16 @@ inline graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Byte
   node.id = {agent, seq};
   node.session = static_cast<std::uint8_t>(seed);
   node.stamp = stamp_from_ns(1'700'000'000'000'000'000 + static_cast<std::int64_t>(seq) * 1'000'000'007);
-  node.G.stamp = node.stamp;
-  node.G.position = geo_point_from_degrees(49.0, 8.4, 110.0 + normal(random));
-  node.G.position.longitude += east_m / (kMeanEarthRadius * std::cos(node.G.position.latitude));
-  node.G.q_enu_base = Eigen::Quaterniond(so3_exp({normal(random), normal(random), normal(random)}));
-  for (int k = 0; k < 36; ++k) node.G.covariance.data()[k] = normal(random);
+  node.G.emplace();
+  node.G->stamp = node.stamp;
+  node.G->position = geo_point_from_degrees(49.0, 8.4, 110.0 + normal(random));
+  node.G->position.longitude += east_m / (kMeanEarthRadius * std::cos(node.G->position.latitude));
+  node.G->q_enu_base = Eigen::Quaterniond(so3_exp({normal(random), normal(random), normal(random)}));
+  for (int k = 0; k < 36; ++k) node.G->covariance.data()[k] = normal(random);
   node.T_odom_base =
       se3_exp(Vector6d{normal(random), normal(random), normal(random), 0.1, 0.2, normal(random)});
+  node.up_in_base = Eigen::Vector3d(0.1, -0.2, 0.97);
+  node.descriptor = random_bytes(100 + seq % 3, seed + seq);
   node.odom_covariance = 1e-3 / 7.0 * Matrix6d::Identity();
   node.submap_hash = content_hash(submap);
   node.submap_bytes = static_cast<std::uint32_t>(submap.size());

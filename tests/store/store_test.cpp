@@ -45,9 +45,9 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   ASSERT_TRUE(held);
   EXPECT_EQ(held->session, node.session);
   EXPECT_EQ(held->stamp, node.stamp);
-  EXPECT_EQ(held->G.position, node.G.position);
-  EXPECT_EQ(held->G.q_enu_base.coeffs(), node.G.q_enu_base.coeffs());
-  EXPECT_EQ(held->G.covariance, node.G.covariance);
+  EXPECT_EQ(held->G->position, node.G->position);
+  EXPECT_EQ(held->G->q_enu_base.coeffs(), node.G->q_enu_base.coeffs());
+  EXPECT_EQ(held->G->covariance, node.G->covariance);
   EXPECT_EQ(held->T_odom_base.matrix(), node.T_odom_base.matrix());
   EXPECT_EQ(held->odom_covariance, node.odom_covariance);
   EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
@@ -63,12 +63,12 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   EXPECT_EQ(store.put_node_with_submap(node, submap).value(), Put::kKnown);
   EXPECT_EQ(store.put_alignment(alignment).value(), Put::kKnown);
   auto other = node;
-  other.G.position.altitude = std::nextafter(other.G.position.altitude, 1e9);
+  other.G->position.altitude = std::nextafter(other.G->position.altitude, 1e9);
   EXPECT_EQ(store.put_node(other).value(), Put::kConflict);
   auto other_alignment = alignment;
   other_alignment.modes.front().rmse += 1e-12;
   EXPECT_EQ(store.put_alignment(other_alignment).value(), Put::kConflict);
-  EXPECT_EQ(store.node({kSelf, 0})->G.position, node.G.position);
+  EXPECT_EQ(store.node({kSelf, 0})->G->position, node.G->position);
   EXPECT_EQ(store.stats().conflicts, 2u);
 }
 
@@ -77,7 +77,13 @@ TEST(Store, refuses_and_counts_what_breaks_a_rule) {
   auto store = Store::open(folder / "store.db", kSelf).value();
   const Bytes submap = random_bytes(100, 1);
   auto node = make_node(kPeer, 0, submap);
-  node.G.covariance(2, 3) = std::numeric_limits<double>::quiet_NaN();
+  node.G->covariance(2, 3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  node = make_node(kPeer, 0, submap);
+  node.descriptor.resize(graph::Node::kMaxDescriptorBytes + 1);
+  EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
+  node = make_node(kPeer, 0, submap);
+  node.up_in_base.z() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
   node = make_node(kPeer, UINT32_MAX, submap);
   EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
@@ -97,7 +103,7 @@ TEST(Store, refuses_and_counts_what_breaks_a_rule) {
   EXPECT_EQ(store.put_node(node).value(), Put::kInvalid);
   EXPECT_TRUE(store.nodes().empty());
   EXPECT_TRUE(store.alignments().empty());
-  EXPECT_EQ(store.stats().invalid, 9u);
+  EXPECT_EQ(store.stats().invalid, 11u);
 }
 
 TEST(Store, refuses_alignments_with_a_bad_mode) {

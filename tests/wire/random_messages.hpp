@@ -77,10 +77,11 @@ class RandomMessages {
     graph::Node node;
     node.id = node_id();
     node.session = static_cast<std::uint8_t>(integer(0, 255));
-    node.stamp = node.G.stamp = stamp();
-    node.G.position = position();
-    node.G.q_enu_base = Eigen::Quaterniond(rotation());
-    node.G.covariance = covariance();
+    node.stamp = stamp();
+    if (integer(0, 3) > 0) node.G = global_pose();
+    if (node.G) node.G->stamp = node.stamp;
+    node.up_in_base = rotation().col(2);
+    node.descriptor = bytes(integer(0, 1) * integer(1, graph::Node::kMaxDescriptorBytes));
     node.T_odom_base = pose();
     node.odom_covariance = covariance();
     node.submap_hash = hash();

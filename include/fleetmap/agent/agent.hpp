@@ -11,13 +11,16 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/perception.hpp"
+#include "fleetmap/agent/recent_surroundings.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 
 namespace fleetmap::agent {
 
+class LivePlacement;
 class Navigator;
 
 struct RegistrationCounters {
@@ -75,12 +78,15 @@ class Agent {
   std::set<AgentId> lost() const;
 
   void on_perceived(Perceived&& perceived);
-  void freeze_node(const odometry::OdometryUpdate& update, const GlobalPose& G);
+  void freeze_node(const Perceived& perceived);
   /// The odometry lost its way and began anew: what it says from now on is in another frame.
   void begin_session();
   void navigate();
-  void wait_for_global_pose();
+  /// GPS may take a while to begin with; nodes without G are made only when it does not come.
+  bool worth_waiting_for_gps();
   void align_with_earlier_session(const graph::Node& node);
+  /// Two own nodes, off this thread.
+  void register_own(const graph::Node& target, const graph::Node& source, const registration::Prior& prior);
 
   void on_events();
   void handle(const exchange::CloudNeeded& needed);
@@ -114,19 +120,23 @@ class Agent {
   GlobalTrackFile global_file_;
   OwnClouds own_clouds_;
   SubmapBuilder submap_;
+  RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
+  LoopClosures loop_closures_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
-  std::optional<GlobalPose> last_G_;
-  std::uint64_t map_restarts_ = 0;          ///< of the odometry, seen so far
-  std::set<std::uint8_t> joined_sessions_;  ///< earlier sessions that this one has an alignment with
-  std::size_t jobs_ = 0;                    ///< spherizations and registrations under way
+  std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
+  std::set<std::uint8_t> joined_sessions_;   ///< earlier sessions that this one has an alignment with
+  std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;
-  std::optional<Stamp> waiting_for_gps_since_;
+  std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
+  bool told_of_missing_gps_ = false;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
   std::unique_ptr<Navigator> navigator_;
+  std::unique_ptr<LivePlacement> live_placement_;  ///< with mode `fleet`
+  bus::Handle live_timer_;
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;
   bool rest_frozen_for_meeting_ = false;

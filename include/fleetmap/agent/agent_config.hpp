@@ -11,7 +11,7 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/exchange.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/placement.hpp"
+#include "fleetmap/graph/place.hpp"
 #include "fleetmap/place/node_generator.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
@@ -36,7 +36,7 @@ struct AgentConfig {
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;
   exchange::ExchangeConfig exchange;  ///< payload_size is filled in by the agent
-  graph::PaperPlacementConfig placement;
+  graph::PlacementConfig placement;
   store::StoreConfig store;
   store::MergeConfig map;
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/graph/alignment.hpp"
@@ -31,8 +33,16 @@ Surroundings gather(store::Store& store, const graph::Node& node, double radius)
 Result<registration::SpherizedCloud> spherize(const Surroundings& surroundings,
                                               const registration::SpherizeConfig& config);
 
-/// The relative pose of two nodes according to their G, with the uncertainty of both.
-registration::Prior prior_of(const graph::Node& target, const graph::Node& source);
+/// The relative pose according to both G, with the uncertainty of both.
+registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source);
+
+/// What is known of two nodes of different odometry frames: that of both G, if neither's horizontal sigma
+/// exceeds `max_sigma` (m); else what their descriptors tell, if they have anything in common.
+std::optional<registration::Prior> prior_of(const graph::Node& target, const graph::Node& source,
+                                            double max_sigma);
+
+/// The relative pose of two own nodes according to the odometry between them.
+registration::Prior prior_of(const LoopClosure& closure);
 
 /// An alignment for the fleet, from a registration of node j (source) onto node i (target): one mode if it
 /// was accepted, the modes that are good enough to be right if it is ambiguous.

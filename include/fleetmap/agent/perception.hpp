@@ -35,6 +35,9 @@ struct PerceptionConfig {
 struct Perceived {
   odometry::OdometryUpdate odometry;
   std::optional<GlobalPose> G;
+  /// Against gravity, in base_link. From the IMU, also where there is no GPS; without an IMU the odometry's
+  /// z, which is up if the robot started level.
+  Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
   double cpu_seconds = 0.0;  ///< that LOAM took
 };
 
@@ -82,6 +85,7 @@ class Perception {
   void on_scan(const Bytes& cdr);
   void start_next();
   void finish(Job& job);
+  Eigen::Vector3d up_in(const Pose& T_odom_base) const;
   /// `kind` is what repeats; `detail` is of this time.
   void warn(const std::string& kind, const std::string& detail);
 

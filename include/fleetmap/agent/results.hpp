@@ -10,7 +10,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/placement.hpp"
+#include "fleetmap/graph/place.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -19,13 +19,14 @@ namespace fleetmap::agent {
 /// "r1", or "r1#2" for the odometry frame of its third start.
 std::string to_string(const graph::FrameId& frame);
 
-/// The origin of ENU: `configured`, else the position of the least node id held, so that agents with the same
-/// nodes agree on it. Empty while there is no node.
+/// The origin of ENU: `configured`, else the position of the least node id held that has a G, so that agents
+/// with the same nodes agree on it; 0, 0 where none has: the map then lies nowhere on Earth. Empty while
+/// there is no node.
 std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured);
 
 /// Where every node of the store lies.
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
-                       const graph::PaperPlacementConfig& config);
+                       const graph::PlacementConfig& config);
 
 /// The whole map that the store holds, in ENU.
 store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
@@ -34,7 +35,7 @@ store::MergedMap merged_map(store::Store& store, const graph::Placement& placeme
 /// How a map was made: what `fleetmap map export` needs to make the same one again.
 struct MapRecipe {
   GeoPoint origin;
-  graph::PaperPlacementConfig placement;
+  graph::PlacementConfig placement;
   store::MergeConfig merge;
 };
 /// The recipe of the last write_results(); empty if there was none.
@@ -54,6 +55,8 @@ struct Results {
   graph::Placement placement;
   MapFiles map;
   std::size_t missing_submaps = 0;  ///< of nodes that are held
+  /// Odometry frames of which nobody knows where on Earth they are: no G in all that is tied to them.
+  std::vector<graph::FrameId> not_georeferenced;
 };
 
 /// Writes map.ply, map.pcd, trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory.

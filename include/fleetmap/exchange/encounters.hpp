@@ -8,6 +8,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/lookalikes.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/place/ball_tree.hpp"
 #include "fleetmap/place/proximity_search.hpp"
@@ -16,8 +17,11 @@ namespace fleetmap::exchange {
 
 struct EncounterConfig {
   place::ProximityConfig proximity;  ///< r^i of Eq. 1
-  double spacing_m = 10.0;           ///< m between encounters of the same two agents
-  double spacing_aligned_m = 20.0;   ///< m, the same once the two have a good alignment (E_ij <= 0.4)
+  double max_sigma_m = 15.0;  ///< m, horizontal, of a G by which encounters are found; beyond it, and without
+                              ///< G, places are known again by what they look like
+  LookalikeConfig lookalikes;
+  double spacing_m = 10.0;          ///< m between encounters of the same two agents
+  double spacing_aligned_m = 20.0;  ///< m, the same once the two have a good alignment (E_ij <= 0.4)
   double spacing_failed_m =
       5.0;  ///< m from an encounter whose registration was rejected or whose cloud got lost
   /// A cloud of a few scans tilts and turns, and a nearer pair may come up: the clouds of a pair are asked
@@ -46,6 +50,7 @@ struct NodePair {
 
 struct EncounterStats {
   std::uint64_t found = 0;      ///< pairs within r^i
+  std::uint64_t alike = 0;      ///< pairs of places that look alike, where GPS does not tell
   std::uint64_t redundant = 0;  ///< of these, too near to another encounter to be worth its bytes
   std::uint64_t begun = 0;      ///< clouds asked for
   std::uint64_t accepted = 0;
@@ -64,7 +69,8 @@ struct EncounterStats {
 /// peer's nearest node is its partner; the peer, receiving our node, finds the same. Pairs closer than the
 /// spacing to one that is under way or done are left out. Should the two ends still begin different pairs at
 /// one place (a node was lost on the way), the match messages show it and the smaller pair wins on both
-/// sides.
+/// sides. Where one of the two has no G that tells where it is, the pair is found by what the places look
+/// like (Lookalikes), and the rest goes the same way.
 class Encounters {
  public:
   Encounters(const AgentId& self, const EncounterConfig& config);
@@ -116,7 +122,17 @@ class Encounters {
     std::vector<NodeId> ids;  ///< by index in the tree
     std::uint32_t newest = 0;
   };
+  /// Where a node is, as far as redundant encounters are concerned.
+  struct Spot {
+    std::optional<GeoPoint> position;
+    graph::FrameId frame;
+    Eigen::Vector3d p_odom = Eigen::Vector3d::Zero();
+  };
+  bool located(const graph::Node& node) const;
+  /// The two lie within `limit` (m) of each other; false where nobody can tell.
+  static bool near(const Spot& a, const Spot& b, double limit);
   void find(const graph::Node& node, const AgentId& other, Stamp now);
+  void find_alike(const graph::Node& node, Stamp now);
   /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
   /// it.
   Stamp replace_farther(const NodePair& pair, double distance, Stamp now);
@@ -137,7 +153,8 @@ class Encounters {
   AgentId self_;
   EncounterConfig config_;
   std::map<AgentId, Track> tracks_;
-  std::map<NodeId, GeoPoint> places_;
+  Lookalikes lookalikes_;
+  std::map<NodeId, Spot> places_;
   std::map<NodePair, Encounter> encounters_;
   std::set<AgentId> aligned_;
   std::map<AgentId, Stamp> heard_;

@@ -16,10 +16,12 @@ struct PlacementConfig {
   PlacementMode mode = PlacementMode::paper;
   PaperPlacementConfig paper;
   FleetPlacementConfig fleet;
+  Status validate() const;
 };
 
-/// Where every node lies, by the mode that is set.
+/// Where every node lies, by the mode that is set; nodes without a G as with_global_poses() says.
+/// Covariances come with mode `fleet` alone.
 Placement place(std::span<const Node> nodes, std::span<const Alignment> alignments, const LocalFrame& site,
-                const PlacementConfig& config);
+                const PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 
 }  // namespace fleetmap::graph

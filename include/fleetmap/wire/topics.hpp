@@ -16,6 +16,7 @@ bus::Topic fix();             ///< sensor::Fix
 bus::Topic wheel_odometry();  ///< sensor::Wheel
 bus::Topic odometry();        ///< wire::OdometryMsg
 bus::Topic global_pose();     ///< GlobalPose
+bus::Topic corrected_pose();  ///< GlobalPose: T_enu_odom of the fleet's graph, applied to the odometry
 bus::Topic cmd_vel();         ///< wire::VelocityCommand
 bus::Topic battery();         ///< sensor::Battery
 

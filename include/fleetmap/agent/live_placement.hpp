@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/bus/bus.hpp"
+
+namespace fleetmap::agent {
+
+/// Where the robot is by all that its store holds: solves the fleet's graph off the callbacks when something
+/// is new, and carries the odometry on from the newest node. The odometry itself never jumps.
+class LivePlacement {
+ public:
+  /// All outlive it, and the work under way.
+  LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store);
+
+  /// Begins a solution unless one is under way or nothing is new.
+  void refresh();
+  bool idle() const { return !under_way_; }
+  /// Publishes the corrected pose for a pose of the odometry, once its frame is placed.
+  void publish(const graph::FrameId& frame, const StampedPose& odometry);
+
+ private:
+  struct Solution {
+    GeoPoint origin;
+    graph::FrameId frame;
+    Pose T_enu_odom = Pose::Identity();
+    Matrix6d covariance = Matrix6d::Zero();  ///< of the newest own node, axes of ENU: [m, rad]
+  };
+  struct Job;
+  static std::optional<Solution> solve(const Job& job);
+
+  const AgentConfig& config_;
+  bus::Bus& bus_;
+  const store::Store& store_;
+  std::size_t items_ = 0;  ///< in the store at the last solution
+  bool under_way_ = false;
+  std::optional<Solution> solution_;
+};
+
+}  // namespace fleetmap::agent

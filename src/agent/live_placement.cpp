@@ -1,0 +1,72 @@
+#include "fleetmap/agent/live_placement.hpp"
+
+#include "fleetmap/agent/results.hpp"
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::agent {
+
+struct LivePlacement::Job {
+  GeoPoint origin;
+  graph::PlacementConfig config;
+  NodeId newest;  ///< own
+  std::vector<graph::Node> nodes;
+  std::vector<graph::Alignment> alignments;
+  std::optional<Solution> solution;
+};
+
+LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store)
+    : config_(config), bus_(bus), store_(store) {}
+
+void LivePlacement::refresh() {
+  const std::size_t items = store_.nodes().size() + store_.alignments().size();
+  const std::uint32_t own = store_.next_node_seq();
+  const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
+  if (under_way_ || items == items_ || own == 0 || !origin) return;
+  items_ = items;
+  under_way_ = true;
+  auto job = std::make_shared<Job>();
+  job->origin = *origin;
+  job->config = config_.placement;
+  job->newest = {config_.id, own - 1};
+  for (const auto& [id, node] : store_.nodes()) job->nodes.push_back(node);
+  for (const auto& [id, alignment] : store_.alignments()) job->alignments.push_back(alignment);
+  bus_.offload(
+      bus::Lane::kBackground, [job] { job->solution = solve(*job); },
+      [this, job] {
+        under_way_ = false;
+        if (job->solution) solution_ = job->solution;
+      });
+}
+
+std::optional<LivePlacement::Solution> LivePlacement::solve(const Job& job) {
+  const graph::Placement placement =
+      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, {&job.newest, 1});
+  for (const graph::Node& node : job.nodes) {
+    const auto T_enu_odom = placement.T_enu_odom.find(node.frame());
+    if (node.id != job.newest || T_enu_odom == placement.T_enu_odom.end()) continue;
+    Solution solution{job.origin, node.frame(), T_enu_odom->second, Matrix6d::Zero()};
+    if (const auto C = placement.covariance.find(node.id); C != placement.covariance.end()) {
+      Matrix6d R = Matrix6d::Zero();
+      R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = placement.T_enu_node.at(node.id).linear();
+      solution.covariance = R * C->second * R.transpose();
+    }
+    return solution;
+  }
+  return std::nullopt;
+}
+
+void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odometry) {
+  if (!solution_ || solution_->frame != frame) return;
+  const LocalFrame site(solution_->origin);
+  const Pose T_enu_base = solution_->T_enu_odom * odometry.T_w_base;
+  GlobalPose pose;
+  pose.stamp = odometry.stamp;
+  pose.position = site.to_geo(T_enu_base.translation());
+  pose.q_enu_base =
+      Eigen::Quaterniond(Eigen::Matrix3d(site.R_enu_local(pose.position).transpose() * T_enu_base.linear()));
+  pose.covariance = solution_->covariance;
+  bus_.publish(wire::topics::corrected_pose(), wire::encode(pose));
+}
+
+}  // namespace fleetmap::agent
