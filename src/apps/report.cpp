@@ -147,6 +147,14 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
     groups.push_back(frames);
   }
   report["aligned_groups"] = groups;
+  json credits = json::object();
+  for (const auto& [agent, credit] : results->placement.credits) {
+    credits[agent.str()] = {{"used", credit.used},
+                            {"rejected", credit.rejected},
+                            {"mistakes", credit.mistakes},
+                            {"quarantined", credit.quarantined}};
+  }
+  if (!credits.empty()) report["alignments_computed_by"] = credits;
 }
 
 eval::HtmlPage html(const json& report, const std::string& svg) {

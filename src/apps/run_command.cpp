@@ -82,9 +82,18 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
               << entry.results->map.hash.substr(0, 12) << '\n';
     if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
     for (const graph::Alignment& used : entry.results->placement.used) {
-      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E " << used.best().rmse
-                << " m\n";
+      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E "
+                << used.best().rmse << " m\n";
     }
+  }
+  for (const auto& entry : outcome.agents) {
+    if (!entry.results) continue;
+    for (const auto& [agent, credit] : entry.results->placement.credits) {
+      if (credit.quarantined)
+        std::cout << agent.str() << " is in quarantine: " << credit.mistakes
+                  << " alignments that it computed are false, and none of its is used\n";
+    }
+    break;
   }
   std::set<std::string> maps;  // of those who are there at the end
   for (const auto& entry : outcome.agents) {

@@ -175,8 +175,9 @@ void read_registration(Section& top, agent::AgentConfig& agent) {
   section.read("seed", registration.ransac.seed);
   section.finish();
   section.check(registration.validate());
-  agent.placement.max_rmse = registration.max_rmse_m;
-  agent.placement.gps_correlation_time = std::max(1.0, agent.perception.localization.gps.correlation_time);
+  agent.placement.paper.max_rmse = registration.max_rmse_m;
+  agent.placement.paper.gps_correlation_time = agent.placement.fleet.gps_correlation_time =
+      std::max(1.0, agent.perception.localization.gps.correlation_time);
 }
 
 void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
@@ -306,7 +307,9 @@ void read_agent(Section& top, agent::AgentConfig& agent) {
   read_ids(top, agent);
   std::string mode = "paper";
   top.read("mode", mode);
-  if (mode != "paper") top.problem("mode", "expected 'paper', found '" + mode + "'");
+  if (mode != "paper" && mode != "fleet")
+    top.problem("mode", "expected 'paper' or 'fleet', found '" + mode + "'");
+  agent.placement.mode = mode == "fleet" ? graph::PlacementMode::fleet : graph::PlacementMode::paper;
   top.read_path("directory", agent.directory);
   read_site(top, agent);
   read_perception(top, agent.perception);

@@ -10,7 +10,7 @@
 namespace fleetmap::graph {
 namespace {
 
-constexpr int kMostRounds = 6;
+constexpr int kMostRounds = 4;
 constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
@@ -62,6 +62,7 @@ struct State {
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::vector<Hypothesis> tree;              ///< what connected frames first
   std::map<FramePair, Evaluation> last;      ///< of what is not taken, by all that is
+  std::set<std::size_t> contradicting;       ///< candidates: what was taken rules them out
   double likelihood = 0.0;                   ///< log, of the whole
 };
 
@@ -112,9 +113,13 @@ class Selector {
       std::vector<std::size_t> open;
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
-        if (!state_.taken.contains(alignment) && !state_.banned.contains(alignment)) open.push_back(c);
+        if (!state_.taken.contains(alignment) && !state_.banned.contains(alignment) &&
+            !state_.contradicting.contains(c))
+          open.push_back(c);
       }
-      if (!open.empty()) state_.last.emplace(frames, evaluate(candidates_, open, solver, estimate));
+      if (open.empty()) continue;
+      Evaluation& seen = state_.last[frames] = evaluate(candidates_, open, solver, estimate);
+      state_.contradicting.insert(seen.contradicting.begin(), seen.contradicting.end());
     }
   }
 
@@ -178,37 +183,40 @@ class Selector {
   /// Of a pair with very many candidates, those near what is taken follow from it and the odometry.
   /// True if there were any.
   bool take_near_ties(const FramePair& frames, const std::vector<std::size_t>& open) {
-    std::vector<const Between*> near;
-    for (const auto& [alignment, c] : state_.taken) {
-      if (candidates_[c].frames == frames) near.push_back(&candidates_[c].between);
+    std::map<std::size_t, const Between*> near;  // by the pillar in the first frame
+    for (const std::size_t c : groups_.at(frames)) {
+      const auto taken = state_.taken.find(candidates_[c].alignment);
+      if (taken != state_.taken.end() && taken->second == c)
+        near[end_in(frames.first, candidates_[c].between)] = &candidates_[c].between;
     }
     if (near.empty() || frames.first == frames.second) return false;
     const std::size_t before = state_.taken.size();
     for (const std::size_t c : open) {
-      if (state_.taken.contains(candidates_[c].alignment) || state_.banned.contains(candidates_[c].alignment))
-        continue;
-      const Between& one = candidates_[c].between;
-      double metres = kNearM * kNearM, radians = 0.0;
-      const Between* tie = nullptr;
-      for (const Between* other : near) {
-        // Ties of one pair of frames may name the frames in either order.
-        const bool same = graph_.pillars[one.a].frame == graph_.pillars[other->a].frame;
-        const auto first = growth_.between(one.a, same ? other->a : other->b);
-        const auto second = growth_.between(one.b, same ? other->b : other->a);
-        if (first.first + second.first >= metres) continue;
-        metres = first.first + second.first;
-        radians = first.second + second.second;
-        tie = other;
-      }
-      if (tie != nullptr && agrees(one, *tie, metres, radians))
-        state_.taken.emplace(candidates_[c].alignment, c);
+      const Candidate& candidate = candidates_[c];
+      if (state_.taken.contains(candidate.alignment) || state_.banned.contains(candidate.alignment)) continue;
+      const auto after = near.lower_bound(end_in(frames.first, candidate.between));
+      const bool agrees_with_any =
+          (after != near.end() && agrees(candidate.between, *after->second)) ||
+          (after != near.begin() && agrees(candidate.between, *std::prev(after)->second));
+      if (!agrees_with_any) continue;
+      state_.taken.emplace(candidate.alignment, c);
+      near[end_in(frames.first, candidate.between)] = &candidate.between;
     }
     return state_.taken.size() > before;
   }
 
-  /// Around the loop of two alignments and the odometry between their ends.
-  bool agrees(const Between& one, const Between& tie, double metres, double radians) const {
+  std::size_t end_in(std::size_t frame, const Between& between) const {
+    return graph_.pillars[between.a].frame == frame ? between.a : between.b;
+  }
+
+  /// Around the loop of two alignments and the odometry between their ends, if that is short.
+  bool agrees(const Between& one, const Between& tie) const {
+    // Ties of one pair of frames may name the frames in either order.
     const bool same = graph_.pillars[one.a].frame == graph_.pillars[tie.a].frame;
+    const auto first = growth_.between(one.a, same ? tie.a : tie.b);
+    const auto second = growth_.between(one.b, same ? tie.b : tie.a);
+    const double metres = first.first + second.first, radians = first.second + second.second;
+    if (metres > kNearM * kNearM) return false;
     const Pose T_tie = same ? tie.T_a_b : tie.T_a_b.inverse();
     const Pose T_a_a = odometry(one.a, same ? tie.a : tie.b);
     const Pose T_b_b = odometry(same ? tie.b : tie.a, one.b);
@@ -295,8 +303,7 @@ class Selector {
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
     for (const auto& [frames, evaluation] : alone_)
       for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].first;
-    for (const auto& [frames, evaluation] : state_.last)
-      for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].second;
+    for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
     for (const auto& [frames, group] : groups_) {
       std::vector<std::pair<Eigen::Vector3d, AgentId>> clusters;
       for (const std::size_t c : group) {

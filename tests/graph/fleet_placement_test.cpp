@@ -1,0 +1,367 @@
+#include "fleetmap/graph/fleet_placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "simulated_fleet.hpp"
+
+namespace fleetmap::graph {
+namespace {
+
+using testing::kPitch;
+using testing::SimulatedFleet;
+using testing::SimulatedFleetConfig;
+
+const Eigen::Vector3d kOneRow(kPitch, 0.0, 0.0);
+const AgentId kR1 = SimulatedFleet::agent(0), kR2 = SimulatedFleet::agent(1), kR3 = SimulatedFleet::agent(2);
+
+std::string of(unsigned seed) { return std::string("seed ").append(std::to_string(seed)); }
+
+Placement place(const SimulatedFleet& fleet, std::span<const NodeId> covariance_of = {}) {
+  return place_by_fleet_graph(fleet.nodes, fleet.alignments, fleet.site, {}, covariance_of);
+}
+
+/// RMS error of the positions of all nodes of `agents` (all, if empty), as one rigid body: what of the map is
+/// bent.
+double joint_error(const SimulatedFleet& fleet, const Placement& placement,
+                   const std::set<AgentId>& agents = {}) {
+  std::vector<Eigen::Vector3d> placed, true_place;
+  for (const auto& [id, T] : fleet.truth) {
+    if (!agents.empty() && !agents.contains(id.agent)) continue;
+    placed.push_back(placement.T_enu_node.at(id).translation());
+    true_place.push_back(T.translation());
+  }
+  const auto n = static_cast<Eigen::Index>(placed.size());
+  const Eigen::Map<const Eigen::Matrix3Xd> A(placed.front().data(), 3, n), B(true_place.front().data(), 3, n);
+  const Eigen::Matrix4d T = Eigen::umeyama(A, B, false);
+  const Eigen::Matrix3Xd moved = (T.topLeftCorner<3, 3>() * A).colwise() + T.topRightCorner<3, 1>();
+  return std::sqrt((moved - B).squaredNorm() / static_cast<double>(n));
+}
+
+std::map<std::pair<AgentId, std::uint32_t>, Judgement> judgements(const Placement& placement) {
+  std::map<std::pair<AgentId, std::uint32_t>, Judgement> result;
+  for (const JudgedAlignment& one : placement.judged) result[{one.computed_by, one.seq}] = one.judgement;
+  return result;
+}
+
+std::size_t count(const Placement& placement, Judgement judgement) {
+  return static_cast<std::size_t>(
+      std::ranges::count(placement.judged, judgement, &JudgedAlignment::judgement));
+}
+
+/// Names of the alignments from the k-th on.
+std::set<std::pair<AgentId, std::uint32_t>> names_from(const SimulatedFleet& fleet, std::size_t first) {
+  std::set<std::pair<AgentId, std::uint32_t>> names;
+  for (std::size_t k = first; k < fleet.alignments.size(); ++k)
+    names.emplace(fleet.alignments[k].computed_by, fleet.alignments[k].seq);
+  return names;
+}
+
+void expect_none_used(const Placement& placement, const std::set<std::pair<AgentId, std::uint32_t>>& names,
+                      const std::string& what) {
+  for (const auto& [name, judgement] : judgements(placement)) {
+    if (names.contains(name)) {
+      EXPECT_NE(judgement, Judgement::used) << what << ": " << name.first.str() << '/' << name.second;
+    }
+  }
+}
+
+TEST(FleetPlacement, AllTrueAlignmentsAreUsedAndTieTheFleet) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const SimulatedFleet fleet(seed);
+    const Placement placement = place(fleet);
+    EXPECT_EQ(placement.components.size(), 1u) << "seed " << seed;
+    EXPECT_GE(placement.used.size() * 100, fleet.alignments.size() * 97) << "seed " << seed;
+    EXPECT_EQ(placement.T_enu_node.size(), fleet.nodes.size());
+    EXPECT_LT(joint_error(fleet, placement), 0.8) << "seed " << seed;
+    for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined);
+  }
+}
+
+TEST(FleetPlacement, BetterThanTheLeastRmseOfThePaper) {
+  double fleet_error = 0.0, paper_error = 0.0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const SimulatedFleet fleet(seed);
+    fleet_error += joint_error(fleet, place(fleet));
+    paper_error += joint_error(fleet, place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site));
+  }
+  EXPECT_LT(fleet_error, 0.7 * paper_error);
+}
+
+TEST(FleetPlacement, SameSetSameBitsWhateverTheOrder) {
+  SimulatedFleet fleet(3);
+  for (const auto& [i, j] : fleet.near_pairs(kR1, kR2, 5)) fleet.align(i, j, kR1, kOneRow);
+  for (const auto& [i, j] : fleet.near_pairs(kR2, kR3, 7)) {
+    Alignment& a = fleet.align(i, j, kR3, kOneRow);
+    a.modes.push_back(fleet.seen_at(i, fleet.truth.at(j)));
+  }
+  std::vector<NodeId> all;
+  for (const Node& node : fleet.nodes) all.push_back(node.id);
+  const Placement reference = place(fleet, all);
+  for (int shuffle = 0; shuffle < 5; ++shuffle) {
+    std::ranges::shuffle(fleet.nodes, fleet.random());
+    std::ranges::shuffle(fleet.alignments, fleet.random());
+    const Placement placement = place(fleet, all);
+    ASSERT_EQ(placement.T_enu_node.size(), reference.T_enu_node.size());
+    for (const auto& [id, T] : reference.T_enu_node) {
+      EXPECT_TRUE(T.matrix() == placement.T_enu_node.at(id).matrix()) << to_string(id);
+      EXPECT_TRUE(reference.covariance.at(id) == placement.covariance.at(id)) << to_string(id);
+    }
+    for (const auto& [frame, T] : reference.T_enu_odom)
+      EXPECT_TRUE(T.matrix() == placement.T_enu_odom.at(frame).matrix());
+    EXPECT_EQ(judgements(placement), judgements(reference));
+    EXPECT_EQ(placement.components, reference.components);
+  }
+}
+
+TEST(FleetPlacement, OneAlignmentOneRowOffIsRejected) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleet fleet(seed);
+    const double undisturbed = joint_error(fleet, place(fleet));
+    const std::size_t honest = fleet.alignments.size();
+    const auto pairs = fleet.near_pairs(kR1, kR2, 1);
+    const auto& [i, j] = pairs[pairs.size() / 2];
+    fleet.align(i, j, kR1, seed % 2 == 0 ? kOneRow : Eigen::Vector3d(-kOneRow));
+    const Placement placement = place(fleet);
+    expect_none_used(placement, names_from(fleet, honest), of(seed));
+    EXPECT_NEAR(joint_error(fleet, placement), undisturbed, 0.05) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, TenThatAgreeOneRowOffAreRejected) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleet fleet(seed);
+    const double undisturbed = joint_error(fleet, place(fleet));
+    const std::size_t honest = fleet.alignments.size();
+    const auto pairs = fleet.near_pairs(kR1, kR2, 1);
+    ASSERT_GE(pairs.size(), 10u);
+    for (std::size_t k = 0; k < 10; ++k) {
+      const auto& [i, j] = pairs[k * pairs.size() / 10];
+      fleet.align(i, j, k % 2 == 0 ? kR1 : kR2, kOneRow);
+    }
+    const Placement placement = place(fleet);
+    expect_none_used(placement, names_from(fleet, honest), of(seed));
+    EXPECT_NEAR(joint_error(fleet, placement), undisturbed, 0.05) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, WhenAllBetweenTwoRobotsAreFalseAThirdTiesThem) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleetConfig config;
+    config.reach = 50.0;  // r1 and r3 meet as well
+    config.lanes = 6;
+    config.length = 80.0;  // long enough for GPS to tell one row from the next
+    SimulatedFleet fleet(seed, config);
+    std::set<std::pair<AgentId, std::uint32_t>> false_ones;
+    for (Alignment& a : fleet.alignments) {
+      if (std::set{a.i.agent, a.j.agent} != std::set{kR1, kR2}) continue;
+      Pose T = fleet.truth.at(a.j);
+      T.pretranslate(kOneRow);
+      a.modes = {fleet.seen_at(a.i, T)};
+      false_ones.emplace(a.computed_by, a.seq);
+    }
+    const Placement placement = place(fleet);
+    expect_none_used(placement, false_ones, of(seed));
+    EXPECT_EQ(placement.components.size(), 1u) << "seed " << seed;
+    EXPECT_LT(joint_error(fleet, placement), 1.2) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, ARobotThatComputesGarbageIsQuarantinedAndBendsNothing) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleetConfig config;
+    config.robots = 4;
+    config.reach = 40.0;
+    SimulatedFleet fleet(seed, config);
+    const AgentId faulty = SimulatedFleet::agent(3);
+    const std::set<AgentId> others{kR1, kR2, kR3};
+    std::erase_if(fleet.alignments,
+                  [&](const Alignment& a) { return a.i.agent == faulty || a.j.agent == faulty; });
+    const double undisturbed = joint_error(fleet, place(fleet), others);
+    for (const AgentId& other : others) {
+      for (const auto& [i, j] : fleet.near_pairs(faulty, other, 2)) {
+        Alignment& a = fleet.align(i, j, faulty);
+        a.seq += 1000;
+        Vector6d garbage;
+        for (int k = 0; k < 6; ++k) garbage(k) = fleet.gauss(k < 3 ? 8.0 : 0.5);
+        a.modes.front().T_i_j = a.modes.front().T_i_j * se3_exp(garbage);
+      }
+    }
+    const Placement placement = place(fleet);
+    EXPECT_TRUE(placement.credits.at(faulty).quarantined) << "seed " << seed;
+    EXPECT_EQ(placement.credits.at(faulty).used, 0u);
+    for (const AgentId& other : others) EXPECT_FALSE(placement.credits.at(other).quarantined);
+    EXPECT_NEAR(joint_error(fleet, placement, others), undisturbed, 0.02) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, ModesOfAmbiguousAlignmentsAreToldApart) {
+  std::size_t right = 0, wrong = 0, all = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleet fleet(seed);
+    for (Alignment& a : fleet.alignments) {
+      if (fleet.random()() % 2 == 0) continue;
+      for (const double rows : {-1.0, 1.0, 2.0}) {
+        Pose T = fleet.truth.at(a.j);
+        T.pretranslate(rows * kOneRow);
+        a.modes.insert(a.modes.begin(), fleet.seen_at(a.i, T));
+      }
+    }
+    const Placement placement = place(fleet);
+    for (const JudgedAlignment& one : placement.judged) {
+      const auto& a = *std::ranges::find_if(fleet.alignments, [&](const Alignment& other) {
+        return other.computed_by == one.computed_by && other.seq == one.seq;
+      });
+      if (!a.ambiguous()) continue;
+      ++all;
+      if (one.judgement == Judgement::used) ++(one.mode == 3 ? right : wrong);
+    }
+  }
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_GT(right * 100, all * 90);
+}
+
+TEST(FleetPlacement, GpsOutageOfThreeMinutes) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SimulatedFleet fleet(seed);
+    for (Node& node : fleet.nodes) {
+      const double seconds = 4.0 * node.id.seq;
+      if (node.id.agent != kR2 || seconds < 40.0 || seconds > 220.0) continue;
+      // Dead reckoning: an error that grows, and is known to.
+      const double sigma = 1.5 + 0.1 * (seconds - 40.0);
+      node.G->position.longitude += 0.7 * sigma / 4.95e6;
+      node.G->covariance.diagonal().head<3>().setConstant(sigma * sigma);
+    }
+    const std::size_t honest = fleet.alignments.size();
+    const auto pairs = fleet.near_pairs(kR1, kR2, 1);
+    fleet.align(pairs[3].first, pairs[3].second, kR1, kOneRow);
+    const Placement placement = place(fleet);
+    expect_none_used(placement, names_from(fleet, honest), of(seed));
+    EXPECT_LT(joint_error(fleet, placement), 0.6) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, GpsOfTenMetresLeavesItToTheMajority) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SimulatedFleetConfig config;
+    config.gps_sigma = 10.0;
+    SimulatedFleet fleet(seed, config);
+    const std::size_t honest = fleet.alignments.size();
+    const auto pairs = fleet.near_pairs(kR1, kR2, 1);
+    fleet.align(pairs[3].first, pairs[3].second, kR1, kOneRow);
+    const Placement placement = place(fleet);
+    expect_none_used(placement, names_from(fleet, honest), of(seed));
+    EXPECT_EQ(placement.components.size(), 1u);
+    EXPECT_LT(joint_error(fleet, placement), 1.0) << "seed " << seed;
+  }
+}
+
+TEST(FleetPlacement, AKidnappedRobotIsAFrameOfItsOwnUntilAlignedWithAnother) {
+  SimulatedFleet fleet(5);
+  std::erase_if(fleet.alignments, [](const Alignment& a) {
+    return (a.i.agent == kR1 && a.i.seq >= 30) || (a.j.agent == kR1 && a.j.seq >= 30);
+  });
+  fleet.kidnap(kR1, 30);
+  const Placement apart = place(fleet);
+  EXPECT_EQ(apart.components.size(), 3u);
+  EXPECT_EQ(apart.T_enu_odom.size(), 4u);
+  fleet.align({kR1, 12}, {kR1, 40}, kR1);  // with itself, before
+  fleet.align({kR1, 20}, {kR1, 50}, kR1);
+  const Placement tied = place(fleet);
+  EXPECT_EQ(tied.components.size(), 2u);
+  EXPECT_LT(joint_error(fleet, tied, {kR1}), 0.6);
+}
+
+TEST(FleetPlacement, AFalseLoopClosureDoesNotBendItsRobot) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SimulatedFleet fleet(seed);
+    const std::size_t honest = fleet.alignments.size();
+    fleet.align({kR1, 5}, {kR1, 25}, kR1);
+    fleet.align({kR1, 8}, {kR1, 24}, kR1, kOneRow);
+    const Placement placement = place(fleet);
+    EXPECT_EQ(judgements(placement).at({kR1, fleet.alignments[honest].seq}), Judgement::used);
+    EXPECT_NE(judgements(placement).at({kR1, fleet.alignments[honest + 1].seq}), Judgement::used);
+  }
+}
+
+TEST(FleetPlacement, WithoutAlignmentsEveryFrameLiesWhereItsGpsSays) {
+  SimulatedFleet fleet(6);
+  fleet.alignments.clear();
+  const Placement placement = place(fleet);
+  EXPECT_EQ(placement.components.size(), 3u);
+  for (const Node& node : fleet.nodes) {
+    EXPECT_LT((placement.T_enu_node.at(node.id).translation() - fleet.truth.at(node.id).translation()).norm(),
+              4.0 * 1.5);
+  }
+  EXPECT_TRUE(place_by_fleet_graph({}, {}, fleet.site).T_enu_node.empty());
+}
+
+TEST(FleetPlacement, ALoneNodeIsPlaced) {
+  SimulatedFleet fleet(7);
+  fleet.nodes.resize(1);
+  const Placement placement = place(fleet);
+  ASSERT_EQ(placement.T_enu_node.size(), 1u);
+  EXPECT_EQ(count(placement, Judgement::waiting), fleet.alignments.size());
+}
+
+TEST(FleetPlacement, ImpossibleNumbersDoNotCount) {
+  SimulatedFleet fleet(8);
+  const Placement reference = place(fleet);
+  const auto spoil = [&](const std::function<void(AlignmentMode&)>& how) {
+    Alignment a = fleet.alignments.front();
+    a.seq = 10'000 + static_cast<std::uint32_t>(fleet.alignments.size());
+    how(a.modes.front());
+    fleet.alignments.push_back(a);
+  };
+  spoil([](AlignmentMode& m) { m.T_i_j.translation().x() = std::nan(""); });
+  spoil([](AlignmentMode& m) { m.T_i_j.translation().x() = 1e30; });
+  spoil([](AlignmentMode& m) { m.T_i_j.linear() *= 2.0; });
+  spoil([](AlignmentMode& m) { m.covariance(0, 0) = -1.0; });
+  spoil([](AlignmentMode& m) { m.covariance(1, 2) = std::numeric_limits<double>::infinity(); });
+  Node bad = fleet.nodes.front();
+  bad.id.agent = AgentId::parse("x").value();
+  bad.T_odom_base.translation().x() = 1e12;
+  fleet.nodes.push_back(bad);
+  bad.id.seq = 1;
+  bad.T_odom_base = Pose::Identity();
+  bad.G->covariance(0, 0) = std::nan("");
+  fleet.nodes.push_back(bad);
+  const Placement placement = place(fleet);
+  EXPECT_EQ(count(placement, Judgement::invalid), 5u);
+  EXPECT_EQ(placement.T_enu_node.size(), reference.T_enu_node.size());
+  for (const auto& [id, T] : reference.T_enu_node)
+    EXPECT_TRUE(T.matrix() == placement.T_enu_node.at(id).matrix()) << to_string(id);
+}
+
+TEST(FleetPlacement, CovariancesPromiseWhatErrorsAre) {
+  double sum = 0.0, ends = 0.0;
+  int samples = 0, end_samples = 0;
+  for (unsigned seed = 100; seed < 130; ++seed) {
+    const SimulatedFleet fleet(seed);
+    std::vector<NodeId> some;
+    for (const Node& node : fleet.nodes) {
+      if (node.id.seq % 9 == 4 || node.id.seq == 60) some.push_back(node.id);
+    }
+    const Placement placement = place(fleet, some);
+    for (const NodeId& id : some) {
+      const Vector6d error = se3_log(placement.T_enu_node.at(id).inverse() * fleet.truth.at(id));
+      const double nees = error.dot(placement.covariance.at(id).llt().solve(error)) / 6.0;
+      (id.seq == 60 ? ends : sum) += nees;
+      ++(id.seq == 60 ? end_samples : samples);
+    }
+  }
+  EXPECT_GT(sum / samples, 0.5);
+  EXPECT_LT(sum / samples, 2.0);
+  EXPECT_GT(ends / end_samples, 0.5);
+  EXPECT_LT(ends / end_samples, 2.0);
+  RecordProperty("nees", std::to_string(sum / samples));
+  RecordProperty("nees_at_the_end", std::to_string(ends / end_samples));
+}
+
+}  // namespace
+}  // namespace fleetmap::graph
