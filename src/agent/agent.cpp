@@ -230,7 +230,8 @@ void Agent::freeze_node(const Perceived& perceived) {
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   align_with_earlier_session(node);
-  if (const auto closure = loop_closures_.on_own_node(node); closure && config_.close_loops) {
+  const auto closure = loop_closures_.on_own_node(node);
+  if (closure && config_.placement.mode == graph::PlacementMode::fleet) {
     register_own(closure->earlier, closure->later, prior_of(*closure));
   }
   on_events();

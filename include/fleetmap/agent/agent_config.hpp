@@ -30,8 +30,7 @@ struct AgentConfig {
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
   OdometryUncertaintyConfig odometry_uncertainty;
-  LoopClosureConfig loop_closures;
-  bool close_loops = false;  ///< register own nodes with each other, too: what the fleet graph can use
+  LoopClosureConfig loop_closures;  ///< of mode fleet: the paper's scheme has no use for them
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;
