@@ -2,15 +2,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <unordered_set>
 
+#include "fit_to_truth.hpp"
 #include "fleetmap/cloud/kd_tree.hpp"
 #include "fleetmap/eval/density.hpp"
-#include "fleetmap/registration/icp.hpp"
 #include "thinning.hpp"
 #include "truth_surface.hpp"
 
@@ -29,18 +30,13 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   std::vector<std::size_t> in_truth;
   in_truth.reserve(target.size());
   for (const Eigen::Vector3f& p : target.points) in_truth.push_back(truth.tree().nearest(p, 1.0f)->index);
-  const cloud::Normals normals{truth.normals_at(in_truth), {}};
+  const std::vector<Eigen::Vector3f> normals = truth.normals_at(in_truth);
   // Of two layers of a wrong map neither is to win.
   const cloud::PointCloud source = thinned_to(shuffled(map), 0.3, kSourcePoints);
-  const cloud::Normals none;
-  registration::IcpConfig icp;
   const auto first = static_cast<float>(config.registration_distance);
   const auto last = static_cast<float>(config.inlier_distance);
-  icp.max_distances_m = {std::max(first, last), std::max(0.5f * first, last), last};
-  icp.iterations_per_stage = 12;
-  icp.degenerate_share = 1e-3;
-  icp.kernel_share = 1.0f;  // what counts is the RMSE of all inliers
-  return registration::icp({target, tree, normals}, {source, none}, Pose::Identity(), icp).T_target_source;
+  return fit_to_truth({target.points, normals, tree}, source.points,
+                      std::array{std::max(first, last), std::max(0.5f * first, last), last});
 }
 
 /// Fisher information of the registration: each inlier measures the map's pose along the truth's normal.

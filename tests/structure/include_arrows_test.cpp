@@ -32,7 +32,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"recording", {"wire"}},
     {"sim", {"cloud", "sensor"}},
     {"planning", {"geometry"}},
-    {"eval", {"registration", "graph"}},
+    {"eval", {"cloud", "graph"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
     {"config", {"agent", "bus", "recording", "sim", "planning", "eval"}},
     {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
