@@ -43,10 +43,20 @@ void print_fleet(const nlohmann::json& evaluation) {
   }
 }
 
+void print_modes(const nlohmann::json& modes) {
+  for (const auto& [mode, one] : modes.items()) {
+    if (!one.contains("fleet")) continue;
+    std::cout << "mode " << mode << ": joint ATE " << one["fleet"]["ate_joint"].get<double>() << " m, "
+              << one["fleet"]["wrong_merges"] << " wrong merges, " << one["alignments"]["wrong_used"]
+              << " wrong alignments used\n";
+  }
+}
+
 void print_summary(const std::string& directory, const nlohmann::json& evaluation) {
   std::cout << std::setprecision(4);
   if (evaluation.contains("map")) print_map(evaluation["map"]);
   print_fleet(evaluation);
+  if (evaluation.contains("modes")) print_modes(evaluation["modes"]);
   for (const auto& [id, agent] : evaluation["agents"].items()) {
     if (!agent.contains("ate_rmse")) continue;
     std::cout << id << ": ATE " << agent["ate_rmse"].get<double>() << " m, aligned "

@@ -5,9 +5,9 @@
 
 #include "evaluation_page.hpp"
 #include "fleet_evaluation.hpp"
-#include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/eval/trajectory.hpp"
-#include "map_pictures.hpp"
+#include "map_evaluation.hpp"
+#include "mode_evaluation.hpp"
 #include "run_folder.hpp"
 
 namespace fleetmap::apps {
@@ -15,52 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr double kErrorBin = 0.02;  // m
-
-json pose_json(const Pose& T) {
-  const Eigen::Vector3d t = T.translation();
-  const Eigen::Quaterniond q(T.linear());
-  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
-}
-
-/// What needs no truth.
-json description_json(const eval::MapMetrics& m, const eval::MapMetricsConfig& config) {
-  return {{"map_points", m.map_points},     {"mapped_area", m.mapped_area},
-          {"mean_density", m.mean_density}, {"density_histogram", m.density_histogram},
-          {"density_bin", m.density_bin},   {"density_radius", config.density_radius}};
-}
-
-json map_json(const eval::EvaluatedMap& evaluated, const eval::MapMetricsConfig& config) {
-  const eval::MapMetrics& m = evaluated.metrics;
-  json map = description_json(m, config);
-  map["T_truth_map"] = pose_json(m.T_truth_map);
-  map["rmse"] = m.rmse;
-  map["rmse_points"] = m.rmse_points;
-  map["fitness"] = m.fitness;
-  map["inliers"] = m.inliers;
-  map["inlier_distance"] = config.inlier_distance;
-  map["det_covariance"] = m.det_covariance;
-  map["sigma"] = m.sigma;
-  map["thresholds"] = config.thresholds;
-  map["accuracy"] = m.accuracy;
-  map["completeness"] = m.completeness;
-  map["f1"] = m.f1;
-  map["reach"] = m.reach;
-  map["completeness_in_reach"] = m.completeness_in_reach;
-  map["f1_in_reach"] = m.f1_in_reach;
-  map["chamfer"] = m.chamfer;
-  map["truth_points"] = m.truth_points;
-  map["truth_spacing"] = m.truth_spacing;
-  std::vector<double> shares(static_cast<std::size_t>(std::ceil(config.inlier_distance / kErrorBin)) + 1);
-  for (const float error : evaluated.errors) {
-    const auto bin = static_cast<std::size_t>(static_cast<double>(error) / kErrorBin);
-    shares[std::min(bin, shares.size() - 1)] += 1.0 / static_cast<double>(evaluated.errors.size());
-  }
-  map["error_histogram"] = shares;  // the last bin holds all from inlier_distance on
-  map["error_bin"] = kErrorBin;
-  return map;
-}
 
 json errors_json(const eval::TrajectoryErrors& e) {
   return {{"poses", e.pairs},
@@ -155,6 +109,35 @@ Result<std::optional<cloud::PointCloud>> truth_of(const fs::path& directory, con
   return std::optional(std::move(*truth));
 }
 
+double registration_seconds(const AgentFolder& agent) {
+  double seconds = 0.0;
+  for (const Attempt& attempt : attempts_of(agent)) seconds += attempt.cpu_seconds;
+  return seconds;
+}
+
+/// What perception and registration took on the robots, mean of all; the twin and the exchange are not in it.
+json cpu_json(const RunFolder& run) {
+  const json agents = run.report.is_object() ? run.report.value("agents", json::object()) : json::object();
+  double odometry = 0.0, registration = 0.0;
+  std::size_t robots = 0;
+  for (const AgentFolder& folder : run.agents) {
+    const json sensors = agents.value(folder.id.str(), json::object()).value("sensors", json::object());
+    if (!sensors.contains("scans")) continue;
+    odometry += 1e-3 * sensors.value("scans", 0.0) *
+                sensors.value("odometry_cpu_ms", json::object()).value("mean", 0.0);
+    registration += registration_seconds(folder);
+    ++robots;
+  }
+  if (robots == 0) return nullptr;
+  const auto count = static_cast<double>(robots);
+  json cpu = {{"odometry_s", odometry / count},
+              {"registration_s", registration / count},
+              {"per_robot_s", (odometry + registration) / count}};
+  if (const double time = run.report.value("virtual_time_s", 0.0); time > 0.0)
+    cpu["share"] = (odometry + registration) / count / time;
+  return cpu;
+}
+
 /// What the robot holds whose map most share; nothing, with a note, where no store tells.
 std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<DistinctMap>& maps) {
   if (maps.empty()) return std::nullopt;
@@ -163,77 +146,6 @@ std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<Distinct
   run.notes.push_back(held.error().message + "; alignments are not judged, robots not told apart");
   return std::nullopt;
 }
-
-/// Adds "map" (and "maps") and draws the pictures of the map that most robots hold.
-class MapEvaluation {
- public:
-  MapEvaluation(RunFolder& run, const EvaluationInputs& inputs, std::optional<cloud::PointCloud> truth,
-                HeldFleet* held, const eval::TruePoses& nodes)
-      : run_(run), inputs_(inputs), truth_(std::move(truth)), held_(held), nodes_(nodes) {}
-
-  Status add_to(json& evaluation, const std::vector<DistinctMap>& maps) {
-    for (std::size_t k = 0; k < maps.size(); ++k) {
-      auto one = evaluate(maps[k], k == 0);
-      if (!one) return tl::unexpected(one.error());
-      json holders = json::array();
-      for (const AgentId& id : maps[k].agents) holders.push_back(id.str());
-      (*one)["agents"] = holders;
-      (*one)["hash"] = maps[k].hash;
-      if (k == 0) evaluation["map"] = *one;
-      if (maps.size() > 1) evaluation["maps"].push_back(*one);
-    }
-    return {};
-  }
-  std::vector<MapPicture> pictures;
-
- private:
-  Result<json> evaluate(const DistinctMap& map, bool draw) {
-    const auto cloud = cloud::read_cloud(map.file);
-    if (!cloud) return tl::unexpected(cloud.error());
-    if (draw && inputs_.pictures) {
-      draw_by_robot(*cloud);
-      keep(picture_of_density(*cloud, inputs_.map.density_radius));
-    }
-    if (!truth_) return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
-    const auto evaluated = eval::evaluate_map_points(*cloud, *truth_, inputs_.map);
-    if (!evaluated) {
-      run_.notes.push_back(map.file.string() + ": " + evaluated.error().message);
-      return description_json(eval::describe_map(*cloud, inputs_.map), inputs_.map);
-    }
-    if (draw && inputs_.pictures) keep(picture_of_errors(evaluated->points, evaluated->errors));
-    json result = map_json(*evaluated, inputs_.map);
-    if (!draw || held_ == nullptr || nodes_.empty()) return result;
-    json overlap = overlap_json(*held_, nodes_, *truth_, evaluated->metrics.T_truth_map, inputs_.map);
-    if (!overlap.is_null()) result["overlap"] = std::move(overlap);
-    return result;
-  }
-
-  void draw_by_robot(const cloud::PointCloud& cloud) {
-    store::MergedMap merged;
-    if (held_ != nullptr) {
-      merged = map_with_sources(*held_);
-    } else {
-      merged.cloud = cloud;
-    }
-    auto drawn = pictures_by_robot(merged);
-    if (!drawn) return run_.notes.push_back("no picture by robot: " + drawn.error().message);
-    for (MapPicture& picture : *drawn) pictures.push_back(std::move(picture));
-  }
-
-  void keep(Result<MapPicture> picture) {
-    if (picture) {
-      pictures.push_back(std::move(*picture));
-    } else {
-      run_.notes.push_back("a picture is missing: " + picture.error().message);
-    }
-  }
-
-  RunFolder& run_;
-  const EvaluationInputs& inputs_;
-  std::optional<cloud::PointCloud> truth_;
-  HeldFleet* held_;
-  const eval::TruePoses& nodes_;
-};
 
 /// The file appears whole or not at all.
 Status write_json(const fs::path& file, const json& content) {
@@ -281,8 +193,13 @@ Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inp
     evaluation["alignments"] = alignments_json(*run, *held, nodes);
     evaluation["calibration"] = calibration_json(*run, *held, nodes);
   }
-  MapEvaluation maps(*run, inputs, std::move(*truth), held ? &*held : nullptr, nodes);
-  if (const Status done = maps.add_to(evaluation, distinct); !done) return tl::unexpected(done.error());
+  MapEvaluation maps(inputs, std::move(*truth), nodes);
+  if (const Status done = maps.add_to(evaluation, distinct, held ? &*held : nullptr); !done)
+    return tl::unexpected(done.error());
+  if (json modes = held ? modes_json(*run, *held, nodes, maps, evaluation) : json(); !modes.is_null())
+    evaluation["modes"] = std::move(modes);
+  if (json cpu = cpu_json(*run); !cpu.is_null()) evaluation["cpu"] = std::move(cpu);
+  run->notes.insert(run->notes.end(), maps.notes.begin(), maps.notes.end());
   const double area = evaluation.contains("map") ? evaluation["map"].value("mapped_area", 0.0) : 0.0;
   if (json links = links_json(run->report, area); !links.is_null()) evaluation["links"] = links;
   evaluation["notes"] = run->notes;

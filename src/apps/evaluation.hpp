@@ -26,7 +26,8 @@ struct EvaluationInputs {
 /// report.json under "evaluation". What a missing truth does not allow is left out and said in "notes".
 ///
 /// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, fleet,
-/// alignments, calibration, links, notes.
+/// alignments, calibration, modes (paper and fleet: the same
+/// nodes and alignments as each places them), cpu, links, notes.
 Result<nlohmann::json> evaluate_run(const std::filesystem::path& directory, const EvaluationInputs& inputs);
 
 }  // namespace fleetmap::apps

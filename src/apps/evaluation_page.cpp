@@ -87,6 +87,37 @@ void add_fleet(eval::HtmlPage& page, const json& fleet) {
   page.table(rows);
 }
 
+/// The same nodes and alignments, placed by each mode.
+void add_modes(eval::HtmlPage& page, const json& modes) {
+  page.heading("Mode fleet beside mode paper");
+  page.paragraph("The same nodes and alignments: as one graph, and by one rigid transform a pair of robots.");
+  eval::Table rows{{"", "fleet", "paper"}};
+  const auto row = [&](const char* title, const char* part, const char* key) {
+    rows.push_back({title, text(modes["fleet"].value(part, json()), key),
+                    text(modes["paper"].value(part, json()), key)});
+  };
+  row("joint ATE [m]", "fleet", "ate_joint");
+  row("of it between robots [m]", "fleet", "between_robots");
+  row("of it bends [m]", "fleet", "bend");
+  row("where robots see each other [m]", "fleet", "inter_robot_translation");
+  row("pairs of robots joined wrongly", "fleet", "wrong_merges");
+  row("alignments used", "alignments", "used");
+  row("used and wrong", "alignments", "wrong_used");
+  row("map RMSE [m]", "map", "rmse");
+  const auto overlap = [&](const char* mode) {
+    return modes[mode].value("map", json::object()).value("overlap", json::object());
+  };
+  rows.push_back({"F1 at 5 / 10 cm where two robots were", shares(overlap("fleet"), "f1"),
+                  shares(overlap("paper"), "f1")});
+  page.table(rows);
+  const json judgements = modes["fleet"].value("judgements", json::object());
+  if (judgements.empty()) return;
+  eval::Table verdicts{{"mode fleet says", "alignments", "of them wrong"}};
+  for (const auto& [judgement, numbers] : judgements.items())
+    verdicts.push_back({judgement, text(numbers, "count"), text(numbers, "wrong")});
+  page.table(verdicts);
+}
+
 void add_alignments(eval::HtmlPage& page, const json& alignments) {
   page.heading("Alignments against the truth");
   page.paragraph("Held " + text(alignments, "held") + ", judged " + text(alignments, "count") + ", wrong " +
@@ -130,6 +161,9 @@ void add_calibration(eval::HtmlPage& page, const json& evaluation) {
        {std::pair{"EKF, horizontal", "horizontal"}, {"EKF, up", "up"}, {"EKF, yaw", "yaw"}})
     add_consistency(rows, title, ekf.value(key, json()));
   add_consistency(rows, "odometry, from node to node", calibration.value("odometry", json()));
+  add_consistency(
+      rows, "nodes as mode fleet places them",
+      evaluation.value("modes", json::object()).value("fleet", json::object()).value("calibration", json()));
   add_consistency(rows, "right alignments",
                   evaluation.value("alignments", json::object()).value("calibration", json()));
   if (rows.size() == 1) return;
@@ -248,6 +282,7 @@ eval::HtmlPage evaluation_page(const RunFolder& run, const json& evaluation,
   add_agents(page, run, evaluation);
   if (evaluation.contains("alignments")) add_alignments(page, evaluation["alignments"]);
   add_calibration(page, evaluation);
+  if (evaluation.contains("modes")) add_modes(page, evaluation["modes"]);
   if (evaluation.contains("links")) add_links(page, evaluation["links"]);
   page.details("Everything, as in evaluation.json", evaluation.dump(2));
   return page;

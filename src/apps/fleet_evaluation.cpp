@@ -1,10 +1,8 @@
 #include "fleet_evaluation.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/eval/trajectory.hpp"
@@ -22,44 +20,17 @@ json spread_json(std::vector<double> values) {
   return {{"rms", s.rms}, {"p50", s.p50}, {"p90", s.p90}, {"p95", s.p95}, {"p99", s.p99}, {"max", s.max}};
 }
 
-json consistency_json(std::span<const eval::StatedError> errors) {
-  const eval::Consistency c = eval::consistency(errors);
-  json result = {{"count", c.count}, {"refused", c.refused}};
-  if (c.count == 0) return result;
-  result["dimensions"] = c.dimensions;
-  result["nees"] = c.mean;
-  result["nees_median"] = c.median;
-  result["expected_median"] = c.expected_median;
-  result["within_95"] = c.within_95;
-  result["axes"] = c.axes;
-  return result;
-}
-
 std::vector<graph::Node> nodes_of(const store::Store& store) {
   std::vector<graph::Node> nodes;
   for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
   return nodes;
 }
 
-std::vector<graph::Alignment> alignments_of(const store::Store& store) {
-  std::vector<graph::Alignment> alignments;
-  for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
-  return alignments;
-}
-
 /// Verdicts of every attempt that the robots logged.
 json attempts_json(const RunFolder& run) {
   std::map<std::string, std::size_t> verdicts;
   for (const AgentFolder& agent : run.agents) {
-    std::ifstream in(agent.directory / "registrations.csv");
-    std::string line;
-    for (bool header = true; std::getline(in, line); header = false) {
-      std::istringstream cells(line);
-      std::string target, source, verdict;
-      if (std::getline(cells, target, ',') && std::getline(cells, source, ',') &&
-          std::getline(cells, verdict, ',') && !header)
-        ++verdicts[verdict];
-    }
+    for (const Attempt& attempt : attempts_of(agent)) ++verdicts[attempt.verdict];
   }
   return verdicts;
 }
@@ -132,6 +103,25 @@ json joined_json(const std::vector<eval::JoinedPair>& pairs) {
 }
 
 }  // namespace
+
+json consistency_json(std::span<const eval::StatedError> errors) {
+  const eval::Consistency c = eval::consistency(errors);
+  json result = {{"count", c.count}, {"refused", c.refused}};
+  if (c.count == 0) return result;
+  result["dimensions"] = c.dimensions;
+  result["nees"] = c.mean;
+  result["nees_median"] = c.median;
+  result["expected_median"] = c.expected_median;
+  result["within_95"] = c.within_95;
+  result["axes"] = c.axes;
+  return result;
+}
+
+std::vector<graph::Alignment> alignments_of(const store::Store& store) {
+  std::vector<graph::Alignment> alignments;
+  for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
+  return alignments;
+}
 
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
   std::map<AgentId, const eval::Trajectory*> tracks;

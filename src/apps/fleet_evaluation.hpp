@@ -1,7 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <span>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/eval/alignment_errors.hpp"
@@ -12,6 +12,11 @@ namespace fleetmap::apps {
 
 /// Where the nodes truly were: by the true trajectories, at their stamps.
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store);
+
+std::vector<graph::Alignment> alignments_of(const store::Store& store);
+
+/// NEES and what else eval::Consistency tells.
+nlohmann::json consistency_json(std::span<const eval::StatedError> errors);
 
 /// Right and wrong alignments, how large their errors are, and whether their covariances tell.
 nlohmann::json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth);

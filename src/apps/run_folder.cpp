@@ -1,6 +1,7 @@
 #include "run_folder.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -60,6 +61,13 @@ std::string hash_of(const fs::path& file) {
   return to_hex(content_hash(bytes));
 }
 
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
 /// A PLY whose header says that it has faces.
 bool is_mesh(const fs::path& file) {
   if (file.extension() == ".obj") return true;
@@ -109,6 +117,25 @@ Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
   }
   run.report = report_in(directory / "report.json", run.notes);
   return run;
+}
+
+std::vector<Attempt> attempts_of(const AgentFolder& agent) {
+  std::vector<Attempt> attempts;
+  std::ifstream in(agent.directory / "registrations.csv");
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> names = cells_of(line);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  const std::size_t verdict = column("verdict"), cpu = column("cpu_s");
+  while (std::getline(in, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (verdict >= cells.size()) continue;
+    attempts.push_back({cells[verdict], 0.0});
+    if (cpu < cells.size()) attempts.back().cpu_seconds = std::strtod(cells[cpu].c_str(), nullptr);
+  }
+  return attempts;
 }
 
 std::vector<DistinctMap> distinct_maps(RunFolder& run) {

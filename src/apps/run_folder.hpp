@@ -34,6 +34,13 @@ struct RunFolder {
 /// else each robot's own truth.tum is taken.
 Result<RunFolder> open_run(const std::filesystem::path& directory, const std::filesystem::path& truths);
 
+/// A line of a robot's registrations.csv.
+struct Attempt {
+  std::string verdict;
+  double cpu_seconds = 0.0;
+};
+std::vector<Attempt> attempts_of(const AgentFolder& agent);
+
 /// Agents that hold the same map.
 struct DistinctMap {
   std::vector<AgentId> agents;

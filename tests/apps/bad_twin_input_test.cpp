@@ -175,6 +175,7 @@ TEST_F(BadTwinInput, CheckConfigSaysWhatAFileIs) {
   EXPECT_THAT(says(twin_.path("lidar.yaml")), HasSubstr("a valid sensor"));
   const std::filesystem::path shipped = std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config";
   EXPECT_THAT(says(shipped / "experiments/paper.yaml"), HasSubstr("a valid experiment with "));
+  EXPECT_THAT(says(shipped / "experiments/accuracy.yaml"), HasSubstr("a valid experiment with "));
   EXPECT_THAT(says(shipped / "agents/r1.yaml"), HasSubstr("a valid agent configuration"));
   EXPECT_THAT(says(shipped / "fleets/farm_small.yaml"), HasSubstr("5 robots"));
 }

@@ -82,6 +82,26 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
     EXPECT_LT(share_touching(*truth, **world, 0.3), 0.02) << id;
   }
 
+  testing::Process judge(
+      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", two.out.string(), "--no-pictures"},
+      twin.path("eval.log"));
+  ASSERT_EQ(judge.wait(), 0) << judge.output();
+  std::ifstream file(two.out / "evaluation.json");
+  const auto evaluation = nlohmann::json::parse(file, nullptr, false);
+  EXPECT_EQ(evaluation["fleet"]["wrong_merges"], 0);
+  EXPECT_EQ(evaluation["fleet"]["joined_pairs"], evaluation["fleet"]["joined"].size());
+  EXPECT_LT(evaluation["fleet"]["ate_joint"].get<double>(), 0.25);
+  EXPECT_EQ(evaluation["alignments"]["held"], two.report["agents"]["r1"]["alignments"]);
+  EXPECT_EQ(evaluation["alignments"]["wrong_used"], 0);
+  EXPECT_GT(evaluation["calibration"]["ekf"]["horizontal"]["count"].get<int>(), 100);
+  EXPECT_GT(evaluation["map"]["overlap"]["f1"][1].get<double>(), 0.7);
+  EXPECT_GE(evaluation["map"]["overlap"]["with_true_poses"]["f1"][1].get<double>(),
+            evaluation["map"]["overlap"]["f1"][1].get<double>() - 0.02);
+  EXPECT_EQ(evaluation["modes"]["paper"]["fleet"]["wrong_merges"], 0);
+  EXPECT_EQ(evaluation["modes"]["fleet"]["fleet"]["wrong_merges"], 0);
+  EXPECT_LT(evaluation["modes"]["fleet"]["fleet"]["ate_joint"].get<double>(), 0.25);
+  EXPECT_GT(evaluation["cpu"]["per_robot_s"].get<double>(), 0.0);
+
   const auto one = twin.run("one", {"--threads", "1"});
   ASSERT_EQ(one.exit_code, 0) << one.output;
   const auto other = twin.run("other", {"--threads", "2", "--set", "world.seed=2"});

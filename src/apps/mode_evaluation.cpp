@@ -1,0 +1,145 @@
+#include "mode_evaluation.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "fleet_evaluation.hpp"
+#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/graph/place.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kCovariances = 60;  ///< of as many nodes, evenly chosen
+
+/// The same set, as `mode` places it.
+graph::Placement placed(const HeldFleet& held, graph::PlacementMode mode,
+                        std::span<const NodeId> covariance_of) {
+  std::vector<graph::Node> nodes;
+  for (const auto& [id, node] : held.store.nodes()) nodes.push_back(node);
+  graph::PlacementConfig config = held.recipe.placement;
+  config.mode = mode;
+  return graph::place(nodes, alignments_of(held.store), LocalFrame(held.recipe.origin), config,
+                      covariance_of);
+}
+
+std::vector<NodeId> some_of(const eval::TruePoses& nodes) {
+  std::vector<NodeId> chosen;
+  const std::size_t step = nodes.size() / kCovariances + 1;
+  std::size_t k = 0;
+  for (const auto& [id, T] : nodes) {
+    if (k++ % step == 0) chosen.push_back(id);
+  }
+  return chosen;
+}
+
+bool same_places(const graph::Placement& a, const graph::Placement& b) {
+  return std::ranges::equal(a.T_enu_node, b.T_enu_node, [](const auto& left, const auto& right) {
+    return left.first == right.first && left.second.matrix() == right.second.matrix();
+  });
+}
+
+/// A node of one frame: what takes the odometry there into ENU.
+struct Anchor {
+  Stamp stamp;
+  Pose T_enu_odom;
+};
+
+/// O of one session; between two nodes what each of them says goes over into the other.
+void append_session(const std::vector<agent::StampedPose>& odometry, const std::vector<Anchor>& anchors,
+                    eval::Trajectory& trajectory) {
+  for (const agent::StampedPose& pose : odometry) {
+    if (!trajectory.empty() && pose.stamp < trajectory.back().stamp) continue;
+    const auto after = std::ranges::lower_bound(anchors, pose.stamp, {}, &Anchor::stamp);
+    const Anchor& next = after == anchors.end() ? anchors.back() : *after;
+    const Anchor& last = after == anchors.begin() ? anchors.front() : *(after - 1);
+    const double gap = to_seconds(next.stamp - last.stamp);
+    const double alpha = gap > 0.0 ? std::clamp(to_seconds(pose.stamp - last.stamp) / gap, 0.0, 1.0) : 0.0;
+    trajectory.push_back(
+        {pose.stamp, interpolate(last.T_enu_odom * pose.T_w_base, next.T_enu_odom * pose.T_w_base, alpha)});
+  }
+}
+
+std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held,
+                                              const graph::Placement& placement) {
+  std::map<unsigned, std::vector<Anchor>> sessions;
+  for (const auto& [id, node] : held.store.nodes()) {
+    const auto placed = placement.T_enu_node.find(id);
+    if (id.agent == agent.id && placed != placement.T_enu_node.end())
+      sessions[node.session].push_back({node.stamp, placed->second * node.T_odom_base.inverse()});
+  }
+  eval::Trajectory trajectory;
+  for (const auto& [session, anchors] : sessions) {
+    const auto odometry = agent::read_trajectory(agent::odometry_file(agent.directory, session));
+    if (odometry) append_session(*odometry, anchors, trajectory);
+  }
+  if (trajectory.empty()) return std::nullopt;
+  return trajectory;
+}
+
+/// How many alignments each judgement met, and how many of them were wrong.
+json judgements_json(const graph::Placement& placement, const std::vector<graph::Alignment>& alignments,
+                     const eval::TruePoses& nodes) {
+  std::set<std::pair<NodeId, NodeId>> wrong;
+  for (const eval::JudgedAlignment& one : eval::judge(alignments, placement, nodes)) {
+    if (!one.right) wrong.emplace(one.i, one.j);
+  }
+  json result = json::object();
+  for (const graph::JudgedAlignment& one : placement.judged) {
+    json& entry = result[graph::to_string(one.judgement)];
+    if (entry.is_null()) entry = {{"count", 0}, {"wrong", 0}};
+    entry["count"] = entry["count"].get<int>() + 1;
+    if (wrong.contains({one.i, one.j})) entry["wrong"] = entry["wrong"].get<int>() + 1;
+  }
+  return result;
+}
+
+std::vector<eval::StatedError> placement_errors(const graph::Placement& placement,
+                                                const eval::TruePoses& nodes) {
+  std::vector<eval::StatedError> errors;
+  for (const auto& [id, C] : placement.covariance) {
+    const auto T_true = nodes.find(id);
+    if (T_true != nodes.end())
+      errors.push_back({eval::tangent_error(T_true->second, placement.T_enu_node.at(id)), C});
+  }
+  return errors;
+}
+
+json mode_json(const RunFolder& run, HeldFleet& held, graph::Placement placement,
+               const eval::TruePoses& nodes, MapEvaluation& maps, const json& evaluation) {
+  json result = json::object();
+  if (same_places(placement, held.placement)) {
+    for (const char* part : {"fleet", "alignments", "map"}) {
+      if (evaluation.contains(part)) result[part] = evaluation[part];
+    }
+    return result;
+  }
+  RunFolder placed = run;
+  for (AgentFolder& agent : placed.agents) agent.trajectory = trajectory_of(agent, held, placement);
+  std::swap(held.placement, placement);
+  result["alignments"] = alignments_json(placed, held, nodes);
+  result["map"] = maps.of_held(held);
+  if (json fleet = fleet_json(placed, &held, nodes); !fleet.is_null()) result["fleet"] = std::move(fleet);
+  std::swap(held.placement, placement);
+  return result;
+}
+
+}  // namespace
+
+json modes_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
+                const json& evaluation) {
+  if (nodes.empty()) return nullptr;
+  json modes = json::object();
+  modes["paper"] =
+      mode_json(run, held, placed(held, graph::PlacementMode::paper, {}), nodes, maps, evaluation);
+  const graph::Placement fleet = placed(held, graph::PlacementMode::fleet, some_of(nodes));
+  modes["fleet"] = mode_json(run, held, fleet, nodes, maps, evaluation);
+  modes["fleet"]["judgements"] = judgements_json(fleet, alignments_of(held.store), nodes);
+  modes["fleet"]["calibration"] = consistency_json(placement_errors(fleet, nodes));
+  return modes;
+}
+
+}  // namespace fleetmap::apps
