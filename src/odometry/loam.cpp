@@ -87,8 +87,9 @@ class Loam::Pipeline {
   MotionPrior make_prior(Stamp reference, double dt) const;
   MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
-  Matrix6d find_covariance(const MatchResult& match, bool lost, double reference_offset,
+  Matrix6d find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
                            const Pose& T_reference_stamp);
+  Matrix6d find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise, const Pose& moved);
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
@@ -171,9 +172,8 @@ void Loam::Pipeline::pick_features(const Sweep& sweep) {
     insert_planes_.push_back({p.position, time});
     if (match_thinning_.first_in_cube(p.position)) match_planes_.push_back({p.position, time});
   }
-  for (const std::uint32_t i : features.edges) {
-    match_edges_.push_back({sweep.points[i].position, config_.deskew ? sweep.points[i].time : 0.0f});
-  }
+  match_edges_.assign(features.edges.begin(), features.edges.end());
+  for (FeaturePoint& p : match_edges_) p.time *= config_.deskew ? 1.0f : 0.0f;
 }
 
 void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& update) {
@@ -251,7 +251,9 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   if (update.lost) now = make_prior(reference, dt).predicted();
 
   const Pose T_reference_stamp = se3_exp(-sweep.reference_offset * now.twist);
-  update.covariance = find_covariance(match, update.lost, sweep.reference_offset, T_reference_stamp);
+  update.pose_noise = find_pose_noise(match, update.lost, sweep.reference_offset, T_reference_stamp);
+  update.covariance =
+      find_drift(match, update.lost, update.pose_noise, state_.T_odom_base.inverse() * now.T_odom_base);
   update.T_odom_base = now.T_odom_base * T_reference_stamp;
   update.twist = now.twist;
   update.edges = match.edges;
@@ -282,12 +284,12 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   if (restart || ((keyframe || young) && !update.lost)) insert(insert_planes_, match_edges_, now);
 }
 
-/// Of the motion to this scan at its stamp: there the pose is T exp(s twist), s seconds from the reference
-/// instant, so d_stamp = Ad d_pose + s d_twist.
-Matrix6d Loam::Pipeline::find_covariance(const MatchResult& match, bool lost, double reference_offset,
+/// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
+/// d_stamp = Ad d_pose + s d_twist.
+Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
                                          const Pose& T_reference_stamp) {
   Matrix12d information = match.prior_information;
-  if (!lost) information += match.lidar_information / config_.information_deflation;
+  if (!lost) information += match.lidar_information;
   const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
   // What stays unknown of the velocity is unknown at the next scan, too.
   const double cap = config_.initial_speed * config_.initial_speed;
@@ -295,17 +297,25 @@ Matrix6d Loam::Pipeline::find_covariance(const MatchResult& match, bool lost, do
 
   Eigen::Matrix<double, 6, 12> M;
   M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
-  Matrix6d covariance = M * at_reference * M.transpose();
-  // Along degenerate directions the errors of successive motions are one and the same wrong velocity: n of
-  // them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
+  const Matrix6d noise = M * at_reference * M.transpose();
+  return 0.5 * (noise + noise.transpose());
+}
+
+/// New ground enters the map at poses that err as pose_noise says, so the map drifts with the way. Along
+/// degenerate directions, and when lost, each motion is a guess: there the errors of successive motions are
+/// one and the same wrong velocity: n of them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
+Matrix6d Loam::Pipeline::find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise,
+                                    const Pose& moved) {
+  const double way = moved.translation().norm() + so3_log(moved.linear()).norm();
+  Matrix6d drift = way * config_.drift_share * pose_noise;
+  drift.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
+  drift.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
   const bool blind = lost || match.degenerate_count > 0;
   degenerate_in_a_row_ = blind ? degenerate_in_a_row_ + 1 : 0;
-  if (blind) {
-    const auto V = match.degenerate_directions.leftCols(lost ? 0 : match.degenerate_count);
-    const Matrix6d P = lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
-    covariance += 2.0 * (degenerate_in_a_row_ - 1) * P * covariance * P;
-  }
-  return 0.5 * (covariance + covariance.transpose());
+  if (!blind) return drift;
+  const auto V = match.degenerate_directions.leftCols(lost ? 0 : match.degenerate_count);
+  const Matrix6d guessed = lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
+  return drift + (2.0 * degenerate_in_a_row_ - 1.0) * guessed * pose_noise * guessed;
 }
 
 /// The gyro's bias is what it says more than the LiDAR sees, over some seconds.

@@ -29,6 +29,7 @@ Status LoamConfig::validate() const {
       Bound{"insert_spacing", insert_spacing, 0.02, 10.0},
       Bound{"fine_resolution", fine_resolution, 0.05, 10.0},
       Bound{"coarse_resolution", coarse_resolution, 0.05, 30.0},
+      Bound{"coarse_noise", coarse_noise, 0.0, 10.0},
       Bound{"map_radius", map_radius, max_range, 2000.0},
       Bound{"keyframe_distance", keyframe_distance, 0.0, 10.0},
       Bound{"keyframe_angle", keyframe_angle, 0.0, 3.2},
@@ -45,6 +46,9 @@ Status LoamConfig::validate() const {
       Bound{"min_matches", static_cast<double>(min_matches), 6, 1e6},
       Bound{"lost_scans_before_restart", static_cast<double>(lost_scans_before_restart), 1, 1e6},
       Bound{"information_deflation", information_deflation, 1.0, 1e6},
+      Bound{"drift_share", drift_share, 0.0, 1e3},
+      Bound{"drift_translation", drift_translation, 0.0, 10.0},
+      Bound{"drift_rotation", drift_rotation, 0.0, 1.0},
   };
   for (const Bound& bound : bounds) {
     if (!(bound.value >= bound.low && bound.value <= bound.high)) {

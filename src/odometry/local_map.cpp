@@ -17,11 +17,16 @@ constexpr double kPostRatio = 0.15;  // a post has a girth
 /// Least extent (1 sigma) along both axes of a plane, as a share of h: one ring on a floor is no plane.
 constexpr double kMinExtent = 0.12;
 constexpr double kUpright = 0.9;
+constexpr double kLineThickness = 0.1;  // m
 
 }  // namespace
 
-SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness)
-    : step_(step), inverse_step_(1.0 / step), seeks_(seeks), max_thickness_(max_thickness) {}
+SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend)
+    : step_(step),
+      inverse_step_(1.0 / step),
+      seeks_(seeks),
+      max_thickness_(max_thickness),
+      bend2_(bend * bend) {}
 
 void SurfaceGrid::add(const Eigen::Vector3d& point) {
   const Eigen::Vector3d scaled = point * inverse_step_;
@@ -79,7 +84,7 @@ void SurfaceGrid::refresh(SurfaceWindow& window) const {
   auto settle = [&](Shape shape, int axis, double across, double along) {
     window.shape = shape;
     window.direction = solver.eigenvectors().col(axis).cast<float>();
-    window.thickness = static_cast<float>(across);
+    window.thickness = static_cast<float>(across + bend2_);
     window.angle_variance = static_cast<float>(across / (n * along));
   };
   if (seeks_ == Seeks::kPlanes) {
@@ -121,11 +126,12 @@ void SurfaceGrid::clear() {
 }
 
 LocalMap::LocalMap(const LoamConfig& config)
-    : fine_(config.fine_resolution, SurfaceGrid::Seeks::kPlanes, std::max(0.08, 3.0 * config.range_noise)),
-      coarse_(config.coarse_resolution, SurfaceGrid::Seeks::kPlanes,
-              std::max(0.15, 4.0 * config.range_noise)),
-      posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, config.edge_noise),
-      edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, config.edge_noise) {}
+    : fine_(config.fine_resolution, SurfaceGrid::Seeks::kPlanes, std::max(0.08, 3.0 * config.range_noise),
+            0.0),
+      coarse_(config.coarse_resolution, SurfaceGrid::Seeks::kPlanes, std::max(0.15, 4.0 * config.range_noise),
+              config.coarse_noise),
+      posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, kLineThickness, 0.0),
+      edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, kLineThickness, 0.0) {}
 
 void LocalMap::add_surface(const Eigen::Vector3d& point) {
   fine_.add(point);

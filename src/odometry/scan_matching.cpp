@@ -39,6 +39,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     linearise(planes, edges, map, result.state, slack);
     NormalEquations lidar = collect();
     find_degeneracy(lidar.H, result);
+    lidar.H /= config_.information_deflation;
+    lidar.g /= config_.information_deflation;
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) {
       const double range = sums_.range / std::max(1.0, sums_.weight);
@@ -87,19 +89,20 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   const Eigen::Vector3d t = state.T_odom_base.translation();
   const double bins_per_second = kTimeBins / (2.0 * half_span_);
   const double return_variance = square(config_.range_noise);
+  const double edge_variance = square(config_.edge_noise);
 
   auto visit = [&](const FeaturePoint& feature, bool edge) {
     const Eigen::Vector3d p = twist.at_reference(feature.position, feature.time).cast<double>();
     const Eigen::Vector3d q = R * p + t;
     const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q);
     if (window == nullptr) return;
+    const bool plane = window->shape == Shape::kPlane;
     const Eigen::Vector3d offset = q - window->center - window->mean.cast<double>();
     const Eigen::Vector3d direction = window->direction.cast<double>();
     const double distance2 = offset.squaredNorm();
-    const double variance = (edge ? square(config_.edge_noise) : return_variance) + window->thickness +
-                            distance2 * window->angle_variance;
+    const double variance = (edge ? edge_variance + square(feature.noise) : return_variance) +
+                            window->thickness + distance2 * window->angle_variance;
     const double along = direction.dot(offset);
-    const bool plane = window->shape == Shape::kPlane;
     const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
     // Geman-McClure; the slack lets far surfaces pull while the state is still off.
     const double kernel = 9.0 * variance + slack * slack;

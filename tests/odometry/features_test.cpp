@@ -26,14 +26,46 @@ TEST(Features, EdgesOfARoomAreItsCorners) {
   FeatureExtractor extractor(config);
   const Sweep& sweep = builder.build(make_scan(world, kStill, 0.0, vlp16(), options));
   const Features& features = extractor.extract(sweep);
-  auto from_corner = [&](std::uint32_t i) {
-    const Eigen::Vector2f p = sweep.points[i].position.head<2>().cwiseAbs();
-    return (p - Eigen::Vector2f(5.0f, 4.0f)).norm();
+  auto from_corner = [](const Eigen::Vector3f& p) {
+    return (p.head<2>().cwiseAbs() - Eigen::Vector2f(5.0f, 4.0f)).norm();
   };
   EXPECT_GE(features.edges.size(), 4u * 16u * 3u / 4u);
-  for (const std::uint32_t i : features.edges) EXPECT_LT(from_corner(i), 0.15f);
+  for (const FeaturePoint& p : features.edges) EXPECT_LT(from_corner(p.position), 0.15f);
   EXPECT_GT(features.planes.size(), sweep.points.size() / 2);
-  for (const std::uint32_t i : features.planes) EXPECT_GT(from_corner(i), 0.02f);
+  for (const std::uint32_t i : features.planes) EXPECT_GT(from_corner(sweep.points[i].position), 0.02f);
+}
+
+/// A post is at its axis and a board ends where it ends, from whichever side they are seen.
+TEST(Features, EdgesLookTheSameFromAllSides) {
+  testing::SyntheticWorld world;
+  world.add_post({6.0, 0.0}, 0.1, 4.0);
+  world.add_box(make_pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 6.0, 2.0)), {1.0, 0.02, 2.0});
+  world.add_box(make_pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, 5.0)),
+                {15.0, 15.0, 10.0});
+  LoamConfig config;
+  testing::ScanOptions options;
+  options.noise = 0.005;
+  config.T_base_lidar = options.T_base_lidar;
+  SweepBuilder builder(config, vlp16());
+  FeatureExtractor extractor(config);
+  for (const double x : {1.0, 6.0, 11.0}) {
+    const Eigen::Vector2d eye(x, x == 6.0 ? 4.0 : 1.0);
+    const Pose T = make_pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(eye.x(), eye.y(), 0.0));
+    const Sweep& sweep = builder.build(make_scan(
+        world, [&](double) { return T; }, 0.0, vlp16(), options));
+    Eigen::Vector2d axis = Eigen::Vector2d::Zero(), border = Eigen::Vector2d::Zero();
+    int posts = 0, borders = 0;
+    for (const FeaturePoint& edge : extractor.extract(sweep).edges) {
+      const Eigen::Vector2d p = edge.position.head<2>().cast<double>() + eye;
+      if ((p - Eigen::Vector2d(6.0, 0.0)).norm() < 0.3) axis += p, ++posts;
+      if ((p - Eigen::Vector2d(1.0, 6.0)).norm() < 0.3) border += p, ++borders;
+    }
+    ASSERT_GT(posts, 3) << x;
+    EXPECT_LT((axis / posts - Eigen::Vector2d(6.0, 0.0)).norm(), 0.025) << x;
+    if (x > 2.0) continue;  // from farther to the right the board is seen along itself
+    ASSERT_GT(borders, 3) << x;
+    EXPECT_LT((border / borders - Eigen::Vector2d(1.0, 6.0)).norm(), 0.04) << x;
+  }
 }
 
 /// Rings and times recovered from the points alone equal the device's own.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/odometry/motion_covariance.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/synthetic_lidar.hpp"
 
@@ -116,7 +117,7 @@ TEST(SyntheticOdometry, GyroPriorWithBiasDoesNoHarm) {
   Loam loam(config, vlp16());
   std::vector<Pose> estimate, truth;
   double fed = 0.0;
-  Matrix6d covariance = Matrix6d::Zero();
+  MotionCovariance uncertainty;
   for (int k = 0; 0.1 * (k + 1) < motion.duration(); ++k) {
     const double t = 0.1 * k;
     for (; fed < t + 0.12; fed += 0.01) {
@@ -128,16 +129,14 @@ TEST(SyntheticOdometry, GyroPriorWithBiasDoesNoHarm) {
     const auto update = loam.add_scan(make_scan(
         world, [&](double s) { return motion.at(s); }, t, vlp16()));
     ASSERT_TRUE(update) << update.error().message;
-    if (!estimate.empty()) {
-      const Matrix6d moved = adjoint((estimate.back().inverse() * update->T_odom_base).inverse());
-      covariance = (moved * covariance * moved.transpose() + update->covariance).eval();
-    }
+    uncertainty.add(*update);
     estimate.push_back(update->T_odom_base);
     truth.push_back(motion.at(t));
   }
   EXPECT_LT(testing::relative_drift(estimate, truth, 20.0), kMaxDrift);
   const Vector6d error =
       se3_log(truth.back().inverse() * truth.front() * estimate.front().inverse() * estimate.back());
+  const Matrix6d covariance = uncertainty.since_reference();
   for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(error[i]), 3.0 * std::sqrt(covariance(i, i))) << i;
   EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.5);
 }

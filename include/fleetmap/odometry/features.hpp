@@ -8,15 +8,24 @@
 
 namespace fleetmap::odometry {
 
-/// Indices into Sweep::points.
+/// A feature in base_link at its moment of firing.
+struct FeaturePoint {
+  Eigen::Vector3f position;  ///< m
+  float time = 0.0f;         ///< s after the sweep's reference instant
+  float noise = 0.0f;        ///< m, 1 sigma of an edge's place that comes from the spacing of the rays
+};
+
 struct Features {
-  std::vector<std::uint32_t> edges;   ///< corners, posts and borders against the background
-  std::vector<std::uint32_t> planes;  ///< smooth surface; without rings all points
+  std::vector<FeaturePoint> edges;  ///< corners, axes of posts and borders against the background
+  std::vector<std::uint32_t>
+      planes;  ///< indices into Sweep::points: smooth surface; without rings all points
 };
 
 /// Curvature features along each ring, after Zhang and Singh, LOAM (RSS 2014), section V-A, with two changes:
 /// the neighbourhood is a length of surface rather than a number of points, so near and far surfaces and
-/// dense and sparse LiDARs are judged alike; narrow objects in front of a background (posts) are edges.
+/// dense and sparse LiDARs are judged alike; posts and the borders of surfaces in front of a background are
+/// edges. Edges are placed where they look the same from all sides, or a map of them would be dragged along
+/// by the robot that passes them: a post at its axis, a border half a ray's spacing beyond its last return.
 class FeatureExtractor {
  public:
   explicit FeatureExtractor(const LoamConfig& config);
@@ -24,13 +33,17 @@ class FeatureExtractor {
   const Features& extract(const Sweep& sweep);
 
  private:
-  void measure_ring(const Sweep& sweep, std::size_t ring);
+  bool trace(std::span<const SweepPoint> points);
+  void measure(std::span<const SweepPoint> points);
   void find_breaks(std::span<const SweepPoint> points);
   void select_plane_points(std::size_t begin, std::size_t count);
-  void select_bends(std::size_t begin, std::size_t count);
-  void select_posts(std::span<const SweepPoint> points, std::size_t begin);
+  void select_bends(std::span<const SweepPoint> points);
+  void select_posts(std::span<const SweepPoint> points);
+  void select_borders(std::span<const SweepPoint> points);
+  void add_border(std::span<const SweepPoint> points, const SweepPoint& behind, int inwards);
 
   double half_width_, plane_max_deviation_, edge_min_deviation_, edge_min_angle_;
+  Eigen::Vector3f lidar_;  ///< m, in base_link
   Features features_;
   std::vector<Eigen::Vector3d> sums_;       ///< prefix sums of the ring's positions about its first point
   std::vector<float> deviation_, bend_;     ///< m off the chord; rad; negative where not defined

@@ -21,9 +21,12 @@ struct OdometryUpdate {
                 ///< times)
   /// base_link at `stamp` in the odometry frame O, which is base_link at the first scan's stamp. Never jumps.
   Pose T_odom_base = Pose::Identity();
-  /// Of the motion since the previous update, [m, rad] in base_link at `stamp`: T <- T exp(d). Sums of these
-  /// (moved by adjoint()) are the covariance of the motion over many scans.
+  /// What the motion since the previous update adds to the drift, [m, rad] in base_link at `stamp`:
+  /// T <- T exp(d). Sums of these (moved by adjoint()) are the drift over many scans; MotionCovariance does
+  /// it.
   Matrix6d covariance = Matrix6d::Zero();
+  /// Of this pose in the local map, same tangent: does not sum, a motion has that of its two ends.
+  Matrix6d pose_noise = Matrix6d::Zero();
   Vector6d twist = Vector6d::Zero();  ///< of base_link in base_link, mean over the sweep, [m/s, rad/s]
   /// All valid returns within L_max in base_link at `stamp`, motion compensated, with intensity.
   cloud::PointCloud points;

@@ -26,6 +26,7 @@ struct LoamConfig {
   // Local map.
   double fine_resolution = 0.5;    ///< m, step of the map's finer windows (each twice as wide)
   double coarse_resolution = 1.5;  ///< m, step of the coarser windows, for sparse places and large errors
+  double coarse_noise = 0.1;       ///< m, 1 sigma of the surfaces within a coarser window
   double map_radius = 60.0;        ///< m around the robot; what lies farther is forgotten
   double keyframe_distance = 0.3;  ///< m, a scan enters the map after this motion ...
   double keyframe_angle = 0.1;     ///< ... or this turn, rad
@@ -39,21 +40,25 @@ struct LoamConfig {
 
   // Optional priors; used whenever samples arrive.
   Eigen::Quaterniond q_base_imu = Eigen::Quaterniond::Identity();  ///< rotation, IMU frame to base_link
-  double gyro_noise = 0.02;        ///< rad/s, 1 sigma of the mean rate over a scan, bias removed
+  double gyro_noise = 0.01;        ///< rad/s, 1 sigma of the mean rate over a scan, bias removed
   double wheel_speed_noise = 0.1;  ///< m/s, 1 sigma at standstill; 5 % of the speed are added
   double wheel_yaw_noise = 0.1;    ///< rad/s, 1 sigma
 
   // Matching.
   int max_iterations = 12;
-  double edge_noise = 0.1;             ///< m, 1 sigma of an edge point about its edge
+  double edge_noise = 0.03;            ///< m, 1 sigma of an edge point about its edge
   double min_inlier_fraction = 0.3;    ///< of the matched points; below it a scan counts as lost
   int min_matches = 60;                ///< fewer matched points count as lost
   int lost_scans_before_restart = 10;  ///< so many lost scans in a row start a new local map
 
-  // Output.
+  // Uncertainty.
   /// Information of a scan is divided by this: neighbouring points err together (map, calibration,
-  /// incidence).
-  double information_deflation = 40.0;
+  /// incidence). It weighs the scan against the motion and the sensors, and is in every covariance.
+  double information_deflation = 2.0;
+  // Drift over a metre driven or a radian turned; grows with the root of the way.
+  double drift_share = 0.05;         ///< of the variance of a pose in the map
+  double drift_translation = 0.002;  ///< m, 1 sigma
+  double drift_rotation = 1.0e-4;    ///< rad, 1 sigma
 
   /// Fails with the field's name and the rule that it breaks.
   Status validate() const;

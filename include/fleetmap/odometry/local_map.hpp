@@ -39,7 +39,8 @@ class SurfaceGrid {
   enum class Seeks { kPlanes, kLines, kUprightLines };
 
   /// `step` is h in m; thicker surfaces and lines (1 sigma, m) are scatter.
-  SurfaceGrid(double step, Seeks seeks, double max_thickness);
+  /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
+  SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
 
   void add(const Eigen::Vector3d& point);
   /// The window whose middle is nearest to `point`, or null. Valid until the next add() or prune().
@@ -55,6 +56,7 @@ class SurfaceGrid {
   double step_, inverse_step_;
   Seeks seeks_;
   double max_thickness_;
+  double bend2_;  ///< m^2
   FlatIndex index_;
   std::vector<SurfaceWindow> windows_;
 };

@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "fleetmap/odometry/deskew.hpp"
+#include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/local_map.hpp"
 #include "fleetmap/odometry/motion_prior.hpp"
 
 namespace fleetmap::odometry {
-
-/// A feature in base_link at its moment of firing.
-struct FeaturePoint {
-  Eigen::Vector3f position;  ///< m
-  float time = 0.0f;         ///< s after the sweep's reference instant
-};
 
 struct MatchResult {
   MotionState state;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/odometry/loam.hpp"
+
+namespace fleetmap::odometry {
+
+/// Covariance of the motion between two scans of one odometry frame, right tangent [m, rad]: what was lost on
+/// the way (sums) and how well the scans at its two ends lie in the local map (does not sum: the scans in
+/// between have no say). Give it every update of the frame.
+class MotionCovariance {
+ public:
+  /// The next scan of the motion; the first one is its reference.
+  void add(const OdometryUpdate& update) { add(update.T_odom_base, update.covariance, update.pose_noise); }
+  void add(const Pose& T_odom_base, const Matrix6d& growth, const Matrix6d& pose_noise);
+  /// The last scan becomes the reference, as at a new node.
+  void restart();
+  /// Of T_reference_last: T <- T exp(d). Zero before the first scan and at the reference itself.
+  Matrix6d since_reference() const;
+
+ private:
+  bool started_ = false, moved_ = false;
+  Pose T_odom_base_ = Pose::Identity();          ///< of the last scan
+  Matrix6d growth_ = Matrix6d::Zero();           ///< since the reference, at the last scan
+  Matrix6d reference_noise_ = Matrix6d::Zero();  ///< of the reference, seen from the last scan
+  Matrix6d last_noise_ = Matrix6d::Zero();
+};
+
+}  // namespace fleetmap::odometry
