@@ -147,6 +147,9 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
     groups.push_back(frames);
   }
   report["aligned_groups"] = groups;
+  json nowhere = json::array();
+  for (const graph::FrameId& frame : results->not_georeferenced) nowhere.push_back(agent::to_string(frame));
+  report["not_georeferenced"] = nowhere;
   json credits = json::object();
   for (const auto& [agent, credit] : results->placement.credits) {
     credits[agent.str()] = {{"used", credit.used},
