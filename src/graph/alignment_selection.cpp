@@ -97,7 +97,7 @@ class Selector {
       if (!solver.solve(estimate, 2)) return;
       look_again(solver, estimate);
       more = round < kMostRounds && take_from(state_.last, components);
-      if (!more && !solver.solve(estimate, 6)) return;
+      if (!more && !solver.solve(estimate, 12)) return;
     }
     state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
     for (const auto& [frames, evaluation] : alone_) {

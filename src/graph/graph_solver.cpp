@@ -9,6 +9,8 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr double kConverged = 1e-4;  // m or rad
+/// The equations are factored anew after a step that turns anything by more; else only their right side is.
+constexpr double kTurnToFactor = 0.02;  // rad
 /// An alignment whose squared error is beyond the 99 % quantile of six degrees of freedom counts less.
 constexpr double kHuber = 16.8;
 
@@ -67,15 +69,18 @@ GraphSolver::GraphSolver(const ReducedGraph& graph, std::vector<Between> ties)
 void GraphSolver::add_relative(const Estimate& estimate, const Between& between, bool robust) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   Matrix6d W = between.covariance.llt().solve(Matrix6d::Identity());
-  if (robust) {
+  // What the matrix holds must not be softer than what follows, or the steps that reuse it would grow.
+  if (robust && !factoring_) {
     const double squared = r.e.dot(W * r.e);
     if (squared > kHuber) W *= std::sqrt(kHuber / squared);
   }
   const int a = static_cast<int>(between.a), b = static_cast<int>(between.b);
-  const Matrix6d WH = W * r.H_a;
-  cholesky_->add<6, 6>(a, a, r.H_a.transpose() * WH);
-  cholesky_->add<6, 6>(b, b, W);
-  cholesky_->add<6, 6>(b, a, WH);
+  if (factoring_) {
+    const Matrix6d WH = W * r.H_a;
+    cholesky_->add<6, 6>(a, a, r.H_a.transpose() * WH);
+    cholesky_->add<6, 6>(b, b, W);
+    cholesky_->add<6, 6>(b, a, WH);
+  }
   const Vector6d We = W * r.e;
   part(a, 6) -= r.H_a.transpose() * We;
   part(b, 6) -= We;
@@ -99,9 +104,11 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
   const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * T.linear();
   A.bottomRightCorner<3, 3>() += T.linear().transpose() * WR;
   right.tail<3>() += WR.transpose() * turn;
-  cholesky_->add<6, 6>(pose, pose, A);
-  cholesky_->add<3, 6>(drift, pose, scaled.asDiagonal() * J);
-  cholesky_->add<3, 3>(drift, drift, scaled.cwiseProduct(pillar.drift_sigma).asDiagonal().toDenseMatrix());
+  if (factoring_) {
+    cholesky_->add<6, 6>(pose, pose, A);
+    cholesky_->add<3, 6>(drift, pose, scaled.asDiagonal() * J);
+    cholesky_->add<3, 3>(drift, drift, scaled.cwiseProduct(pillar.drift_sigma).asDiagonal().toDenseMatrix());
+  }
   part(pose, 6) += right;
   part(drift, 3) += scaled.cwiseProduct(r);
 }
@@ -109,23 +116,25 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
 void GraphSolver::add_drifts(const Estimate& estimate) {
   for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
     if (drift_variable(p) < 0 || !first_drift_[p]) continue;
-    cholesky_->add<3, 3>(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
+    if (factoring_) cholesky_->add<3, 3>(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
     part(drift_variable(p), 3) -= estimate.drift[p];
   }
   for (const DriftLink& link : graph_.drift) {
     const double weight = 1.0 / (1.0 - link.decay * link.decay);
     const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
     const int a = drift_variable(link.a), b = drift_variable(link.b);
-    cholesky_->add<3, 3>(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
-    cholesky_->add<3, 3>(b, b, weight * Eigen::Matrix3d::Identity());
-    cholesky_->add<3, 3>(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
+    if (factoring_) {
+      cholesky_->add<3, 3>(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
+      cholesky_->add<3, 3>(b, b, weight * Eigen::Matrix3d::Identity());
+      cholesky_->add<3, 3>(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
+    }
     part(a, 3) += weight * link.decay * r;
     part(b, 3) -= weight * r;
   }
 }
 
 void GraphSolver::linearise(const Estimate& estimate) {
-  cholesky_->set_zero();
+  if (factoring_) cholesky_->set_zero();
   right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
   for (const Between& between : graph_.odometry) add_relative(estimate, between, false);
   for (const Between& tie : ties_) add_relative(estimate, tie, true);
@@ -138,17 +147,19 @@ void GraphSolver::linearise(const Estimate& estimate) {
 bool GraphSolver::solve(Estimate& estimate, int most) {
   for (int iteration = 0; iteration < most; ++iteration) {
     linearise(estimate);
-    if (!cholesky_->factor()) return false;
+    if (factoring_ && !cholesky_->factor()) return false;
     const Eigen::VectorXd step = cholesky_->solve(right_);
     if (!step.allFinite()) return false;
-    double largest = 0.0;
+    double largest = 0.0, turn = 0.0;
     for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
       const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
       estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
       largest = std::max(largest, xi.cwiseAbs().maxCoeff());
+      turn = std::max(turn, xi.tail<3>().cwiseAbs().maxCoeff());
       if (drift_variable(p) < 0) continue;
       estimate.drift[p] += step.segment<3>(static_cast<Eigen::Index>(cholesky_->offset(drift_variable(p))));
     }
+    factoring_ = turn > kTurnToFactor;
     if (largest < kConverged) break;
   }
   return true;

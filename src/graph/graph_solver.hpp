@@ -29,7 +29,8 @@ class GraphSolver {
   GraphSolver(const ReducedGraph& graph, std::vector<Between> ties);
 
   /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. False if the equations cannot be
-  /// solved. The covariances below are those at the last linearisation.
+  /// solved. The covariances below are those at the last factorisation, which is not repeated for small
+  /// turns.
   bool solve(Estimate& estimate, int most);
 
   /// Sum of squares of all that is no tie (odometry, GPS, orientation, drift), each over its variance.
@@ -56,6 +57,7 @@ class GraphSolver {
   std::vector<bool> first_drift_;    ///< by pillar
   std::optional<BlockCholesky> cholesky_;
   Eigen::VectorXd right_;
+  bool factoring_ = true;  ///< the matrix is set up with the right side
 };
 
 }  // namespace fleetmap::graph
