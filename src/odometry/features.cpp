@@ -45,8 +45,7 @@ const Features& FeatureExtractor::extract(const Sweep& sweep) {
     select_plane_points(sweep.ring_begin[r], points.size());
   }
   const std::size_t ringless = sweep.rings() == 0 ? 0 : sweep.ring_begin.back();
-  // Of a device without rings the points follow the beam's path: it crosses edges, too.
-  if (ringless == 0) trace(sweep.points);
+  // No edges among these: where one beam wanders over a surface, its path ends at edges that are not there.
   for (std::size_t i = ringless; i < sweep.points.size(); ++i) {
     features_.planes.push_back(static_cast<std::uint32_t>(i));
   }
