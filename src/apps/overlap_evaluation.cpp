@@ -85,7 +85,7 @@ json overlap_json(HeldFleet& held, const eval::TruePoses& truth, const cloud::Po
   overlap["truth_points"] = metrics->truth_points;
   // What the sensors and the odometry within submaps allow: the same with every node where it truly was.
   const cloud::PointCloud best = submaps.merged(truth, held.recipe.merge);
-  if (const auto limit = eval::evaluate_registered_map(best, shared, Pose::Identity(), config))
+  if (const auto limit = eval::evaluate_map(best, shared, config))
     overlap["with_true_poses"] = scores(*limit);
   return overlap;
 }
