@@ -5,7 +5,8 @@
 namespace fleetmap::apps {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds(100);
+// A body that sways at some hertz must not be straightened between two of them.
+constexpr Duration kPeriod = std::chrono::milliseconds(20);
 
 }  // namespace
 

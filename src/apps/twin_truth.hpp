@@ -7,7 +7,7 @@
 
 namespace fleetmap::apps {
 
-/// Where a robot of the twin really was, base_link in ENU, every 0.1 s.
+/// Where a robot of the twin really was, base_link in ENU, every 0.02 s.
 class TruthTrack {
  public:
   /// After every step of the twin.
