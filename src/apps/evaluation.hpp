@@ -18,7 +18,9 @@ struct EvaluationInputs {
   eval::MapMetricsConfig map = {};
   double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
   bool pictures = true;
-  bool page = true;  ///< evaluation.html
+  bool page = true;     ///< evaluation.html
+  bool modes = true;    ///< also place and merge as the other mode would
+  bool overlap = true;  ///< also measure what two robots saw
 };
 
 /// Measures what a run left in `directory`. Writes evaluation.json, and as asked evaluation.html and

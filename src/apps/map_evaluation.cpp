@@ -92,7 +92,7 @@ json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& na
   }
   if (draw) keep(picture_of_errors(evaluated->points, evaluated->errors));
   json result = map_json(*evaluated, inputs_.map);
-  if (held == nullptr || nodes_.empty()) return result;
+  if (held == nullptr || nodes_.empty() || !inputs_.overlap) return result;
   json overlap = overlap_json(*held, nodes_, *truth_, evaluated->metrics.T_truth_map, inputs_.map);
   if (!overlap.is_null()) result["overlap"] = std::move(overlap);
   return result;

@@ -45,7 +45,7 @@ TEST(LoopClosures, FindTheLaneBesideOnceTheRobotHasDrivenFarEnough) {
 
 TEST(LoopClosures, NeedSurroundingsThatReachEachOther) {
   LoopClosures closures(LoopClosureConfig{});
-  EXPECT_TRUE(closures_of_two_lanes(closures, 14.0).empty());
+  EXPECT_TRUE(closures_of_two_lanes(closures, 22.0).empty());
 }
 
 TEST(LoopClosures, UncertaintyGrowsAlongThePathAndAcrossByTheHeading) {

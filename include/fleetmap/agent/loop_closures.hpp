@@ -11,7 +11,7 @@
 namespace fleetmap::agent {
 
 struct LoopClosureConfig {
-  double reach = 12.0;     ///< m between two nodes, as the odometry sees them, to be the same surroundings
+  double reach = 20.0;     ///< m between two nodes, as the odometry sees them, to be the same surroundings
   double min_path = 60.0;  ///< m driven between them: what is nearer on the path has drifted too little
   double spacing = 15.0;   ///< m driven since the last closure
   /// A node is used when so many more were made: its surroundings are then seen from both sides.

@@ -26,6 +26,12 @@ void append(std::vector<config::Override>& to, const std::vector<config::Overrid
   to.insert(to.end(), from.begin(), from.end());
 }
 
+bool needs_all(const config::ExperimentConfig& config) {
+  return std::ranges::any_of(config.metrics, [](const config::MetricSpec& metric) {
+    return metric.name.starts_with("modes.") || metric.name.find("overlap.") != std::string::npos;
+  });
+}
+
 /// The case of a study at the given value of each axis.
 Case case_at(const config::ExperimentConfig& config, const config::Study& study,
              const std::vector<std::size_t>& position, std::uint64_t seed) {
@@ -33,6 +39,7 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
   one.study = study.name;
   one.seed = seed;
   one.pictures = seed == study.seeds.front();
+  one.brief = !needs_all(config);
   one.base = config.base;
   one.agents = study.agents;
   one.name = study.name;

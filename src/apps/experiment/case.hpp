@@ -23,6 +23,7 @@ struct Case {
   std::size_t agents = 1;      ///< the first of `base`
   std::vector<config::Override> overrides;
   bool pictures = true;  ///< of the map: drawn of the first seed only
+  bool brief = false;    ///< no metric needs the other mode, or what two robots saw
 };
 
 /// How many values lie in each bin; bins follow each other from 0.

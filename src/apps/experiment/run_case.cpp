@@ -118,6 +118,7 @@ Result<CaseResult> ChildEngine::operator()(const Case& one, const fs::path& dire
     return tl::unexpected(good.error());
   std::vector<std::string> evaluation_arguments{"eval", directory.string()};
   if (!one.pictures) evaluation_arguments.emplace_back("--no-pictures");
+  if (one.brief) evaluation_arguments.emplace_back("--brief");
   const auto evaluated = run_self(evaluation_arguments, directory / "eval.log", *stop_);
   if (const Status good = check_exit(evaluated, "fleetmap eval", directory / "eval.log"); !good)
     return tl::unexpected(good.error());
