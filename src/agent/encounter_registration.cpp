@@ -19,9 +19,10 @@ constexpr double kLeastPriorAngle = 0.01;  // rad
 
 /// Where the descriptors alone tell how two nodes lie: cells and turns are tried in coarse steps, and what
 /// looks most alike may be a few cells off.
-constexpr double kAlikeSigma = 3.0;       // m
-constexpr double kAlikeYawSigma = 0.06;   // rad
-constexpr double kAlikeTiltSigma = 0.02;  // rad
+constexpr double kAlikeSigma = 3.0;        // m
+constexpr double kAlikeHeightSigma = 0.7;  // m: the ground under both is near
+constexpr double kAlikeYawSigma = 0.06;    // rad
+constexpr double kAlikeTiltSigma = 0.02;   // rad
 
 /// Modes of an ambiguous registration that score at least this share of the best are alternatives to it.
 constexpr double kAlternativeShare = 0.7;
@@ -71,9 +72,12 @@ registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source)
   const Eigen::Vector3d rotation = covariance.diagonal().tail<3>();
   // Yaw moves the other node on a circle around ours: its error is one of position too.
   const double swing = std::sqrt(rotation.z()) * prior.T_target_source.translation().norm();
-  prior.sigma_translation_m = std::sqrt(covariance.diagonal().head<3>().maxCoeff() + swing * swing);
+  prior.sigma_translation_m = std::sqrt(covariance.diagonal().head<2>().maxCoeff() + swing * swing);
   prior.sigma_yaw_rad = std::sqrt(rotation.z());
   prior.sigma_tilt_rad = std::sqrt(std::max(rotation.x(), rotation.y()));
+  const double lift = prior.sigma_tilt_rad * prior.T_target_source.translation().norm();
+  prior.sigma_height_m = std::sqrt(covariance(2, 2) + lift * lift);
+  prior.up_target = target.q_enu_base.conjugate() * Eigen::Vector3d::UnitZ();
   return prior;
 }
 
@@ -93,6 +97,8 @@ std::optional<registration::Prior> prior_of(const graph::Node& target, const gra
   prior.sigma_translation_m = kAlikeSigma;
   prior.sigma_yaw_rad = kAlikeYawSigma;
   prior.sigma_tilt_rad = kAlikeTiltSigma;
+  prior.sigma_height_m = kAlikeHeightSigma;
+  prior.up_target = target.up_in_base;
   return prior;
 }
 
@@ -103,6 +109,8 @@ registration::Prior prior_of(const LoopClosure& closure) {
   prior.sigma_translation_m = std::sqrt(variance.head<3>().maxCoeff()) + kLeastPriorSigma;
   prior.sigma_yaw_rad = std::sqrt(variance(5)) + kLeastPriorAngle;
   prior.sigma_tilt_rad = std::sqrt(variance.segment<2>(3).maxCoeff()) + kLeastPriorAngle;
+  prior.sigma_height_m = prior.sigma_translation_m;
+  prior.up_target = closure.earlier.up_in_base;
   return prior;
 }
 
@@ -119,7 +127,7 @@ graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& c
     if (alignment.modes.size() == graph::Alignment::kMaxModes) break;
     if (mode.score < kAlternativeShare * result.modes.front().score) break;
     alignment.modes.push_back(
-        {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score, result.covariance});
+        {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score, mode.covariance});
   }
   return alignment;
 }

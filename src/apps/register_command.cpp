@@ -44,7 +44,7 @@ nlohmann::json to_json(const registration::RegistrationResult& result) {
                      {"rmse", mode.rmse},
                      {"inlier_fraction", mode.inlier_fraction},
                      {"overlap", mode.overlap},
-                     {"from_prior", mode.from_prior}});
+                     {"weight", mode.weight}});
   }
   return {{"verdict", registration::to_string(result.verdict)},
           {"reason", result.reason},

@@ -9,15 +9,23 @@ Status Prior::validate() const {
   if (!(sigma_translation_m > 0.0)) return failure("prior sigma_translation_m must be positive");
   if (!(sigma_yaw_rad > 0.0)) return failure("prior sigma_yaw_rad must be positive");
   if (!(sigma_tilt_rad > 0.0)) return failure("prior sigma_tilt_rad must be positive");
+  if (!(sigma_height_m > 0.0)) return failure("prior sigma_height_m must be positive");
+  if (!up_target.allFinite() || !(up_target.norm() > 1e-6))
+    return failure("prior up_target must be a finite vector other than zero");
   return {};
 }
 
 bool agrees(const Prior& prior, const Pose& T_target_source, double sigmas) {
-  const Eigen::Vector3d dt = T_target_source.translation() - prior.T_target_source.translation();
-  const Eigen::Matrix3d dR = T_target_source.linear() * prior.T_target_source.linear().transpose();
+  const Eigen::Matrix3d R_level_target =
+      Eigen::Quaterniond::FromTwoVectors(prior.up_target, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d dt =
+      R_level_target * (T_target_source.translation() - prior.T_target_source.translation());
+  const Eigen::Matrix3d dR = R_level_target * T_target_source.linear() *
+                             prior.T_target_source.linear().transpose() * R_level_target.transpose();
   const double yaw = std::atan2(dR(1, 0) - dR(0, 1), dR(0, 0) + dR(1, 1));
   const double tilt = std::acos(std::fmin(1.0, std::fmax(-1.0, dR(2, 2))));
-  return dt.norm() <= sigmas * prior.sigma_translation_m && std::abs(yaw) <= sigmas * prior.sigma_yaw_rad &&
+  return dt.head<2>().norm() <= sigmas * prior.sigma_translation_m &&
+         std::abs(dt.z()) <= sigmas * prior.sigma_height_m && std::abs(yaw) <= sigmas * prior.sigma_yaw_rad &&
          tilt <= sigmas * prior.sigma_tilt_rad;
 }
 

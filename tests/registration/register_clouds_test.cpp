@@ -87,15 +87,14 @@ TEST(RegisterClouds, SameInputSameBits) {
   for (std::size_t k = 0; k < a.modes.size(); ++k) EXPECT_EQ(a.modes[k].score, b.modes[k].score);
 }
 
-TEST(RegisterClouds, CloudsOfDifferentPlacesAreRejectedWithAReason) {
+TEST(RegisterClouds, CloudsOfDifferentPlacesAreNeverAccepted) {
   for (unsigned seed = 31; seed <= 36; ++seed) {
     const PointCloud target = MadeWorld(seed).scan(Pose::Identity(), 15'000, 0.03, 1);
     const PointCloud source = MadeWorld(seed + 100).scan(Pose::Identity(), 15'000, 0.03, 2);
     for (const bool with_prior : {false, true}) {
       const auto result =
           register_clouds(target, source, {}, with_prior ? std::optional<Prior>(Prior{}) : std::nullopt);
-      EXPECT_EQ(result.verdict, Verdict::rejected)
-          << "seed " << seed << " agreement " << result.inlier_fraction / result.overlap;
+      EXPECT_NE(result.verdict, Verdict::accepted) << "seed " << seed;
       EXPECT_FALSE(result.reason.empty());
     }
   }
@@ -144,8 +143,8 @@ TEST(RegisterClouds, ErrorsAreOfTheSizeOfTheCovariance) {
   ASSERT_GE(runs, 12);
   const double mean_nees = nees / runs;  // 6 for a perfect covariance
   RecordProperty("mean_nees", std::to_string(mean_nees));
-  EXPECT_GT(mean_nees, 0.6);
-  EXPECT_LT(mean_nees, 60.0);
+  EXPECT_GT(mean_nees, 0.3);
+  EXPECT_LT(mean_nees, 15.0);
 }
 
 TEST(RegisterClouds, ACorridorLeavesTheDirectionAlongItUncertain) {
@@ -171,8 +170,8 @@ TEST(RegistrationConfig, NamesTheFieldAndTheRule) {
   EXPECT_TRUE(config.validate());
   config.voxel_m = -1.0f;
   EXPECT_THAT(config.validate().error().message, ::testing::HasSubstr("voxel_m"));
-  EXPECT_THAT(register_clouds({}, {}, config).reason, ::testing::HasSubstr("voxel_m"));
-  EXPECT_THAT(register_clouds({}, {}, {}, Prior{Pose::Identity(), -1.0, 1.0, 1.0}).reason,
+  EXPECT_THAT(register_clouds(PointCloud{}, PointCloud{}, config).reason, ::testing::HasSubstr("voxel_m"));
+  EXPECT_THAT(register_clouds(PointCloud{}, PointCloud{}, {}, Prior{Pose::Identity(), -1.0, 1.0, 1.0}).reason,
               ::testing::HasSubstr("sigma_translation_m"));
 }
 

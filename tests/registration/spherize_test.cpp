@@ -20,7 +20,9 @@ PointCloud dense_map(double tilt = 0.0) {
 }
 
 TEST(Spherize, GivesABallWithoutGroundWithinTheBudget) {
-  const auto result = spherize(dense_map(), Eigen::Vector3f::UnitZ(), {});
+  SpherizeConfig config;
+  config.ground_voxel_m = 0.0f;
+  const auto result = spherize(dense_map(), Eigen::Vector3f::UnitZ(), config);
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_LE(result->bytes.size(), 25'000u);
   EXPECT_GE(result->bytes.size(), 22'500u);

@@ -16,7 +16,7 @@ struct SpherizeConfig {
   bool remove_ground = true;
   /// m, the ground is kept, thinned to this, because it alone holds height and tilt where all else is
   /// upright; 0 keeps none of it, as in the paper.
-  float ground_voxel_m = 0.0f;
+  float ground_voxel_m = 2.0f;
   cloud::GroundConfig ground;  ///< its `up` is that of the call
   cloud::OutlierConfig outliers;
   cloud::FitConfig fit;  ///< byte budget; its min_voxel_m is raised to voxel_m

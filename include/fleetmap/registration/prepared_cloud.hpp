@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/registration/registration_config.hpp"
+
+namespace fleetmap::registration {
+
+/// A cloud with all that registration makes of it before it knows the other one. Immutable and cheap to copy:
+/// a cloud that is registered with many others pays once. May be used by several threads.
+class PreparedCloud {
+ public:
+  PreparedCloud() = default;
+  /// `up` points against gravity in the cloud's frame. Non-finite points, and points farther than
+  /// config.max_range_m, are left out. `config` must be valid.
+  PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector3d& up, const RegistrationConfig& config);
+
+  /// Points left after thinning.
+  std::size_t size() const;
+
+  struct Data;  // prepared_data.hpp
+  const Data* data() const { return data_.get(); }
+
+ private:
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace fleetmap::registration

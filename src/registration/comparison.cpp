@@ -1,0 +1,138 @@
+#include "comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetmap::registration {
+namespace {
+
+constexpr int kMinPatchPoints = 3;
+
+bool was_seen(const FlatMap& map, const Eigen::Vector3f& p) {
+  const Eigen::Vector2f g = (p.head<2>() - map.origin) / (map.cell_m * static_cast<float>(kSeenCells));
+  if (!(g.x() >= 0.0f && g.y() >= 0.0f)) return false;
+  const int x = static_cast<int>(g.x()), y = static_cast<int>(g.y());
+  if (x >= map.seen_size.x() || y >= map.seen_size.y()) return false;
+  return map.seen[static_cast<std::size_t>(y * map.seen_size.x() + x)] != 0;
+}
+
+struct PointFit {
+  bool seen = false;
+  bool near = false;     ///< a surfel is near whose normal does not contradict
+  float squared = 0.0f;  ///< m^2, distance from it in the directions that it knows
+};
+
+PointFit fit_of(const SurfelMap& map, const FlatMap& flat, const Eigen::Vector3f& p, const Surfel* own,
+                const Eigen::Matrix3f& R, const RegistrationConfig& config) {
+  PointFit fit;
+  const Surfel* surfel = map.near(p);
+  if (surfel == nullptr) {
+    fit.seen = was_seen(flat, p);
+    return fit;
+  }
+  fit.seen = true;
+  if (surfel->planar && own != nullptr && own->planar &&
+      std::abs(surfel->axes[0].dot(R * own->axes[0])) < config.icp.min_normal_agreement)
+    return fit;
+  fit.near = true;
+  const Eigen::Vector3f d = p - surfel->mean;
+  bool knows = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (surfel->weights[k] <= 0.0f) continue;
+    const float r = surfel->axes[k].dot(d);
+    fit.squared += r * r;
+    knows = true;
+  }
+  if (!knows) fit.squared = 0.1f * d.squaredNorm();
+  return fit;
+}
+
+struct Total {
+  double misfit = 0.0, squares = 0.0;
+  std::size_t inliers = 0, seen = 0;
+};
+
+void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& moving, const Pose& T,
+                     const RegistrationConfig& config, std::size_t first_patch, Fit& fit, Total& total) {
+  const Eigen::Matrix3f R = T.linear().cast<float>();
+  const Eigen::Vector3f t = T.translation().cast<float>();
+  const float half2 = config.misfit_m * config.misfit_m, inlier2 = config.inlier_m * config.inlier_m;
+  for (std::size_t i = 0; i < moving.points.size(); ++i) {
+    const PointFit point =
+        fit_of(fixed.surfels, fixed.flat, R * moving.points[i] + t, moving.surfels[i], R, config);
+    if (!point.seen) continue;
+    const float misfit = point.near ? point.squared / (point.squared + half2) : 1.0f;
+    ++total.seen;
+    total.misfit += static_cast<double>(misfit);
+    fit.misfit[first_patch + moving.patches[i]] += misfit;
+    ++fit.seen[first_patch + moving.patches[i]];
+    if (!point.near || point.squared > inlier2) continue;
+    ++total.inliers;
+    total.squares += static_cast<double>(point.squared);
+  }
+}
+
+}  // namespace
+
+Fit compare(const PreparedCloud::Data& target, const PreparedCloud::Data& source, const Pose& T,
+            const RegistrationConfig& config) {
+  Fit fit;
+  fit.misfit.assign(source.fine.patch_count + target.fine.patch_count, 0.0f);
+  fit.seen.assign(fit.misfit.size(), 0);
+  Total forth, back;
+  compare_one_way(target, source.fine, T, config, 0, fit, forth);
+  compare_one_way(source, target.fine, T.inverse(), config, source.fine.patch_count, fit, back);
+  for (std::size_t k = 0; k < fit.seen.size(); ++k) {
+    if (fit.seen[k] > 0) fit.misfit[k] /= static_cast<float>(fit.seen[k]);
+  }
+  const auto seen = static_cast<double>(forth.seen + back.seen);
+  fit.score = seen > 0.0 ? 1.0 - (forth.misfit + back.misfit) / seen : 0.0;
+  fit.inliers = forth.inliers;
+  fit.overlapping = forth.seen;
+  fit.scored = source.fine.points.size();
+  fit.rmse = forth.inliers > 0 ? std::sqrt(forth.squares / static_cast<double>(forth.inliers)) : 0.0;
+  return fit;
+}
+
+double noise_of(const PreparedCloud::Data& data, const RegistrationConfig& config) {
+  Fit fit;
+  fit.misfit.assign(data.fine.patch_count, 0.0f);
+  fit.seen.assign(data.fine.patch_count, 0);
+  Total total;
+  compare_one_way(data, data.fine, Pose::Identity(), config, 0, fit, total);
+  return total.inliers > 0 ? std::sqrt(total.squares / static_cast<double>(total.inliers)) : 0.0;
+}
+
+double coarse_misfit(const PreparedCloud::Data& target, const PreparedCloud::Data& source, const Pose& T,
+                     const RegistrationConfig& config) {
+  const Eigen::Matrix3f R = T.linear().cast<float>();
+  const Eigen::Vector3f t = T.translation().cast<float>();
+  const float half2 = config.misfit_m * config.misfit_m;
+  double misfit = 0.0, seen = 0.0;
+  for (std::size_t i = 0; i < source.coarse.points.size(); ++i) {
+    const PointFit point = fit_of(target.surfels, target.flat, R * source.coarse.points[i] + t,
+                                  source.coarse.surfels[i], R, config);
+    if (!point.seen) continue;
+    seen += 1.0;
+    misfit += point.near ? static_cast<double>(point.squared / (point.squared + half2)) : 1.0;
+  }
+  if (seen < config.min_overlap * static_cast<double>(source.coarse.points.size())) return 1.0;
+  return misfit / seen;
+}
+
+double evidence(const Fit& a, const Fit& b, std::optional<double> chance) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < a.misfit.size(); ++k) {
+    const bool by_a = a.seen[k] >= kMinPatchPoints, by_b = b.seen[k] >= kMinPatchPoints;
+    if (!by_a && !by_b) continue;
+    if (!(by_a && by_b) && !chance) continue;
+    const double difference = (by_b ? static_cast<double>(b.misfit[k]) : *chance) -
+                              (by_a ? static_cast<double>(a.misfit[k]) : *chance);
+    sum += difference;
+    squares += difference * difference;
+  }
+  if (!(squares > 0.0)) return 0.0;
+  return 0.5 * sum * std::abs(sum) / squares;
+}
+
+}  // namespace fleetmap::registration

@@ -1,0 +1,214 @@
+#include "flat_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fleetmap::registration {
+namespace {
+
+constexpr float kSectorRad = 0.6f;  // poses of one place whose yaws differ by more are kept apart
+
+/// Scores of all shifts of one yaw, as integers.
+struct Sums {
+  int half = 0;  ///< shifts go from -half to half cells
+  int width = 0;
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint16_t> words;
+  int pending = 0;
+
+  explicit Sums(int half_cells) : half(half_cells), width(2 * half_cells + 1) {
+    bytes.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0);
+    words.assign(bytes.size(), 0);
+  }
+  void clear() {
+    std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});
+    std::fill(words.begin(), words.end(), std::uint16_t{0});
+    pending = 0;
+  }
+  void flush() {
+    for (std::size_t k = 0; k < bytes.size(); ++k) words[k] = static_cast<std::uint16_t>(words[k] + bytes[k]);
+    std::fill(bytes.begin(), bytes.end(), std::uint8_t{0});
+    pending = 0;
+  }
+  /// Adds the part of `plane` that shifts of cell (x, y) reach; values are at most 2.
+  void add(const std::uint8_t* plane, const Eigen::Vector2i& size, int x, int y) {
+    const int from = std::max(-half, -x), to = std::min(half, size.x() - 1 - x);
+    if (from > to) return;
+    const auto count = static_cast<std::size_t>(to - from + 1);
+    for (int dy = std::max(-half, -y); dy <= std::min(half, size.y() - 1 - y); ++dy) {
+      const std::uint8_t* in = plane + static_cast<std::ptrdiff_t>(y + dy) * size.x() + x + from;
+      std::uint8_t* out = bytes.data() + static_cast<std::ptrdiff_t>(dy + half) * width + from + half;
+      for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<std::uint8_t>(out[k] + in[k]);
+    }
+    if (++pending == 127) flush();
+  }
+};
+
+int cell_of(float v, float origin, float cell) { return static_cast<int>(std::floor((v - origin) / cell)); }
+
+/// The best yaw of each shift, for yaws of one sector.
+struct Sector {
+  std::vector<float> value, agreement, overlap, yaw;
+};
+
+class Search {
+ public:
+  Search(const FlatMap& target, const FlatMap& source, const FlatWindow& window)
+      : target_(target),
+        source_(source),
+        window_(window),
+        half_(static_cast<int>(std::ceil(window.radius_m / target.cell_m))),
+        seen_half_(half_ / kSeenCells + 1),
+        sums_(half_),
+        seen_(seen_half_) {
+    yaw_half_ = std::min(window.yaw_half, std::numbers::pi_v<float>);
+    sectors_.resize(static_cast<std::size_t>(std::ceil(2.0f * yaw_half_ / kSectorRad)) + 1);
+    const std::size_t shifts = static_cast<std::size_t>(sums_.width) * static_cast<std::size_t>(sums_.width);
+    for (Sector& sector : sectors_) {
+      sector.value.assign(shifts, 0.0f);
+      sector.agreement.assign(shifts, 0.0f);
+      sector.overlap.assign(shifts, 0.0f);
+      sector.yaw.assign(shifts, 0.0f);
+    }
+  }
+
+  std::vector<FlatCandidate> run() {
+    const int steps = static_cast<int>(std::ceil(yaw_half_ / window_.yaw_step));
+    for (int k = -steps; k <= steps; ++k) {
+      const float off = std::clamp(static_cast<float>(k) * window_.yaw_step, -yaw_half_, yaw_half_);
+      correlate(window_.yaw_center + off);
+      keep(sectors_[static_cast<std::size_t>((off + yaw_half_) / kSectorRad)], window_.yaw_center + off);
+    }
+    return peaks();
+  }
+
+ private:
+  void correlate(float yaw) {
+    sums_.clear();
+    seen_.clear();
+    const float c = std::cos(yaw), s = std::sin(yaw);
+    const auto plane =
+        static_cast<std::ptrdiff_t>(target_.size.x()) * static_cast<std::ptrdiff_t>(target_.size.y());
+    for (const FlatCell& cell : source_.cells) {
+      const Eigen::Vector2f p = window_.center + Eigen::Vector2f(c * cell.center.x() - s * cell.center.y(),
+                                                                 s * cell.center.x() + c * cell.center.y());
+      sums_.add(target_.layers.data() + cell.layer * plane, target_.size,
+                cell_of(p.x(), target_.origin.x(), target_.cell_m),
+                cell_of(p.y(), target_.origin.y(), target_.cell_m));
+      const float coarse = target_.cell_m * static_cast<float>(kSeenCells);
+      seen_.add(target_.seen.data(), target_.seen_size, cell_of(p.x(), target_.origin.x(), coarse),
+                cell_of(p.y(), target_.origin.y(), coarse));
+    }
+    sums_.flush();
+    seen_.flush();
+  }
+
+  void keep(Sector& sector, float yaw) {
+    const auto all = static_cast<float>(source_.cells.size());
+    const float least = static_cast<float>(window_.min_overlap) * all;
+    const int reach2 = half_ * half_;
+    for (int y = -half_; y <= half_; ++y) {
+      const int sy = (y + half_ * kSeenCells + kSeenCells / 2) / kSeenCells - half_ + seen_half_;
+      for (int x = -half_; x <= half_; ++x) {
+        if (x * x + y * y > reach2) continue;
+        const int sx = (x + half_ * kSeenCells + kSeenCells / 2) / kSeenCells - half_ + seen_half_;
+        const auto overlap = static_cast<float>(seen_.words[static_cast<std::size_t>(sy * seen_.width + sx)]);
+        if (overlap < least) continue;
+        const auto at = static_cast<std::size_t>((y + half_) * sums_.width + x + half_);
+        const float agreement = 0.5f * static_cast<float>(sums_.words[at]) / overlap;
+        const float value = agreement * std::sqrt(std::min(1.0f, overlap / all + 0.5f));
+        if (value <= sector.value[at]) continue;
+        sector.value[at] = value;
+        sector.agreement[at] = agreement;
+        sector.overlap[at] = overlap / all;
+        sector.yaw[at] = yaw;
+      }
+    }
+  }
+
+  bool is_peak(const Sector& sector, int x, int y) const {
+    const auto at = static_cast<std::size_t>(y * sums_.width + x);
+    if (!(sector.value[at] > 0.0f)) return false;
+    for (int v = std::max(0, y - 1); v <= std::min(sums_.width - 1, y + 1); ++v) {
+      for (int u = std::max(0, x - 1); u <= std::min(sums_.width - 1, x + 1); ++u) {
+        const auto other = static_cast<std::size_t>(v * sums_.width + u);
+        if (sector.value[other] > sector.value[at] || (sector.value[other] == sector.value[at] && other < at))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<FlatCandidate> peaks() const {
+    struct Ranked {
+      FlatCandidate candidate;
+      float value;
+    };
+    std::vector<Ranked> found;
+    for (const Sector& sector : sectors_) {
+      for (int y = 0; y < sums_.width; ++y) {
+        for (int x = 0; x < sums_.width; ++x) {
+          if (!is_peak(sector, x, y)) continue;
+          const auto at = static_cast<std::size_t>(y * sums_.width + x);
+          FlatCandidate candidate;
+          candidate.xy = window_.center + target_.cell_m * Eigen::Vector2f(static_cast<float>(x - half_),
+                                                                           static_cast<float>(y - half_));
+          candidate.yaw = sector.yaw[at];
+          candidate.agreement = static_cast<double>(sector.agreement[at]);
+          candidate.overlap = static_cast<double>(sector.overlap[at]);
+          found.push_back({candidate, sector.value[at]});
+        }
+      }
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Ranked& a, const Ranked& b) { return a.value > b.value; });
+    std::vector<FlatCandidate> best;
+    for (Ranked& ranked : found) {
+      if (best.size() == window_.max_candidates) break;
+      ranked.candidate.height = height_of(ranked.candidate);
+      best.push_back(ranked.candidate);
+    }
+    return best;
+  }
+
+  /// Median difference of the floors where both are known.
+  float height_of(const FlatCandidate& candidate) const {
+    const Floor& floor = source_.floor;
+    const float c = std::cos(candidate.yaw), s = std::sin(candidate.yaw);
+    std::vector<float> differences;
+    for (int y = 0; y < floor.size.y(); y += 2) {
+      for (int x = 0; x < floor.size.x(); x += 2) {
+        const Eigen::Vector2f q =
+            floor.origin + floor.cell_m * (Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) +
+                                           Eigen::Vector2f::Constant(0.5f));
+        const Eigen::Vector2f p(c * q.x() - s * q.y() + candidate.xy.x(),
+                                s * q.x() + c * q.y() + candidate.xy.y());
+        const float difference = target_.floor.at(p) - floor.at(q);
+        if (std::isfinite(difference)) differences.push_back(difference);
+      }
+    }
+    if (differences.empty()) return 0.0f;
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::nth_element(differences.begin(), middle, differences.end());
+    return *middle;
+  }
+
+  const FlatMap& target_;
+  const FlatMap& source_;
+  const FlatWindow& window_;
+  int half_, seen_half_;
+  float yaw_half_ = 0.0f;
+  Sums sums_, seen_;
+  std::vector<Sector> sectors_;
+};
+
+}  // namespace
+
+std::vector<FlatCandidate> flat_search(const FlatMap& target, const FlatMap& source,
+                                       const FlatWindow& window) {
+  if (target.layers.empty() || source.cells.empty()) return {};
+  return Search(target, source, window).run();
+}
+
+}  // namespace fleetmap::registration

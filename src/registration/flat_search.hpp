@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "flat_map.hpp"
+#include "fleetmap/geometry/se3.hpp"
+
+namespace fleetmap::registration {
+
+/// Where to look: T_target_source between levelled frames.
+struct FlatWindow {
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();
+  float radius_m = 20.0f;     ///< m
+  float yaw_center = 0.0f;    ///< rad
+  float yaw_half = 3.2f;      ///< rad, of the window; more than pi is all around
+  float yaw_step = 0.022f;    ///< rad
+  double min_overlap = 0.25;  ///< share of the source's cells that lie where the target saw anything
+  std::size_t max_candidates = 100;
+};
+
+struct FlatCandidate {
+  Eigen::Vector2f xy = Eigen::Vector2f::Zero();
+  float yaw = 0.0f;
+  float height = 0.0f;     ///< m, of the source's origin over the target's
+  double agreement = 0.0;  ///< [0, 1] of the cells in the overlap
+  double overlap = 0.0;    ///< [0, 1]
+};
+
+/// Every pose of the window, to the map's cell and the yaw's step, is scored by correlation; local maxima
+/// come back, best first.
+std::vector<FlatCandidate> flat_search(const FlatMap& target, const FlatMap& source,
+                                       const FlatWindow& window);
+
+}  // namespace fleetmap::registration

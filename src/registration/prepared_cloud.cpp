@@ -1,0 +1,79 @@
+#include "fleetmap/registration/prepared_cloud.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "comparison.hpp"
+#include "fleetmap/cloud/voxel_grid.hpp"
+#include "prepared_data.hpp"
+
+namespace fleetmap::registration {
+namespace {
+
+std::vector<Eigen::Vector3f> levelled(const cloud::PointCloud& cloud, const Eigen::Matrix3d& R_level_cloud,
+                                      const RegistrationConfig& config) {
+  const Eigen::Matrix3f R = R_level_cloud.cast<float>();
+  const float most = config.max_range_m * config.max_range_m;
+  cloud::PointCloud near;
+  near.points.reserve(cloud.size());
+  for (const auto& p : cloud.points) {
+    if (p.squaredNorm() <= most) near.points.push_back(R * p);
+  }
+  return voxel_downsample(near, config.voxel_m).points;
+}
+
+MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap& surfels,
+                    const RegistrationConfig& config) {
+  MovingPoints all;
+  all.points = points;
+  const int side = 2 * static_cast<int>(std::ceil(config.max_range_m / config.patch_m)) + 1;
+  all.patch_count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::uint16_t at = surfels.of_points()[i];
+    all.surfels.push_back(at == SurfelMap::kNone ? nullptr : &surfels.surfels()[at]);
+    const auto cell = [&](float v) {
+      return std::clamp(static_cast<int>(std::floor(v / config.patch_m)) + side / 2, 0, side - 1);
+    };
+    all.patches.push_back(static_cast<std::uint16_t>(cell(points[i].y()) * side + cell(points[i].x())));
+  }
+  return all;
+}
+
+MovingPoints picked(const MovingPoints& all, std::size_t count) {
+  MovingPoints some;
+  some.patch_count = all.patch_count;
+  const std::size_t wanted = std::min(count, all.points.size());
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const std::size_t i = k * all.points.size() / wanted;
+    some.points.push_back(all.points[i]);
+    some.surfels.push_back(all.surfels[i]);
+    some.patches.push_back(all.patches[i]);
+  }
+  return some;
+}
+
+}  // namespace
+
+PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector3d& up,
+                             const RegistrationConfig& config) {
+  auto data = std::make_shared<Data>();
+  data->R_level_cloud = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const std::vector<Eigen::Vector3f> points = levelled(cloud, data->R_level_cloud, config);
+  SurfelConfig surfels;
+  surfels.voxel_m = config.surfel_m;
+  data->surfels = SurfelMap(points, surfels);
+  FlatConfig flat;
+  flat.cell_m = config.cell_m;
+  data->flat = flat_map(points, flat);
+  data->all = moving(points, data->surfels, config);
+  data->fine = picked(data->all, config.fine_points);
+  data->middle = picked(data->all, (config.coarse_points + config.fine_points) / 3);
+  data->coarse = picked(data->all, config.coarse_points);
+  data->noise_m = noise_of(*data, config);
+  data_ = std::move(data);
+}
+
+std::size_t PreparedCloud::size() const { return data_ ? data_->all.points.size() : 0; }
+
+}  // namespace fleetmap::registration

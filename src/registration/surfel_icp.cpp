@@ -1,0 +1,213 @@
+#include "surfel_icp.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace fleetmap::registration {
+namespace {
+
+/// Padded to whole SIMD registers.
+using Vector8f = Eigen::Matrix<float, 8, 1>;
+using Matrix86f = Eigen::Matrix<float, 8, 6>;
+
+/// Below this the sensor was about within the plane: no telling which side it saw.
+constexpr float kUnsureSide = 0.15f;  // m
+
+/// Normals err by some degrees, so that planes seem to constrain even what they do not: information below
+/// this share of the largest is none when a covariance is promised.
+constexpr double kSpuriousShare = 0.01;
+
+/// Normal equations of one linearisation, for T -> (t + rho, exp(phi) R).
+struct System {
+  Matrix6d H = Matrix6d::Zero();
+  Vector6d g = Vector6d::Zero();
+  std::vector<Vector6d> patch_gradients;  ///< where asked for
+  std::vector<std::uint8_t> patch_used;
+};
+
+/// Whether two planar pieces may be the same side of the same surface.
+bool agree(const Surfel& target, const Surfel* source, const Eigen::Matrix3f& R, bool sides,
+           const IcpConfig& config) {
+  if (!target.planar || source == nullptr || !source->planar) return true;
+  const float cosine = target.axes[0].dot(R * source->axes[0]);
+  if (std::abs(cosine) < config.min_normal_agreement) return false;
+  if (!sides || std::abs(target.side) < kUnsureSide || std::abs(source->side) < kUnsureSide) return true;
+  return (cosine > 0.0f) == ((target.side > 0.0f) == (source->side > 0.0f));
+}
+
+System linearize(const SurfelMap& target, const MovingPoints& source, const Pose& T, bool far, float kernel_m,
+                 const IcpConfig& config, bool with_patches) {
+  System system;
+  if (with_patches) {
+    system.patch_gradients.assign(source.patch_count, Vector6d::Zero());
+    system.patch_used.assign(source.patch_count, 0);
+  }
+  const Eigen::Matrix3f R = T.linear().cast<float>();
+  const Eigen::Vector3f t = T.translation().cast<float>();
+  const float kernel2 = kernel_m * kernel_m;
+  // In single precision over a block, summed up in double.
+  Matrix86f H = Matrix86f::Zero();
+  Vector8f g = Vector8f::Zero();
+  const auto flush = [&] {
+    system.H += H.topRows<6>().cast<double>();
+    system.g += g.head<6>().cast<double>();
+    H.setZero();
+    g.setZero();
+  };
+  for (std::size_t i = 0; i < source.points.size(); ++i) {
+    const Eigen::Vector3f u = R * source.points[i];
+    const Eigen::Vector3f p = u + t;
+    const Surfel* surfel = far ? target.far(p) : target.near(p);
+    if (surfel == nullptr || !agree(*surfel, source.surfels[i], R, !far, config)) continue;
+    const Eigen::Vector3f d = p - surfel->mean;
+    std::array<float, 3> r{};
+    float squares = 0.0f;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (surfel->weights[k] <= 0.0f) continue;
+      r[k] = surfel->axes[k].dot(d);
+      squares += r[k] * r[k];
+    }
+    const float robust = kernel2 / (kernel2 + squares);
+    if (robust < 0.02f) continue;
+    Vector8f own = Vector8f::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (surfel->weights[k] <= 0.0f) continue;
+      const float w = surfel->weights[k] * robust * robust;
+      const Eigen::Vector3f& n = surfel->axes[k];
+      const Eigen::Vector3f m = u.cross(n);
+      Vector8f J;
+      J << n.x(), n.y(), n.z(), m.x(), m.y(), m.z(), 0.0f, 0.0f;
+      for (int c = 0; c < 6; ++c) H.col(c) += (w * J[c]) * J;
+      own += (w * r[k]) * J;
+    }
+    g += own;
+    if (with_patches) {
+      system.patch_gradients[source.patches[i]] += own.head<6>().cast<double>();
+      system.patch_used[source.patches[i]] = 1;
+    }
+    if ((i & 255u) == 255u) flush();
+  }
+  flush();
+  return system;
+}
+
+/// Root mean square distance of the points from the source origin: how many metres a radian moves a point.
+double lever_of(const std::vector<Eigen::Vector3f>& points) {
+  double squares = 0.0;
+  for (const auto& p : points) squares += static_cast<double>(p.squaredNorm());
+  return std::max(1.0, std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, points.size()))));
+}
+
+Vector6d scale_of(double lever) {
+  Vector6d scale;
+  scale << 1, 1, 1, lever, lever, lever;
+  return scale;
+}
+
+struct Step {
+  Vector6d xi = Vector6d::Zero();
+  int unconstrained = 6;
+};
+
+/// Gauss-Newton step in the directions that the system constrains.
+Step solve(const System& system, double lever, double degenerate_share) {
+  const Vector6d inverse = scale_of(lever).cwiseInverse();
+  const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
+  const double floor = degenerate_share * eigen.eigenvalues()[5];
+  Step step;
+  if (!(floor > 0.0)) return step;
+  Vector6d y = Vector6d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] < floor) continue;
+    --step.unconstrained;
+    y -= eigen.eigenvectors().col(k).dot(inverse.cwiseProduct(system.g)) / eigen.eigenvalues()[k] *
+         eigen.eigenvectors().col(k);
+  }
+  step.xi = inverse.cwiseProduct(y);
+  return step;
+}
+
+Matrix6d covariance_of(const System& system, double lever, const IcpConfig& config) {
+  const Vector6d scale = scale_of(lever), inverse = scale.cwiseInverse();
+  const double most = config.max_stddev_m * config.max_stddev_m;
+  const Matrix6d unknown = most * Matrix6d(inverse.array().square().matrix().asDiagonal());
+  double used = 0.0;
+  Matrix6d spread = Matrix6d::Zero();
+  for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
+    if (system.patch_used[k] == 0) continue;
+    used += 1.0;
+    spread += system.patch_gradients[k] * system.patch_gradients[k].transpose();
+  }
+  if (used < 8.0) return unknown;
+  spread *= used / (used - 6.0);
+  const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
+  const Matrix6d B = inverse.asDiagonal() * spread * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
+  const double floor = std::max(1e-12, kSpuriousShare * eigen.eigenvalues()[5]);
+  Vector6d inverse_values = Vector6d::Zero();
+  Matrix6d C = Matrix6d::Zero();
+  for (int k = 0; k < 6; ++k) {
+    if (eigen.eigenvalues()[k] > floor) {
+      inverse_values[k] = 1.0 / eigen.eigenvalues()[k];
+    } else {
+      C += most * eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
+    }
+  }
+  const Matrix6d pseudo =
+      eigen.eigenvectors() * inverse_values.asDiagonal() * eigen.eigenvectors().transpose();
+  C += pseudo * B * pseudo;
+  C.diagonal().array() += config.min_stddev_m * config.min_stddev_m;
+  const Matrix6d covariance = inverse.asDiagonal() * C * inverse.asDiagonal();
+  return covariance.allFinite() ? Matrix6d(0.5 * (covariance + covariance.transpose())) : unknown;
+}
+
+}  // namespace
+
+Status IcpConfig::validate() const {
+  if (kernels_m.empty()) return failure("icp kernels_m must not be empty");
+  for (const float kernel : kernels_m) {
+    if (!(kernel > 0.0f)) return failure("icp kernels_m must be positive");
+  }
+  if (iterations_per_stage < 1) return failure("icp iterations_per_stage must be at least 1");
+  if (!(max_stddev_m > 0.0)) return failure("icp max_stddev_m must be positive");
+  if (!(min_stddev_m > 0.0)) return failure("icp min_stddev_m must be positive");
+  return {};
+}
+
+IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose& T_initial,
+                const IcpConfig& config, bool with_covariance) {
+  IcpResult result;
+  result.T_target_source = T_initial;
+  const double lever = lever_of(source.points);
+  for (std::size_t stage = 0; stage < config.kernels_m.size(); ++stage) {
+    const bool last = stage + 1 == config.kernels_m.size();
+    const double tolerance = last ? 0.1 : 1.0;
+    for (int k = 0; k < config.iterations_per_stage; ++k) {
+      const System system = linearize(target, source, result.T_target_source, stage < config.far_stages,
+                                      config.kernels_m[stage], config, false);
+      const Step step = solve(system, lever, config.degenerate_share);
+      if (!step.xi.allFinite()) return result;
+      result.T_target_source.translation() += step.xi.head<3>();
+      result.T_target_source.linear() = so3_exp(step.xi.tail<3>()) * result.T_target_source.linear();
+      ++result.iterations;
+      result.unconstrained = step.unconstrained;
+      result.converged = step.xi.head<3>().norm() < tolerance * config.converged_m &&
+                         step.xi.tail<3>().norm() < tolerance * config.converged_rad;
+      if (result.converged) break;
+    }
+  }
+  if (with_covariance) {
+    const System system =
+        linearize(target, source, result.T_target_source, config.kernels_m.size() <= config.far_stages,
+                  config.kernels_m.back(), config, true);
+    result.unconstrained = solve(system, lever, config.degenerate_share).unconstrained;
+    Matrix6d turn = Matrix6d::Zero();  // to the right tangent
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = result.T_target_source.linear().transpose();
+    result.covariance = turn * covariance_of(system, lever, config) * turn.transpose();
+  }
+  return result;
+}
+
+}  // namespace fleetmap::registration

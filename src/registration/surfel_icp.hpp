@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/registration/icp.hpp"
+#include "surfels.hpp"
+
+namespace fleetmap::registration {
+
+/// Points that move, and what is known of them. `surfels` may be empty; `patches` (an index of the square
+/// metres that a point lies in) too, where no covariance is asked for.
+struct MovingPoints {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<const Surfel*> surfels;
+  std::vector<std::uint16_t> patches;
+  std::size_t patch_count = 0;
+};
+
+/// Point-to-surfel ICP from `T_initial`: Gauss-Newton on SE(3), T <- T exp(xi), Geman-McClure weights.
+IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose& T_initial,
+                const IcpConfig& config, bool with_covariance);
+
+}  // namespace fleetmap::registration
