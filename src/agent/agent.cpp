@@ -135,6 +135,7 @@ void Agent::on_perceived(Perceived&& perceived) {
   scan_seconds_.push_back(perceived.cpu_seconds);
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
+  motion_.add(update);
   if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
     spdlog::error("{}", written.error().message);
   }
@@ -184,6 +185,7 @@ void Agent::begin_session() {
   Result<TrajectoryFile> file = TrajectoryFile::create(odometry_file(config_.directory, session_));
   if (!file) return spdlog::error("{}", file.error().message);
   odometry_file_ = std::move(*file);
+  motion_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
   joined_sessions_.clear();
   spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
@@ -198,11 +200,9 @@ void Agent::freeze_node(const Perceived& perceived) {
   node.G = perceived.G;
   node.up_in_base = perceived.up_in_base;
   node.T_odom_base = update.T_odom_base;
-  if (const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
-      previous != nullptr && previous->frame() == node.frame()) {
-    node.odom_covariance =
-        odometry_covariance(previous->T_odom_base.inverse() * node.T_odom_base, config_.odometry_uncertainty);
-  }
+  const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
+  if (previous != nullptr && previous->frame() == node.frame())
+    node.odom_covariance = motion_.since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
   const Result<graph::Node> rounded = wire::quantised(node);
@@ -226,6 +226,7 @@ void Agent::freeze_node(const Perceived& perceived) {
                   put ? "its name is taken" : put.error().message);
     return;
   }
+  motion_.restart();
   submap_.clear();
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());

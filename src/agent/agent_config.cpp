@@ -19,10 +19,9 @@ Status AgentConfig::validate() const {
   for (const Status& status :
        {of("lidar", perception.lidar.validate()), of("odometry", perception.odometry.validate()),
         of("localization", perception.localization.validate()), of("nodes", nodes.validate()),
-        odometry_uncertainty.validate(), loop_closures.validate(), of("submap", submap.validate()),
-        of("spherize", spherize.validate()), of("registration", registration.validate()),
-        of("exchange", complete_exchange.validate(id)), of("store", store.validate()),
-        of("map", map.validate()), placement.validate()}) {
+        loop_closures.validate(), of("submap", submap.validate()), of("spherize", spherize.validate()),
+        of("registration", registration.validate()), of("exchange", complete_exchange.validate(id)),
+        of("store", store.validate()), of("map", map.validate()), placement.validate()}) {
     if (!status) return status;
   }
   return {};

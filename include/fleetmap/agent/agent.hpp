@@ -17,6 +17,7 @@
 #include "fleetmap/agent/recent_surroundings.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/odometry/motion_covariance.hpp"
 
 namespace fleetmap::agent {
 
@@ -122,6 +123,7 @@ class Agent {
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
+  odometry::MotionCovariance motion_;  ///< since the last node
   LoopClosures loop_closures_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "fleetmap/agent/loop_closures.hpp"
-#include "fleetmap/agent/odometry_uncertainty.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/core/ids.hpp"
@@ -29,7 +28,6 @@ struct AgentConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
-  OdometryUncertaintyConfig odometry_uncertainty;
   LoopClosureConfig loop_closures;  ///< of mode fleet: the paper's scheme has no use for them
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
