@@ -57,11 +57,25 @@ void Encounters::find_alike(const graph::Node& node, Stamp now) {
     const bool is_ours = node.id.agent == self_;
     const NodePair pair = is_ours ? NodePair{alike.fresh, alike.other} : NodePair{alike.other, alike.fresh};
     if (encounters_.contains(pair)) continue;
+    const double likeness = alike.similarity + alike.support;
+    replace_less_alike(pair, likeness);
     if (redundant(pair)) {
       ++stats_.redundant;
       continue;
     }
     begin(pair, alike.distance, config_.proximity.max_radius, now, false);
+    if (const auto begun = encounters_.find(pair); begun != encounters_.end()) {
+      begun->second.likeness = likeness;
+    }
+  }
+}
+
+void Encounters::replace_less_alike(const NodePair& pair, double likeness) {
+  for (const NodePair& rival : rivals(pair)) {
+    const Encounter& other = encounters_.at(rival);
+    if (other.phase != Phase::kWaiting || !other.likeness || *other.likeness >= likeness) continue;
+    encounters_.erase(rival);
+    ++stats_.redundant;
   }
 }
 

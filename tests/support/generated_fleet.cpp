@@ -40,6 +40,7 @@ struct Robot {
   Pose T_enu_start;
   SyntheticDrive drive;
   std::uint64_t seed;
+  bool gps = true;
 };
 
 class RobotRecording {
@@ -56,7 +57,7 @@ class RobotRecording {
       const Stamp stamp = stamp_from_ns(kStart) + tick * kTick;
       write_imu(t, stamp);
       if (tick % 5 == 0) write_wheel(t, stamp);
-      if (tick % 20 == 0) write_fix(t, stamp);
+      if (robot_.gps && tick % 20 == 0) write_fix(t, stamp);
       // A scan reaches the recorder when its revolution is over.
       if (tick % 10 == 0 && tick >= 10) write_scan(t - 0.1, stamp - std::chrono::milliseconds(100), stamp);
     }
@@ -122,17 +123,19 @@ class RobotRecording {
 
 }  // namespace
 
-Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out) {
+Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
+                                             const std::set<std::string>& without_gps) {
   const SyntheticWorld world = yard_world();
   GeneratedFleet fleet;
   fleet.origin = geo_point_from_degrees(48.2, 11.6, 500.0);
   const LocalFrame site(fleet.origin);
-  const std::vector<Robot> robots{
+  std::vector<Robot> robots{
       {"r1", Pose::Identity(),
        SyntheticDrive({{2, 0, 0}, {9, 1.2, 0}, {4, 1.0, 0.3}, {4, 1.0, -0.3}, {9, 1.2, 0}}), 1},
       {"r2", make_pose(rotation_from_rpy(0, 0, 3.0), Eigen::Vector3d(42.0, -2.0, 0.0)),
        SyntheticDrive({{2, 0, 0}, {10, 1.2, 0}, {4, 1.0, -0.25}, {4, 1.0, 0.25}, {9, 1.2, 0}}), 2}};
-  for (const Robot& robot : robots) {
+  for (Robot& robot : robots) {
+    robot.gps = !without_gps.contains(robot.id);
     auto bag = recording::BagWriter::create(out / robot.id);
     if (!bag) return tl::unexpected(bag.error());
     auto truth = RobotRecording(robot, world, site, *bag).write();

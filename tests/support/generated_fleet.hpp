@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
@@ -23,7 +25,9 @@ struct GeneratedFleet {
 };
 
 /// LiDAR (VLP-16, 0.8 m above base_link), IMU, GPS (1.5 m of slow error) and wheel speed of two robots that
-/// meet in a made-up yard, as one rosbag2 folder each: `out`/r1, `out`/r2. The same bytes every time.
-Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out);
+/// meet in a made-up yard, as one rosbag2 folder each: `out`/r1, `out`/r2; those in `without_gps` have no
+/// fix. The same bytes every time.
+Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
+                                             const std::set<std::string>& without_gps = {});
 
 }  // namespace fleetmap::testing

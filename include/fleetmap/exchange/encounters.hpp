@@ -111,8 +111,9 @@ class Encounters {
     Stamp found;
     Stamp retry_at;  ///< of one that failed
     int attempts = 0;
-    double distance = 0.0;  ///< m
-    double radius = 0.0;    ///< m
+    double distance = 0.0;           ///< m
+    double radius = 0.0;             ///< m
+    std::optional<double> likeness;  ///< of one found by what the places look like: similarity + support
     int matches_sent = 0;
     Stamp next_match;
     bool known_to_peer = false;
@@ -133,6 +134,8 @@ class Encounters {
   static bool near(const Spot& a, const Spot& b, double limit);
   void find(const graph::Node& node, const AgentId& other, Stamp now);
   void find_alike(const graph::Node& node, Stamp now);
+  /// While nothing has been asked for, a pair that is more alike takes over at the same place.
+  void replace_less_alike(const NodePair& pair, double likeness);
   /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
   /// it.
   Stamp replace_farther(const NodePair& pair, double distance, Stamp now);
