@@ -170,10 +170,11 @@ TEST(HostileBytes, NumbersMustMakeSense) {
   alignment.j = alignment.i;
   EXPECT_THAT(refusal<graph::Alignment>(encode(alignment)), HasSubstr("nodes i and j are the same"));
   Bytes mode = encode(random.alignment());
-  // The first element of the covariance's root lies 40 bytes behind the header of 44, in a half float.
+  // The first element of the covariance's root, a half float, lies 36 bytes into the first mode, which begins
+  // at 44.
   for (const auto& [high, low] : {std::pair(0x7c, 0x00), {0x7e, 0x00}, {0x80, 0x00}, {0xbc, 0x00}}) {
-    mode[kHeader + 40 + 36] = static_cast<std::uint8_t>(low);
-    mode[kHeader + 40 + 37] = static_cast<std::uint8_t>(high);
+    mode[kHeader + 44 + 36] = static_cast<std::uint8_t>(low);
+    mode[kHeader + 44 + 37] = static_cast<std::uint8_t>(high);
     EXPECT_THAT(refusal<graph::Alignment>(mode), HasSubstr("covariance is not finite or beyond its range"));
   }
   auto node = random.node();
