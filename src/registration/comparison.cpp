@@ -49,7 +49,7 @@ PointFit fit_of(const SurfelMap& map, const FlatMap& flat, const Eigen::Vector3f
 
 struct Total {
   double misfit = 0.0, squares = 0.0;
-  std::size_t inliers = 0, seen = 0;
+  std::size_t inliers = 0, seen = 0, standing = 0, standing_inliers = 0;
 };
 
 void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& moving, const Pose& T,
@@ -63,11 +63,13 @@ void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& movin
     if (!point.seen) continue;
     const float misfit = point.near ? point.squared / (point.squared + half2) : 1.0f;
     ++total.seen;
+    total.standing += moving.standing[i];
     total.misfit += static_cast<double>(misfit);
     fit.misfit[first_patch + moving.patches[i]] += misfit;
     ++fit.seen[first_patch + moving.patches[i]];
     if (!point.near || point.squared > inlier2) continue;
     ++total.inliers;
+    total.standing_inliers += moving.standing[i];
     total.squares += static_cast<double>(point.squared);
   }
 }
@@ -87,6 +89,8 @@ Fit compare(const PreparedCloud::Data& target, const PreparedCloud::Data& source
   }
   const auto seen = static_cast<double>(forth.seen + back.seen);
   fit.score = seen > 0.0 ? 1.0 - (forth.misfit + back.misfit) / seen : 0.0;
+  if (forth.standing > 0)
+    fit.agreement = static_cast<double>(forth.standing_inliers) / static_cast<double>(forth.standing);
   fit.inliers = forth.inliers;
   fit.overlapping = forth.seen;
   fit.scored = source.fine.points.size();

@@ -14,6 +14,9 @@ struct Fit {
   std::vector<std::uint16_t> seen;  ///< points of the patch that lie where the other saw something
   double score = 0.0;
   double rmse = 0.0;
+  /// Of the source points that stand out of the floor and lie where the target saw something: share of
+  /// inliers. Floors agree at any pose.
+  double agreement = 0.0;
   std::size_t inliers = 0;
   std::size_t overlapping = 0;
   std::size_t scored = 0;

@@ -11,6 +11,8 @@
 namespace fleetmap::registration {
 namespace {
 
+constexpr float kStandingHeight = 0.35f;  // m above the floor
+
 std::vector<Eigen::Vector3f> levelled(const cloud::PointCloud& cloud, const Eigen::Matrix3d& R_level_cloud,
                                       const RegistrationConfig& config) {
   const Eigen::Matrix3f R = R_level_cloud.cast<float>();
@@ -23,7 +25,7 @@ std::vector<Eigen::Vector3f> levelled(const cloud::PointCloud& cloud, const Eige
   return voxel_downsample(near, config.voxel_m).points;
 }
 
-MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap& surfels,
+MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap& surfels, const Floor& floor,
                     const RegistrationConfig& config) {
   MovingPoints all;
   all.points = points;
@@ -35,6 +37,7 @@ MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap&
     const auto cell = [&](float v) {
       return std::clamp(static_cast<int>(std::floor(v / config.patch_m)) + side / 2, 0, side - 1);
     };
+    all.standing.push_back(points[i].z() - floor.at(points[i].head<2>()) > kStandingHeight ? 1 : 0);
     all.patches.push_back(static_cast<std::uint16_t>(cell(points[i].y()) * side + cell(points[i].x())));
   }
   return all;
@@ -49,6 +52,7 @@ MovingPoints picked(const MovingPoints& all, std::size_t count) {
     some.points.push_back(all.points[i]);
     some.surfels.push_back(all.surfels[i]);
     some.patches.push_back(all.patches[i]);
+    some.standing.push_back(all.standing[i]);
   }
   return some;
 }
@@ -66,7 +70,7 @@ PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector
   FlatConfig flat;
   flat.cell_m = config.cell_m;
   data->flat = flat_map(points, flat);
-  data->all = moving(points, data->surfels, config);
+  data->all = moving(points, data->surfels, data->flat.floor, config);
   data->fine = picked(data->all, config.fine_points);
   data->middle = picked(data->all, (config.coarse_points + config.fine_points) / 3);
   data->coarse = picked(data->all, config.coarse_points);

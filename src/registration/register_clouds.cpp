@@ -49,8 +49,9 @@ void judge(RegistrationResult& result, const RegistrationConfig& config) {
         "only %.2f of the source points are inliers, at least %.2f are needed: the clouds overlap too little",
         result.inlier_fraction, config.min_inlier_fraction);
   } else if (result.agreement < config.min_agreement) {
-    result.reason = text("where the clouds overlap %.2f of the points agree, at least %.2f are needed",
-                         result.agreement, config.min_agreement);
+    result.reason =
+        text("where the clouds overlap %.2f of what stands out of the floor agrees, at least %.2f are needed",
+             result.agreement, config.min_agreement);
   } else if (result.rmse > config.max_rmse_m) {
     result.reason = text("inlier RMSE is %.2f m, at most %.2f m is good", result.rmse, config.max_rmse_m);
   } else if (result.excess > config.max_excess) {
@@ -113,7 +114,7 @@ RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCl
   result.covariance = best.covariance;
   result.inlier_fraction = best.inlier_fraction;
   result.overlap = best.overlap;
-  result.agreement = best.overlap > 0.0 ? best.inlier_fraction / best.overlap : 0.0;
+  result.agreement = modes.front().fit.agreement;
   const double noise = std::hypot(target.data()->noise_m, source.data()->noise_m);
   result.excess = noise > 0.0 ? best.rmse / noise : 0.0;
   result.inliers = best.inliers;

@@ -15,6 +15,7 @@ struct MovingPoints {
   std::vector<Eigen::Vector3f> points;
   std::vector<const Surfel*> surfels;
   std::vector<std::uint16_t> patches;
+  std::vector<std::uint8_t> standing;  ///< 1 for what stands out of the floor
   std::size_t patch_count = 0;
 };
 

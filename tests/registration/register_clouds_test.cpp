@@ -72,6 +72,7 @@ TEST(RegisterClouds, NothingOutsideThePriorIsReturned) {
   Prior wrong{pair.T_target_source, 0.5, 0.05, 0.05};
   wrong.T_target_source.pretranslate(Eigen::Vector3d(20, 0, 0));
   const auto result = register_clouds(pair.target, pair.source, {}, wrong);
+  EXPECT_EQ(result.verdict, Verdict::rejected);
   for (const Mode& mode : result.modes) EXPECT_TRUE(agrees(wrong, mode.T_target_source, 4.0));
 }
 

@@ -40,7 +40,7 @@ struct RegistrationResult {
   Matrix6d covariance = Matrix6d::Identity();
   double inlier_fraction = 0.0;  ///< inliers over source points, [0, 1]
   double overlap = 0.0;          ///< source points where the target's robot saw something over source points
-  double agreement = 0.0;        ///< inliers over source points in the overlap
+  double agreement = 0.0;        ///< of those that stand out of the floor, the share of inliers
   /// rmse over that of each cloud against itself (noise, rounding, roughness), both together.
   double excess = 0.0;
   std::size_t inliers = 0;  ///< among the source points scored
