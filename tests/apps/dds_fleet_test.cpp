@@ -53,7 +53,7 @@ class DdsFleet : public ::testing::Test {
         << "site: {origin: [49.011, 8.423, 112.8]}\n"
         << "lidar: {model: hdl64e, max_range: 40.0, min_range: 2.5}\n"
         << "imu: {translation: [-0.809, 0.320, -0.800], rotation_rpy_deg: [0.849, -0.116, -0.045]}\n"
-        << "gps: {translation: [-0.809, 0.320, -0.800]}\nnodes: {spacing: 3.0}\nencounters: {settle: 3.0}\n"
+        << "gps: {translation: [-0.809, 0.320, -0.800]}\nnodes: {spacing: 3.0}\n"
         << "spherize: {radius: 30.0}\n"
         << "dds:\n  qos: " << FLEETMAP_SOURCE_DIR << "/qos\n"
         << "  onboard: {domain: " << domain(index) << "}\n"
