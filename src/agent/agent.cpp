@@ -136,6 +136,7 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   motion_.add(update);
+  if (!update.lost) level_.add(perceived.up_in_base, update.T_odom_base, update.stamp);
   if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
     spdlog::error("{}", written.error().message);
   }
@@ -186,6 +187,7 @@ void Agent::begin_session() {
   if (!file) return spdlog::error("{}", file.error().message);
   odometry_file_ = std::move(*file);
   motion_ = {};
+  level_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
   joined_sessions_.clear();
   spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
@@ -197,9 +199,9 @@ void Agent::freeze_node(const Perceived& perceived) {
   node.id = {config_.id, store_.next_node_seq()};
   node.session = session_;
   node.stamp = update.stamp;
-  node.G = perceived.G;
-  node.up_in_base = perceived.up_in_base;
   node.T_odom_base = update.T_odom_base;
+  node.up_in_base = level_.up_in_base(update.T_odom_base);
+  if (perceived.G) node.G = levelled(*perceived.G, node.up_in_base);
   const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
   if (previous != nullptr && previous->frame() == node.frame())
     node.odom_covariance = motion_.since_reference();

@@ -11,6 +11,7 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/level_track.hpp"
 #include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/perception.hpp"
@@ -123,6 +124,7 @@ class Agent {
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
+  LevelTrack level_;
   odometry::MotionCovariance motion_;  ///< since the last node
   LoopClosures loop_closures_;
   std::optional<exchange::Exchange> exchange_;
