@@ -11,6 +11,9 @@ namespace {
 
 /// Modes of less weight are not handed over.
 constexpr double kLeastWeight = 1e-6;
+/// m; what is known worse is only taken where nearly everything agrees (a corridor).
+constexpr double kMostStddev = 0.5;
+constexpr double kPlainAgreement = 0.8;
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
@@ -42,6 +45,8 @@ Mode mode_of(const FoundMode& found, const PreparedCloud::Data& target, const Pr
 /// Sets verdict and reason from the numbers already in `result`.
 void judge(RegistrationResult& result, const RegistrationConfig& config) {
   result.verdict = Verdict::rejected;
+  const bool degenerate = result.covariance.diagonal().head<3>().maxCoeff() > kMostStddev * kMostStddev &&
+                          result.agreement < kPlainAgreement;
   if (result.inliers < config.min_inliers) {
     result.reason = text("only %zu inliers, at least %zu are needed", result.inliers, config.min_inliers);
   } else if (result.inlier_fraction < config.min_inlier_fraction) {
@@ -58,6 +63,8 @@ void judge(RegistrationResult& result, const RegistrationConfig& config) {
     result.reason =
         text("inlier RMSE is %.2f times what the clouds' own noise explains, at most %.2f is good",
              result.excess, config.max_excess);
+  } else if (degenerate) {
+    result.reason = "the scene leaves the pose open along some direction";
   } else if (result.modes.front().weight < config.min_weight) {
     result.verdict = Verdict::ambiguous;
     const Eigen::Vector3d apart =

@@ -18,6 +18,8 @@ constexpr float kUnsureSide = 0.15f;  // m
 /// this share of the largest is none when a covariance is promised.
 constexpr double kSpuriousShare = 0.01;
 
+constexpr std::size_t kBlockPatches = 4;  // to a side
+
 /// Normal equations of one linearisation, for T -> (t + rho, exp(phi) R).
 struct System {
   Matrix6d H = Matrix6d::Zero();
@@ -129,16 +131,35 @@ Step solve(const System& system, double lever, double degenerate_share) {
   return step;
 }
 
+/// Gradients of square blocks of patches: what drift of the odometry did to a map is common to much of it.
+std::vector<Vector6d> block_gradients(const System& system) {
+  const auto side =
+      static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(system.patch_used.size()))));
+  const std::size_t blocks = side / kBlockPatches + 1;
+  std::vector<Vector6d> sums(blocks * blocks, Vector6d::Zero());
+  std::vector<std::uint8_t> used(sums.size(), 0);
+  for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
+    if (system.patch_used[k] == 0) continue;
+    const std::size_t block = (k / side) / kBlockPatches * blocks + (k % side) / kBlockPatches;
+    sums[block] += system.patch_gradients[k];
+    used[block] = 1;
+  }
+  std::vector<Vector6d> gradients;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (used[k] != 0) gradients.push_back(sums[k]);
+  }
+  return gradients;
+}
+
 Matrix6d covariance_of(const System& system, double lever, const IcpConfig& config) {
   const Vector6d scale = scale_of(lever), inverse = scale.cwiseInverse();
   const double most = config.max_stddev_m * config.max_stddev_m;
   const Matrix6d unknown = most * Matrix6d(inverse.array().square().matrix().asDiagonal());
   double used = 0.0;
   Matrix6d spread = Matrix6d::Zero();
-  for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
-    if (system.patch_used[k] == 0) continue;
+  for (const Vector6d& gradient : block_gradients(system)) {
     used += 1.0;
-    spread += system.patch_gradients[k] * system.patch_gradients[k].transpose();
+    spread += gradient * gradient.transpose();
   }
   if (used < 8.0) return unknown;
   spread *= used / (used - 6.0);
@@ -158,7 +179,8 @@ Matrix6d covariance_of(const System& system, double lever, const IcpConfig& conf
   const Matrix6d pseudo =
       eigen.eigenvectors() * inverse_values.asDiagonal() * eigen.eigenvectors().transpose();
   C += pseudo * B * pseudo;
-  C.diagonal().array() += config.min_stddev_m * config.min_stddev_m;
+  C.diagonal().head<3>().array() += config.min_stddev_m * config.min_stddev_m;
+  C.diagonal().tail<3>().array() += std::pow(lever * config.min_stddev_rad, 2);
   const Matrix6d covariance = inverse.asDiagonal() * C * inverse.asDiagonal();
   return covariance.allFinite() ? Matrix6d(0.5 * (covariance + covariance.transpose())) : unknown;
 }
@@ -173,6 +195,7 @@ Status IcpConfig::validate() const {
   if (iterations_per_stage < 1) return failure("icp iterations_per_stage must be at least 1");
   if (!(max_stddev_m > 0.0)) return failure("icp max_stddev_m must be positive");
   if (!(min_stddev_m > 0.0)) return failure("icp min_stddev_m must be positive");
+  if (!(min_stddev_rad > 0.0)) return failure("icp min_stddev_rad must be positive");
   return {};
 }
 
