@@ -286,7 +286,9 @@ void Encounters::ask(Due& due, Stamp now) {
   using Rank = std::tuple<bool, std::int64_t, NodePair>;
   std::vector<Rank> ready;
   for (const auto& [pair, encounter] : encounters_) {
-    active += encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
+    // A robot that fell silent must not keep the others waiting for its clouds.
+    active += (encounter.phase == Phase::kAsked && heard(pair.theirs.agent, now)) ||
+              encounter.phase == Phase::kRegistering;
     const bool may = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
     if (!may || !ripe(pair, encounter, now) || !heard(pair.theirs.agent, now)) continue;
     ready.emplace_back(aligned_.contains(pair.theirs.agent), -to_ns(encounter.found), pair);

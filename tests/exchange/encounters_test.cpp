@@ -209,6 +209,23 @@ TEST(Encounters, wait_until_both_robots_have_gone_on) {
   EXPECT_EQ(a.tick(kStart).wanted, (std::vector<NodeId>{{kB, 0}}));
 }
 
+TEST(Encounters, with_a_silent_robot_do_not_hold_up_those_with_others) {
+  const AgentId kC = agent("c");
+  EncounterConfig config = at_once();
+  config.max_active = 1;
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  a.on_node(node_at(kA, 0, 0.0), kStart);
+  a.on_node(node_at(kB, 0, 1.0), kStart);
+  EXPECT_EQ(a.tick(kStart).wanted, (std::vector<NodeId>{{kB, 0}}));  // and b is never heard again
+  a.on_heard(kC, kStart);
+  a.on_node(node_at(kC, 0, 2.0), kStart);
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  const Stamp later = kStart + config.peer_timeout + std::chrono::seconds(1);
+  a.on_heard(kC, later);
+  EXPECT_EQ(a.tick(later).wanted, (std::vector<NodeId>{{kC, 0}}));
+}
+
 TEST(Encounters, ignore_matches_that_make_no_sense) {
   Encounters a(kA, at_once());
   a.on_heard(kB, kStart);
