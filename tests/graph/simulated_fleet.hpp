@@ -45,7 +45,9 @@ class SimulatedFleet {
     meet();
   }
 
-  static AgentId agent(int r) { return AgentId::parse(std::string("r").append(std::to_string(r + 1))).value(); }
+  static AgentId agent(int r) {
+    return AgentId::parse(std::string("r").append(std::to_string(r + 1))).value();
+  }
 
   LocalFrame site{geo_point_from_degrees(39.0, -3.0, 600.0)};
   std::vector<Node> nodes;

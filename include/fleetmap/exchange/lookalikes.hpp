@@ -12,13 +12,13 @@
 namespace fleetmap::exchange {
 
 struct LookalikeConfig {
-  double spacing_m = 8.0;         ///< m along a track between the places that are compared
-  double min_similarity = 0.35;   ///< of a pair that may be an encounter, [0, 1]
-  double sure_similarity = 0.5;   ///< a pair this much alike needs no other that agrees
-  double min_support = 1.0;  ///< else: summed similarity of other places that tell the same relative pose
-  double agree_m = 5.0;      ///< m, and
-  double agree_rad = 0.25;   ///< rad, within which two pairs tell the same
-  std::size_t kept = 5;      ///< pairs of one place that may support others
+  double spacing_m = 8.0;        ///< m along a track between the places that are compared
+  double min_similarity = 0.35;  ///< of a pair that may be an encounter, [0, 1]
+  double sure_similarity = 0.5;  ///< a pair this much alike needs no other that agrees
+  double min_support = 1.0;      ///< else: summed similarity of other places that tell the same relative pose
+  double agree_m = 5.0;          ///< m, and
+  double agree_rad = 0.25;       ///< rad, within which two pairs tell the same
+  std::size_t kept = 5;          ///< pairs of one place that may support others
   std::size_t max_compared = 200;  ///< places of one other agent; those with most alike amounts of things
   Status validate() const;
 };
