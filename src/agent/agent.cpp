@@ -233,9 +233,9 @@ void Agent::freeze_node(const Perceived& perceived) {
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   align_with_earlier_session(node);
-  const auto closure = loop_closures_.on_own_node(node);
-  if (closure && config_.placement.mode == graph::PlacementMode::fleet) {
-    register_own(closure->earlier, closure->later, prior_of(*closure));
+  if (config_.placement.mode == graph::PlacementMode::fleet) {
+    if (const auto closure = loop_closures_.on_own_node(node))
+      register_own(closure->earlier, closure->later, prior_of(*closure));
   }
   on_events();
 }

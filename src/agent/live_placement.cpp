@@ -29,8 +29,8 @@ void LivePlacement::refresh() {
   job->origin = *origin;
   job->config = config_.placement;
   job->newest = {config_.id, own - 1};
-  for (const auto& [id, node] : store_.nodes()) job->nodes.push_back(node);
-  for (const auto& [id, alignment] : store_.alignments()) job->alignments.push_back(alignment);
+  job->nodes = nodes_of(store_);
+  job->alignments = alignments_of(store_);
   bus_.offload(
       bus::Lane::kBackground, [job] { job->solution = solve(*job); },
       [this, job] {

@@ -276,13 +276,21 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
   return GeoPoint{};
 }
 
-graph::Placement place(const store::Store& store, const GeoPoint& origin,
-                       const graph::PlacementConfig& config) {
+std::vector<graph::Node> nodes_of(const store::Store& store) {
   std::vector<graph::Node> nodes;
   for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
+  return nodes;
+}
+
+std::vector<graph::Alignment> alignments_of(const store::Store& store) {
   std::vector<graph::Alignment> alignments;
   for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
-  return graph::place(nodes, alignments, LocalFrame(origin), config);
+  return alignments;
+}
+
+graph::Placement place(const store::Store& store, const GeoPoint& origin,
+                       const graph::PlacementConfig& config, std::span<const NodeId> covariance_of) {
+  return graph::place(nodes_of(store), alignments_of(store), LocalFrame(origin), config, covariance_of);
 }
 
 store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
@@ -313,9 +321,7 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
     return tl::unexpected(kept.error());
   }
   results.placement = place(store, *origin, config.placement);
-  std::vector<graph::Node> nodes;
-  for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
-  results.not_georeferenced = graph::not_georeferenced(nodes, results.placement.components);
+  results.not_georeferenced = graph::not_georeferenced(nodes_of(store), results.placement.components);
   auto map = write_map(store, results.placement, config, others);
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/results.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 
 namespace fleetmap::apps {
@@ -18,12 +19,6 @@ constexpr std::size_t kMostListed = 50;
 json spread_json(std::vector<double> values) {
   const eval::Spread s = eval::spread(std::move(values));
   return {{"rms", s.rms}, {"p50", s.p50}, {"p90", s.p90}, {"p95", s.p95}, {"p99", s.p99}, {"max", s.max}};
-}
-
-std::vector<graph::Node> nodes_of(const store::Store& store) {
-  std::vector<graph::Node> nodes;
-  for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
-  return nodes;
 }
 
 /// Verdicts of every attempt that the robots logged.
@@ -117,12 +112,6 @@ json consistency_json(std::span<const eval::StatedError> errors) {
   return result;
 }
 
-std::vector<graph::Alignment> alignments_of(const store::Store& store) {
-  std::vector<graph::Alignment> alignments;
-  for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
-  return alignments;
-}
-
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
   std::map<AgentId, const eval::Trajectory*> tracks;
   for (const AgentFolder& agent : run.agents) {
@@ -138,7 +127,7 @@ eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
 }
 
 json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
-  const auto judged = eval::judge(alignments_of(held.store), held.placement, truth);
+  const auto judged = eval::judge(agent::alignments_of(held.store), held.placement, truth);
   std::vector<eval::JudgedAlignment> right, used;
   std::vector<eval::StatedError> stated;
   std::size_t wrong = 0, wrong_used = 0, ambiguous = 0, hold_right = 0, loops = 0;
@@ -203,7 +192,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
     fleet["inter_robot_rotation_deg"] = kDegrees * std::sqrt(turns / static_cast<double>(meetings));
   }
   if (held == nullptr || truth.empty()) return fleet;
-  const auto pairs = eval::joined_pairs(alignments_of(held->store), held->placement, truth);
+  const auto pairs = eval::joined_pairs(agent::alignments_of(held->store), held->placement, truth);
   fleet["joined"] = joined_json(pairs);
   fleet["joined_pairs"] = pairs.size();
   fleet["wrong_merges"] = std::ranges::count(pairs, false, &eval::JoinedPair::right);
@@ -214,7 +203,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
 json calibration_json(RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
   json result = json::object();
   if (json ekf = filter_json(run, LocalFrame(held.recipe.origin)); !ekf.is_null()) result["ekf"] = ekf;
-  const auto odometry = eval::odometry_errors(nodes_of(held.store), truth);
+  const auto odometry = eval::odometry_errors(agent::nodes_of(held.store), truth);
   if (!odometry.empty()) result["odometry"] = consistency_json(odometry);
   return result;
 }

@@ -13,8 +13,6 @@ namespace fleetmap::apps {
 /// Where the nodes truly were: by the true trajectories, at their stamps.
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store);
 
-std::vector<graph::Alignment> alignments_of(const store::Store& store);
-
 /// NEES and what else eval::Consistency tells.
 nlohmann::json consistency_json(std::span<const eval::StatedError> errors);
 

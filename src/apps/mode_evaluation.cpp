@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fleet_evaluation.hpp"
+#include "fleetmap/agent/results.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/graph/place.hpp"
 
@@ -18,12 +19,9 @@ constexpr std::size_t kCovariances = 60;  ///< of as many nodes, evenly chosen
 /// The same set, as `mode` places it.
 graph::Placement placed(const HeldFleet& held, graph::PlacementMode mode,
                         std::span<const NodeId> covariance_of) {
-  std::vector<graph::Node> nodes;
-  for (const auto& [id, node] : held.store.nodes()) nodes.push_back(node);
   graph::PlacementConfig config = held.recipe.placement;
   config.mode = mode;
-  return graph::place(nodes, alignments_of(held.store), LocalFrame(held.recipe.origin), config,
-                      covariance_of);
+  return agent::place(held.store, held.recipe.origin, config, covariance_of);
 }
 
 std::vector<NodeId> some_of(const eval::TruePoses& nodes) {
@@ -137,7 +135,7 @@ json modes_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& no
       mode_json(run, held, placed(held, graph::PlacementMode::paper, {}), nodes, maps, evaluation);
   const graph::Placement fleet = placed(held, graph::PlacementMode::fleet, some_of(nodes));
   modes["fleet"] = mode_json(run, held, fleet, nodes, maps, evaluation);
-  modes["fleet"]["judgements"] = judgements_json(fleet, alignments_of(held.store), nodes);
+  modes["fleet"]["judgements"] = judgements_json(fleet, agent::alignments_of(held.store), nodes);
   modes["fleet"]["calibration"] = consistency_json(placement_errors(fleet, nodes));
   return modes;
 }

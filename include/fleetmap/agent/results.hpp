@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -24,9 +25,13 @@ std::string to_string(const graph::FrameId& frame);
 /// there is no node.
 std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured);
 
+/// Everything held, by name.
+std::vector<graph::Node> nodes_of(const store::Store& store);
+std::vector<graph::Alignment> alignments_of(const store::Store& store);
+
 /// Where every node of the store lies.
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
-                       const graph::PlacementConfig& config);
+                       const graph::PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 
 /// The whole map that the store holds, in ENU.
 store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
