@@ -1,6 +1,7 @@
 #include "comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fleetmap::registration {
@@ -22,29 +23,43 @@ struct PointFit {
   float squared = 0.0f;  ///< m^2, distance from it in the directions that it knows
 };
 
-PointFit fit_of(const SurfelMap& map, const FlatMap& flat, const Eigen::Vector3f& p, const Surfel* own,
+PointFit fit_of(const Surfel* surfel, const FlatMap& flat, const Eigen::Vector3f& p, const Facing& own,
                 const Eigen::Matrix3f& R, const RegistrationConfig& config) {
   PointFit fit;
-  const Surfel* surfel = map.near(p);
   if (surfel == nullptr) {
     fit.seen = was_seen(flat, p);
     return fit;
   }
   fit.seen = true;
-  if (surfel->planar && own != nullptr && own->planar &&
-      std::abs(surfel->axes[0].dot(R * own->axes[0])) < config.icp.min_normal_agreement)
+  if (surfel->planar && own.planar &&
+      std::abs(surfel->axes[0].dot(R * own.normal)) < config.icp.min_normal_agreement)
     return fit;
   fit.near = true;
   const Eigen::Vector3f d = p - surfel->mean;
-  bool knows = false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (surfel->weights[k] <= 0.0f) continue;
-    const float r = surfel->axes[k].dot(d);
-    fit.squared += r * r;
-    knows = true;
+  if (surfel->directions == 0) fit.squared = 0.1f * d.squaredNorm();
+  if (surfel->directions == 3) fit.squared = d.squaredNorm();
+  if (surfel->directions == 1 || surfel->directions == 2) {
+    const float r = surfel->axes[0].dot(d), q = surfel->directions == 2 ? surfel->axes[1].dot(d) : 0.0f;
+    fit.squared = r * r + q * q;
   }
-  if (!knows) fit.squared = 0.1f * d.squaredNorm();
   return fit;
+}
+
+/// Calls `use(index, fit)` for every point of `moving`.
+template <class Use>
+void for_each_fit(const PreparedCloud::Data& fixed, const MovingPoints& moving, const Pose& T,
+                  const RegistrationConfig& config, Use use) {
+  const Eigen::Matrix3f R = T.linear().cast<float>();
+  const Eigen::Vector3f t = T.translation().cast<float>();
+  std::array<Eigen::Vector3f, SurfelMap::kBlock> moved;
+  std::array<const Surfel*, SurfelMap::kBlock> surfels;
+  for (std::size_t from = 0; from < moving.points.size(); from += SurfelMap::kBlock) {
+    const std::size_t count = std::min(SurfelMap::kBlock, moving.points.size() - from);
+    for (std::size_t k = 0; k < count; ++k) moved[k] = R * moving.points[from + k] + t;
+    fixed.surfels.find({moved.data(), count}, SurfelMap::Reach::near, surfels.data());
+    for (std::size_t k = 0; k < count; ++k)
+      use(from + k, fit_of(surfels[k], fixed.flat, moved[k], moving.facing[from + k], R, config));
+  }
 }
 
 struct Total {
@@ -54,24 +69,20 @@ struct Total {
 
 void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& moving, const Pose& T,
                      const RegistrationConfig& config, std::size_t first_patch, Fit& fit, Total& total) {
-  const Eigen::Matrix3f R = T.linear().cast<float>();
-  const Eigen::Vector3f t = T.translation().cast<float>();
   const float half2 = config.misfit_m * config.misfit_m, inlier2 = config.inlier_m * config.inlier_m;
-  for (std::size_t i = 0; i < moving.points.size(); ++i) {
-    const PointFit point =
-        fit_of(fixed.surfels, fixed.flat, R * moving.points[i] + t, moving.surfels[i], R, config);
-    if (!point.seen) continue;
+  for_each_fit(fixed, moving, T, config, [&](std::size_t i, const PointFit& point) {
+    if (!point.seen) return;
     const float misfit = point.near ? point.squared / (point.squared + half2) : 1.0f;
     ++total.seen;
     total.standing += moving.standing[i];
     total.misfit += static_cast<double>(misfit);
     fit.misfit[first_patch + moving.patches[i]] += misfit;
     ++fit.seen[first_patch + moving.patches[i]];
-    if (!point.near || point.squared > inlier2) continue;
+    if (!point.near || point.squared > inlier2) return;
     ++total.inliers;
     total.standing_inliers += moving.standing[i];
     total.squares += static_cast<double>(point.squared);
-  }
+  });
 }
 
 }  // namespace
@@ -109,17 +120,13 @@ double noise_of(const PreparedCloud::Data& data, const RegistrationConfig& confi
 
 double coarse_misfit(const PreparedCloud::Data& target, const PreparedCloud::Data& source, const Pose& T,
                      const RegistrationConfig& config) {
-  const Eigen::Matrix3f R = T.linear().cast<float>();
-  const Eigen::Vector3f t = T.translation().cast<float>();
   const float half2 = config.misfit_m * config.misfit_m;
   double misfit = 0.0, seen = 0.0;
-  for (std::size_t i = 0; i < source.coarse.points.size(); ++i) {
-    const PointFit point = fit_of(target.surfels, target.flat, R * source.coarse.points[i] + t,
-                                  source.coarse.surfels[i], R, config);
-    if (!point.seen) continue;
+  for_each_fit(target, source.coarse, T, config, [&](std::size_t, const PointFit& point) {
+    if (!point.seen) return;
     seen += 1.0;
     misfit += point.near ? static_cast<double>(point.squared / (point.squared + half2)) : 1.0;
-  }
+  });
   if (seen < config.min_overlap * static_cast<double>(source.coarse.points.size())) return 1.0;
   return misfit / seen;
 }

@@ -33,7 +33,10 @@ MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap&
   all.patch_count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint16_t at = surfels.of_points()[i];
-    all.surfels.push_back(at == SurfelMap::kNone ? nullptr : &surfels.surfels()[at]);
+    Facing facing;
+    if (at != SurfelMap::kNone && surfels.surfels()[at].planar)
+      facing = {surfels.surfels()[at].axes[0], surfels.surfels()[at].side, true};
+    all.facing.push_back(facing);
     const auto cell = [&](float v) {
       return std::clamp(static_cast<int>(std::floor(v / config.patch_m)) + side / 2, 0, side - 1);
     };
@@ -50,7 +53,7 @@ MovingPoints picked(const MovingPoints& all, std::size_t count) {
   for (std::size_t k = 0; k < wanted; ++k) {
     const std::size_t i = k * all.points.size() / wanted;
     some.points.push_back(all.points[i]);
-    some.surfels.push_back(all.surfels[i]);
+    some.facing.push_back(all.facing[i]);
     some.patches.push_back(all.patches[i]);
     some.standing.push_back(all.standing[i]);
   }

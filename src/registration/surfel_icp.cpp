@@ -2,14 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fleetmap::registration {
 namespace {
-
-/// Padded to whole SIMD registers.
-using Vector8f = Eigen::Matrix<float, 8, 1>;
-using Matrix86f = Eigen::Matrix<float, 8, 6>;
 
 /// Below this the sensor was about within the plane: no telling which side it saw.
 constexpr float kUnsureSide = 0.15f;  // m
@@ -29,13 +26,71 @@ struct System {
 };
 
 /// Whether two planar pieces may be the same side of the same surface.
-bool agree(const Surfel& target, const Surfel* source, const Eigen::Matrix3f& R, bool sides,
+bool agree(const Surfel& target, const Facing& source, const Eigen::Matrix3f& R, bool sides,
            const IcpConfig& config) {
-  if (!target.planar || source == nullptr || !source->planar) return true;
-  const float cosine = target.axes[0].dot(R * source->axes[0]);
+  if (!target.planar || !source.planar) return true;
+  const float cosine = target.axes[0].dot(R * source.normal);
   if (std::abs(cosine) < config.min_normal_agreement) return false;
-  if (!sides || std::abs(target.side) < kUnsureSide || std::abs(source->side) < kUnsureSide) return true;
-  return (cosine > 0.0f) == ((target.side > 0.0f) == (source->side > 0.0f));
+  if (!sides || std::abs(target.side) < kUnsureSide || std::abs(source.side) < kUnsureSide) return true;
+  return (cosine > 0.0f) == ((target.side > 0.0f) == (source.side > 0.0f));
+}
+
+/// Rows of the Jacobian, summed up many at a time: in single precision over a block, then in double.
+class Rows {
+ public:
+  static constexpr int kMost = 128;
+  bool has_room() const { return count_ + 3 <= kMost; }
+  /// A residual `r` along `n` of a point whose arm from the source's origin is `u`.
+  void add(const Eigen::Vector3f& n, const Eigen::Vector3f& u, float weight, float r) {
+    J_.col(count_).head<3>() = n;
+    J_.col(count_).tail<3>() = u.cross(n);
+    weights_[count_] = weight;
+    residuals_[count_] = r;
+    ++count_;
+  }
+  Vector6d gradient(int row) const {
+    return (weights_[row] * residuals_[row] * J_.col(row)).cast<double>();
+  }
+  int size() const { return count_; }
+  void move_into(System& system) {
+    using Row = Eigen::Map<const Eigen::Array<float, 1, Eigen::Dynamic>, Eigen::Aligned16>;
+    const int padded = (count_ + 3) / 4 * 4;
+    for (; count_ < padded; ++count_) {
+      J_.col(count_).setZero();
+      weights_[count_] = residuals_[count_] = 0.0f;
+    }
+    const auto row_of = [&](const float* data) { return Row(data, padded); };
+    Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMost> weighted(padded);
+    for (int a = 0; a < 6; ++a) {
+      weighted = row_of(J_.row(a).data()) * row_of(weights_.data());
+      system.g[a] += static_cast<double>((weighted * row_of(residuals_.data())).sum());
+      for (int b = a; b < 6; ++b)
+        system.H(a, b) += static_cast<double>((weighted * row_of(J_.row(b).data())).sum());
+    }
+    count_ = 0;
+  }
+
+ private:
+  int count_ = 0;
+  Eigen::Matrix<float, 6, kMost, Eigen::RowMajor> J_;
+  Eigen::Array<float, 1, kMost> weights_, residuals_;
+};
+
+/// What one point next to `surfel` adds to `rows`.
+void add_rows(const Surfel& surfel, const Eigen::Vector3f& d, const Eigen::Vector3f& u, float kernel2,
+              Rows& rows) {
+  std::array<Eigen::Vector3f, 3> axes{surfel.axes[0], surfel.axes[1], Eigen::Vector3f::Zero()};
+  if (surfel.directions == 3) axes[2] = axes[0].cross(axes[1]);
+  std::array<float, 3> r{};
+  float squares = 0.0f;
+  for (std::size_t k = 0; k < surfel.directions; ++k) {
+    r[k] = axes[k].dot(d);
+    squares += r[k] * r[k];
+  }
+  const float robust = kernel2 / (kernel2 + squares);
+  if (robust < 0.02f) return;
+  for (std::size_t k = 0; k < surfel.directions; ++k)
+    rows.add(axes[k], u, surfel.weights[k & 1u] * robust * robust, r[k]);
 }
 
 System linearize(const SurfelMap& target, const MovingPoints& source, const Pose& T, bool far, float kernel_m,
@@ -48,49 +103,28 @@ System linearize(const SurfelMap& target, const MovingPoints& source, const Pose
   const Eigen::Matrix3f R = T.linear().cast<float>();
   const Eigen::Vector3f t = T.translation().cast<float>();
   const float kernel2 = kernel_m * kernel_m;
-  // In single precision over a block, summed up in double.
-  Matrix86f H = Matrix86f::Zero();
-  Vector8f g = Vector8f::Zero();
-  const auto flush = [&] {
-    system.H += H.topRows<6>().cast<double>();
-    system.g += g.head<6>().cast<double>();
-    H.setZero();
-    g.setZero();
-  };
-  for (std::size_t i = 0; i < source.points.size(); ++i) {
-    const Eigen::Vector3f u = R * source.points[i];
-    const Eigen::Vector3f p = u + t;
-    const Surfel* surfel = far ? target.far(p) : target.near(p);
-    if (surfel == nullptr || !agree(*surfel, source.surfels[i], R, !far, config)) continue;
-    const Eigen::Vector3f d = p - surfel->mean;
-    std::array<float, 3> r{};
-    float squares = 0.0f;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (surfel->weights[k] <= 0.0f) continue;
-      r[k] = surfel->axes[k].dot(d);
-      squares += r[k] * r[k];
+  std::array<Eigen::Vector3f, SurfelMap::kBlock> moved;
+  std::array<const Surfel*, SurfelMap::kBlock> surfels;
+  Rows rows;
+  for (std::size_t from = 0; from < source.points.size(); from += SurfelMap::kBlock) {
+    const std::size_t count = std::min(SurfelMap::kBlock, source.points.size() - from);
+    for (std::size_t k = 0; k < count; ++k) moved[k] = R * source.points[from + k] + t;
+    target.find({moved.data(), count}, far ? SurfelMap::Reach::far : SurfelMap::Reach::near, surfels.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = from + k;
+      if (surfels[k] == nullptr) continue;
+      if (!source.facing.empty() && !agree(*surfels[k], source.facing[i], R, !far, config)) continue;
+      if (!rows.has_room()) rows.move_into(system);
+      const int first = rows.size();
+      add_rows(*surfels[k], moved[k] - surfels[k]->mean, moved[k] - t, kernel2, rows);
+      for (int row = first; with_patches && row < rows.size(); ++row) {
+        system.patch_gradients[source.patches[i]] += rows.gradient(row);
+        system.patch_used[source.patches[i]] = 1;
+      }
     }
-    const float robust = kernel2 / (kernel2 + squares);
-    if (robust < 0.02f) continue;
-    Vector8f own = Vector8f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (surfel->weights[k] <= 0.0f) continue;
-      const float w = surfel->weights[k] * robust * robust;
-      const Eigen::Vector3f& n = surfel->axes[k];
-      const Eigen::Vector3f m = u.cross(n);
-      Vector8f J;
-      J << n.x(), n.y(), n.z(), m.x(), m.y(), m.z(), 0.0f, 0.0f;
-      for (int c = 0; c < 6; ++c) H.col(c) += (w * J[c]) * J;
-      own += (w * r[k]) * J;
-    }
-    g += own;
-    if (with_patches) {
-      system.patch_gradients[source.patches[i]] += own.head<6>().cast<double>();
-      system.patch_used[source.patches[i]] = 1;
-    }
-    if ((i & 255u) == 255u) flush();
   }
-  flush();
+  rows.move_into(system);
+  system.H.triangularView<Eigen::StrictlyLower>() = system.H.transpose();
   return system;
 }
 

@@ -37,13 +37,13 @@ struct Moments {
 
 /// A post is seen from one side, and from the other by who passes there: what it says towards the sensor is
 /// worth less than what it says across.
-void discount_depth(const Eigen::Vector3f& sensor, float variance, const SurfelConfig& config,
-                    Surfel& surfel) {
-  const Eigen::Vector3f across = surfel.axes[2].cross(sensor - surfel.mean);
+void discount_depth(const Eigen::Vector3f& along, const Eigen::Vector3f& sensor, float variance,
+                    const SurfelConfig& config, Surfel& surfel) {
+  const Eigen::Vector3f across = along.cross(sensor - surfel.mean);
   const float length = across.norm();
   if (length < 1e-3f) return;
   surfel.axes[0] = across / length;
-  surfel.axes[1] = surfel.axes[0].cross(surfel.axes[2]);
+  surfel.axes[1] = surfel.axes[0].cross(along);
   const float certain = std::max(0.0f, variance) + config.noise_m * config.noise_m;
   surfel.weights[0] = 1.0f / certain;
   surfel.weights[1] = 1.0f / (certain + config.hidden_depth_m * config.hidden_depth_m);
@@ -59,23 +59,21 @@ Surfel surfel_of(const Moments& m, const Eigen::Vector3f& middle, const SurfelCo
   C = C / m.count - mean * mean.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen;
   eigen.computeDirect(C);
-  int constraining = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const float variance = std::max(0.0f, eigen.eigenvalues()[k]);
-    surfel.axes[at] = eigen.eigenvectors().col(k);
-    if (variance > config.extended_m * config.extended_m) continue;
-    surfel.weights[at] = 1.0f / (variance + config.noise_m * config.noise_m);
-    ++constraining;
-  }
+  const Eigen::Vector3f variances = eigen.eigenvalues().cwiseMax(0.0f);  // ascending
+  surfel.axes = {eigen.eigenvectors().col(0), eigen.eigenvectors().col(1)};
+  const auto constraining = (variances.array() <= config.extended_m * config.extended_m).count();
+  for (std::size_t k = 0; k < 2; ++k)
+    surfel.weights[k] = 1.0f / (variances[static_cast<int>(k)] + config.noise_m * config.noise_m);
   surfel.planar = constraining == 1;
+  surfel.directions = static_cast<std::uint8_t>(constraining);
   const Eigen::Vector3f sensor(surfel.mean.x(), 0.0f, config.sensor_height_m);
   surfel.side = surfel.axes[0].dot(sensor - surfel.mean);
-  if (constraining == 2) discount_depth(sensor, eigen.eigenvalues()[1], config, surfel);
-  if (constraining == 3) surfel.weights = {0, 0, 0};  // a speck: too small to say which way it faces
+  if (constraining == 2)
+    discount_depth(eigen.eigenvectors().col(2), sensor, eigen.eigenvalues()[1], config, surfel);
+  if (constraining == 3) surfel.directions = 0;  // a speck: too small to say which way it faces
   if (constraining == 0) {
-    const float variance = std::max(1e-4f, eigen.eigenvalues().sum() / 3.0f);
-    surfel.weights.fill(1.0f / variance);
+    surfel.directions = 3;
+    surfel.weights.fill(1.0f / std::max(1e-4f, variances.mean()));
   }
   return surfel;
 }
@@ -177,6 +175,24 @@ SurfelMap::SurfelMap(const std::vector<Eigen::Vector3f>& points, const SurfelCon
   const std::size_t first_sparse = surfels_.size();
   add_sparse(points, config);
   sparse_.build(surfels_, first_sparse, config.sparse_voxel_m, 1);
+}
+
+void SurfelMap::find(std::span<const Eigen::Vector3f> points, Reach reach, const Surfel** found) const {
+  const Lookup& lookup = reach == Reach::near ? fine_ : coarse_;
+  std::array<std::ptrdiff_t, kBlock> cells;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    cells[k] = lookup.cell_of(points[k]);
+    if (cells[k] >= 0) __builtin_prefetch(lookup.cells.data() + cells[k]);
+  }
+  const auto index_in = [](const Lookup& in, std::ptrdiff_t cell) {
+    return cell < 0 ? kNone : in.cells[static_cast<std::size_t>(cell)];
+  };
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::uint16_t index = index_in(lookup, cells[k]);
+    if (index == kNone) index = index_in(sparse_, sparse_.cell_of(points[k]));
+    found[k] = index == kNone ? nullptr : &surfels_[index];
+    if (index != kNone) __builtin_prefetch(found[k]);
+  }
 }
 
 void SurfelMap::add_fine(const std::vector<Eigen::Vector3f>& points, const SurfelConfig& config) {

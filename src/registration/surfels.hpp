@@ -3,18 +3,21 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace fleetmap::registration {
 
 /// A piece of surface, edge or clutter: the points of 3 x 3 x 3 voxels, as their mean and what they say of a
-/// point near them. A direction of weight 0 says nothing (within a plane, along a post).
-struct Surfel {
+/// point near them: one direction across a plane, two across a post, three in clutter, none in a speck. One
+/// line of the cache.
+struct alignas(64) Surfel {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  std::array<Eigen::Vector3f, 3> axes;    ///< unit; ascending spread
-  std::array<float, 3> weights{0, 0, 0};  ///< 1/m^2, inverse variance along each axis
-  bool planar = false;                    ///< axes[0] is a normal
+  std::array<Eigen::Vector3f, 2> axes;  ///< unit, of the first two directions; the third is across both
+  std::array<float, 2> weights{0, 0};   ///< 1/m^2, inverse variance along them; the third has that of the first
   float side = 0.0f;  ///< m, how far the sensor was on the side that axes[0] points to; negative behind
+  std::uint8_t directions = 0;
+  bool planar = false;  ///< axes[0] is a normal
 };
 
 struct SurfelConfig {
@@ -38,16 +41,11 @@ class SurfelMap {
   SurfelMap(const std::vector<Eigen::Vector3f>& points, const SurfelConfig& config);
 
   static constexpr std::uint16_t kNone = 0xffff;
-  /// The nearest surfel, as seen from the middle of a small cell around p, within about a voxel.
-  const Surfel* near(const Eigen::Vector3f& p) const {
-    const Surfel* surfel = fine_.at(p, surfels_);
-    return surfel != nullptr ? surfel : sparse_.at(p, surfels_);
-  }
-  /// The same within about three voxels.
-  const Surfel* far(const Eigen::Vector3f& p) const {
-    const Surfel* surfel = coarse_.at(p, surfels_);
-    return surfel != nullptr ? surfel : sparse_.at(p, surfels_);
-  }
+  static constexpr std::size_t kBlock = 64;  ///< points looked up together: most of the time memory is waited for
+  enum class Reach { near, far };
+  /// Of each of up to kBlock points: the nearest surfel, as seen from the middle of a small cell around it,
+  /// within about a voxel (near) or three (far); null where there is none.
+  void find(std::span<const Eigen::Vector3f> points, Reach reach, const Surfel** found) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }
   /// Surfel of each point's own voxel, kNone where it has none.
   const std::vector<std::uint16_t>& of_points() const { return of_points_; }
@@ -61,18 +59,15 @@ class SurfelMap {
     std::vector<std::uint16_t> cells;
     /// Of the surfels from `first` on.
     void build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m, int reach);
-    const Surfel* at(const Eigen::Vector3f& p, const std::vector<Surfel>& surfels) const {
+    /// Index into `cells`, -1 outside.
+    std::ptrdiff_t cell_of(const Eigen::Vector3f& p) const {
       const Eigen::Vector3f g = (p - origin) * inverse_cell;
-      if (!(g.x() >= 0.0f && g.y() >= 0.0f && g.z() >= 0.0f)) return nullptr;
+      if (!(g.x() >= 0.0f && g.y() >= 0.0f && g.z() >= 0.0f)) return -1;
       if (!(g.x() < static_cast<float>(size.x()) && g.y() < static_cast<float>(size.y()) &&
             g.z() < static_cast<float>(size.z())))
-        return nullptr;
-      const std::uint16_t index =
-          cells[(static_cast<std::size_t>(g.z()) * static_cast<std::size_t>(size.y()) +
-                 static_cast<std::size_t>(g.y())) *
-                    static_cast<std::size_t>(size.x()) +
-                static_cast<std::size_t>(g.x())];
-      return index == kNone ? nullptr : &surfels[index];
+        return -1;
+      return (static_cast<std::ptrdiff_t>(g.z()) * size.y() + static_cast<std::ptrdiff_t>(g.y())) * size.x() +
+             static_cast<std::ptrdiff_t>(g.x());
     }
   };
   void add_fine(const std::vector<Eigen::Vector3f>& points, const SurfelConfig& config);

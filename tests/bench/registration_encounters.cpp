@@ -1,6 +1,6 @@
 // Encounters of robots on generated sites, with truth: how often registration is right, wrong or undecided,
 // how accurate, and at what cost. Made in three steps, each kept in a folder so that trying is quick:
-//   bench_encounters maps DIR SET        maps around nodes (SET: dev, drift, noisy, final, ...)
+//   bench_encounters maps DIR SET        maps around nodes (SET: dev, drift, noisy, more, earlier, final)
 //   bench_encounters clouds DIR SET      spherized clouds of these
 //   bench_encounters register DIR SET    the table
 #include <algorithm>
@@ -81,10 +81,20 @@ std::vector<Place> places_of(const std::string& set) {
   if (set == "drift")
     add("farm", 5, drift), add("hilly", 6, drift), add("small", 7, drift), add("wild", 8, drift);
   if (set == "noisy") add("farm", 9, noisy), add("wild", 10, noisy);
-  if (set == "final") {
+  if (set == "more") {
+    add("farm", 21, clean), add("farm", 22, drift), add("farm", 23, drift), add("farm", 24, noisy);
+    add("hilly", 25, drift), add("hilly", 26, noisy), add("farm", 27, clean), add("farm", 28, drift);
+  }
+  if (set == "earlier") {  // what was measured, and so looked at, first
     for (unsigned k = 101; k <= 104; ++k) add("farm", k, k % 2 == 0 ? drift : clean);
     for (unsigned k = 111; k <= 112; ++k) add("hilly", k, k % 2 == 0 ? drift : clean);
     add("small", 121, drift), add("wild", 131, clean), add("wild", 132, drift), add("farm", 141, noisy);
+  }
+  if (set == "final") {
+    for (unsigned k = 201; k <= 204; ++k) add("farm", k, k % 2 == 0 ? drift : clean);
+    for (unsigned k = 211; k <= 212; ++k) add("hilly", k, k % 2 == 0 ? drift : clean);
+    add("small", 221, drift), add("wild", 231, clean), add("wild", 232, drift);
+    add("farm", 241, noisy), add("farm", 242, noisy), add("hilly", 243, noisy), add("wild", 244, noisy);
   }
   return places;
 }
