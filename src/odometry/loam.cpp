@@ -336,8 +336,9 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
   auto in_odom = [&](const FeaturePoint& p) -> Eigen::Vector3d {
     return state.T_odom_base * twist.at_reference(p.position, p.time).cast<double>();
   };
-  for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p));
-  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p));
+  const Eigen::Vector3d sensor = state.T_odom_base * config_.T_base_lidar.translation();
+  for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p), sensor);
+  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p), sensor);
   keyframe_ = state.T_odom_base;
   ++insertions_;
   if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {

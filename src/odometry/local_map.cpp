@@ -18,6 +18,27 @@ constexpr double kPostRatio = 0.15;  // a post has a girth
 constexpr double kMinExtent = 0.12;
 constexpr double kUpright = 0.9;
 constexpr double kLineThickness = 0.1;  // m
+/// Sine of the angle behind a plane from which on it is seen from its other side; normals err a little.
+constexpr float kBehind = 0.1f;
+
+bool seen_from_behind(const SurfaceWindow& window, const Eigen::Vector3f& toward) {
+  return window.shape == Shape::kPlane && window.direction.dot(toward) < -kBehind;
+}
+
+void take(SurfaceWindow& window, const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
+  if (window.count >= kMaxCount) return;
+  const Eigen::Vector3f d = (point - window.center).cast<float>();
+  window.count += 1.0f;
+  window.sum += d;
+  window.toward += toward;
+  window.square[0] += d.x() * d.x();
+  window.square[1] += d.x() * d.y();
+  window.square[2] += d.x() * d.z();
+  window.square[3] += d.y() * d.y();
+  window.square[4] += d.y() * d.z();
+  window.square[5] += d.z() * d.z();
+  window.stale = true;
+}
 
 }  // namespace
 
@@ -28,7 +49,7 @@ SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double 
       max_thickness_(max_thickness),
       bend2_(bend * bend) {}
 
-void SurfaceGrid::add(const Eigen::Vector3d& point) {
+void SurfaceGrid::add(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
   const Eigen::Vector3d scaled = point * inverse_step_;
   const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
   for (int corner = 0; corner < 8; ++corner) {
@@ -41,28 +62,30 @@ void SurfaceGrid::add(const Eigen::Vector3d& point) {
                                                    static_cast<double>(w[2]));
     }
     SurfaceWindow& window = windows_[i];
-    if (window.count >= kMaxCount) continue;
-    const Eigen::Vector3f d = (point - window.center).cast<float>();
-    window.count += 1.0f;
-    window.sum += d;
-    window.square[0] += d.x() * d.x();
-    window.square[1] += d.x() * d.y();
-    window.square[2] += d.x() * d.z();
-    window.square[3] += d.y() * d.y();
-    window.square[4] += d.y() * d.z();
-    window.square[5] += d.z() * d.z();
-    window.stale = true;
+    take(seen_from_behind(window, toward) ? other_side_of(window) : window, point, toward);
   }
 }
 
-const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point) {
+SurfaceWindow& SurfaceGrid::other_side_of(SurfaceWindow& window) {
+  if (window.other_side == SurfaceWindow::kNone) {
+    window.other_side = static_cast<std::uint32_t>(other_sides_.size());
+    other_sides_.emplace_back().center = window.center;
+  }
+  return other_sides_[window.other_side];
+}
+
+const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
   const Eigen::Vector3d scaled = point * inverse_step_;
   const std::uint32_t i = index_.find(
       pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5), fast_floor(scaled.z() + 0.5)));
   if (i == FlatIndex::kAbsent) return nullptr;
   SurfaceWindow& window = windows_[i];
   if (window.stale) refresh(window);
-  return &window;
+  if (!seen_from_behind(window, toward)) return &window;
+  if (window.other_side == SurfaceWindow::kNone) return nullptr;
+  SurfaceWindow& other = other_sides_[window.other_side];
+  if (other.stale) refresh(other);
+  return &other;
 }
 
 void SurfaceGrid::refresh(SurfaceWindow& window) const {
@@ -91,6 +114,7 @@ void SurfaceGrid::refresh(SurfaceWindow& window) const {
     if (l[1] <= extent2) return;
     if (l[0] < kPlaneRatio * l[1] && l[0] < thick2) {
       settle(Shape::kPlane, 0, l[0], l[1]);
+      if (window.direction.dot(window.toward) < 0.0f) window.direction = -window.direction;
     } else {
       window.shape = Shape::kScatter;
     }
@@ -107,11 +131,18 @@ void SurfaceGrid::refresh(SurfaceWindow& window) const {
 }
 
 void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
-  std::vector<SurfaceWindow> kept;
+  std::vector<SurfaceWindow> kept, kept_other_sides;
   kept.reserve(windows_.size());
-  for (const SurfaceWindow& window : windows_) {
-    if ((window.center - center).squaredNorm() < radius * radius) kept.push_back(window);
+  kept_other_sides.reserve(other_sides_.size());
+  for (SurfaceWindow& window : windows_) {
+    if ((window.center - center).squaredNorm() >= radius * radius) continue;
+    if (window.other_side != SurfaceWindow::kNone) {
+      kept_other_sides.push_back(other_sides_[window.other_side]);
+      window.other_side = static_cast<std::uint32_t>(kept_other_sides.size() - 1);
+    }
+    kept.push_back(window);
   }
+  other_sides_.swap(kept_other_sides);
   windows_.swap(kept);
   index_.clear();
   for (const SurfaceWindow& window : windows_) {
@@ -123,6 +154,7 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
 void SurfaceGrid::clear() {
   index_.clear();
   windows_.clear();
+  other_sides_.clear();
 }
 
 LocalMap::LocalMap(const LoamConfig& config)
@@ -133,26 +165,30 @@ LocalMap::LocalMap(const LoamConfig& config)
       posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, kLineThickness, 0.0),
       edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, kLineThickness, 0.0) {}
 
-void LocalMap::add_surface(const Eigen::Vector3d& point) {
-  fine_.add(point);
-  coarse_.add(point);
-  posts_.add(point);
+void LocalMap::add_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
+  const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();
+  fine_.add(point, toward);
+  coarse_.add(point, toward);
+  posts_.add(point, toward);
 }
 
-void LocalMap::add_edge(const Eigen::Vector3d& point) { edges_.add(point); }
+void LocalMap::add_edge(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
+  edges_.add(point, (sensor - point).normalized().cast<float>());
+}
 
-const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point) {
-  const SurfaceWindow* fine = fine_.at(point);
+const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
+  const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();
+  const SurfaceWindow* fine = fine_.at(point, toward);
   if (fine != nullptr && fine->shape == Shape::kPlane) return fine;
-  const SurfaceWindow* post = fine != nullptr ? posts_.at(point) : nullptr;
+  const SurfaceWindow* post = fine != nullptr ? posts_.at(point, toward) : nullptr;
   if (post != nullptr && post->shape == Shape::kLine) return post;
   if (fine != nullptr && fine->shape == Shape::kScatter) return nullptr;
-  const SurfaceWindow* coarse = coarse_.at(point);
+  const SurfaceWindow* coarse = coarse_.at(point, toward);
   return coarse != nullptr && coarse->shape == Shape::kPlane ? coarse : nullptr;
 }
 
-const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point) {
-  const SurfaceWindow* edge = edges_.at(point);
+const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
+  const SurfaceWindow* edge = edges_.at(point, (sensor - point).normalized().cast<float>());
   return edge != nullptr && edge->shape == Shape::kLine ? edge : nullptr;
 }
 

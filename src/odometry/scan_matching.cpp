@@ -87,6 +87,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   const ConstantTwist twist(state.twist);
   const Eigen::Matrix3d R = state.T_odom_base.linear();
   const Eigen::Vector3d t = state.T_odom_base.translation();
+  const Eigen::Vector3d sensor = R * config_.T_base_lidar.translation() + t;
   const double bins_per_second = kTimeBins / (2.0 * half_span_);
   const double return_variance = square(config_.range_noise);
   const double edge_variance = square(config_.edge_noise);
@@ -94,7 +95,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   auto visit = [&](const FeaturePoint& feature, bool edge) {
     const Eigen::Vector3d p = twist.at_reference(feature.position, feature.time).cast<double>();
     const Eigen::Vector3d q = R * p + t;
-    const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q);
+    const SurfaceWindow* window = edge ? map.edge_at(q, sensor) : map.surface_at(q, sensor);
     if (window == nullptr) return;
     const bool plane = window->shape == Shape::kPlane;
     const Eigen::Vector3d offset = q - window->center - window->mean.cast<double>();

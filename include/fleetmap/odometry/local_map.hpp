@@ -16,20 +16,27 @@ enum class Shape : std::uint8_t {
   kScatter,  ///< enough points, but neither plane nor line
 };
 
-/// The points of one cubic window as a Gaussian, and what surface it shows.
+/// The points of one cubic window as a Gaussian, and what surface it shows. A plane has a side: the one that
+/// it was seen from. What is seen of the other side (of a solar panel, a sign, a wall) is another surface,
+/// off by its thickness, and has a window of its own.
 struct SurfaceWindow {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< m, of the window, map frame
   float count = 0.0f;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();  ///< of positions about `center`
   Eigen::Matrix<float, 6, 1> square =
-      Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz about `center`
-  bool stale = true;                       ///< points came in since the fields below were computed
+      Eigen::Matrix<float, 6, 1>::Zero();            ///< xx xy xz yy yz zz about `center`
+  Eigen::Vector3f toward = Eigen::Vector3f::Zero();  ///< sum of the directions to the sensor
+  std::uint32_t other_side = kNone;  ///< index of that of the plane's other side, if it was seen
+  bool stale = true;                 ///< points came in since the fields below were computed
 
   Shape shape = Shape::kUnknown;
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();        ///< about `center`
-  Eigen::Vector3f direction = Eigen::Vector3f::UnitZ();  ///< normal of a plane, direction of a line
-  float thickness = 0.0f;                                ///< m^2, variance across the plane or line
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< about `center`
+  /// Normal of a plane, on the side that it was seen from; or direction of a line.
+  Eigen::Vector3f direction = Eigen::Vector3f::UnitZ();
+  float thickness = 0.0f;       ///< m^2, variance across the plane or line
   float angle_variance = 0.0f;  ///< rad^2, of the direction: thickness / (count * spread)
+
+  static constexpr std::uint32_t kNone = 0xffffffff;
 };
 
 /// Windows of edge length 2h on a lattice of step h: each point lies in eight of them, and near the middle of
@@ -42,15 +49,18 @@ class SurfaceGrid {
   /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
   SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
 
-  void add(const Eigen::Vector3d& point);
-  /// The window whose middle is nearest to `point`, or null. Valid until the next add() or prune().
-  const SurfaceWindow* at(const Eigen::Vector3d& point);
+  /// `toward`: direction from the point to the sensor that saw it.
+  void add(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
+  /// The window whose middle is nearest to `point`, of the side that is seen from there, or null. Valid until
+  /// the next add() or prune().
+  const SurfaceWindow* at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
   /// Forgets the windows farther than `radius` from `center`.
   void prune(const Eigen::Vector3d& center, double radius);
   void clear();
   std::size_t size() const { return windows_.size(); }
 
  private:
+  SurfaceWindow& other_side_of(SurfaceWindow& window);
   void refresh(SurfaceWindow& window) const;
 
   double step_, inverse_step_;
@@ -58,7 +68,7 @@ class SurfaceGrid {
   double max_thickness_;
   double bend2_;  ///< m^2
   FlatIndex index_;
-  std::vector<SurfaceWindow> windows_;
+  std::vector<SurfaceWindow> windows_, other_sides_;
 };
 
 /// What the robot has seen around it: surfaces at two scales, upright posts among them, and edges.
@@ -66,13 +76,14 @@ class LocalMap {
  public:
   explicit LocalMap(const LoamConfig& config);
 
-  void add_surface(const Eigen::Vector3d& point);
-  void add_edge(const Eigen::Vector3d& point);
+  /// `sensor`: where the point was seen from.
+  void add_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
+  void add_edge(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
   /// A plane or upright line near `point`: from the finer windows where they hold enough points, else from
   /// the coarser ones; null where there is none.
-  const SurfaceWindow* surface_at(const Eigen::Vector3d& point);
+  const SurfaceWindow* surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
   /// An edge near `point`, or null.
-  const SurfaceWindow* edge_at(const Eigen::Vector3d& point);
+  const SurfaceWindow* edge_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
   void prune(const Eigen::Vector3d& center, double radius);
   void clear();
   bool empty() const { return coarse_.size() == 0; }
