@@ -242,14 +242,19 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   if (!document) return tl::unexpected(document.error());
   if (const Status applied = document->apply(overrides); !applied) return tl::unexpected(applied.error());
   const YAML::Node& root = document->root();
-  YAML::Node entry = root;
-  if (root["agents"].IsDefined() && root["agents"].IsSequence() && root["agents"].size() > 0) {
-    entry = merged(merged(root["defaults"], root["agents"][0]), agent_keys_of(root, kFleetKeys));
-  }
+  const bool is_fleet =
+      root["agents"].IsDefined() && root["agents"].IsSequence() && root["agents"].size() > 0;
+  const bool is_twin = root["world"].IsDefined();
+  const YAML::Node entry =
+      is_fleet ? merged(merged(root["defaults"], root["agents"][0]), agent_keys_of(root, kFleetKeys)) : root;
   Section top(*document, entry, "");
+  FleetConfig::Member member;
+  member.agent.id = AgentId::parse("r1").value();
+  read_agent(top, member.agent);
+  if (is_fleet) read_robot_twin(top, member.robot, member.switched_off);
+  if (is_twin) suit_estimator(member, top.section("lidar"));
   RobotConfig robot;
-  robot.agent.id = AgentId::parse("r1").value();
-  read_agent(top, robot.agent);
+  robot.agent = std::move(member.agent);
   robot.dds.agent = robot.agent.id;
   robot.dds.qos_directory = "qos";
   read_dds(top, robot.dds);

@@ -184,5 +184,13 @@ TEST(ShippedConfigurations, AreAllValid) {
   EXPECT_GE(files, 2u);
 }
 
+TEST(ShippedConfigurations, OfATwinsFleetTheSensorsOfTheFirstRobotServeForItsRecordings) {
+  const std::filesystem::path config = std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config";
+  const auto robot = load_sensors(config / "fleets" / "farm.yaml", {{"robot.lidar_rate", "5"}});
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_NEAR(robot->agent.perception.lidar.scan_period, 0.2, 1e-9);
+  EXPECT_NEAR(robot->agent.perception.odometry.T_base_lidar.translation().z(), 0.6, 1e-9);
+}
+
 }  // namespace
 }  // namespace fleetmap::config
