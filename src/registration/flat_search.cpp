@@ -15,9 +15,14 @@ struct Sums {
   int width = 0;
   std::vector<std::uint8_t> bytes;
   std::vector<std::uint16_t> words;
+  std::vector<int> reach;  ///< of each shift in y: how far shifts in x go, so that all lie in a circle
   int pending = 0;
 
   explicit Sums(int half_cells) : half(half_cells), width(2 * half_cells + 1) {
+    for (int dy = -half; dy <= half; ++dy) {
+      const int squares = half * half - dy * dy;
+      reach.push_back(std::min(half, static_cast<int>(std::sqrt(static_cast<float>(squares))) + 1));
+    }
     bytes.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0);
     words.assign(bytes.size(), 0);
   }
@@ -33,10 +38,11 @@ struct Sums {
   }
   /// Adds the part of `plane` that shifts of cell (x, y) reach; values are at most 2.
   void add(const std::uint8_t* plane, const Eigen::Vector2i& size, int x, int y) {
-    const int from = std::max(-half, -x), to = std::min(half, size.x() - 1 - x);
-    if (from > to) return;
-    const auto count = static_cast<std::size_t>(to - from + 1);
     for (int dy = std::max(-half, -y); dy <= std::min(half, size.y() - 1 - y); ++dy) {
+      const int most = reach[static_cast<std::size_t>(dy + half)];
+      const int from = std::max(-most, -x), to = std::min(most, size.x() - 1 - x);
+      if (from > to) continue;
+      const auto count = static_cast<std::size_t>(to - from + 1);
       const std::uint8_t* in = plane + static_cast<std::ptrdiff_t>(y + dy) * size.x() + x + from;
       std::uint8_t* out = bytes.data() + static_cast<std::ptrdiff_t>(dy + half) * width + from + half;
       for (std::size_t k = 0; k < count; ++k) out[k] = static_cast<std::uint8_t>(out[k] + in[k]);

@@ -170,11 +170,11 @@ SurfelMap::SurfelMap(const std::vector<Eigen::Vector3f>& points, const SurfelCon
   of_points_.assign(points.size(), kNone);
   if (points.empty()) return;
   add_fine(points, config);
-  fine_.build(surfels_, 0, config.voxel_m, 1);
-  coarse_.build(surfels_, 0, 2.0f * config.voxel_m, 1);
+  fine_.build(surfels_, 0, config.voxel_m);
+  coarse_.build(surfels_, 0, 2.0f * config.voxel_m);
   const std::size_t first_sparse = surfels_.size();
   add_sparse(points, config);
-  sparse_.build(surfels_, first_sparse, config.sparse_voxel_m, 1);
+  sparse_.build(surfels_, first_sparse, config.sparse_voxel_m);
 }
 
 void SurfelMap::find(std::span<const Eigen::Vector3f> points, Reach reach, const Surfel** found) const {
@@ -234,12 +234,11 @@ void SurfelMap::add_sparse(const std::vector<Eigen::Vector3f>& points, const Sur
   }
 }
 
-void SurfelMap::Lookup::build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m,
-                              int reach) {
+void SurfelMap::Lookup::build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m) {
   const std::span<const Surfel> own(surfels.begin() + static_cast<std::ptrdiff_t>(first), surfels.end());
   if (own.empty()) return;
   const Box box = box_of(
-      own, [](const Surfel& s) -> const Eigen::Vector3f& { return s.mean; }, cell_m, reach);
+      own, [](const Surfel& s) -> const Eigen::Vector3f& { return s.mean; }, cell_m, 1);
   inverse_cell = 1.0f / cell_m;
   origin = box.low;
   size = box.size;
@@ -247,17 +246,18 @@ void SurfelMap::Lookup::build(const std::vector<Surfel>& surfels, std::size_t fi
   std::vector<float> distances(box.cells(), std::numeric_limits<float>::max());
   for (std::size_t s = 0; s < own.size(); ++s) {
     const Eigen::Vector3f g = (own[s].mean - box.low) / cell_m;
-    const Eigen::Vector3i c = g.cast<int>();
-    for (int dz = -reach; dz <= reach; ++dz) {
-      for (int dy = -reach; dy <= reach; ++dy) {
-        for (int dx = -reach; dx <= reach; ++dx) {
-          const Eigen::Vector3i o = c + Eigen::Vector3i(dx, dy, dz);
-          if ((o.array() < 0).any() || (o.array() >= box.size.array()).any()) continue;
-          const float d = (o.cast<float>() + Eigen::Vector3f::Constant(0.5f) - g).squaredNorm();
-          const std::size_t at = box.index(o);
-          if (d >= distances[at]) continue;
-          distances[at] = d;
-          cells[at] = static_cast<std::uint16_t>(first + s);
+    const Eigen::Vector3i c = g.cast<int>().cwiseMax(1).cwiseMin(box.size - Eigen::Vector3i::Constant(2));
+    const Eigen::Vector3f off = c.cast<float>() + Eigen::Vector3f::Constant(0.5f) - g;
+    const auto squared = [](float v) { return v * v; };
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        const float yz = squared(off.y() + static_cast<float>(dy)) + squared(off.z() + static_cast<float>(dz));
+        const std::size_t row = box.index(c + Eigen::Vector3i(-1, dy, dz));
+        for (std::size_t dx = 0; dx < 3; ++dx) {
+          const float d = yz + squared(off.x() + static_cast<float>(dx) - 1.0f);
+          if (d >= distances[row + dx]) continue;
+          distances[row + dx] = d;
+          cells[row + dx] = static_cast<std::uint16_t>(first + s);
         }
       }
     }

@@ -58,7 +58,7 @@ class SurfelMap {
     Eigen::Vector3i size = Eigen::Vector3i::Zero();
     std::vector<std::uint16_t> cells;
     /// Of the surfels from `first` on.
-    void build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m, int reach);
+    void build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m);
     /// Index into `cells`, -1 outside.
     std::ptrdiff_t cell_of(const Eigen::Vector3f& p) const {
       const Eigen::Vector3f g = (p - origin) * inverse_cell;
