@@ -1,23 +1,27 @@
 #include "alignment_selection.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "expectation.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
 constexpr int kMostRounds = 4;
+constexpr int kStepsARound = 3;
+constexpr int kMostSteps = 12;
 constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
-/// Candidates of a pair that is tied already are judged by the odometry from the nearest tie while it knows
-/// better than this.
-constexpr double kNearM = 1.2;
-constexpr double kNearGate = 16.0;
+/// Where the tied graph knows better than this where a node must be, it decides about the single candidate.
+constexpr double kKnownM = 1.2;
+constexpr double kExpected = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
+/// What contradicts this many times as much as may be is not looked at again.
+constexpr double kHopeless = 4.0;
 /// False alignments of a pair that shift by the same are one mistake.
 constexpr double kSameMistakeM = 1.5;
 
@@ -36,33 +40,12 @@ struct Components {
   }
 };
 
-/// How odometry's uncertainty grows along the frames: sums from the first pillar of each.
-struct Growth {
-  std::vector<double> metres, translation, rotation;
-
-  explicit Growth(const ReducedGraph& graph)
-      : metres(graph.pillars.size()), translation(metres), rotation(metres) {
-    for (const Between& step : graph.odometry) {
-      metres[step.b] = metres[step.a] + step.T_a_b.translation().norm();
-      translation[step.b] = translation[step.a] + step.covariance.diagonal().head<3>().maxCoeff();
-      rotation[step.b] = rotation[step.a] + step.covariance.diagonal().tail<3>().maxCoeff();
-    }
-  }
-  /// Variances of the relative pose of two pillars of one frame, whose heading is a random walk: m^2, rad^2.
-  std::pair<double, double> between(std::size_t p, std::size_t q) const {
-    const double length = std::abs(metres[p] - metres[q]);
-    const double turn = std::abs(rotation[p] - rotation[q]);
-    return {std::abs(translation[p] - translation[q]) + turn * length * length / 3.0, turn};
-  }
-};
-
 /// What is taken, and how it came.
 struct State {
   std::set<std::size_t> banned;              ///< alignments
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::vector<Hypothesis> tree;              ///< what connected frames first
-  std::map<FramePair, Evaluation> last;      ///< of what is not taken, by all that is
-  std::set<std::size_t> contradicting;       ///< candidates: what was taken rules them out
+  std::set<std::size_t> contradicting;       ///< candidates: what is taken rules them out
   double likelihood = 0.0;                   ///< log, of the whole
 };
 
@@ -70,18 +53,18 @@ class Selector {
  public:
   Selector(const ReducedGraph& graph, std::span<const Candidate> candidates,
            std::span<const AgentId> computed_by)
-      : graph_(graph),
-        candidates_(candidates),
-        computed_by_(computed_by),
-        growth_(graph),
-        unaided_(graph, {}) {
+      : graph_(graph), candidates_(candidates), computed_by_(computed_by), unaided_(graph, {}) {
     for (std::size_t c = 0; c < candidates.size(); ++c) groups_[candidates[c].frames].push_back(c);
   }
 
   Selection run(Estimate& estimate) {
     if (!unaided_.solve(estimate, 6)) return {};
+    look_alone(estimate);
+    std::vector<GraphSolver::Ends> may_be_tied;
     for (const auto& [frames, group] : groups_)
-      alone_.emplace(frames, evaluate(candidates_, group, unaided_, estimate));
+      for (const std::size_t c : group)
+        may_be_tied.emplace_back(candidates_[c].between.a, candidates_[c].between.b);
+    if (!may_be_tied.empty()) tied_.emplace(graph_, may_be_tied);
     const Estimate start = estimate;
     rounds(estimate);
     doubt(start, estimate);
@@ -89,15 +72,34 @@ class Selector {
   }
 
  private:
+  /// What GPS and odometry say of every candidate; drops the hopeless from the groups.
+  void look_alone(const Estimate& estimate) {
+    unaided_.invert();
+    for (auto& [frames, group] : groups_) {
+      std::vector<std::size_t> open, hopeful;
+      for (const std::size_t c : group) {
+        const double distance = expectation(candidates_[c].between, unaided_, estimate).distance;
+        if (distance < kContradicts) {
+          open.push_back(c);
+        } else {
+          against_gps_.insert(c);
+        }
+        if (distance < kHopeless * kContradicts) hopeful.push_back(c);
+      }
+      group = std::move(hopeful);
+      const Evaluation& seen = alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
+      against_gps_.insert(seen.contradicting.begin(), seen.contradicting.end());
+    }
+  }
+
   void rounds(Estimate& estimate) {
     Components components(graph_.frames.size());
     bool more = take_from(alone_, components);
     for (int round = 1; more; ++round) {
-      GraphSolver solver(graph_, ties());
-      if (!solver.solve(estimate, 2)) return;
-      look_again(solver, estimate);
-      more = round < kMostRounds && take_from(state_.last, components);
-      if (!more && !solver.solve(estimate, 12)) return;
+      tied_->set_ties(ties());
+      if (!tied_->solve(estimate, kStepsARound)) return;
+      more = round <= kMostRounds && look_again(estimate, components);
+      if (!more && !tied_->solve(estimate, kMostSteps)) return;
     }
     state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
     for (const auto& [frames, evaluation] : alone_) {
@@ -106,26 +108,76 @@ class Selector {
     }
   }
 
-  /// Evaluates what is not taken.
-  void look_again(const GraphSolver& solver, const Estimate& estimate) {
-    state_.last.clear();
+  /// Judges everything by the tied graph. True if what is taken changed.
+  bool look_again(const Estimate& estimate, Components& components) {
+    tied_->invert();
+    const std::set<std::size_t> doubtful = contradicted_by_rest(estimate);
+    state_.contradicting.clear();
+    std::map<std::size_t, std::size_t> expected;  // alignment to candidate
+    std::map<FramePair, std::vector<std::size_t>> open;
     for (const auto& [frames, group] : groups_) {
-      std::vector<std::size_t> open;
+      const bool tied = components.root(frames.first) == components.root(frames.second);
+      std::map<std::size_t, std::vector<Seen>> modes;  // by alignment
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
-        if (!state_.taken.contains(alignment) && !state_.banned.contains(alignment) &&
-            !state_.contradicting.contains(c))
-          open.push_back(c);
+        if (state_.taken.contains(alignment) || state_.banned.contains(alignment)) continue;
+        const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
+        if (seen.distance < kContradicts) {
+          open[frames].push_back(c);
+          modes[alignment].push_back({seen, c});
+        } else {
+          state_.contradicting.insert(c);
+        }
       }
-      if (open.empty()) continue;
-      Evaluation& seen = state_.last[frames] = evaluate(candidates_, open, solver, estimate);
-      state_.contradicting.insert(seen.contradicting.begin(), seen.contradicting.end());
+      if (!tied) continue;
+      for (const auto& [alignment, seen] : modes) {
+        if (const auto c = the_expected_one(seen)) expected.emplace(alignment, *c);
+      }
     }
+    for (const std::size_t alignment : doubtful) state_.taken.erase(alignment);
+    state_.taken.insert(expected.begin(), expected.end());
+    const bool settled = doubtful.empty() && expected.empty();
+    std::map<FramePair, Evaluation> evaluations;
+    for (const auto& [frames, candidates] : open) {
+      // Within what is tied, the rest waits until the single ones are decided.
+      const bool tied = components.root(frames.first) == components.root(frames.second);
+      if (settled || !tied) evaluations[frames] = evaluate(candidates_, candidates, *tied_, estimate);
+    }
+    for (const auto& [frames, evaluation] : evaluations)
+      state_.contradicting.insert(evaluation.contradicting.begin(), evaluation.contradicting.end());
+    return take_from(evaluations, components) || !settled;
   }
 
-  std::vector<Between> ties() const {
-    std::vector<Between> ties;
-    for (const auto& [alignment, candidate] : state_.taken) ties.push_back(candidates_[candidate].between);
+  /// Alignments that are taken, but that the others contradict.
+  std::set<std::size_t> contradicted_by_rest(const Estimate& estimate) const {
+    std::set<std::size_t> found;
+    for (const auto& [alignment, c] : state_.taken) {
+      const Expectation rest = expectation_of_rest(candidates_[c].between, *tied_, estimate);
+      if (rest.sigma_m < kKnownM && !(rest.distance < kContradicts)) found.insert(alignment);
+    }
+    return found;
+  }
+
+  struct Seen {
+    Expectation by_graph;
+    std::size_t candidate = 0;
+  };
+  /// Of the modes of one alignment that nothing contradicts, the one that is where the graph knows it must
+  /// be.
+  static std::optional<std::size_t> the_expected_one(const std::vector<Seen>& modes) {
+    const auto best =
+        std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.distance; });
+    if (best->by_graph.sigma_m > kKnownM || best->by_graph.distance > kExpected) return std::nullopt;
+    const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
+      return mode.candidate == best->candidate ||
+             mode.by_graph.distance - best->by_graph.distance > 2.0 * kMargin;
+    });
+    return ahead ? std::optional(best->candidate) : std::nullopt;
+  }
+
+  std::vector<const Between*> ties() const {
+    std::vector<const Between*> ties;
+    for (const auto& [alignment, candidate] : state_.taken) ties.push_back(&candidates_[candidate].between);
     return ties;
   }
 
@@ -173,63 +225,7 @@ class Selector {
       take(hypothesis);
       state_.tree.push_back(hypothesis);
     }
-    for (const auto& [frames, evaluation] : evaluations) {
-      while (take_near_ties(frames, evaluation.left_out)) {
-      }
-    }
     return state_.taken.size() > before;
-  }
-
-  /// Of a pair with very many candidates, those near what is taken follow from it and the odometry.
-  /// True if there were any.
-  bool take_near_ties(const FramePair& frames, const std::vector<std::size_t>& open) {
-    std::map<std::size_t, const Between*> near;  // by the pillar in the first frame
-    for (const std::size_t c : groups_.at(frames)) {
-      const auto taken = state_.taken.find(candidates_[c].alignment);
-      if (taken != state_.taken.end() && taken->second == c)
-        near[end_in(frames.first, candidates_[c].between)] = &candidates_[c].between;
-    }
-    if (near.empty() || frames.first == frames.second) return false;
-    const std::size_t before = state_.taken.size();
-    for (const std::size_t c : open) {
-      const Candidate& candidate = candidates_[c];
-      if (state_.taken.contains(candidate.alignment) || state_.banned.contains(candidate.alignment)) continue;
-      const auto after = near.lower_bound(end_in(frames.first, candidate.between));
-      const bool agrees_with_any =
-          (after != near.end() && agrees(candidate.between, *after->second)) ||
-          (after != near.begin() && agrees(candidate.between, *std::prev(after)->second));
-      if (!agrees_with_any) continue;
-      state_.taken.emplace(candidate.alignment, c);
-      near[end_in(frames.first, candidate.between)] = &candidate.between;
-    }
-    return state_.taken.size() > before;
-  }
-
-  std::size_t end_in(std::size_t frame, const Between& between) const {
-    return graph_.pillars[between.a].frame == frame ? between.a : between.b;
-  }
-
-  /// Around the loop of two alignments and the odometry between their ends, if that is short.
-  bool agrees(const Between& one, const Between& tie) const {
-    // Ties of one pair of frames may name the frames in either order.
-    const bool same = graph_.pillars[one.a].frame == graph_.pillars[tie.a].frame;
-    const auto first = growth_.between(one.a, same ? tie.a : tie.b);
-    const auto second = growth_.between(one.b, same ? tie.b : tie.a);
-    const double metres = first.first + second.first, radians = first.second + second.second;
-    if (metres > kNearM * kNearM) return false;
-    const Pose T_tie = same ? tie.T_a_b : tie.T_a_b.inverse();
-    const Pose T_a_a = odometry(one.a, same ? tie.a : tie.b);
-    const Pose T_b_b = odometry(same ? tie.b : tie.a, one.b);
-    const Vector6d e = se3_log(one.T_a_b.inverse() * T_a_a * T_tie * T_b_b);
-    Matrix6d S = 4.0 * (one.covariance + tie.covariance);
-    S.diagonal().head<3>().array() += metres + 0.01;
-    S.diagonal().tail<3>().array() += radians + 1e-4;
-    return e.dot(S.llt().solve(e)) < kNearGate;
-  }
-
-  Pose odometry(std::size_t p, std::size_t q) const {
-    return graph_.nodes[graph_.pillars[p].node]->T_odom_base.inverse() *
-           graph_.nodes[graph_.pillars[q].node]->T_odom_base;
   }
 
   bool was_taken(const Hypothesis& hypothesis) const {
@@ -301,12 +297,11 @@ class Selector {
     Selection selection;
     selection.taken = state_.taken;
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
-    for (const auto& [frames, evaluation] : alone_)
-      for (const std::size_t c : evaluation.contradicting) ++against[candidates_[c].alignment].first;
+    for (const std::size_t c : against_gps_) ++against[candidates_[c].alignment].first;
     for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
-    for (const auto& [frames, group] : groups_) {
-      std::vector<std::pair<Eigen::Vector3d, AgentId>> clusters;
-      for (const std::size_t c : group) {
+    std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;
+    {
+      for (std::size_t c = 0; c < candidates_.size(); ++c) {
         const Candidate& candidate = candidates_[c];
         if (state_.taken.contains(candidate.alignment)) continue;
         const auto [alone, end] = against[candidate.alignment];
@@ -315,7 +310,7 @@ class Selector {
                                                 : banned || end == candidate.modes ? Judgement::against_others
                                                                                    : Judgement::undecided;
         if (selection.judged[candidate.alignment] != Judgement::undecided && candidate.modes == 1)
-          count_mistake(candidate, estimate, clusters, selection);
+          count_mistake(candidate, estimate, clusters[candidate.frames], selection);
       }
     }
     return selection;
@@ -338,10 +333,11 @@ class Selector {
   const ReducedGraph& graph_;
   std::span<const Candidate> candidates_;
   std::span<const AgentId> computed_by_;
-  Growth growth_;
-  GraphSolver unaided_;  ///< by GPS and odometry
+  GraphSolver unaided_;              ///< by GPS and odometry
+  std::optional<GraphSolver> tied_;  ///< by what is taken as well
   std::map<FramePair, std::vector<std::size_t>> groups_;
   std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
+  std::set<std::size_t> against_gps_;      ///< candidates, likewise
   State state_;
 };
 

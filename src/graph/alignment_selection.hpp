@@ -37,11 +37,11 @@ struct Hypothesis {
 
 struct Evaluation {
   std::vector<Hypothesis> hypotheses;   ///< best evidence first
-  std::set<std::size_t> contradicting;  ///< candidates that do not fit the estimate at all
-  std::vector<std::size_t> left_out;    ///< candidates that were too many to look at
+  std::set<std::size_t> contradicting;  ///< candidates that fit the estimate alone, but not together
 };
 
-/// The hypotheses among `candidates` (indices in `all`) of one frame pair, seen from a solved graph.
+/// The hypotheses among `candidates` (indices in `all`) of one frame pair, seen from a solved graph that none
+/// of them contradicts. Of very many some are looked at, spread over the mission.
 Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                     const GraphSolver& solver, const Estimate& estimate);
 

@@ -4,7 +4,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <cassert>
+#include <type_traits>
 
 namespace fleetmap::graph {
 namespace {
@@ -57,8 +57,48 @@ void divide(int i, int j, double* a, const double* l_jj) {
   }
 }
 
-Eigen::Map<const Eigen::MatrixXd> view(const double* values, int rows, int cols) {
-  return {values, rows, cols};
+/// Calls `run` with the dimension, 3 or 6, as a constant.
+template <class Run>
+void with_dim(int dim, const Run& run) {
+  dim == 6 ? run(std::integral_constant<int, 6>()) : run(std::integral_constant<int, 3>());
+}
+
+/// x = L^-1 x and x = L^-T x, column by column.
+template <int J, int C>
+void solve_lower(const double* l, double* x) {
+  const ConstBlock<J, J> L(l);
+  for (int c = 0; c < C; ++c, x += J) {
+    for (int k = 0; k < J; ++k) {
+      x[k] /= L(k, k);
+      for (int i = k + 1; i < J; ++i) x[i] -= L(i, k) * x[k];
+    }
+  }
+}
+template <int J, int C>
+void solve_upper(const double* l, double* x) {
+  const ConstBlock<J, J> L(l);
+  for (int c = 0; c < C; ++c, x += J) {
+    for (int k = J - 1; k >= 0; --k) {
+      for (int i = k + 1; i < J; ++i) x[k] -= L(i, k) * x[i];
+      x[k] /= L(k, k);
+    }
+  }
+}
+
+/// Z_ij -= Z_ik U_kj, and Z_kj -= Z_ik^T U_ij.
+template <int I, int K, int J>
+void subtract_both(const double* z_ik, const double* u_kj, const double* u_ij, double* z_ij, double* z_kj) {
+  Block<I, J>(z_ij).noalias() -= ConstBlock<I, K>(z_ik).lazyProduct(ConstBlock<K, J>(u_kj));
+  const Eigen::Matrix<double, K, I> Z_ki = ConstBlock<I, K>(z_ik).transpose();
+  Block<K, J>(z_kj).noalias() -= Z_ki.lazyProduct(ConstBlock<I, J>(u_ij));
+}
+
+using SubtractBoth = void (*)(const double*, const double*, const double*, double*, double*);
+SubtractBoth subtraction_of_both(int i, int k, int j) {
+  static constexpr SubtractBoth kTable[2][2][2] = {
+      {{subtract_both<3, 3, 3>, subtract_both<3, 3, 6>}, {subtract_both<3, 6, 3>, subtract_both<3, 6, 6>}},
+      {{subtract_both<6, 3, 3>, subtract_both<6, 3, 6>}, {subtract_both<6, 6, 3>, subtract_both<6, 6, 6>}}};
+  return kTable[i == 6][k == 6][j == 6];
 }
 
 }  // namespace
@@ -135,20 +175,20 @@ void BlockCholesky::analyse(const std::vector<std::pair<int, int>>& pairs) {
 
 void BlockCholesky::set_zero() { std::ranges::fill(values_, 0.0); }
 
-double* BlockCholesky::find(int row, int column) {
+std::optional<std::size_t> BlockCholesky::find(int row, int column) const {
   const Column& c = columns_[static_cast<std::size_t>(column)];
-  if (row == column) return &values_[c.diagonal];
+  if (row == column) return c.diagonal;
   const auto first = rows_.begin() + static_cast<std::ptrdiff_t>(c.first);
   const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(c.end);
   const auto found =
       std::lower_bound(first, end, row, [](const Row& r, int wanted) { return r.row < wanted; });
-  assert(found != end && found->row == row);
-  return &values_[found->at];
+  if (found == end || found->row != row) return std::nullopt;
+  return found->at;
 }
 
 double* BlockCholesky::find_block(int i, int j) {
   const int a = to_column_[static_cast<std::size_t>(i)], b = to_column_[static_cast<std::size_t>(j)];
-  return find(std::max(a, b), std::min(a, b));
+  return &values_[find(std::max(a, b), std::min(a, b)).value()];
 }
 
 bool BlockCholesky::factor() {
@@ -192,29 +232,40 @@ Eigen::VectorXd BlockCholesky::solve(const Eigen::VectorXd& b) const {
   for (std::size_t k = 0; k < columns_.size(); ++k) part(x, k) = b.segment(own[k], columns_[k].dim);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     const Column& c = columns_[k];
-    auto x_k = part(x, k);
-    view(&values_[c.diagonal], c.dim, c.dim).triangularView<Eigen::Lower>().solveInPlace(x_k);
-    for (std::size_t r = c.first; r < c.end; ++r) {
-      const auto row = static_cast<std::size_t>(rows_[r].row);
-      part(x, row).noalias() -= view(&values_[rows_[r].at], columns_[row].dim, c.dim).lazyProduct(x_k);
-    }
+    with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
+      solve_lower<J, 1>(&values_[c.diagonal], &x(static_cast<Eigen::Index>(at[k])));
+      const Eigen::Matrix<double, J, 1> x_k = part(x, k);
+      for (std::size_t r = c.first; r < c.end; ++r) {
+        const auto row = static_cast<std::size_t>(rows_[r].row);
+        with_dim(columns_[row].dim, [&]<int I>(std::integral_constant<int, I>) {
+          Block<I, 1>(&x(static_cast<Eigen::Index>(at[row]))).noalias() -=
+              ConstBlock<I, J>(&values_[rows_[r].at]).lazyProduct(x_k);
+        });
+      }
+    });
   }
   for (std::size_t k = columns_.size(); k-- > 0;) {
     const Column& c = columns_[k];
-    auto x_k = part(x, k);
-    for (std::size_t r = c.first; r < c.end; ++r) {
-      const auto row = static_cast<std::size_t>(rows_[r].row);
-      x_k.noalias() -=
-          view(&values_[rows_[r].at], columns_[row].dim, c.dim).transpose().lazyProduct(part(x, row));
-    }
-    view(&values_[c.diagonal], c.dim, c.dim).transpose().triangularView<Eigen::Upper>().solveInPlace(x_k);
+    with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
+      Eigen::Matrix<double, J, 1> x_k = part(x, k);
+      for (std::size_t r = c.first; r < c.end; ++r) {
+        const auto row = static_cast<std::size_t>(rows_[r].row);
+        with_dim(columns_[row].dim, [&]<int I>(std::integral_constant<int, I>) {
+          x_k.noalias() -= ConstBlock<I, J>(&values_[rows_[r].at])
+                               .transpose()
+                               .lazyProduct(ConstBlock<I, 1>(&x(static_cast<Eigen::Index>(at[row]))));
+        });
+      }
+      solve_upper<J, 1>(&values_[c.diagonal], x_k.data());
+      part(x, k) = x_k;
+    });
   }
   Eigen::VectorXd result(static_cast<Eigen::Index>(size_));
   for (std::size_t k = 0; k < columns_.size(); ++k) result.segment(own[k], columns_[k].dim) = part(x, k);
   return result;
 }
 
-BlockCholesky::Sparse BlockCholesky::forward(const std::vector<std::pair<int, Columns>>& H_transposed) const {
+BlockCholesky::Sparse BlockCholesky::forward(std::span<const std::pair<int, Matrix6d>> H_transposed) const {
   // L^-1 of what starts at a column is not zero on its path to the root of the elimination tree alone.
   std::vector<int> reach;
   for (const auto& [variable, block] : H_transposed) {
@@ -223,8 +274,8 @@ BlockCholesky::Sparse BlockCholesky::forward(const std::vector<std::pair<int, Co
     while (!reached_[static_cast<std::size_t>(k)]) {
       reached_[static_cast<std::size_t>(k)] = true;
       reach.push_back(k);
+      work_[static_cast<std::size_t>(k)].setZero();
       const Column& c = columns_[static_cast<std::size_t>(k)];
-      work_[static_cast<std::size_t>(k)] = Columns::Zero(c.dim, 6);
       if (c.first == c.end) break;
       k = rows_[c.first].row;
     }
@@ -235,12 +286,19 @@ BlockCholesky::Sparse BlockCholesky::forward(const std::vector<std::pair<int, Co
   result.reserve(reach.size());
   for (const int k : reach) {
     const Column& c = columns_[static_cast<std::size_t>(k)];
-    Columns& z = work_[static_cast<std::size_t>(k)];
-    view(&values_[c.diagonal], c.dim, c.dim).triangularView<Eigen::Lower>().solveInPlace(z);
-    for (std::size_t r = c.first; r < c.end; ++r) {
-      const auto row = static_cast<std::size_t>(rows_[r].row);
-      work_[row].noalias() -= view(&values_[rows_[r].at], columns_[row].dim, c.dim).lazyProduct(z);
-    }
+    Matrix6d& z = work_[static_cast<std::size_t>(k)];
+    with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
+      Eigen::Matrix<double, J, 6> z_k = z.topRows<J>();
+      solve_lower<J, 6>(&values_[c.diagonal], z_k.data());
+      for (std::size_t r = c.first; r < c.end; ++r) {
+        const auto row = static_cast<std::size_t>(rows_[r].row);
+        with_dim(columns_[row].dim, [&]<int I>(std::integral_constant<int, I>) {
+          work_[row].template topRows<I>().noalias() -=
+              ConstBlock<I, J>(&values_[rows_[r].at]).lazyProduct(z_k);
+        });
+      }
+      z.topRows<J>() = z_k;
+    });
     result.emplace_back(k, z);
     reached_[static_cast<std::size_t>(k)] = false;
   }
@@ -256,6 +314,72 @@ Matrix6d BlockCholesky::inner(const Sparse& a, const Sparse& b) {
     if (at_b->first == column) sum.noalias() += z_a.transpose().lazyProduct(at_b->second);
   }
   return sum;
+}
+
+void BlockCholesky::invert() {
+  inverse_.assign(values_.size(), 0.0);
+  std::vector<double> U;  // L_kj L_jj^-1 of the rows k of a column
+  for (std::size_t j = columns_.size(); j-- > 0;) {
+    const Column& c = columns_[j];
+    with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
+      using Square = Eigen::Matrix<double, J, J>;
+      Square L_inverse = Square::Identity();
+      solve_lower<J, J>(&values_[c.diagonal], L_inverse.data());
+      const std::size_t start = c.first == c.end ? 0 : rows_[c.first].at;
+      const auto at = [&](std::size_t r) { return rows_[r].at - start; };
+      U.resize(36 * (c.end - c.first));
+      for (std::size_t r = c.first; r < c.end; ++r) {
+        with_dim(columns_[static_cast<std::size_t>(rows_[r].row)].dim,
+                 [&]<int I>(std::integral_constant<int, I>) {
+                   Block<I, J>(&U[at(r)]).noalias() =
+                       ConstBlock<I, J>(&values_[rows_[r].at]).lazyProduct(L_inverse);
+                 });
+      }
+      for (std::size_t k = c.first; k < c.end; ++k) {
+        const Column& column = columns_[static_cast<std::size_t>(rows_[k].row)];
+        double* z_kj = &inverse_[rows_[k].at];
+        with_dim(column.dim, [&]<int K>(std::integral_constant<int, K>) {
+          Block<K, J>(z_kj).noalias() -=
+              ConstBlock<K, K>(&inverse_[column.diagonal]).lazyProduct(ConstBlock<K, J>(&U[at(k)]));
+        });
+        std::size_t t = column.first;
+        for (std::size_t i = k + 1; i < c.end; ++i) {
+          while (rows_[t].row != rows_[i].row) ++t;
+          const int dim_i = columns_[static_cast<std::size_t>(rows_[i].row)].dim;
+          subtraction_of_both(dim_i, column.dim, J)(&inverse_[rows_[t].at], &U[at(k)], &U[at(i)],
+                                                    &inverse_[rows_[i].at], z_kj);
+        }
+      }
+      Square Z_jj = L_inverse.transpose() * L_inverse;
+      for (std::size_t k = c.first; k < c.end; ++k) {
+        with_dim(columns_[static_cast<std::size_t>(rows_[k].row)].dim,
+                 [&]<int K>(std::integral_constant<int, K>) {
+                   Z_jj.noalias() -= ConstBlock<K, J>(&U[at(k)]).transpose().lazyProduct(
+                       ConstBlock<K, J>(&inverse_[rows_[k].at]));
+                 });
+      }
+      Block<J, J> diagonal(&inverse_[c.diagonal]);
+      diagonal = 0.5 * (Z_jj + Z_jj.transpose());
+    });
+  }
+}
+
+int BlockCholesky::root(int column) const {
+  for (const Column* c = &columns_[static_cast<std::size_t>(column)]; c->first != c->end;
+       c = &columns_[static_cast<std::size_t>(column)])
+    column = rows_[c->first].row;
+  return column;
+}
+
+std::optional<Matrix6d> BlockCholesky::inverse_block(int i, int j) const {
+  const int a = to_column_[static_cast<std::size_t>(i)], b = to_column_[static_cast<std::size_t>(j)];
+  const std::optional<std::size_t> found = find(std::max(a, b), std::min(a, b));
+  if (found) {
+    const ConstBlock<6, 6> Z(&inverse_[*found]);
+    return a >= b ? Matrix6d(Z) : Matrix6d(Z.transpose());
+  }
+  if (root(a) != root(b)) return Matrix6d(Matrix6d::Zero());
+  return std::nullopt;
 }
 
 }  // namespace fleetmap::graph

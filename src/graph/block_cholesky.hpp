@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,10 +15,9 @@ namespace fleetmap::graph {
 /// blocks: variables of 6 or 3 numbers. Same input, same bits.
 class BlockCholesky {
  public:
-  /// A block of a right side with six columns, or of what the forward solution makes of it.
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::ColMajor, 6, 6>;
-  /// L^-1 H, by column of L in ascending order: only what is not zero.
-  using Sparse = std::vector<std::pair<int, Columns>>;
+  /// L^-1 H of six columns, by column of L in ascending order: only what is not zero. Of variables of 3
+  /// numbers the lower rows are zero.
+  using Sparse = std::vector<std::pair<int, Matrix6d>>;
 
   /// `dims` of the variables (3 or 6), and the pairs of variables that share a factor. They are eliminated in
   /// `order`, or in one that keeps L sparse if it is empty.
@@ -42,11 +43,16 @@ class BlockCholesky {
   std::size_t offset(int i) const { return own_offset_[static_cast<std::size_t>(i)]; }
   std::size_t size() const { return size_; }
 
-  /// L^-1 H^T for H^T given by blocks of variables. The inner product of two of them is H_a A^-1 H_b^T.
-  Sparse forward(const std::vector<std::pair<int, Columns>>& H_transposed) const;
+  /// L^-1 H^T for H^T given by blocks of variables of 6. The inner product of two of them is H_a A^-1 H_b^T.
+  Sparse forward(std::span<const std::pair<int, Matrix6d>> H_transposed) const;
   static Matrix6d inner(const Sparse& a, const Sparse& b);
 
-  std::size_t blocks() const { return rows_.size(); }
+  /// Computes those blocks of A^-1 where L has any, of all pairs that were given in particular (Takahashi's
+  /// recursion), for about twice what factor() takes.
+  void invert();
+  /// Block (i, j) of A^-1 for variables of 6, after invert(): none where L has no such block, zero where no
+  /// factors connect the two.
+  std::optional<Matrix6d> inverse_block(int i, int j) const;
 
  private:
   struct Column {
@@ -65,7 +71,8 @@ class BlockCholesky {
     return to_column_[static_cast<std::size_t>(i)] < to_column_[static_cast<std::size_t>(j)];
   }
   double* find_block(int i, int j);
-  double* find(int row, int column);
+  std::optional<std::size_t> find(int row, int column) const;
+  int root(int column) const;
 
   std::vector<int> dims_;  ///< by own index
   std::vector<int> to_column_;
@@ -74,7 +81,8 @@ class BlockCholesky {
   std::vector<Column> columns_;
   std::vector<Row> rows_;  ///< below the diagonal, column by column, ascending
   std::vector<double> values_;
-  mutable std::vector<Columns> work_;  ///< of forward(), by column
+  std::vector<double> inverse_;         ///< where values_ has L
+  mutable std::vector<Matrix6d> work_;  ///< of forward(), by column
   mutable std::vector<bool> reached_;
 };
 

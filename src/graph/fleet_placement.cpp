@@ -106,11 +106,11 @@ std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::
       candidate.alignment = k;
       candidate.mode = m;
       candidate.modes = a.modes.size();
-      candidate.between = {i, j, a.modes[m].T_i_j, a.modes[m].covariance};
       Vector6d floor;
       floor << Eigen::Vector3d::Constant(config.alignment_floor_m),
           Eigen::Vector3d::Constant(config.alignment_floor_rad);
-      candidate.between.covariance.diagonal() += floor.cwiseAbs2();
+      const Matrix6d C = a.modes[m].covariance + Matrix6d(floor.cwiseAbs2().asDiagonal());
+      candidate.between = Between(i, j, a.modes[m].T_i_j, C);
       candidate.frames = std::minmax(frame_i, frame_j);
       candidate.sign = std::pair(frame_i, i) < std::pair(frame_j, j) ? 1.0 : -1.0;
       candidates.push_back(candidate);
@@ -340,9 +340,14 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
   place_nodes(graph, estimate, placement);
   add_components(graph, selection, candidates, placement);
   if (!covariance_of.empty()) {
-    std::vector<Between> ties;
-    for (const auto& [alignment, candidate] : selection.taken) ties.push_back(candidates[candidate].between);
-    GraphSolver solver(graph, ties);
+    std::vector<GraphSolver::Ends> ends_of_ties;
+    std::vector<const Between*> ties;
+    for (const auto& [alignment, candidate] : selection.taken) {
+      ties.push_back(&candidates[candidate].between);
+      ends_of_ties.emplace_back(ties.back()->a, ties.back()->b);
+    }
+    GraphSolver solver(graph, ends_of_ties);
+    solver.set_ties(ties);
     if (solver.solve(estimate, 1)) add_covariances(graph, solver, covariance_of, placement);
   }
   return placement;

@@ -1,7 +1,7 @@
 #include "graph_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -42,8 +42,7 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
   return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
 }
 
-GraphSolver::GraphSolver(const ReducedGraph& graph, std::vector<Between> ties)
-    : graph_(graph), ties_(std::move(ties)) {
+GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied) : graph_(graph) {
   std::vector<int> dims(graph.pillars.size(), 6);
   drift_variable_.assign(graph.pillars.size(), -1);
   first_drift_.assign(graph.pillars.size(), true);
@@ -54,21 +53,25 @@ GraphSolver::GraphSolver(const ReducedGraph& graph, std::vector<Between> ties)
     pairs.emplace_back(static_cast<int>(p), drift_variable_[p]);
     dims.push_back(3);
   }
-  for (const auto* all : {&graph.odometry, static_cast<const std::vector<Between>*>(&ties_)}) {
-    for (const Between& between : *all)
-      pairs.emplace_back(static_cast<int>(between.a), static_cast<int>(between.b));
-  }
+  for (const Between& step : graph.odometry)
+    pairs.emplace_back(static_cast<int>(step.a), static_cast<int>(step.b));
+  for (const auto& [a, b] : may_be_tied) pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
   for (const DriftLink& link : graph.drift) {
     pairs.emplace_back(drift_variable_[link.a], drift_variable_[link.b]);
     first_drift_[link.b] = false;
   }
   cholesky_.emplace(std::move(dims), pairs,
-                    ties_.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
+                    may_be_tied.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
+}
+
+void GraphSolver::set_ties(std::vector<const Between*> ties) {
+  ties_ = std::move(ties);
+  factoring_ = true;
 }
 
 void GraphSolver::add_relative(const Estimate& estimate, const Between& between, bool robust) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
-  Matrix6d W = between.covariance.llt().solve(Matrix6d::Identity());
+  Matrix6d W = between.information;
   // What the matrix holds must not be softer than what follows, or the steps that reuse it would grow.
   if (robust && !factoring_) {
     const double squared = r.e.dot(W * r.e);
@@ -137,7 +140,7 @@ void GraphSolver::linearise(const Estimate& estimate) {
   if (factoring_) cholesky_->set_zero();
   right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
   for (const Between& between : graph_.odometry) add_relative(estimate, between, false);
-  for (const Between& tie : ties_) add_relative(estimate, tie, true);
+  for (const Between* tie : ties_) add_relative(estimate, *tie, true);
   for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
     if (graph_.pillars[p].has_window) add_window(estimate, p);
   }
@@ -169,7 +172,7 @@ double GraphSolver::cost_without_ties(const Estimate& estimate) const {
   double cost = 0.0;
   for (const Between& step : graph_.odometry) {
     const Vector6d e = relative_residual(estimate, step.a, step.b, step.T_a_b).e;
-    cost += e.dot(step.covariance.llt().solve(e));
+    cost += e.dot(step.information * e);
   }
   for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
     const Pillar& pillar = graph_.pillars[p];
@@ -190,11 +193,25 @@ double GraphSolver::cost_without_ties(const Estimate& estimate) const {
 
 BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
                                                const Matrix6d& H_b) const {
-  return cholesky_->forward({{static_cast<int>(a), H_a.transpose()}, {static_cast<int>(b), H_b.transpose()}});
+  const std::array<std::pair<int, Matrix6d>, 2> H{
+      {{static_cast<int>(a), H_a.transpose()}, {static_cast<int>(b), H_b.transpose()}}};
+  return cholesky_->forward(H);
 }
 
 BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t pillar) const {
-  return cholesky_->forward({{static_cast<int>(pillar), Matrix6d::Identity()}});
+  const std::array<std::pair<int, Matrix6d>, 1> H{{{static_cast<int>(pillar), Matrix6d::Identity()}}};
+  return cholesky_->forward(H);
+}
+
+Matrix6d GraphSolver::relative_covariance(std::size_t a, std::size_t b, const Matrix6d& H_a) const {
+  const std::optional<Matrix6d> Z_ab = cholesky_->inverse_block(static_cast<int>(a), static_cast<int>(b));
+  if (!Z_ab) {
+    const auto z = sensitivity(a, b, H_a, Matrix6d::Identity());
+    return BlockCholesky::inner(z, z);
+  }
+  const Matrix6d cross = H_a * *Z_ab;
+  return H_a * *cholesky_->inverse_block(static_cast<int>(a), static_cast<int>(a)) * H_a.transpose() + cross +
+         cross.transpose() + *cholesky_->inverse_block(static_cast<int>(b), static_cast<int>(b));
 }
 
 }  // namespace fleetmap::graph

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "block_cholesky.hpp"
@@ -25,8 +26,15 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
 /// Gauss-Newton on the reduced graph with a set of alignments.
 class GraphSolver {
  public:
-  /// Without ties the frames are chains, which are eliminated such that covariances are cheap.
-  GraphSolver(const ReducedGraph& graph, std::vector<Between> ties);
+  using Ends = std::pair<std::size_t, std::size_t>;  ///< two pillars
+
+  /// `may_be_tied` are the pairs that any alignment may tie, so that the elimination is worked out but once;
+  /// relative_covariance() of these is cheap. Without any the frames are chains, which are eliminated such
+  /// that all covariances are cheap.
+  GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied);
+
+  /// The alignments of the next solve(). They must outlive it.
+  void set_ties(std::vector<const Between*> ties);
 
   /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. False if the equations cannot be
   /// solved. The covariances below are those at the last factorisation, which is not repeated for small
@@ -41,6 +49,11 @@ class GraphSolver {
                                     const Matrix6d& H_b) const;
   BlockCholesky::Sparse sensitivity(std::size_t pillar) const;
 
+  /// Makes relative_covariance() ready for the solution there is.
+  void invert() { cholesky_->invert(); }
+  /// Of H_a xi_a + xi_b.
+  Matrix6d relative_covariance(std::size_t a, std::size_t b, const Matrix6d& H_a) const;
+
  private:
   void linearise(const Estimate& estimate);
   void add_relative(const Estimate& estimate, const Between& between, bool robust);
@@ -52,7 +65,7 @@ class GraphSolver {
   }
 
   const ReducedGraph& graph_;
-  std::vector<Between> ties_;
+  std::vector<const Between*> ties_;
   std::vector<int> drift_variable_;  ///< by pillar; -1 without a window
   std::vector<bool> first_drift_;    ///< by pillar
   std::optional<BlockCholesky> cholesky_;

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "alignment_selection.hpp"
+#include "expectation.hpp"
 
 namespace fleetmap::graph {
 namespace {
 
 // Quantiles of chi squared.
-constexpr double kGate = 33.1;       // six degrees of freedom, 1e-5: one candidate against the estimate
 constexpr double kPairGate = 27.9;   // six, 1e-4: one candidate given another
 constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis against the estimate
 
@@ -17,11 +17,6 @@ constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis again
 constexpr double kTrust = 6.0;
 constexpr std::size_t kMostLookedAt = 16;
 constexpr std::size_t kMostJoint = 12;
-
-// Registration knows less of its errors than it says; what is too tight would split what agrees.
-constexpr double kGateInflation = 4.0;
-constexpr double kGateFloorM = 0.1;
-constexpr double kGateFloorRad = 0.01;
 
 /// A candidate as the solved graph sees it: its residual is that of an error drawn from S.
 struct Seen {
@@ -42,9 +37,7 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
   seen.candidate = index;
   seen.e = r.e;
   seen.z = solver.sensitivity(between.a, between.b, r.H_a, Matrix6d::Identity());
-  seen.S = BlockCholesky::inner(seen.z, seen.z) + kGateInflation * between.covariance;
-  seen.S.diagonal().head<3>().array() += kGateFloorM * kGateFloorM;
-  seen.S.diagonal().tail<3>().array() += kGateFloorRad * kGateFloorRad;
+  seen.S = BlockCholesky::inner(seen.z, seen.z) + judged_covariance(between);
   seen.S_inverse = seen.S.llt().solve(Matrix6d::Identity());
   seen.B.topRows<3>() = candidate.sign * estimate.T_enu[between.b].linear().transpose();
   seen.B.bottomRows<3>().setZero();
@@ -131,20 +124,8 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
   Evaluation evaluation;
   std::vector<Seen> seen;
   const std::size_t looked_at = std::min(candidates.size(), kMostLookedAt);
-  std::set<std::size_t> picked;
-  for (std::size_t k = 0; k < looked_at; ++k) picked.insert(candidates[k * candidates.size() / looked_at]);
-  for (const std::size_t candidate : candidates) {
-    if (!picked.contains(candidate)) {
-      evaluation.left_out.push_back(candidate);
-      continue;
-    }
-    Seen one = look(all, candidate, solver, estimate);
-    if (!(one.e.dot(one.S_inverse * one.e) < kGate)) {
-      evaluation.contradicting.insert(candidate);
-    } else {
-      seen.push_back(std::move(one));
-    }
-  }
+  for (std::size_t k = 0; k < looked_at; ++k)
+    seen.push_back(look(all, candidates[k * candidates.size() / looked_at], solver, estimate));
   std::vector<std::vector<Matrix6d>> S(seen.size());
   for (std::size_t a = 0; a < seen.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) S[a].push_back(BlockCholesky::inner(seen[a].z, seen[b].z));

@@ -1,5 +1,6 @@
 #include "reduced_graph.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -124,7 +125,7 @@ void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is
     if (k > frame.first) {
       const std::size_t a = graph.pillars.size() - 1;
       const Node& before = *graph.nodes[graph.pillars[a].node];
-      graph.odometry.push_back({a, a + 1, before.T_odom_base.inverse() * node.T_odom_base, covariance});
+      graph.odometry.emplace_back(a, a + 1, before.T_odom_base.inverse() * node.T_odom_base, covariance);
     }
     covariance.setZero();
     if (is_end[k]) graph.pillar_of[node.id] = graph.pillars.size();
@@ -151,6 +152,9 @@ void link_drifts(ReducedGraph& graph, const FleetPlacementConfig& config) {
 }
 
 }  // namespace
+
+Between::Between(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C)
+    : a(from), b(to), T_a_b(T_from_to), covariance(C), information(C.llt().solve(Matrix6d::Identity())) {}
 
 Matrix6d odometry_step(const ReducedGraph& graph, std::size_t k) {
   const Node& node = *graph.nodes[k];

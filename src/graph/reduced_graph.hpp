@@ -29,7 +29,11 @@ struct Pillar {
 struct Between {
   std::size_t a = 0, b = 0;
   Pose T_a_b = Pose::Identity();
-  Matrix6d covariance = Matrix6d::Identity();  ///< right tangent of T_a_b
+  Matrix6d covariance = Matrix6d::Identity();   ///< right tangent of T_a_b
+  Matrix6d information = Matrix6d::Identity();  ///< its inverse
+
+  Between() = default;
+  Between(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C);
 };
 
 /// The drifts of two windows that follow each other: drift_b = decay * drift_a + noise, unit variance.

@@ -1,0 +1,45 @@
+#include "expectation.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace fleetmap::graph {
+namespace {
+
+// Registration knows less of its errors than it says; what is too tight would split what agrees.
+constexpr double kInflation = 4.0;
+constexpr double kFloorM = 0.1;
+constexpr double kFloorRad = 0.01;
+
+Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& between) {
+  const Matrix6d S = known + judged_covariance(between);
+  return {e.dot(S.llt().solve(e)), std::sqrt(known.diagonal().head<3>().maxCoeff())};
+}
+
+}  // namespace
+
+Matrix6d judged_covariance(const Between& between) {
+  Matrix6d C = kInflation * between.covariance;
+  C.diagonal().head<3>().array() += kFloorM * kFloorM;
+  C.diagonal().tail<3>().array() += kFloorRad * kFloorRad;
+  return C;
+}
+
+Expectation expectation(const Between& between, const GraphSolver& solver, const Estimate& estimate) {
+  const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
+  return judge(r.e, solver.relative_covariance(between.a, between.b, r.H_a), between);
+}
+
+Expectation expectation_of_rest(const Between& between, const GraphSolver& solver, const Estimate& estimate) {
+  const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
+  // Information adds up: what the graph knows is what the rest knows and what the tie says.
+  const Matrix6d all =
+      solver.relative_covariance(between.a, between.b, r.H_a).llt().solve(Matrix6d::Identity());
+  const Eigen::LLT<Matrix6d> rest(all - between.information);
+  if (rest.info() != Eigen::Success) return {};
+  const Matrix6d known = rest.solve(Matrix6d::Identity());
+  if (!known.allFinite()) return {};
+  return judge(known * (all * r.e), known, between);
+}
+
+}  // namespace fleetmap::graph

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <limits>
+
+#include "graph_solver.hpp"
+
+namespace fleetmap::graph {
+
+/// Quantile of chi squared, six degrees of freedom, 1e-5: beyond it a candidate contradicts what is expected.
+inline constexpr double kContradicts = 33.1;
+
+/// What a graph expects of a relative pose that was measured between two of its pillars.
+struct Expectation {
+  double distance = 0.0;  ///< squared Mahalanobis distance of what was measured from what is expected
+  double sigma_m = std::numeric_limits<double>::infinity();  ///< how well the graph knows, in the worst axis
+};
+
+/// Covariance of a registration's error as candidates are judged by it.
+Matrix6d judged_covariance(const Between& between);
+
+/// Of a solved graph in which `between` is no tie. Needs solver.invert().
+Expectation expectation(const Between& between, const GraphSolver& solver, const Estimate& estimate);
+
+/// Of the rest of a solved graph in which `between` is a tie. Distance 0 where the rest knows nothing.
+Expectation expectation_of_rest(const Between& between, const GraphSolver& solver, const Estimate& estimate);
+
+}  // namespace fleetmap::graph
