@@ -9,6 +9,12 @@ namespace {
 
 constexpr float kSectorRad = 0.6f;  // poses of one place whose yaws differ by more are kept apart
 
+/// The plane through the differences of two floors.
+constexpr std::size_t kFloorsForSlope = 20;
+constexpr float kFloorNoise = 0.2f;   // m
+constexpr float kSlopeHold = 400.0f;  // m^2, towards no slope: as of one more cell 20 m away
+constexpr float kMostSlope = 0.15f;   // more than levels err
+
 /// Scores of all shifts of one yaw, as integers.
 struct Sums {
   int half = 0;  ///< shifts go from -half to half cells
@@ -172,32 +178,56 @@ class Search {
     std::vector<FlatCandidate> best;
     for (Ranked& ranked : found) {
       if (best.size() == window_.max_candidates) break;
-      ranked.candidate.height = height_of(ranked.candidate);
+      stand_on_floor(ranked.candidate);
       best.push_back(ranked.candidate);
     }
     return best;
   }
 
-  /// Median difference of the floors where both are known.
-  float height_of(const FlatCandidate& candidate) const {
+  /// Sets height and slope: the plane through the differences of the floors where both are known. Levels are
+  /// known to a degree or so, which at the rim of a map is as much as a panel's height.
+  void stand_on_floor(FlatCandidate& candidate) const {
     const Floor& floor = source_.floor;
     const float c = std::cos(candidate.yaw), s = std::sin(candidate.yaw);
-    std::vector<float> differences;
+    std::vector<Eigen::Vector3f> differences;
+    std::vector<float> heights;
     for (int y = 0; y < floor.size.y(); y += 2) {
       for (int x = 0; x < floor.size.x(); x += 2) {
         const Eigen::Vector2f q =
             floor.origin + floor.cell_m * (Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y)) +
                                            Eigen::Vector2f::Constant(0.5f));
-        const Eigen::Vector2f p(c * q.x() - s * q.y() + candidate.xy.x(),
-                                s * q.x() + c * q.y() + candidate.xy.y());
-        const float difference = target_.floor.at(p) - floor.at(q);
-        if (std::isfinite(difference)) differences.push_back(difference);
+        const Eigen::Vector2f arm(c * q.x() - s * q.y(), s * q.x() + c * q.y());
+        const float difference = target_.floor.at(arm + candidate.xy) - floor.at(q);
+        if (!std::isfinite(difference)) continue;
+        differences.emplace_back(arm.x(), arm.y(), difference);
+        heights.push_back(difference);
       }
     }
-    if (differences.empty()) return 0.0f;
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
-    return *middle;
+    if (heights.empty()) return;
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    candidate.height = *middle;
+    if (heights.size() >= kFloorsForSlope) fit_plane(differences, candidate);
+  }
+
+  /// Least squares, reweighted: from the candidate's height and slope on.
+  static void fit_plane(const std::vector<Eigen::Vector3f>& differences, FlatCandidate& candidate) {
+    for (int round = 0; round < 4; ++round) {
+      Eigen::Matrix3f H = Eigen::Matrix3f::Zero();
+      Eigen::Vector3f g = Eigen::Vector3f::Zero();
+      for (const auto& d : differences) {
+        const Eigen::Vector3f row(1.0f, d.x(), d.y());
+        const float r = (d.z() - candidate.height - candidate.slope.dot(d.head<2>())) / kFloorNoise;
+        const float weight = 1.0f / (1.0f + r * r);
+        H += weight * row * row.transpose();
+        g += weight * d.z() * row;
+      }
+      H.diagonal().tail<2>().array() += kSlopeHold;
+      const Eigen::Vector3f plane = H.ldlt().solve(g);
+      if (!plane.allFinite() || plane.tail<2>().norm() > kMostSlope) return;
+      candidate.height = plane[0];
+      candidate.slope = plane.tail<2>();
+    }
   }
 
   const FlatMap& target_;

@@ -21,9 +21,10 @@ struct FlatWindow {
 struct FlatCandidate {
   Eigen::Vector2f xy = Eigen::Vector2f::Zero();
   float yaw = 0.0f;
-  float height = 0.0f;     ///< m, of the source's origin over the target's
-  double agreement = 0.0;  ///< [0, 1] of the cells in the overlap
-  double overlap = 0.0;    ///< [0, 1]
+  float height = 0.0f;                              ///< m, of the source's origin over the target's
+  Eigen::Vector2f slope = Eigen::Vector2f::Zero();  ///< by how much it rises towards the target's x and y
+  double agreement = 0.0;                           ///< [0, 1] of the cells in the overlap
+  double overlap = 0.0;                             ///< [0, 1]
 };
 
 /// Every pose of the window, to the map's cell and the yaw's step, is scored by correlation; local maxima

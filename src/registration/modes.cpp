@@ -70,8 +70,10 @@ std::vector<Candidate> candidates_of(const PreparedCloud::Data& target, const Pr
   icp.iterations_per_stage = 4;
   std::vector<Candidate> all;
   for (const FlatCandidate& found : flat_search(target.flat, source.flat, window.search)) {
-    const Pose T_start = make_pose(rotation_from_rpy(0.0, 0.0, static_cast<double>(found.yaw)),
-                                   Eigen::Vector3f(found.xy.x(), found.xy.y(), found.height).cast<double>());
+    const Eigen::Vector3f tilt(found.slope.y(), -found.slope.x(), 0.0f);
+    const Pose T_start =
+        make_pose(so3_exp(tilt.cast<double>()) * rotation_from_rpy(0.0, 0.0, static_cast<double>(found.yaw)),
+                  Eigen::Vector3f(found.xy.x(), found.xy.y(), found.height).cast<double>());
     Candidate candidate;
     candidate.T = align(target.surfels, source.coarse, T_start, icp, false).T_target_source;
     if (window.prior && !agrees(*window.prior, candidate.T, config.prior_sigmas)) continue;

@@ -48,9 +48,7 @@ class Rows {
     residuals_[count_] = r;
     ++count_;
   }
-  Vector6d gradient(int row) const {
-    return (weights_[row] * residuals_[row] * J_.col(row)).cast<double>();
-  }
+  Vector6d gradient(int row) const { return (weights_[row] * residuals_[row] * J_.col(row)).cast<double>(); }
   int size() const { return count_; }
   void move_into(System& system) {
     using Row = Eigen::Map<const Eigen::Array<float, 1, Eigen::Dynamic>, Eigen::Aligned16>;

@@ -251,7 +251,8 @@ void SurfelMap::Lookup::build(const std::vector<Surfel>& surfels, std::size_t fi
     const auto squared = [](float v) { return v * v; };
     for (int dz = -1; dz <= 1; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
-        const float yz = squared(off.y() + static_cast<float>(dy)) + squared(off.z() + static_cast<float>(dz));
+        const float yz =
+            squared(off.y() + static_cast<float>(dy)) + squared(off.z() + static_cast<float>(dz));
         const std::size_t row = box.index(c + Eigen::Vector3i(-1, dy, dz));
         for (std::size_t dx = 0; dx < 3; ++dx) {
           const float d = yz + squared(off.x() + static_cast<float>(dx) - 1.0f);

@@ -14,7 +14,8 @@ namespace fleetmap::registration {
 struct alignas(64) Surfel {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   std::array<Eigen::Vector3f, 2> axes;  ///< unit, of the first two directions; the third is across both
-  std::array<float, 2> weights{0, 0};   ///< 1/m^2, inverse variance along them; the third has that of the first
+  std::array<float, 2> weights{0,
+                               0};  ///< 1/m^2, inverse variance along them; the third has that of the first
   float side = 0.0f;  ///< m, how far the sensor was on the side that axes[0] points to; negative behind
   std::uint8_t directions = 0;
   bool planar = false;  ///< axes[0] is a normal
@@ -41,7 +42,8 @@ class SurfelMap {
   SurfelMap(const std::vector<Eigen::Vector3f>& points, const SurfelConfig& config);
 
   static constexpr std::uint16_t kNone = 0xffff;
-  static constexpr std::size_t kBlock = 64;  ///< points looked up together: most of the time memory is waited for
+  static constexpr std::size_t kBlock =
+      64;  ///< points looked up together: most of the time memory is waited for
   enum class Reach { near, far };
   /// Of each of up to kBlock points: the nearest surfel, as seen from the middle of a small cell around it,
   /// within about a voxel (near) or three (far); null where there is none.
