@@ -13,7 +13,8 @@ struct EvalOptions {
   std::string directory;
   EvaluationInputs inputs;
   bool no_pictures = false;
-  bool brief = false;
+  bool no_modes = false;
+  bool no_overlap = false;
 };
 
 void print_map(const nlohmann::json& map) {
@@ -74,7 +75,8 @@ void print_summary(const std::string& directory, const nlohmann::json& evaluatio
 
 int run(EvalOptions& options) {
   options.inputs.pictures = !options.no_pictures;
-  options.inputs.modes = options.inputs.overlap = !options.brief;
+  options.inputs.modes = !options.no_modes;
+  options.inputs.overlap = !options.no_overlap;
   const auto evaluation = evaluate_run(options.directory, options.inputs);
   if (!evaluation) return report(evaluation.error(), kFailed);
   print_summary(options.directory, *evaluation);
@@ -100,8 +102,9 @@ void add_eval(CLI::App& app, int& exit_code) {
   command->add_option("--density-radius", options->inputs.map.density_radius, "m, r_d of Eq. 4")
       ->capture_default_str();
   command->add_flag("--no-pictures", options->no_pictures, "numbers only");
-  command->add_flag("--brief", options->brief,
-                    "not the other mode's map, nor what two robots saw: a third of the time");
+  command->add_flag("--no-modes", options->no_modes,
+                    "not the map as either mode places it: half of the time");
+  command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -305,7 +305,7 @@ void read_blackouts(Section& network, std::vector<RadioBlackout>& blackouts) {
 
 void read_agent(Section& top, agent::AgentConfig& agent) {
   read_ids(top, agent);
-  std::string mode = "paper";
+  std::string mode = "fleet";
   top.read("mode", mode);
   if (mode != "paper" && mode != "fleet")
     top.problem("mode", "expected 'paper' or 'fleet', found '" + mode + "'");

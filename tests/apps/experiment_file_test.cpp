@@ -52,6 +52,20 @@ TEST_F(ExperimentTest, TheQuickSetNarrowsStudiesDown) {
   EXPECT_THAT(quick->studies[0].expectations, SizeIs(1));  // one value has no shape
 }
 
+TEST_F(ExperimentTest, OnlyWhatAStudyShowsIsEvaluatedAndASharedRunGivesWhatAnyOfThemShows) {
+  write_experiment(
+      "metrics: [{name: m}, {name: modes.paper.m}, {name: overlap.m}]\nstudies:\n"
+      "  - {name: plain, agents: 2, metrics: [m]}\n"
+      "  - {name: both, agents: 2, set: [a=1], metrics: [m, modes.paper.m]}\n"
+      "  - {name: seen, agents: 2, set: [a=2, a=1], metrics: [overlap.m]}\n");
+  const auto config = load(false);
+  ASSERT_TRUE(config) << config.error().message;
+  const std::vector<Case> cases = all_cases(*config);
+  ASSERT_THAT(cases, SizeIs(3));
+  EXPECT_FALSE(cases[0].modes || cases[0].overlap);
+  for (std::size_t k : {1u, 2u}) EXPECT_TRUE(cases[k].modes && cases[k].overlap) << cases[k].name;
+}
+
 TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
   write_experiment(
       "metrics: [{name: map.rmse}, {name: map.rmse}]\n"  // 2

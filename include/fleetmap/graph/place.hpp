@@ -13,7 +13,7 @@ enum class PlacementMode {
 };
 
 struct PlacementConfig {
-  PlacementMode mode = PlacementMode::paper;
+  PlacementMode mode = PlacementMode::fleet;
   PaperPlacementConfig paper;
   FleetPlacementConfig fleet;
   Status validate() const;

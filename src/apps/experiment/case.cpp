@@ -1,6 +1,10 @@
 #include "experiment/case.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "fleetmap/core/bytes.hpp"
 
@@ -26,10 +30,10 @@ void append(std::vector<config::Override>& to, const std::vector<config::Overrid
   to.insert(to.end(), from.begin(), from.end());
 }
 
-bool needs_all(const config::ExperimentConfig& config) {
-  return std::ranges::any_of(config.metrics, [](const config::MetricSpec& metric) {
-    return metric.name.starts_with("modes.") || metric.name.find("overlap.") != std::string::npos;
-  });
+bool wants(const config::Study& study, std::string_view part) {
+  const auto holds = [part](const std::string& metric) { return metric.find(part) != std::string::npos; };
+  return std::ranges::any_of(study.metrics, holds) || std::ranges::any_of(study.histograms, holds) ||
+         std::ranges::any_of(study.expectations, holds, &config::Expectation::metric);
 }
 
 /// The case of a study at the given value of each axis.
@@ -39,7 +43,8 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
   one.study = study.name;
   one.seed = seed;
   one.pictures = seed == study.seeds.front();
-  one.brief = !needs_all(config);
+  one.modes = wants(study, "modes.");
+  one.overlap = wants(study, "overlap.");
   one.base = config.base;
   one.agents = study.agents;
   one.name = study.name;
@@ -76,6 +81,23 @@ std::vector<config::Override> effective(const std::vector<config::Override>& ove
   return kept;
 }
 
+std::string inputs_of(const Case& one) {
+  std::string text = one.base.string() + ' ' + std::to_string(one.agents);
+  for (const config::Override& entry : effective(one.overrides)) text += ' ' + entry.key + '=' + entry.value;
+  return text;
+}
+
+/// Cases with equal inputs share a run, so it must give what any of them needs.
+void share_needs(std::vector<Case>& cases) {
+  std::map<std::string, std::pair<bool, bool>> needs;
+  for (const Case& one : cases) {
+    auto& [modes, overlap] = needs[inputs_of(one)];
+    modes = modes || one.modes;
+    overlap = overlap || one.overlap;
+  }
+  for (Case& one : cases) std::tie(one.modes, one.overlap) = needs[inputs_of(one)];
+}
+
 }  // namespace
 
 std::vector<Case> all_cases(const config::ExperimentConfig& config) {
@@ -86,13 +108,15 @@ std::vector<Case> all_cases(const config::ExperimentConfig& config) {
       for (const std::uint64_t seed : study.seeds) cases.push_back(case_at(config, study, position, seed));
     } while (advance(study, position));
   }
+  share_needs(cases);
   return cases;
 }
 
 Result<std::string> input_hash(const Case& one) {
   const auto inputs = config::input_fingerprint(one.base, effective(one.overrides));
   if (!inputs) return inputs;
-  const std::string text = *inputs + "\nagents " + std::to_string(one.agents);
+  const std::string text = *inputs + "\nagents " + std::to_string(one.agents) + (one.modes ? " modes" : "") +
+                           (one.overlap ? " overlap" : "");
   return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
 }
 

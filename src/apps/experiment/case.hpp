@@ -23,7 +23,9 @@ struct Case {
   std::size_t agents = 1;      ///< the first of `base`
   std::vector<config::Override> overrides;
   bool pictures = true;  ///< of the map: drawn of the first seed only
-  bool brief = false;    ///< no metric needs the other mode, or what two robots saw
+  // What takes the evaluation long, and only some metrics need.
+  bool modes = false;    ///< the map and the fleet as either mode places them
+  bool overlap = false;  ///< the map where two robots were
 };
 
 /// How many values lie in each bin; bins follow each other from 0.

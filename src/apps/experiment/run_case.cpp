@@ -118,7 +118,8 @@ Result<CaseResult> ChildEngine::operator()(const Case& one, const fs::path& dire
     return tl::unexpected(good.error());
   std::vector<std::string> evaluation_arguments{"eval", directory.string()};
   if (!one.pictures) evaluation_arguments.emplace_back("--no-pictures");
-  if (one.brief) evaluation_arguments.emplace_back("--brief");
+  if (!one.modes) evaluation_arguments.emplace_back("--no-modes");
+  if (!one.overlap) evaluation_arguments.emplace_back("--no-overlap");
   const auto evaluated = run_self(evaluation_arguments, directory / "eval.log", *stop_);
   if (const Status good = check_exit(evaluated, "fleetmap eval", directory / "eval.log"); !good)
     return tl::unexpected(good.error());
