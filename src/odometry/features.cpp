@@ -144,11 +144,13 @@ void FeatureExtractor::select_posts(std::span<const SweepPoint> points) {
     for (const SweepPoint& p : points.subspan(first, count)) mean += p.position;
     mean /= static_cast<float>(count);
     const float spacing = width / static_cast<float>(count - 1);
-    // A beam may cross an upright post aslant, but what it crosses is as wide as the post seen from above.
-    const float level = (points[end - 1].position - points[first].position).head<2>().norm();
+    const Eigen::Vector3f ray = (mean - lidar_).normalized();
+    // As wide as the post seen from above and from the LiDAR: what the ranges differ by is noise, or the beam
+    // crosses the post aslant.
+    const Eigen::Vector3f chord = points[end - 1].position - points[first].position;
+    const float level = (chord - chord.dot(ray) * ray).head<2>().norm();
     const float radius =
         0.5f * level * (static_cast<float>(count) - kOverCount) / static_cast<float>(count - 1);
-    const Eigen::Vector3f ray = (mean - lidar_).normalized();
     features_.edges.push_back({mean + kAxisDepth * radius * ray,
                                0.5f * (points[first].time + points[end - 1].time), kSpacingShare * spacing});
   }

@@ -68,6 +68,37 @@ TEST(Features, EdgesLookTheSameFromAllSides) {
   }
 }
 
+/// Noise along the rays does not move a post's axis away: that would stretch every way past posts.
+TEST(Features, APostLiesAtItsAxisHoweverNoisyTheRanges) {
+  testing::SyntheticWorld world;
+  constexpr double kDistance = 5.0;
+  world.add_post({kDistance, 0.0}, 0.06, 4.0);
+  world.add_box(make_pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, 5.0)),
+                {15.0, 15.0, 10.0});
+  LoamConfig config;
+  testing::ScanOptions options;
+  options.noise = 0.03;
+  config.T_base_lidar = options.T_base_lidar;
+  SweepBuilder builder(config, os1_64());
+  FeatureExtractor extractor(config);
+  double sum = 0.0;
+  int posts = 0;
+  for (int turn = 0; turn < 60; ++turn) {  // so that the rays hit it each time elsewhere
+    const double yaw = 0.1 * turn;
+    const Pose T = make_pose(rotation_from_rpy(0.0, 0.0, yaw), Eigen::Vector3d::Zero());
+    const Sweep& sweep = builder.build(make_scan(
+        world, [&](double) { return T; }, 0.1 * turn, os1_64(), options));
+    for (const FeaturePoint& edge : extractor.extract(sweep).edges) {
+      const Eigen::Vector3d p = T * edge.position.cast<double>();
+      if ((p.head<2>() - Eigen::Vector2d(kDistance, 0.0)).norm() > 0.3) continue;
+      sum += p.x() - kDistance;
+      ++posts;
+    }
+  }
+  ASSERT_GT(posts, 500);
+  EXPECT_NEAR(sum / posts, 0.0, 0.008);
+}
+
 /// Rings and times recovered from the points alone equal the device's own.
 TEST(Sweep, RecoversRingsAndTimes) {
   const testing::SyntheticWorld world = testing::yard_world();
