@@ -67,7 +67,7 @@ std::vector<Candidate> candidates_of(const PreparedCloud::Data& target, const Pr
   IcpConfig icp = config.icp;
   icp.kernels_m = {0.5f, 0.2f};
   icp.far_stages = 1;
-  icp.iterations_per_stage = 4;
+  icp.iterations_per_stage = 3;
   std::vector<Candidate> all;
   for (const FlatCandidate& found : flat_search(target.flat, source.flat, window.search)) {
     const Eigen::Vector3f tilt(found.slope.y(), -found.slope.x(), 0.0f);
