@@ -12,6 +12,7 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr int kMostRounds = 4;
+constexpr std::size_t kFewOf = 100;
 constexpr int kStepsARound = 3;
 constexpr int kMostSteps = 12;
 constexpr int kMostTrials = 6;
@@ -67,8 +68,15 @@ class Selector {
     if (!may_be_tied.empty()) tied_.emplace(graph_, may_be_tied);
     const Estimate start = estimate;
     rounds(estimate);
-    doubt(start, estimate);
-    return conclude(estimate);
+    const bool tried = doubt(start, estimate);
+    Selection selection = conclude(estimate);
+    if (tried && !state_.taken.empty()) {
+      tied_->set_ties(ties());
+      tied_->solve(estimate, 1);
+    }
+    GraphSolver& solver = state_.taken.empty() ? unaided_ : *tied_;
+    if (solver.solved()) selection.solver = std::move(solver);
+    return selection;
   }
 
  private:
@@ -96,10 +104,13 @@ class Selector {
     Components components(graph_.frames.size());
     bool more = take_from(alone_, components);
     for (int round = 1; more; ++round) {
-      tied_->set_ties(ties());
+      const std::vector<const Between*> judged_by = ties();
+      tied_->set_ties(judged_by);
       if (!tied_->solve(estimate, kStepsARound)) return;
       more = round <= kMostRounds && look_again(estimate, components);
-      if (!more && !tied_->solve(estimate, kMostSteps)) return;
+      if (more) continue;
+      if (ties() != judged_by) tied_->set_ties(ties());
+      if (!tied_->solve(estimate, kMostSteps)) return;
     }
     state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
     for (const auto& [frames, evaluation] : alone_) {
@@ -134,9 +145,13 @@ class Selector {
         if (const auto c = the_expected_one(seen)) expected.emplace(alignment, *c);
       }
     }
-    for (const std::size_t alignment : doubtful) state_.taken.erase(alignment);
+    for (const std::size_t alignment : doubtful) {
+      state_.contradicting.insert(state_.taken.at(alignment));
+      state_.taken.erase(alignment);
+    }
     state_.taken.insert(expected.begin(), expected.end());
-    const bool settled = doubtful.empty() && expected.empty();
+    // A few more or less among very many change nothing that others are judged by.
+    const bool settled = (doubtful.size() + expected.size()) * kFewOf <= state_.taken.size();
     std::map<FramePair, Evaluation> evaluations;
     for (const auto& [frames, candidates] : open) {
       // Within what is tied, the rest waits until the single ones are decided.
@@ -259,12 +274,13 @@ class Selector {
   }
 
   /// What was taken first may be false: where it contradicts the hypotheses of other pairs, leaves out one
-  /// after the other on the loop, and keeps what makes the whole likelier.
-  void doubt(const Estimate& start, Estimate& estimate) {
+  /// after the other on the loop, and keeps what makes the whole likelier. True if anything was tried.
+  bool doubt(const Estimate& start, Estimate& estimate) {
     std::set<std::set<std::size_t>> tried;
-    for (int trials = 0; trials < kMostTrials;) {
+    int trials = 0;
+    while (trials < kMostTrials) {
       const std::optional<std::set<std::size_t>> next = untried(tried);
-      if (!next) return;
+      if (!next) return trials > 0;
       tried.insert(*next);
       ++trials;
       State kept = std::exchange(state_, {});
@@ -277,6 +293,7 @@ class Selector {
         state_ = std::move(kept);
       }
     }
+    return true;
   }
 
   /// What is banned now and the members of one more edge that lies on a loop with a rejected hypothesis.

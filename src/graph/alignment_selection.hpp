@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -51,6 +52,8 @@ struct Selection {
   std::map<std::size_t, Judgement> judged;   ///< alignments that are not taken
   /// Of each agent: clusters of alignments that contradict, by the other agent of the pair.
   std::map<AgentId, std::map<AgentId, std::size_t>> mistakes;
+  /// With which the estimate was solved, for covariances; none if the equations cannot be solved.
+  std::optional<GraphSolver> solver;
 };
 
 /// Takes the hypotheses that connect frames first, best evidence first, solves, looks again at the rest with

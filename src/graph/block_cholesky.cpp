@@ -85,10 +85,12 @@ void solve_upper(const double* l, double* x) {
   }
 }
 
-/// Z_ij -= Z_ik U_kj, and Z_kj -= Z_ik^T U_ij.
+/// Z_ij -= Z_ik U_kj, and Z_kj -= Z_ik^T U_ij. U is null where it is zero.
 template <int I, int K, int J>
 void subtract_both(const double* z_ik, const double* u_kj, const double* u_ij, double* z_ij, double* z_kj) {
-  Block<I, J>(z_ij).noalias() -= ConstBlock<I, K>(z_ik).lazyProduct(ConstBlock<K, J>(u_kj));
+  if (u_kj != nullptr)
+    Block<I, J>(z_ij).noalias() -= ConstBlock<I, K>(z_ik).lazyProduct(ConstBlock<K, J>(u_kj));
+  if (u_ij == nullptr) return;
   const Eigen::Matrix<double, K, I> Z_ki = ConstBlock<I, K>(z_ik).transpose();
   Block<K, J>(z_kj).noalias() -= Z_ki.lazyProduct(ConstBlock<I, J>(u_ij));
 }
@@ -162,7 +164,7 @@ void BlockCholesky::analyse(const std::vector<std::pair<int, int>>& pairs) {
     values += static_cast<std::size_t>(column.dim * column.dim);
     column.first = rows_.size();
     for (const int row : rows) {
-      rows_.push_back({row, values});
+      rows_.push_back({row, values, false});
       values += static_cast<std::size_t>(column.dim * columns_[static_cast<std::size_t>(row)].dim);
     }
     column.end = rows_.size();
@@ -197,15 +199,19 @@ bool BlockCholesky::factor() {
     const bool definite = column.dim == 6 ? factor_diagonal<6>(diagonal) : factor_diagonal<3>(diagonal);
     if (!definite) return false;
     for (std::size_t r = column.first; r < column.end; ++r) {
-      divide(columns_[static_cast<std::size_t>(rows_[r].row)].dim, column.dim, &values_[rows_[r].at],
-             diagonal);
+      const int dim = columns_[static_cast<std::size_t>(rows_[r].row)].dim;
+      double* block = &values_[rows_[r].at];
+      rows_[r].zero = std::all_of(block, block + dim * column.dim, [](double v) { return v == 0.0; });
+      if (!rows_[r].zero) divide(dim, column.dim, block, diagonal);
     }
     for (std::size_t k = column.first; k < column.end; ++k) {
+      if (rows_[k].zero) continue;
       const Column& target = columns_[static_cast<std::size_t>(rows_[k].row)];
       const double* l_kj = &values_[rows_[k].at];
       subtraction(target.dim, target.dim, column.dim)(&values_[target.diagonal], l_kj, l_kj);
       std::size_t t = target.first;
       for (std::size_t i = k + 1; i < column.end; ++i) {
+        if (rows_[i].zero) continue;
         while (rows_[t].row != rows_[i].row) ++t;
         const int dim_i = columns_[static_cast<std::size_t>(rows_[i].row)].dim;
         subtraction(dim_i, target.dim, column.dim)(&values_[rows_[t].at], &values_[rows_[i].at], l_kj);
@@ -291,6 +297,7 @@ BlockCholesky::Sparse BlockCholesky::forward(std::span<const std::pair<int, Matr
       Eigen::Matrix<double, J, 6> z_k = z.topRows<J>();
       solve_lower<J, 6>(&values_[c.diagonal], z_k.data());
       for (std::size_t r = c.first; r < c.end; ++r) {
+        if (rows_[r].zero) continue;
         const auto row = static_cast<std::size_t>(rows_[r].row);
         with_dim(columns_[row].dim, [&]<int I>(std::integral_constant<int, I>) {
           work_[row].template topRows<I>().noalias() -=
@@ -318,50 +325,52 @@ Matrix6d BlockCholesky::inner(const Sparse& a, const Sparse& b) {
 
 void BlockCholesky::invert() {
   inverse_.assign(values_.size(), 0.0);
-  std::vector<double> U;  // L_kj L_jj^-1 of the rows k of a column
-  for (std::size_t j = columns_.size(); j-- > 0;) {
-    const Column& c = columns_[j];
-    with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
-      using Square = Eigen::Matrix<double, J, J>;
-      Square L_inverse = Square::Identity();
-      solve_lower<J, J>(&values_[c.diagonal], L_inverse.data());
-      const std::size_t start = c.first == c.end ? 0 : rows_[c.first].at;
-      const auto at = [&](std::size_t r) { return rows_[r].at - start; };
-      U.resize(36 * (c.end - c.first));
-      for (std::size_t r = c.first; r < c.end; ++r) {
-        with_dim(columns_[static_cast<std::size_t>(rows_[r].row)].dim,
-                 [&]<int I>(std::integral_constant<int, I>) {
-                   Block<I, J>(&U[at(r)]).noalias() =
-                       ConstBlock<I, J>(&values_[rows_[r].at]).lazyProduct(L_inverse);
-                 });
-      }
-      for (std::size_t k = c.first; k < c.end; ++k) {
-        const Column& column = columns_[static_cast<std::size_t>(rows_[k].row)];
-        double* z_kj = &inverse_[rows_[k].at];
-        with_dim(column.dim, [&]<int K>(std::integral_constant<int, K>) {
-          Block<K, J>(z_kj).noalias() -=
-              ConstBlock<K, K>(&inverse_[column.diagonal]).lazyProduct(ConstBlock<K, J>(&U[at(k)]));
-        });
-        std::size_t t = column.first;
-        for (std::size_t i = k + 1; i < c.end; ++i) {
-          while (rows_[t].row != rows_[i].row) ++t;
-          const int dim_i = columns_[static_cast<std::size_t>(rows_[i].row)].dim;
-          subtraction_of_both(dim_i, column.dim, J)(&inverse_[rows_[t].at], &U[at(k)], &U[at(i)],
-                                                    &inverse_[rows_[i].at], z_kj);
-        }
-      }
-      Square Z_jj = L_inverse.transpose() * L_inverse;
-      for (std::size_t k = c.first; k < c.end; ++k) {
-        with_dim(columns_[static_cast<std::size_t>(rows_[k].row)].dim,
-                 [&]<int K>(std::integral_constant<int, K>) {
-                   Z_jj.noalias() -= ConstBlock<K, J>(&U[at(k)]).transpose().lazyProduct(
-                       ConstBlock<K, J>(&inverse_[rows_[k].at]));
-                 });
-      }
-      Block<J, J> diagonal(&inverse_[c.diagonal]);
-      diagonal = 0.5 * (Z_jj + Z_jj.transpose());
+  for (std::size_t j = columns_.size(); j-- > 0;)
+    with_dim(columns_[j].dim, [&]<int J>(std::integral_constant<int, J>) { invert_column<J>(columns_[j]); });
+}
+
+template <int J>
+void BlockCholesky::invert_column(const Column& c) {
+  using Square = Eigen::Matrix<double, J, J>;
+  Square L_inverse = Square::Identity();
+  solve_lower<J, J>(&values_[c.diagonal], L_inverse.data());
+  Square Z_jj = L_inverse.transpose() * L_inverse;
+  quotients_.resize(36 * (c.end - c.first));
+  // U_kj = L_kj L_jj^-1.
+  const auto u = [&](std::size_t k) -> double* {
+    return rows_[k].zero ? nullptr : &quotients_[rows_[k].at - rows_[c.first].at];
+  };
+  const auto dim = [&](std::size_t k) { return columns_[static_cast<std::size_t>(rows_[k].row)].dim; };
+  for (std::size_t k = c.first; k < c.end; ++k) {
+    if (rows_[k].zero) continue;
+    with_dim(dim(k), [&]<int K>(std::integral_constant<int, K>) {
+      Block<K, J>(u(k)).noalias() = ConstBlock<K, J>(&values_[rows_[k].at]).lazyProduct(L_inverse);
     });
   }
+  for (std::size_t k = c.first; k < c.end; ++k) {
+    const Column& column = columns_[static_cast<std::size_t>(rows_[k].row)];
+    std::size_t t = column.first;
+    for (std::size_t i = k + 1; i < c.end; ++i) {
+      if (rows_[i].zero && rows_[k].zero) continue;
+      while (rows_[t].row != rows_[i].row) ++t;
+      subtraction_of_both(dim(i), column.dim, J)(&inverse_[rows_[t].at], u(k), u(i), &inverse_[rows_[i].at],
+                                                 &inverse_[rows_[k].at]);
+    }
+    if (rows_[k].zero) continue;
+    with_dim(column.dim, [&]<int K>(std::integral_constant<int, K>) {
+      Block<K, J>(&inverse_[rows_[k].at]).noalias() -=
+          ConstBlock<K, K>(&inverse_[column.diagonal]).lazyProduct(ConstBlock<K, J>(u(k)));
+    });
+  }
+  for (std::size_t k = c.first; k < c.end; ++k) {
+    if (rows_[k].zero) continue;
+    with_dim(dim(k), [&]<int K>(std::integral_constant<int, K>) {
+      Z_jj.noalias() -=
+          ConstBlock<K, J>(u(k)).transpose().lazyProduct(ConstBlock<K, J>(&inverse_[rows_[k].at]));
+    });
+  }
+  Block<J, J> diagonal(&inverse_[c.diagonal]);
+  diagonal = 0.5 * (Z_jj + Z_jj.transpose());
 }
 
 int BlockCholesky::root(int column) const {

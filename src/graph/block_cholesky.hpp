@@ -64,6 +64,7 @@ class BlockCholesky {
   struct Row {
     int row = 0;
     std::size_t at = 0;  ///< in values_
+    bool zero = false;   ///< of L: pairs that were given, but to which nothing was added
   };
   void order_by_degree(const std::vector<std::pair<int, int>>& pairs);
   void analyse(const std::vector<std::pair<int, int>>& pairs);
@@ -73,6 +74,8 @@ class BlockCholesky {
   double* find_block(int i, int j);
   std::optional<std::size_t> find(int row, int column) const;
   int root(int column) const;
+  template <int J>
+  void invert_column(const Column& column);
 
   std::vector<int> dims_;  ///< by own index
   std::vector<int> to_column_;
@@ -82,6 +85,7 @@ class BlockCholesky {
   std::vector<Row> rows_;  ///< below the diagonal, column by column, ascending
   std::vector<double> values_;
   std::vector<double> inverse_;         ///< where values_ has L
+  std::vector<double> quotients_;       ///< of invert_column()
   mutable std::vector<Matrix6d> work_;  ///< of forward(), by column
   mutable std::vector<bool> reached_;
 };

@@ -212,6 +212,7 @@ Matrix6d covariance_of_node(const ReducedGraph& graph, const GraphSolver& solver
 
 void add_covariances(const ReducedGraph& graph, const GraphSolver& solver, std::span<const NodeId> wanted,
                      Placement& placement) {
+  if (wanted.empty()) return;
   std::map<NodeId, std::size_t> index;
   for (std::size_t k = 0; k < graph.nodes.size(); ++k) index[graph.nodes[k]->id] = k;
   for (const NodeId& id : wanted) {
@@ -339,17 +340,7 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
   report(selection, candidates, items, placement);
   place_nodes(graph, estimate, placement);
   add_components(graph, selection, candidates, placement);
-  if (!covariance_of.empty()) {
-    std::vector<GraphSolver::Ends> ends_of_ties;
-    std::vector<const Between*> ties;
-    for (const auto& [alignment, candidate] : selection.taken) {
-      ties.push_back(&candidates[candidate].between);
-      ends_of_ties.emplace_back(ties.back()->a, ties.back()->b);
-    }
-    GraphSolver solver(graph, ends_of_ties);
-    solver.set_ties(ties);
-    if (solver.solve(estimate, 1)) add_covariances(graph, solver, covariance_of, placement);
-  }
+  if (selection.solver) add_covariances(graph, *selection.solver, covariance_of, placement);
   return placement;
 }
 

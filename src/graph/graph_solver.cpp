@@ -42,7 +42,7 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
   return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
 }
 
-GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied) : graph_(graph) {
+GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied) : graph_(&graph) {
   std::vector<int> dims(graph.pillars.size(), 6);
   drift_variable_.assign(graph.pillars.size(), -1);
   first_drift_.assign(graph.pillars.size(), true);
@@ -90,7 +90,7 @@ void GraphSolver::add_relative(const Estimate& estimate, const Between& between,
 }
 
 void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
-  const Pillar& pillar = graph_.pillars[p];
+  const Pillar& pillar = graph_->pillars[p];
   const Pose& T = estimate.T_enu[p];
   const int pose = static_cast<int>(p), drift = drift_variable(p);
   const Eigen::Vector3d weight = pillar.rest_variance.cwiseInverse();
@@ -117,12 +117,12 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
 }
 
 void GraphSolver::add_drifts(const Estimate& estimate) {
-  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
     if (drift_variable(p) < 0 || !first_drift_[p]) continue;
     if (factoring_) cholesky_->add<3, 3>(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
     part(drift_variable(p), 3) -= estimate.drift[p];
   }
-  for (const DriftLink& link : graph_.drift) {
+  for (const DriftLink& link : graph_->drift) {
     const double weight = 1.0 / (1.0 - link.decay * link.decay);
     const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
     const int a = drift_variable(link.a), b = drift_variable(link.b);
@@ -139,22 +139,23 @@ void GraphSolver::add_drifts(const Estimate& estimate) {
 void GraphSolver::linearise(const Estimate& estimate) {
   if (factoring_) cholesky_->set_zero();
   right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
-  for (const Between& between : graph_.odometry) add_relative(estimate, between, false);
+  for (const Between& between : graph_->odometry) add_relative(estimate, between, false);
   for (const Between* tie : ties_) add_relative(estimate, *tie, true);
-  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
-    if (graph_.pillars[p].has_window) add_window(estimate, p);
+  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+    if (graph_->pillars[p].has_window) add_window(estimate, p);
   }
   add_drifts(estimate);
 }
 
 bool GraphSolver::solve(Estimate& estimate, int most) {
+  solved_ = false;
   for (int iteration = 0; iteration < most; ++iteration) {
     linearise(estimate);
     if (factoring_ && !cholesky_->factor()) return false;
     const Eigen::VectorXd step = cholesky_->solve(right_);
     if (!step.allFinite()) return false;
     double largest = 0.0, turn = 0.0;
-    for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
+    for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
       const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
       estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
       largest = std::max(largest, xi.cwiseAbs().maxCoeff());
@@ -165,17 +166,18 @@ bool GraphSolver::solve(Estimate& estimate, int most) {
     factoring_ = turn > kTurnToFactor;
     if (largest < kConverged) break;
   }
+  solved_ = true;
   return true;
 }
 
 double GraphSolver::cost_without_ties(const Estimate& estimate) const {
   double cost = 0.0;
-  for (const Between& step : graph_.odometry) {
+  for (const Between& step : graph_->odometry) {
     const Vector6d e = relative_residual(estimate, step.a, step.b, step.T_a_b).e;
     cost += e.dot(step.information * e);
   }
-  for (std::size_t p = 0; p < graph_.pillars.size(); ++p) {
-    const Pillar& pillar = graph_.pillars[p];
+  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+    const Pillar& pillar = graph_->pillars[p];
     if (!pillar.has_window) continue;
     const Eigen::Vector3d r =
         pillar.fix - estimate.T_enu[p] * pillar.lever - pillar.drift_sigma.cwiseProduct(estimate.drift[p]);
@@ -184,7 +186,7 @@ double GraphSolver::cost_without_ties(const Estimate& estimate) const {
             turn.cwiseAbs2().cwiseQuotient(pillar.rotation_variance).sum();
     if (first_drift_[p]) cost += estimate.drift[p].squaredNorm();
   }
-  for (const DriftLink& link : graph_.drift) {
+  for (const DriftLink& link : graph_->drift) {
     const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
     cost += r.squaredNorm() / (1.0 - link.decay * link.decay);
   }

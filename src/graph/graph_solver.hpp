@@ -40,6 +40,7 @@ class GraphSolver {
   /// solved. The covariances below are those at the last factorisation, which is not repeated for small
   /// turns.
   bool solve(Estimate& estimate, int most);
+  bool solved() const { return solved_; }
 
   /// Sum of squares of all that is no tie (odometry, GPS, orientation, drift), each over its variance.
   double cost_without_ties(const Estimate& estimate) const;
@@ -64,12 +65,13 @@ class GraphSolver {
     return right_.segment(static_cast<Eigen::Index>(cholesky_->offset(variable)), dim);
   }
 
-  const ReducedGraph& graph_;
+  const ReducedGraph* graph_;
   std::vector<const Between*> ties_;
   std::vector<int> drift_variable_;  ///< by pillar; -1 without a window
   std::vector<bool> first_drift_;    ///< by pillar
   std::optional<BlockCholesky> cholesky_;
   Eigen::VectorXd right_;
+  bool solved_ = false;
   bool factoring_ = true;  ///< the matrix is set up with the right side
 };
 

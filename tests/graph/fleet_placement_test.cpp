@@ -226,6 +226,24 @@ TEST(FleetPlacement, ModesOfAmbiguousAlignmentsAreToldApart) {
   EXPECT_GT(right * 100, all * 90);
 }
 
+TEST(FleetPlacement, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    SimulatedFleet fleet(seed, testing::long_mission(4, 700));
+    const auto false_ones = fleet.align_neighbours(8, 0.2);
+    EXPECT_GT(false_ones.size() * 8, fleet.alignments.size());
+    const Placement placement = place(fleet);
+    expect_none_used(placement, false_ones, of(seed));
+    EXPECT_GE(placement.used.size() * 100, (fleet.alignments.size() - false_ones.size()) * 99) << of(seed);
+    EXPECT_LT(joint_error(fleet, placement), 0.8) << of(seed);
+    std::ranges::shuffle(fleet.nodes, fleet.random());
+    std::ranges::shuffle(fleet.alignments, fleet.random());
+    const Placement shuffled = place(fleet);
+    for (const auto& [id, T] : placement.T_enu_node)
+      EXPECT_TRUE(T.matrix() == shuffled.T_enu_node.at(id).matrix()) << to_string(id);
+    EXPECT_EQ(judgements(placement), judgements(shuffled));
+  }
+}
+
 TEST(FleetPlacement, GpsOutageOfThreeMinutes) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SimulatedFleet fleet(seed);

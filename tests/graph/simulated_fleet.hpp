@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,17 @@ struct SimulatedFleetConfig {
   double reach = 14.0;                    ///< m, nodes of two robots this near are registered
   int every = 3;                          ///< own nodes between registrations with one other robot
 };
+
+/// Of a long mission on interleaved lanes: each robot's nodes, and none aligned yet.
+inline SimulatedFleetConfig long_mission(int robots, int nodes_each) {
+  SimulatedFleetConfig config;
+  config.robots = robots;
+  config.interleaved = true;
+  config.lanes =
+      std::max(1, static_cast<int>(nodes_each * config.spacing / (config.length + kPitch * robots)));
+  config.reach = 0.0;
+  return config;
+}
 
 /// Robots on the lanes of a solar farm, whose odometry, GPS and registrations err as their covariances say.
 class SimulatedFleet {
@@ -84,6 +96,26 @@ class SimulatedFleet {
     a.modes.push_back(seen_at(i, T_enu_j));
     alignments.push_back(a);
     return alignments.back();
+  }
+
+  /// Aligns neighbours on interleaved lanes at every `every`-th node; a `share` of that is false: a third of
+  /// these one row off, the others metres off anywhere. Returns the names of the false ones.
+  std::set<std::pair<AgentId, std::uint32_t>> align_neighbours(int every, double share) {
+    std::set<std::pair<AgentId, std::uint32_t>> false_ones;
+    const auto last = nodes.back().id.seq;
+    for (std::uint32_t seq = 0; seq <= last; seq += static_cast<std::uint32_t>(every)) {
+      for (int r = 0; r + 1 < config_.robots; ++r) {
+        const bool is_false = std::uniform_real_distribution<double>()(random_) < share;
+        Eigen::Vector3d shift(is_false ? kPitch : 0.0, 0.0, 0.0);
+        if (is_false && random_() % 3 != 0) {
+          shift = Eigen::Vector3d(gauss(8.0), gauss(8.0), gauss(1.0));
+          shift *= (shift.norm() + 3.0) / shift.norm();
+        }
+        const Alignment& a = align({agent(r), seq}, {agent(r + 1), seq}, agent(r), shift);
+        if (is_false) false_ones.emplace(a.computed_by, a.seq);
+      }
+    }
+    return false_ones;
   }
 
   /// Pairs of nodes of two robots that are near each other, spread over the mission.
