@@ -32,8 +32,6 @@ constexpr float kSpacingShare = 0.3f;
 FeatureExtractor::FeatureExtractor(const LoamConfig& config)
     : half_width_(config.feature_half_width),
       plane_max_deviation_(config.plane_max_deviation),
-      edge_min_deviation_(config.edge_min_deviation),
-      edge_min_angle_(config.edge_min_angle),
       lidar_(config.T_base_lidar.translation().cast<float>()) {}
 
 const Features& FeatureExtractor::extract(const Sweep& sweep) {
@@ -57,7 +55,6 @@ bool FeatureExtractor::trace(std::span<const SweepPoint> points) {
   if (points.size() < 2 * kMinNeighbours + 1) return false;
   find_breaks(points);
   measure(points);
-  select_bends(points);
   select_posts(points);
   select_borders(points);
   return true;
@@ -88,22 +85,16 @@ void FeatureExtractor::measure(std::span<const SweepPoint> points) {
   const Eigen::Vector3f origin = points[0].position;
   for (std::size_t i = 0; i < n; ++i) sums_[i + 1] = sums_[i] + (points[i].position - origin).cast<double>();
   deviation_.assign(n, -1.0f);
-  bend_.assign(n, -1.0f);
-  half_count_.assign(n, 0);
   for (std::size_t i = kMinNeighbours; i + kMinNeighbours < n; ++i) {
     const Eigen::Vector3f& p = points[i].position;
     const float spacing = 0.5f * (points[i + 1].position - points[i - 1].position).norm() + 1e-3f;
     const std::size_t k = std::clamp(static_cast<std::size_t>(static_cast<float>(half_width_) / spacing),
                                      kMinNeighbours, kMaxNeighbours);
-    half_count_[i] = static_cast<std::uint8_t>(k);
     if (i < segment_begin_[i] + k || i + k >= segment_end_[i]) continue;
     const double scale = 1.0 / static_cast<double>(k);
     const Eigen::Vector3f left = ((sums_[i] - sums_[i - k]) * scale).cast<float>() + origin - p;
     const Eigen::Vector3f right = ((sums_[i + k + 1] - sums_[i + 1]) * scale).cast<float>() + origin - p;
-    const float cross = left.cross(right).norm();
-    deviation_[i] = cross / ((right - left).norm() + 1e-6f);
-    if (deviation_[i] > static_cast<float>(edge_min_deviation_))
-      bend_[i] = std::atan2(cross, -left.dot(right));
+    deviation_[i] = left.cross(right).norm() / ((right - left).norm() + 1e-6f);
   }
 }
 
@@ -112,22 +103,6 @@ void FeatureExtractor::select_plane_points(std::size_t begin, std::size_t count)
     if (deviation_[i] >= 0.0f && deviation_[i] < static_cast<float>(plane_max_deviation_)) {
       features_.planes.push_back(static_cast<std::uint32_t>(begin + i));
     }
-  }
-}
-
-/// Corners: the sharpest bend of its neighbourhood.
-void FeatureExtractor::select_bends(std::span<const SweepPoint> points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (deviation_[i] < static_cast<float>(edge_min_deviation_) ||
-        bend_[i] < static_cast<float>(edge_min_angle_)) {
-      continue;
-    }
-    const std::size_t k = half_count_[i];
-    const auto from = deviation_.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, k));
-    const auto to = deviation_.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), i + k + 1));
-    if (std::max_element(from, to) - deviation_.begin() != static_cast<std::ptrdiff_t>(i)) continue;
-    const float spacing = 0.5f * (points[i + 1].position - points[i - 1].position).norm();
-    features_.edges.push_back({points[i].position, points[i].time, kSpacingShare * spacing});
   }
 }
 

@@ -23,8 +23,6 @@ Status LoamConfig::validate() const {
       Bound{"range_noise", range_noise, 1e-4, 1.0},
       Bound{"feature_half_width", feature_half_width, 0.01, 5.0},
       Bound{"plane_max_deviation", plane_max_deviation, 1e-3, 1.0},
-      Bound{"edge_min_deviation", edge_min_deviation, 1e-3, 1.0},
-      Bound{"edge_min_angle", edge_min_angle, 0.01, 3.0},
       Bound{"match_spacing", match_spacing, 0.02, 10.0},
       Bound{"insert_spacing", insert_spacing, 0.02, 10.0},
       Bound{"fine_resolution", fine_resolution, 0.05, 10.0},

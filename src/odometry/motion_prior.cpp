@@ -17,11 +17,18 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous,
     : previous_(previous), dt_(dt), twist_mean_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;
-  const double cube = dt * dt * dt / 12.0;
-  twist_information_.head<3>() = (twist_variance.head<3>().array() + linear * dt).inverse();
-  twist_information_.tail<3>() = (twist_variance.tail<3>().array() + angular * dt).inverse();
-  pose_information_.head<3>().setConstant(1.0 / (square(kPoseNoise) + cube * linear));
-  pose_information_.tail<3>().setConstant(1.0 / (square(kRotationNoise) + cube * angular));
+  Vector6d density, pose_noise;
+  density << Eigen::Vector3d::Constant(linear), Eigen::Vector3d::Constant(angular);
+  pose_noise << Eigen::Vector3d::Constant(square(kPoseNoise)),
+      Eigen::Vector3d::Constant(square(kRotationNoise));
+  const Vector6d change = dt * density;
+  twist_information_ = (twist_variance + change).cwiseInverse();
+  smoothing_ = twist_variance.cwiseProduct(twist_information_);
+  // Of the way, given the velocity now: what is then still unknown of the velocity before, and of the course
+  // between the two.
+  pose_information_ =
+      (0.25 * dt * dt * smoothing_.cwiseProduct(change) + dt * dt * dt / 12.0 * density + pose_noise)
+          .cwiseInverse();
 }
 
 /// A measurement of one component of the velocity, merged with what the last state says about it.
@@ -45,10 +52,17 @@ void MotionPrior::set_forward_speed(double speed, double sigma) { replace_rate(0
 
 void MotionPrior::set_yaw_rate(double rate, double sigma) { replace_rate(5, rate, sigma); }
 
+/// Mean of the velocity now and of the one before; of that the velocity now tells more the less was known of
+/// it, or a way nobody saw would be certain while the velocity is not.
+Vector6d MotionPrior::mean_twist(const Vector6d& now) const {
+  const Vector6d before = previous_.twist + smoothing_.cwiseProduct(now - previous_.twist);
+  return 0.5 * (before + now);
+}
+
 MotionState MotionPrior::predicted() const {
   MotionState state;
   state.twist = twist_mean_;
-  state.T_odom_base = previous_.T_odom_base * se3_exp(0.5 * dt_ * (previous_.twist + twist_mean_));
+  state.T_odom_base = previous_.T_odom_base * se3_exp(dt_ * mean_twist(twist_mean_));
   if (R_previous_now_) state.T_odom_base.linear() = previous_.T_odom_base.linear() * *R_previous_now_;
   return state;
 }
@@ -59,10 +73,10 @@ NormalEquations MotionPrior::linearised(const MotionState& state) const {
   result.H.diagonal().tail<6>() = twist_information_;
   result.g.tail<6>() = twist_information_.cwiseProduct(twist_residual);
 
-  const Pose expected = previous_.T_odom_base * se3_exp(0.5 * dt_ * (previous_.twist + state.twist));
+  const Pose expected = previous_.T_odom_base * se3_exp(dt_ * mean_twist(state.twist));
   Vector6d pose_residual = se3_log(expected.inverse() * state.T_odom_base);
   Vector6d information = pose_information_;
-  Vector6d slope = Vector6d::Constant(-0.5 * dt_);  // d pose_residual / d twist
+  Vector6d slope = -0.5 * dt_ * (Vector6d::Ones() + smoothing_);  // d pose_residual / d twist
   if (R_previous_now_) {
     const Eigen::Matrix3d R_expected = previous_.T_odom_base.linear() * *R_previous_now_;
     pose_residual.tail<3>() = so3_log(R_expected.transpose() * state.T_odom_base.linear());

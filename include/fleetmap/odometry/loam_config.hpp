@@ -18,8 +18,6 @@ struct LoamConfig {
   // Features.
   double feature_half_width = 0.3;    ///< m of surface looked at on either side of a point
   double plane_max_deviation = 0.05;  ///< m, off the chord of its ring: flatter is a plane point
-  double edge_min_deviation = 0.08;   ///< m, off the chord of its ring: sharper may be an edge point
-  double edge_min_angle = 0.5;        ///< rad, bend of the ring at an edge point
   double match_spacing = 0.4;         ///< m, one plane point per cube of this size is matched
   double insert_spacing = 0.2;        ///< m, one plane point per cube of this size enters the map
 

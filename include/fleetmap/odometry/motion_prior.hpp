@@ -46,11 +46,13 @@ class MotionPrior {
 
  private:
   void replace_rate(int axis, double value, double sigma);
+  Vector6d mean_twist(const Vector6d& now) const;
 
   MotionState previous_;
   double dt_;
   Vector6d twist_mean_, twist_information_;
-  Vector6d pose_information_;
+  Vector6d smoothing_;         ///< share of a correction of the velocity now that holds for the one before
+  Vector6d pose_information_;  ///< of the pose, given the velocity now
   std::optional<Eigen::Matrix3d> R_previous_now_;
   double rotation_information_ = 0.0;
 };
