@@ -274,11 +274,11 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        const auto& target = job->target->spherized();
-        const auto& source = job->source->spherized();
+        const auto target = job->target->prepared(config_.registration);
+        const auto source = job->source->prepared(config_.registration);
         if (target && source) {
-          job->registered.result = registration::register_clouds(target->decoded, source->decoded,
-                                                                 config_.registration, job->prior);
+          job->registered.result =
+              registration::register_clouds(*target, *source, config_.registration, job->prior);
         } else {
           job->registered.result = tl::unexpected(target ? source.error() : target.error());
         }
@@ -357,11 +357,11 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
   const auto source_cloud = cloud::decode(message->payload);
   if (!source_cloud) return tl::unexpected(source_cloud.error());
-  const auto& target_cloud = target.spherized();
+  const auto target_cloud = target.prepared(config_.registration);
   if (!target_cloud) return tl::unexpected(target_cloud.error());
   return registration::register_clouds(
-      target_cloud->decoded, *source_cloud, config_.registration,
-      prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m));
+      *target_cloud, registration::PreparedCloud(*source_cloud, source.up_in_base, config_.registration),
+      config_.registration, prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m));
 }
 
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,

@@ -24,8 +24,9 @@ constexpr double kAlikeHeightSigma = 0.7;  // m: the ground under both is near
 constexpr double kAlikeYawSigma = 0.06;    // rad
 constexpr double kAlikeTiltSigma = 0.02;   // rad
 
-/// Modes of an ambiguous registration that score at least this share of the best are alternatives to it.
-constexpr double kAlternativeShare = 0.7;
+/// Modes of an ambiguous registration of at least this weight are alternatives to the best: what is less
+/// likely than one in a thousand does not keep a registration from being accepted either.
+constexpr double kAlternativeWeight = 1e-3;
 
 }  // namespace
 
@@ -125,7 +126,7 @@ graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& c
   }
   for (const registration::Mode& mode : result.modes) {
     if (alignment.modes.size() == graph::Alignment::kMaxModes) break;
-    if (mode.score < kAlternativeShare * result.modes.front().score) break;
+    if (mode.weight < kAlternativeWeight) break;  // most weight first
     alignment.modes.push_back(
         {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score, mode.covariance});
   }

@@ -5,7 +5,7 @@
 namespace fleetmap::agent {
 namespace {
 
-constexpr std::size_t kMaxClouds = 32;  // of some 300 kB
+constexpr std::size_t kMaxClouds = 32;  // of some 300 kB, prepared some 5 MB
 constexpr double kGrowth = 1.2;
 
 }  // namespace
@@ -16,6 +16,15 @@ const Result<registration::SpherizedCloud>& OwnCloud::spherized() {
     surroundings_.submaps = {};
   }
   return *spherized_;
+}
+
+Result<registration::PreparedCloud> OwnCloud::prepared(const registration::RegistrationConfig& config) {
+  if (!prepared_) {
+    const auto& cloud = spherized();
+    if (!cloud) return tl::unexpected(cloud.error());
+    prepared_.emplace(cloud->decoded, node().up_in_base, config);
+  }
+  return *prepared_;
 }
 
 std::shared_ptr<OwnCloud> OwnClouds::of(store::Store& store, const graph::Node& node) {

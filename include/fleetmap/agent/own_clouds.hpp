@@ -18,11 +18,14 @@ class OwnCloud {
   const graph::Node& node() const { return surroundings_.node; }
   /// Long work at the first call. One thread at a time: jobs of one lane of a bus.
   const Result<registration::SpherizedCloud>& spherized();
+  /// The same, made ready for registrations at the first call. All calls with the same `config`.
+  Result<registration::PreparedCloud> prepared(const registration::RegistrationConfig& config);
 
  private:
   Surroundings surroundings_;
   registration::SpherizeConfig config_;
   std::optional<Result<registration::SpherizedCloud>> spherized_;
+  std::optional<registration::PreparedCloud> prepared_;
 };
 
 /// The spherized clouds of own nodes that were used last: a node meets several others in a short time, and
