@@ -292,7 +292,9 @@ Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, do
   if (!lost) information += match.lidar_information;
   const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
   // What stays unknown of the velocity is unknown at the next scan, too.
-  const double cap = config_.initial_speed * config_.initial_speed;
+  Vector6d cap;
+  cap.head<3>().setConstant(config_.initial_speed * config_.initial_speed);
+  cap.tail<3>().setConstant(config_.initial_turn_rate * config_.initial_turn_rate);
   twist_variance_ = at_reference.diagonal().tail<6>().cwiseMax(0.0).cwiseMin(cap);
 
   Eigen::Matrix<double, 6, 12> M;
