@@ -33,8 +33,8 @@ struct RegistrationConfig {
   std::size_t min_inliers = 100;
   double min_inlier_fraction = 0.15;  ///< inliers over source points
   double min_agreement = 0.45;        ///< inliers over source points in the overlap
-  /// Mode::score. A mode that stopped next to the right pose, or slipped by a post, scores less than nearly
-  /// all that are right, even with 10 cm of noise.
+  /// Mode::score. What stopped next to the right pose scores less than nearly all that is right, even with
+  /// 10 cm of noise.
   double min_score = 0.36;
   double max_rmse_m = 0.2;    ///< m, E_ij of a good alignment (paper)
   double max_excess = 1.05;   ///< rmse over what both clouds' own noise explains
