@@ -126,7 +126,9 @@ graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& c
   }
   for (const registration::Mode& mode : result.modes) {
     if (alignment.modes.size() == graph::Alignment::kMaxModes) break;
-    if (mode.weight < kAlternativeWeight) break;  // most weight first
+    // Most weight first. The second stays in any case: with one mode alone the alignment would pass for
+    // certain.
+    if (alignment.modes.size() > 1 && mode.weight < kAlternativeWeight) break;
     alignment.modes.push_back(
         {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score, mode.covariance});
   }

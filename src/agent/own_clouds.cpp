@@ -5,7 +5,7 @@
 namespace fleetmap::agent {
 namespace {
 
-constexpr std::size_t kMaxClouds = 32;  // of some 300 kB, prepared some 5 MB
+constexpr std::size_t kMaxClouds = 12;  // prepared some 5 MB each
 constexpr double kGrowth = 1.2;
 
 }  // namespace

@@ -340,7 +340,7 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
   };
   const Eigen::Vector3d sensor = state.T_odom_base * config_.T_base_lidar.translation();
   for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p), sensor);
-  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p), sensor);
+  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p));
   keyframe_ = state.T_odom_base;
   ++insertions_;
   if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {

@@ -20,6 +20,7 @@ constexpr double kUpright = 0.9;
 constexpr double kLineThickness = 0.1;  // m
 /// Sine of the angle behind a plane from which on it is seen from its other side; normals err a little.
 constexpr float kBehind = 0.1f;
+const Eigen::Vector3f kNoSide = Eigen::Vector3f::Zero();  // of a line
 
 bool seen_from_behind(const SurfaceWindow& window, const Eigen::Vector3f& toward) {
   return window.shape == Shape::kPlane && window.direction.dot(toward) < -kBehind;
@@ -169,26 +170,24 @@ void LocalMap::add_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& 
   const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();
   fine_.add(point, toward);
   coarse_.add(point, toward);
-  posts_.add(point, toward);
+  posts_.add(point, kNoSide);
 }
 
-void LocalMap::add_edge(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
-  edges_.add(point, (sensor - point).normalized().cast<float>());
-}
+void LocalMap::add_edge(const Eigen::Vector3d& point) { edges_.add(point, kNoSide); }
 
 const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
   const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();
   const SurfaceWindow* fine = fine_.at(point, toward);
   if (fine != nullptr && fine->shape == Shape::kPlane) return fine;
-  const SurfaceWindow* post = fine != nullptr ? posts_.at(point, toward) : nullptr;
+  const SurfaceWindow* post = fine != nullptr ? posts_.at(point, kNoSide) : nullptr;
   if (post != nullptr && post->shape == Shape::kLine) return post;
   if (fine != nullptr && fine->shape == Shape::kScatter) return nullptr;
   const SurfaceWindow* coarse = coarse_.at(point, toward);
   return coarse != nullptr && coarse->shape == Shape::kPlane ? coarse : nullptr;
 }
 
-const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
-  const SurfaceWindow* edge = edges_.at(point, (sensor - point).normalized().cast<float>());
+const SurfaceWindow* LocalMap::edge_at(const Eigen::Vector3d& point) {
+  const SurfaceWindow* edge = edges_.at(point, kNoSide);
   return edge != nullptr && edge->shape == Shape::kLine ? edge : nullptr;
 }
 

@@ -95,7 +95,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   auto visit = [&](const FeaturePoint& feature, bool edge) {
     const Eigen::Vector3d p = twist.at_reference(feature.position, feature.time).cast<double>();
     const Eigen::Vector3d q = R * p + t;
-    const SurfaceWindow* window = edge ? map.edge_at(q, sensor) : map.surface_at(q, sensor);
+    const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q, sensor);
     if (window == nullptr) return;
     const bool plane = window->shape == Shape::kPlane;
     const Eigen::Vector3d offset = q - window->center - window->mean.cast<double>();

@@ -71,7 +71,7 @@ class Search {
         source_(source),
         window_(window),
         half_(static_cast<int>(std::ceil(window.radius_m / target.cell_m))),
-        seen_half_(half_ / kSeenCells + 1),
+        seen_half_(half_ / kSeenCells + 2),
         sums_(half_),
         seen_(seen_half_) {
     yaw_half_ = std::min(window.yaw_half, std::numbers::pi_v<float>);

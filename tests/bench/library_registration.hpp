@@ -8,12 +8,11 @@
 /// T_target_source; where the library fails that is what it returned.
 namespace fleetmap::bench {
 
-/// The cloud's part of what the fine steps share: normals within 2 m.
-inline constexpr float kFeatureVoxel = 0.6f;
-inline constexpr float kFineVoxel = 0.3f;
-inline constexpr float kNormalRadius = 2.0f;
-inline constexpr float kFeatureRadius = 3.0f;
-inline constexpr double kReach = 1.0;  ///< m, farthest correspondence
+inline constexpr float kFeatureVoxel = 0.6f;  ///< m
+inline constexpr float kFineVoxel = 0.3f;     ///< m
+inline constexpr int kNormalNeighbours = 16;
+inline constexpr float kFeatureRadius = 3.0f;  ///< m
+inline constexpr double kReach = 1.0;          ///< m, farthest correspondence
 inline constexpr int kIterations = 24;
 
 /// FPFH, SampleConsensusPrerejective, ICP with normals.

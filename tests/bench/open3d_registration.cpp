@@ -16,7 +16,7 @@ open3d::geometry::PointCloud with_normals(const cloud::PointCloud& cloud, double
   all.points_.reserve(cloud.size());
   for (const Eigen::Vector3f& p : cloud.points) all.points_.push_back(p.cast<double>());
   open3d::geometry::PointCloud thin = *all.VoxelDownSample(voxel);
-  thin.EstimateNormals(open3d::geometry::KDTreeSearchParamHybrid(kNormalRadius, 16));
+  thin.EstimateNormals(open3d::geometry::KDTreeSearchParamKNN(kNormalNeighbours));
   return thin;
 }
 

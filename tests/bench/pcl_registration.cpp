@@ -1,12 +1,14 @@
+#include <pcl/common/io.h>
 #include <pcl/features/fpfh.h>
+#include <pcl/features/normal_3d.h>
+#include <pcl/filters/filter.h>
+#include <pcl/filters/voxel_grid.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 #include <pcl/registration/sample_consensus_prerejective.h>
 
 #include "bench/library_registration.hpp"
-#include "fleetmap/cloud/normals.hpp"
-#include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::bench {
 namespace {
@@ -14,18 +16,26 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 using Features = pcl::PointCloud<pcl::FPFHSignature33>;
 
+pcl::PointCloud<pcl::PointXYZ>::Ptr thinned(const cloud::PointCloud& cloud, float voxel) {
+  auto all = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>(), thin = all->makeShared();
+  for (const Eigen::Vector3f& p : cloud.points) all->push_back({p.x(), p.y(), p.z()});
+  pcl::VoxelGrid<pcl::PointXYZ> grid;
+  grid.setInputCloud(all);
+  grid.setLeafSize(voxel, voxel, voxel);
+  grid.filter(*thin);
+  return thin;
+}
+
 Cloud::Ptr with_normals(const cloud::PointCloud& cloud, float voxel) {
+  const auto thin = thinned(cloud, voxel);
   auto out = std::make_shared<Cloud>();
-  const auto thin = voxel_downsample(cloud, voxel);
-  const auto normals =
-      estimate_normals(thin, cloud::KdTree(thin), {16, kNormalRadius, 5, Eigen::Vector3f::Zero()});
-  for (std::size_t i = 0; i < thin.size(); ++i) {
-    if (normals.normals[i].isZero()) continue;
-    pcl::PointNormal point;
-    point.getVector3fMap() = thin.points[i];
-    point.getNormalVector3fMap() = normals.normals[i];
-    out->push_back(point);
-  }
+  pcl::copyPointCloud(*thin, *out);
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::PointNormal> estimation;
+  estimation.setInputCloud(thin);
+  estimation.setKSearch(kNormalNeighbours);
+  estimation.compute(*out);
+  std::vector<int> kept;
+  pcl::removeNaNNormalsFromPointCloud(*out, *out, kept);
   return out;
 }
 
@@ -39,14 +49,13 @@ Features::Ptr fpfh(const Cloud::Ptr& cloud) {
   return features;
 }
 
-template <class Method>
-Pose refined(Method& method, const cloud::PointCloud& target, const cloud::PointCloud& source,
-             const Pose& start) {
-  method.setInputSource(with_normals(source, kFineVoxel));
-  method.setInputTarget(with_normals(target, kFineVoxel));
+template <class Method, class Points>
+Pose refined(Method& method, const Points& target, const Points& source, const Pose& start) {
+  method.setInputSource(source);
+  method.setInputTarget(target);
   method.setMaxCorrespondenceDistance(kReach);
   method.setMaximumIterations(kIterations);
-  Cloud moved;
+  typename Points::element_type moved;
   method.align(moved, start.matrix().cast<float>());
   return Pose(method.getFinalTransformation().template cast<double>());
 }
@@ -55,12 +64,12 @@ Pose refined(Method& method, const cloud::PointCloud& target, const cloud::Point
 
 Pose pcl_icp(const cloud::PointCloud& target, const cloud::PointCloud& source, const Pose& start) {
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> method;
-  return refined(method, target, source, start);
+  return refined(method, with_normals(target, kFineVoxel), with_normals(source, kFineVoxel), start);
 }
 
 Pose pcl_gicp(const cloud::PointCloud& target, const cloud::PointCloud& source, const Pose& start) {
-  pcl::GeneralizedIterativeClosestPoint<pcl::PointNormal, pcl::PointNormal> method;
-  return refined(method, target, source, start);
+  pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> method;
+  return refined(method, thinned(target, kFineVoxel), thinned(source, kFineVoxel), start);
 }
 
 Pose pcl_global(const cloud::PointCloud& target, const cloud::PointCloud& source) {

@@ -112,8 +112,7 @@ TEST_F(NewerCollege, EdgesAndPlanesRecoverTheGraph) {
       const Eigen::Vector3d sensor = truth[other].translation();
       for (const FeaturePoint& p : planes[other])
         map.add_surface(truth[other] * p.position.cast<double>(), sensor);
-      for (const FeaturePoint& p : edges[other])
-        map.add_edge(truth[other] * p.position.cast<double>(), sensor);
+      for (const FeaturePoint& p : edges[other]) map.add_edge(truth[other] * p.position.cast<double>());
     }
     Vector6d push;
     push << 0.3, -0.25, 0.1, 0.02, -0.02, 0.05;

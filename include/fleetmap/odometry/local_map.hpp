@@ -49,7 +49,7 @@ class SurfaceGrid {
   /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
   SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
 
-  /// `toward`: direction from the point to the sensor that saw it.
+  /// `toward`: direction from the point to the sensor that saw it; zero for lines, which have no sides.
   void add(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
   /// The window whose middle is nearest to `point`, of the side that is seen from there, or null. Valid until
   /// the next add() or prune().
@@ -78,12 +78,12 @@ class LocalMap {
 
   /// `sensor`: where the point was seen from.
   void add_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
-  void add_edge(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
+  void add_edge(const Eigen::Vector3d& point);
   /// A plane or upright line near `point`: from the finer windows where they hold enough points, else from
   /// the coarser ones; null where there is none.
   const SurfaceWindow* surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
   /// An edge near `point`, or null.
-  const SurfaceWindow* edge_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
+  const SurfaceWindow* edge_at(const Eigen::Vector3d& point);
   void prune(const Eigen::Vector3d& center, double radius);
   void clear();
   bool empty() const { return coarse_.size() == 0; }
