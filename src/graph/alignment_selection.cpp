@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -12,9 +13,11 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr int kMostRounds = 4;
+/// Changes of fewer than one alignment in so many settle a round.
 constexpr std::size_t kFewOf = 100;
+/// To judge by, an estimate need not be exact; the last one must converge.
 constexpr int kStepsARound = 3;
-constexpr int kMostSteps = 12;
+constexpr int kMostSteps = 60;
 constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
@@ -47,7 +50,8 @@ struct State {
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::vector<Hypothesis> tree;              ///< what connected frames first
   std::set<std::size_t> contradicting;       ///< candidates: what is taken rules them out
-  double likelihood = 0.0;                   ///< log, of the whole
+  /// Log, of the whole; nothing is less likely than what cannot be solved.
+  double likelihood = -std::numeric_limits<double>::infinity();
 };
 
 class Selector {
@@ -59,7 +63,11 @@ class Selector {
   }
 
   Selection run(Estimate& estimate) {
-    if (!unaided_.solve(estimate, 6)) return {};
+    const Estimate rigid = estimate;
+    if (unaided_.solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) {
+      estimate = rigid;
+      return {};
+    }
     look_alone(estimate);
     std::vector<GraphSolver::Ends> may_be_tied;
     for (const auto& [frames, group] : groups_)
@@ -69,10 +77,15 @@ class Selector {
     const Estimate start = estimate;
     rounds(estimate);
     const bool tried = doubt(start, estimate);
+    if (!std::isfinite(state_.likelihood)) {
+      // What ties frames cannot be solved with: they lie where GPS says, and nothing is decided.
+      state_ = {};
+      estimate = start;
+    }
     Selection selection = conclude(estimate);
     if (tried && !state_.taken.empty()) {
       tied_->set_ties(ties());
-      tied_->solve(estimate, 1);
+      tied_->factor_at(estimate);
     }
     GraphSolver& solver = state_.taken.empty() ? unaided_ : *tied_;
     if (solver.solved()) selection.solver = std::move(solver);
@@ -106,11 +119,11 @@ class Selector {
     for (int round = 1; more; ++round) {
       const std::vector<const Between*> judged_by = ties();
       tied_->set_ties(judged_by);
-      if (!tied_->solve(estimate, kStepsARound)) return;
+      if (tied_->solve(estimate, kStepsARound) == GraphSolver::Outcome::failed) return;
       more = round <= kMostRounds && look_again(estimate, components);
       if (more) continue;
       if (ties() != judged_by) tied_->set_ties(ties());
-      if (!tied_->solve(estimate, kMostSteps)) return;
+      if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
     }
     state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
     for (const auto& [frames, evaluation] : alone_) {

@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace fleetmap::graph {
 namespace {
 
 constexpr double kConverged = 1e-4;  // m or rad
-/// The equations are factored anew after a step that turns anything by more; else only their right side is.
-constexpr double kTurnToFactor = 0.02;  // rad
+/// The equations are factored anew after a step that turns anything by more, or that shrank to no less than
+/// this share of the one before; else only their right side is set up. What a reused matrix is wrong by, for
+/// a turn d, is W d^2 of a stiff tie: in the directions that only GPS holds that can exceed what GPS knows.
+constexpr double kTurnToFactor = 0.002;  // rad
+constexpr double kShrinks = 0.5;
+/// Before a step that turns anything by more, errors are those of the start, and alignments count in full.
+constexpr double kTurnOfStart = 0.02;  // rad
 /// An alignment whose squared error is beyond the 99 % quantile of six degrees of freedom counts less.
 constexpr double kHuber = 16.8;
 
@@ -42,6 +48,11 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
   return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
 }
 
+double huber_weight(const Between& between, const Vector6d& e) {
+  const double squared = e.dot(between.information * e);
+  return squared > kHuber ? std::sqrt(kHuber / squared) : 1.0;
+}
+
 GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied) : graph_(&graph) {
   std::vector<int> dims(graph.pillars.size(), 6);
   drift_variable_.assign(graph.pillars.size(), -1);
@@ -67,16 +78,12 @@ GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be
 void GraphSolver::set_ties(std::vector<const Between*> ties) {
   ties_ = std::move(ties);
   factoring_ = true;
+  at_start_ = true;
 }
 
 void GraphSolver::add_relative(const Estimate& estimate, const Between& between, bool robust) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
-  Matrix6d W = between.information;
-  // What the matrix holds must not be softer than what follows, or the steps that reuse it would grow.
-  if (robust && !factoring_) {
-    const double squared = r.e.dot(W * r.e);
-    if (squared > kHuber) W *= std::sqrt(kHuber / squared);
-  }
+  const Matrix6d& W = between.information;
   const int a = static_cast<int>(between.a), b = static_cast<int>(between.b);
   if (factoring_) {
     const Matrix6d WH = W * r.H_a;
@@ -84,7 +91,8 @@ void GraphSolver::add_relative(const Estimate& estimate, const Between& between,
     cholesky_->add<6, 6>(b, b, W);
     cholesky_->add<6, 6>(b, a, WH);
   }
-  const Vector6d We = W * r.e;
+  // In the matrix ties count in full: one that is softer than what follows would make the steps grow.
+  const Vector6d We = (robust && !at_start_ ? huber_weight(between, r.e) : 1.0) * (W * r.e);
   part(a, 6) -= r.H_a.transpose() * We;
   part(b, 6) -= We;
 }
@@ -147,27 +155,43 @@ void GraphSolver::linearise(const Estimate& estimate) {
   add_drifts(estimate);
 }
 
-bool GraphSolver::solve(Estimate& estimate, int most) {
+GraphSolver::Moved GraphSolver::move(Estimate& estimate, const Eigen::VectorXd& step) const {
+  Moved moved;
+  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+    const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
+    estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
+    moved.most = std::max(moved.most, xi.cwiseAbs().maxCoeff());
+    moved.turn = std::max(moved.turn, xi.tail<3>().cwiseAbs().maxCoeff());
+    if (drift_variable(p) < 0) continue;
+    estimate.drift[p] += step.segment<3>(static_cast<Eigen::Index>(cholesky_->offset(drift_variable(p))));
+  }
+  return moved;
+}
+
+GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int most) {
   solved_ = false;
+  double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most; ++iteration) {
     linearise(estimate);
-    if (factoring_ && !cholesky_->factor()) return false;
+    if (factoring_ && !cholesky_->factor()) return Outcome::failed;
     const Eigen::VectorXd step = cholesky_->solve(right_);
-    if (!step.allFinite()) return false;
-    double largest = 0.0, turn = 0.0;
-    for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
-      const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
-      estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
-      largest = std::max(largest, xi.cwiseAbs().maxCoeff());
-      turn = std::max(turn, xi.tail<3>().cwiseAbs().maxCoeff());
-      if (drift_variable(p) < 0) continue;
-      estimate.drift[p] += step.segment<3>(static_cast<Eigen::Index>(cholesky_->offset(drift_variable(p))));
-    }
-    factoring_ = turn > kTurnToFactor;
-    if (largest < kConverged) break;
+    if (!step.allFinite()) return Outcome::failed;
+    const Moved moved = move(estimate, step);
+    factoring_ = moved.turn > kTurnToFactor || moved.most > kShrinks * before;
+    at_start_ = moved.turn > kTurnOfStart;
+    before = moved.most;
+    if (moved.most >= kConverged) continue;
+    solved_ = true;
+    return Outcome::converged;
   }
   solved_ = true;
-  return true;
+  return Outcome::moving;
+}
+
+bool GraphSolver::factor_at(const Estimate& estimate) {
+  factoring_ = true;
+  linearise(estimate);
+  return solved_ = cholesky_->factor();
 }
 
 double GraphSolver::cost_without_ties(const Estimate& estimate) const {

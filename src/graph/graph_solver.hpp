@@ -23,6 +23,9 @@ struct RelativeResidual {
 };
 RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b, const Pose& T_a_b);
 
+/// Share by which a tie with the error `e` counts (Huber).
+double huber_weight(const Between& between, const Vector6d& e);
+
 /// Gauss-Newton on the reduced graph with a set of alignments.
 class GraphSolver {
  public:
@@ -36,10 +39,16 @@ class GraphSolver {
   /// The alignments of the next solve(). They must outlive it.
   void set_ties(std::vector<const Between*> ties);
 
-  /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. False if the equations cannot be
-  /// solved. The covariances below are those at the last factorisation, which is not repeated for small
-  /// turns.
-  bool solve(Estimate& estimate, int most);
+  enum class Outcome {
+    converged,
+    moving,  ///< finite, but not where it belongs
+    failed,  ///< the equations cannot be solved
+  };
+  /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. The covariances below are those at
+  /// the last factorisation, which is not repeated for small turns.
+  Outcome solve(Estimate& estimate, int most);
+  /// Makes the covariances those at `estimate`. False if they cannot be computed.
+  bool factor_at(const Estimate& estimate);
   bool solved() const { return solved_; }
 
   /// Sum of squares of all that is no tie (odometry, GPS, orientation, drift), each over its variance.
@@ -56,6 +65,11 @@ class GraphSolver {
   Matrix6d relative_covariance(std::size_t a, std::size_t b, const Matrix6d& H_a) const;
 
  private:
+  struct Moved {
+    double most = 0.0, turn = 0.0;  ///< m or rad; rad
+  };
+  /// By how much the step moves any pillar.
+  Moved move(Estimate& estimate, const Eigen::VectorXd& step) const;
   void linearise(const Estimate& estimate);
   void add_relative(const Estimate& estimate, const Between& between, bool robust);
   void add_window(const Estimate& estimate, std::size_t p);
@@ -73,6 +87,7 @@ class GraphSolver {
   Eigen::VectorXd right_;
   bool solved_ = false;
   bool factoring_ = true;  ///< the matrix is set up with the right side
+  bool at_start_ = true;   ///< ties count in full: far from the solution all of them look wrong
 };
 
 }  // namespace fleetmap::graph

@@ -279,6 +279,30 @@ TEST(FleetPlacement, GpsOfTenMetresLeavesItToTheMajority) {
   }
 }
 
+TEST(FleetPlacement, OfWeakOrLostGpsTheAlignmentsAloneTieTheFleet) {
+  for (const double sigma : {10.0, 30.0, 100.0, 300.0}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      SimulatedFleetConfig config;
+      config.gps_sigma = sigma;
+      SimulatedFleet fleet(seed, config);
+      const Placement placement = place(fleet);
+      const std::string what = of(seed).append(", sigma ").append(std::to_string(sigma));
+      EXPECT_EQ(placement.used.size(), fleet.alignments.size()) << what;
+      EXPECT_LT(joint_error(fleet, placement), 0.8) << what;
+      for (const Node& node : fleet.nodes)
+        EXPECT_LT(
+            (placement.T_enu_node.at(node.id).translation() - fleet.truth.at(node.id).translation()).norm(),
+            2.0 * sigma)
+            << what;
+      std::ranges::shuffle(fleet.nodes, fleet.random());
+      std::ranges::shuffle(fleet.alignments, fleet.random());
+      const Placement shuffled = place(fleet);
+      for (const auto& [id, T] : placement.T_enu_node)
+        EXPECT_TRUE(T.matrix() == shuffled.T_enu_node.at(id).matrix()) << what << ' ' << to_string(id);
+    }
+  }
+}
+
 TEST(FleetPlacement, AKidnappedRobotIsAFrameOfItsOwnUntilAlignedWithAnother) {
   SimulatedFleet fleet(5);
   std::erase_if(fleet.alignments, [](const Alignment& a) {
