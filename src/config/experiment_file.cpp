@@ -265,11 +265,10 @@ std::size_t agents_of(const std::filesystem::path& base) {
 /// The fleet's file, and how many agents it lists.
 std::size_t read_base(Section& section, std::filesystem::path& base) {
   section.read_path("base", base);
-  std::error_code error;
   if (!section.has("base")) return 0;
-  if (!std::filesystem::is_regular_file(base, error)) {
+  if (const auto reason = unreadable(base)) {
     section.problem("base",
-                    base.string() + ": no such file; give the FLEET.yaml that every case starts from");
+                    base.string() + ": " + *reason + "; give the FLEET.yaml that every case starts from");
     return 0;
   }
   const std::size_t agents = agents_of(base);

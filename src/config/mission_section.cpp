@@ -11,9 +11,8 @@ void read_waypoints(Section& section, std::string& waypoints) {
   if (!section.has("waypoints") || waypoints == "aisles") return;
   std::filesystem::path file;
   section.read_path("waypoints", file);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    section.problem("waypoints", "no such file: " + file.string() +
+  if (const auto reason = unreadable(file)) {
+    section.problem("waypoints", file.string() + ": " + *reason +
                                      "; expected aisles (the world's lanes) or the path of a GeoJSON file");
   }
   waypoints = file.string();

@@ -70,7 +70,10 @@ void read_odometry(Section& top, agent::PerceptionConfig& perception) {
   section.read("waiting_scans", waiting);
   perception.waiting_scans = waiting;
   section.finish();
-  section.check(loam.validate());
+  const Status valid = loam.validate();
+  if (valid) return;
+  Section lidar = top.section("lidar");  // gives some of the odometry's settings
+  (lidar.names(valid.error().message) ? lidar : section).check(valid);
 }
 
 void read_imu(Section& top, agent::PerceptionConfig& perception) {

@@ -6,17 +6,6 @@
 namespace fleetmap::config {
 namespace {
 
-/// What validate() said, at the line of the key it speaks of. After finish(): it asks for keys.
-void check_at_key(Section& section, const Status& status) {
-  if (status) return;
-  const std::string& message = status.error().message;
-  const std::string field = message.substr(0, message.find(' '));
-  for (const std::string& key : {field, field + "_deg", field.substr(0, field.find_first_of("_["))}) {
-    if (section.has(key)) return section.problem(key, message);
-  }
-  section.check(status);
-}
-
 void read_drivable(Section& top, sim::DrivableConfig& drivable) {
   Section section = top.section("drivable");
   section.read("cell", drivable.cell);
@@ -24,7 +13,7 @@ void read_drivable(Section& top, sim::DrivableConfig& drivable) {
   section.read("step_height", drivable.step_height);
   section.read_degrees("max_slope_deg", drivable.max_slope_rad);
   section.finish();
-  check_at_key(section, drivable.validate());
+  section.check(drivable.validate());
 }
 
 void read_terrain(Section& top, sim::TerrainConfig& terrain) {
@@ -36,7 +25,7 @@ void read_terrain(Section& top, sim::TerrainConfig& terrain) {
   section.read_degrees("slope_east_deg", terrain.slope_east_rad);
   section.read_degrees("slope_north_deg", terrain.slope_north_rad);
   section.finish();
-  check_at_key(section, terrain.validate());
+  section.check(terrain.validate());
 }
 
 void read_fence(Section& top, sim::FenceConfig& fence) {
@@ -47,7 +36,7 @@ void read_fence(Section& top, sim::FenceConfig& fence) {
   section.read("wire_spacing", fence.wire_spacing);
   section.read("wire_width", fence.wire_width);
   section.finish();
-  check_at_key(section, fence.validate());
+  section.check(fence.validate());
 }
 
 void read_tables(Section& top, sim::SolarFarmConfig& farm) {
@@ -87,7 +76,7 @@ sim::SolarFarmConfig read_solar_farm(Section& top) {
   read_drivable(top, farm.drivable);
   top.finish();
   if (farm.terrain.validate() && farm.fence.validate() && farm.drivable.validate())
-    check_at_key(top, farm.validate());
+    top.check(farm.validate());
   return farm;
 }
 
@@ -125,8 +114,19 @@ sim::MeshWorld read_mesh_world(Document& document, Section& top) {
   read_aisles(document, top, mesh.aisles);
   read_drivable(top, mesh.drivable);
   top.finish();
-  if (mesh.drivable.validate()) check_at_key(top, mesh.validate());
+  if (mesh.drivable.validate()) top.check(mesh.validate());
   return mesh;
+}
+
+/// The line of WORLD.yaml that a world which cannot be built is to be mended in.
+std::string place_of_mesh(const std::filesystem::path& file, const std::string& message) {
+  const Result<Document> document = Document::load(file);
+  if (!document) return file.string();
+  const YAML::Node& root = document->root();
+  const std::string key = message.starts_with("aisles") ? "aisles" : "path";
+  const YAML::Node named = root[key];
+  if (!named.IsDefined()) return file.string();
+  return file.string() + ":" + std::to_string(named.Mark().line + 1) + ": " + key;
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ Result<std::shared_ptr<const sim::World>> make_world(const std::filesystem::path
   const Result<sim::WorldSpec> spec = load_world(file);
   if (!spec) return tl::unexpected(spec.error());
   auto world = sim::build_world(*spec, seed);
-  if (!world) return failure(file.string() + ": " + world.error().message);
+  if (!world) return failure(place_of_mesh(file, world.error().message) + ": " + world.error().message);
   return world;
 }
 

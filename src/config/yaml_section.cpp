@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -52,19 +53,66 @@ YAML::Node with_value_at(const YAML::Node& map, const std::vector<std::string>& 
   return copy;
 }
 
+using Repeated = std::function<void(const std::string& path, const YAML::Mark& again, int first_line)>;
+
+/// YAML forbids a key to stand twice in a map; the parser takes the first and says nothing. `visited` keeps
+/// anchors from being walked again and again.
+void find_repeated_keys(const YAML::Node& node, const std::string& path, std::set<int>& visited,
+                        const Repeated& repeated) {
+  if ((!node.IsMap() && !node.IsSequence()) || !visited.insert(node.Mark().pos).second) return;
+  if (node.IsSequence()) {
+    for (std::size_t k = 0; k < node.size(); ++k)
+      find_repeated_keys(node[k], path + "[" + std::to_string(k) + "]", visited, repeated);
+    return;
+  }
+  std::map<std::string, int> lines;
+  for (const auto& entry : node) {
+    const std::string& key = entry.first.Scalar();
+    const std::string key_path = path.empty() ? key : path + "." + key;
+    const auto [first, is_new] = lines.emplace(key, entry.first.Mark().line + 1);
+    if (!is_new) repeated(key_path, entry.first.Mark(), first->second);
+    find_repeated_keys(entry.second, key_path, visited, repeated);
+  }
+}
+
+std::string without_element(const std::string& path, const std::string& list) {
+  if (!path.starts_with(list + "[")) return path;
+  const std::size_t end = path.find("].");
+  return end == std::string::npos ? path : path.substr(end + 2);
+}
+
 }  // namespace
 
-Result<Document> Document::load(const std::filesystem::path& file) {
+std::optional<std::string> unreadable(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    return failure(file.string() + ": no such file; give a YAML configuration");
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) return "no such file";
+  if (std::filesystem::is_directory(status)) return "a folder, not a file";
+  if (error) return "cannot be read; check the permissions of its folder";
+  if (!std::filesystem::is_regular_file(status)) return "a device, not a file";
+  if (!std::ifstream(file)) return "cannot be read; check its permissions";
+  return std::nullopt;
+}
+
+Result<Document> Document::load(const std::filesystem::path& file) {
+  if (const auto reason = unreadable(file)) {
+    return failure(file.string() + ": " + *reason + "; give a YAML configuration");
   }
   try {
     YAML::Node root = YAML::LoadFile(file.string());
     if (!root.IsMap() && !root.IsNull()) {
       return failure(file.string() + ":1: the file must be a map of keys (key: value)");
     }
-    return from(root.IsNull() ? YAML::Node(YAML::NodeType::Map) : root, file.string());
+    if (root.size() == 0) {
+      return failure(file.string() + ": empty; give a fleet, an agent, a world, a sensor or an experiment");
+    }
+    Document document = from(root, file.string());
+    std::set<int> visited;
+    find_repeated_keys(root, "", visited, [&](const std::string& path, const YAML::Mark& again, int first) {
+      document.problem(path, again,
+                       "stands in line " + std::to_string(first) + " already; leave one of them");
+    });
+    return document;
   } catch (const YAML::Exception& e) {
     return failure(file.string() + ":" + std::to_string(e.mark.line + 1) + ": not valid YAML: " + e.msg);
   }
@@ -92,19 +140,45 @@ Status Document::apply(const std::vector<Override>& overrides) {
     } catch (const YAML::Exception& e) {
       return failure("--set " + entry.key + "=" + entry.value + ": the value is not valid YAML: " + e.msg);
     }
-    overridden_.insert(entry.key);
+    overridden_[entry.key] = entry.at.empty() ? "--set " : entry.at + ": ";
   }
   return {};
 }
 
+void Document::share(const YAML::Node& node, const std::string& list, const std::string& path) {
+  if (!node.IsDefined() || node.Mark().is_null()) return;
+  if (!shared_.emplace(node.Mark().pos, std::pair(list, path)).second) return;
+  if (node.IsSequence())
+    for (const YAML::Node& element : node) share(element, list, path);
+  if (!node.IsMap()) return;
+  for (const auto& entry : node) {
+    shared_.emplace(entry.first.Mark().pos, std::pair(list, path));
+    share(entry.second, list, path);
+  }
+}
+
+std::string Document::origin_of(const std::string& path, const YAML::Mark& mark) const {
+  const auto origin = mark.is_null() ? shared_.end() : shared_.find(mark.pos);
+  if (origin == shared_.end()) return path;
+  const auto& [list, instead] = origin->second;
+  const std::string key = without_element(path, list);
+  return key == path || instead.empty() ? key : instead + "." + key;
+}
+
 void Document::problem(const std::string& path, const YAML::Mark& mark, const std::string& what) {
-  const bool from_override = std::ranges::any_of(overridden_, [&](const std::string& key) {
+  const auto by = std::ranges::find_if(overridden_, [&](const auto& entry) {
+    const std::string& key = entry.first;
     return path == key || path.starts_with(key + ".") || path.ends_with("." + key) ||
            path.find("." + key + ".") != std::string::npos;
   });
-  std::string line = from_override ? "--set " : name_ + ":";
-  if (!from_override && !mark.is_null()) line += std::to_string(mark.line + 1) + ":";
-  line += (from_override ? "" : " ") + path + ": " + what;
+  std::string line;
+  if (by != overridden_.end()) {
+    const std::string key = by->first.starts_with("agents") ? path : without_element(path, "agents");
+    line = by->second + key + ": " + what;
+  } else {
+    line = name_ + ":" + (mark.is_null() ? "" : std::to_string(mark.line + 1) + ":") + " " +
+           origin_of(path, mark) + ": " + what;
+  }
   if (std::ranges::find(problems_, line) == problems_.end()) problems_.push_back(line);
 }
 
@@ -136,7 +210,9 @@ bool Section::has(const std::string& key) { return find(key).IsDefined(); }
 
 Section Section::section(const std::string& key) {
   const YAML::Node found = find(key);
-  return Section(*document_, found.IsDefined() ? found : YAML::Node(), path_of(key));
+  const bool marked = found.IsDefined() && !found.Mark().is_null();
+  return Section(*document_, found.IsDefined() ? found : YAML::Node(), path_of(key),
+                 marked ? YAML::Mark::null_mark() : mark());
 }
 
 std::vector<Section> Section::list(const std::string& key) {
@@ -271,8 +347,25 @@ void Section::problem(const std::string& key, const std::string& what) {
   document_->problem(path_of(key), marked ? found.Mark() : mark(), what);
 }
 
+std::optional<std::string> Section::key_named_in(const std::string& message) const {
+  if (!node_.IsMap()) return std::nullopt;
+  std::string field = message.substr(0, message.find_first_of(": "));
+  field = field.substr(field.rfind('.') + 1);  // npos + 1 is 0
+  for (const std::string& key : {field, field + "_deg", field.substr(0, field.find_first_of("_["))}) {
+    const YAML::Node& map = node_;
+    if (map[key].IsDefined()) return key;
+  }
+  return std::nullopt;
+}
+
 void Section::check(const Status& status) {
-  if (!status) document_->problem(path_.empty() ? "configuration" : path_, mark(), status.error().message);
+  if (status) return;
+  const std::string& message = status.error().message;
+  const auto key = key_named_in(message);
+  if (!key) return document_->problem(path_.empty() ? "configuration" : path_, mark(), message);
+  const std::size_t colon = message.find(": ");
+  const bool names_field = colon != std::string::npos && message.find(' ') == colon + 1;
+  problem(*key, names_field ? message.substr(colon + 2) : message);
 }
 
 void Section::finish() {

@@ -33,14 +33,23 @@ class Document {
   /// Sets a key as if the file said so; problems with it are reported as "--set key".
   Status apply(const std::vector<Override>& overrides);
 
+  /// What stands in `node` reaches every element of `list` (an agent of agents): problems with it are
+  /// reported once, under `path` instead of each element's.
+  void share(const YAML::Node& node, const std::string& list, const std::string& path);
+
   void problem(const std::string& path, const YAML::Mark& mark, const std::string& what);
   /// All problems, one a line: "file:line: key: what is wrong, what was expected".
   Status status() const;
 
  private:
+  /// Where problems at `mark`, found while reading `path`, are to be mended.
+  std::string origin_of(const std::string& path, const YAML::Mark& mark) const;
+
   YAML::Node root_;
   std::string name_;
-  std::set<std::string> overridden_;
+  std::map<std::string, std::string> overridden_;  ///< and what says so: --set, or a line of an experiment
+  std::map<int, std::pair<std::string, std::string>>
+      shared_;  ///< by position: the list, and the path instead
   std::vector<std::string> problems_;
 };
 
@@ -82,15 +91,22 @@ class Section {
 
   bool has(const std::string& key);
   void problem(const std::string& key, const std::string& what);
+  /// Keys that others may ask for.
+  void allow(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }
+  const std::set<std::string>& asked_for() const { return known_; }
   /// Notes every key that was not asked for. Call once, after the last read.
   void finish();
-  /// Passes on what a component's validate() said.
+  /// Passes on what a component's validate() said, at the key that it speaks of if that stands here.
   void check(const Status& status);
+  /// The message of validate() speaks of a key that stands here.
+  bool names(const std::string& message) const { return key_named_in(message).has_value(); }
 
  private:
   YAML::Node find(const std::string& key);
   std::string path_of(const std::string& key) const;
   YAML::Mark mark() const;
+  /// The key of this map that a message "field: ..." or "field must ..." of validate() speaks of.
+  std::optional<std::string> key_named_in(const std::string& message) const;
   template <class T>
   void read_scalar(const std::string& key, T& value, const char* expected);
 
@@ -100,6 +116,9 @@ class Section {
   YAML::Mark mark_;
   std::set<std::string> known_;
 };
+
+/// Why `file` cannot be read as one ("no such file", "a folder", ...); nothing if it can.
+std::optional<std::string> unreadable(const std::filesystem::path& file);
 
 /// `over` laid on `under`: maps merge key by key, everything else is replaced.
 YAML::Node merged(const YAML::Node& under, const YAML::Node& over);

@@ -20,9 +20,12 @@ class FleetConfigTest : public ::testing::Test {
     std::ofstream(file, std::ios::trunc) << text;
     return file;
   }
-  std::string robot_error(const std::string& text, const std::vector<Override>& overrides = {}) {
-    const auto robot = load_robot(write(text), overrides);
+  std::string robot_error_of(const std::filesystem::path& file, const std::vector<Override>& overrides = {}) {
+    const auto robot = load_robot(file, overrides);
     return robot ? "no error" : robot.error().message;
+  }
+  std::string robot_error(const std::string& text, const std::vector<Override>& overrides = {}) {
+    return robot_error_of(write(text), overrides);
   }
   std::string fleet_error(const std::string& text, const std::vector<Override>& overrides = {}) {
     const auto fleet = load_fleet(write(text), overrides);
@@ -38,6 +41,26 @@ TEST_F(FleetConfigTest, MissingFileIsNamed) {
   const auto robot = load_robot(folder_.path() / "none.yaml", {});
   ASSERT_FALSE(robot);
   EXPECT_THAT(robot.error().message, HasSubstr("none.yaml: no such file"));
+}
+
+TEST_F(FleetConfigTest, WhatIsNoFileIsSaidToBeNone) {
+  EXPECT_THAT(load_fleet(folder_.path(), {}).error().message, HasSubstr("a folder, not a file"));
+  EXPECT_THAT(load_fleet("/dev/null", {}).error().message, HasSubstr("a device, not a file"));
+  for (const char* nothing : {"", "# only a comment\n", "{}\n"})
+    EXPECT_THAT(check(write(nothing), {}).error().message, HasSubstr("empty; give a fleet"));
+  const auto file = write(kRobot);
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  if (std::ifstream(file)) GTEST_SKIP() << "this user may read everything";
+  EXPECT_THAT(robot_error_of(file), HasSubstr("cannot be read; check its permissions"));
+}
+
+TEST_F(FleetConfigTest, AKeyThatStandsTwiceIsRefusedWithBothLines) {
+  const std::string error = robot_error(kRobot + "lidar:\n  max_range: 30\n  max_range: 40\nid: r2\n");
+  EXPECT_THAT(error, HasSubstr("config.yaml:6: lidar.max_range: stands in line 5 already"));
+  EXPECT_THAT(error, HasSubstr("config.yaml:7: id: stands in line 1 already"));
+  EXPECT_THAT(fleet_error("agents:\n  - id: a\n    recording: {path: x, path: y}\n"),
+              HasSubstr("config.yaml:3: agents[0].recording.path: stands in line 3 already"));
+  EXPECT_EQ(robot_error(kRobot + "lidar: &l {max_range: 30}\nodometry: {deskew: true}\n"), "no error");
 }
 
 TEST_F(FleetConfigTest, BrokenYamlGivesFileAndLine) {
@@ -60,8 +83,10 @@ TEST_F(FleetConfigTest, WrongKindGivesLineExpectationAndFinding) {
 }
 
 TEST_F(FleetConfigTest, ValueOutOfItsRangeIsRefusedByTheComponent) {
-  EXPECT_THAT(robot_error(kRobot + "nodes: {spacing: -1}\n"), HasSubstr("config.yaml:4: nodes: "));
-  EXPECT_THAT(robot_error(kRobot + "lidar: {max_range: -40}\n"), HasSubstr("max_range"));
+  EXPECT_THAT(robot_error(kRobot + "nodes: {spacing: -1}\n"),
+              HasSubstr("config.yaml:4: nodes.spacing: must"));
+  EXPECT_THAT(robot_error(kRobot + "odometry: {deskew: true}\nlidar: {max_range: -40}\n"),
+              HasSubstr("config.yaml:5: lidar.max_range: must be"));
 }
 
 TEST_F(FleetConfigTest, AllProblemsComeAtOnce) {

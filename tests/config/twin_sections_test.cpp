@@ -107,11 +107,12 @@ TEST(TwinSections, ProblemsNameFileLineAndKey) {
               HasSubstr("fleet.yaml:2: robot.lidar: none.yaml: no such file"));
   EXPECT_THAT(read("robot:\n  start: [1, 2]\n").problems, HasSubstr("fleet.yaml:2: robot.start: expected"));
   EXPECT_THAT(read("robot:\n  lidar_rate: 0\n").problems, HasSubstr("fleet.yaml:2: robot.lidar_rate"));
-  EXPECT_THAT(read("robot:\n  max_range: 0.1\n").problems, HasSubstr("robot: max_range: must be greater"));
+  EXPECT_THAT(read("robot:\n  max_range: 0.1\n").problems,
+              HasSubstr("fleet.yaml:2: robot.max_range: must be greater"));
   EXPECT_THAT(read("robot:\n  gps:\n    outages: [{from: 5, until: 1}]\n").problems,
               HasSubstr("fleet.yaml:3: robot.gps.outages[0].until: expected"));
   EXPECT_THAT(read("robot:\n  vehicle: {radius: -1}\n").problems,
-              HasSubstr("robot.vehicle: radius: must be"));
+              HasSubstr("fleet.yaml:2: robot.vehicle.radius: must be"));
   EXPECT_THAT(read("robot:\n  wheel: {}\n").problems, HasSubstr("robot.wheel: unknown key; did you mean"));
 }
 

@@ -97,12 +97,12 @@ TEST(WorldFile, ABadMeshIsNamedWithTheFileThatWantsIt) {
   folder.write("yard.obj", "v -10 -10 0\nv 10 -10 0\nf 1 2 3\n");
   auto file = folder.write("w.yaml", "kind: mesh\npath: yard.obj\n");
   EXPECT_THAT(make_world(file).error().message,
-              AllOf(HasSubstr("w.yaml: "), HasSubstr("yard.obj:3: '3' names none")));
+              AllOf(HasSubstr("w.yaml:2: path: "), HasSubstr("yard.obj:3: '3' names none")));
   folder.write("yard.obj", "v 0 0 0\nv 0 10 0\nv 0 0 10\nf 1 2 3\n");
   EXPECT_THAT(make_world(file).error().message, HasSubstr("cannot be driven"));
   folder.write("yard.obj", "v -10 -10 0\nv 10 -10 0\nv 10 10 0\nf 1 2 3\n");
   file = folder.write("w.yaml", "kind: mesh\npath: yard.obj\naisles: [[[0, 0], [50, 0]]]\n");
-  EXPECT_THAT(make_world(file).error().message, HasSubstr("aisles[0] leaves the mesh"));
+  EXPECT_THAT(make_world(file).error().message, HasSubstr("w.yaml:3: aisles: aisles[0] leaves the mesh"));
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace fleetmap::config {
 struct Override {
   std::string key;    ///< dotted: lidar.translation
   std::string value;  ///< YAML: [0, 0, 0.35]
+  std::string at{};   ///< file, line and key that says so, for messages; empty: a command line's --set
 };
 /// "key=value" of a command line.
 Result<Override> parse_override(const std::string& text);
