@@ -440,8 +440,8 @@ void Agent::handle(const exchange::AlignmentAdded& added) {
 }
 
 void Agent::handle(const exchange::MapComplete& complete) {
-  spdlog::info("{}: map complete: {} nodes, {} alignments", config_.id.str(), complete.nodes,
-               complete.alignments);
+  spdlog::debug("{}: caught up with the fleet: {} nodes, {} alignments", config_.id.str(), complete.nodes,
+                complete.alignments);
 }
 
 void Agent::update_status() {

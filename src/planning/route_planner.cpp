@@ -192,9 +192,16 @@ Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::V
   const Anchor goal = anchor(to);
   for (const Anchor* end : {&start, &goal}) {
     if (end->valid) continue;
-    return failure(
-        "no way from " + text(from) + " to " + text(to) + " m: " + text(end->point) +
-        " stands in a keep-out or outside the site; move it to clear ground or correct the polygon");
+    const std::string no_way = "no way from " + text(from) + " to " + text(to) + " m: " + text(end->point);
+    if ((state_->grid.zone(end->point) & SiteGrid::kInside) != 0) {
+      return failure(
+          no_way +
+          " stands in a keep-out or outside the site; move it to clear ground or correct the polygon");
+    }
+    char clearance[32];
+    std::snprintf(clearance, sizeof clearance, "%g", state_->config.clearance);
+    return failure(no_way + " has no ground near it that is " + clearance +
+                   " m off every keep-out; lower `clearance` or move it");
   }
   Polyline line = unwind(search(start, blocked), start, goal, blocked);
   if (line.empty()) {

@@ -59,8 +59,9 @@ Result<TravelCosts> TravelCosts::create(const RoutePlanner& planner, const Missi
       const Travel travel = joined(legs[b - a], out, costs.inward_[b]);
       if (!std::isfinite(travel.length)) {
         const auto why = planner.route(costs.ends_[a].point, costs.ends_[b].point);
-        return failure("row " + std::to_string(mission.rows[b / 2].id) + " can't be reached from row " +
-                       std::to_string(mission.rows[a / 2].id) + ": " +
+        const std::string row = "row " + std::to_string(mission.rows[b / 2].id);
+        const std::string other = " can't be reached from row " + std::to_string(mission.rows[a / 2].id);
+        return failure(row + (a / 2 == b / 2 ? " can't be driven" : other) + ": " +
                        (why ? "no way" : why.error().message));
       }
       costs.between_[a * ends + b] = travel;
