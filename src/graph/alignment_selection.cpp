@@ -105,7 +105,11 @@ class Selector {
         } else {
           against_gps_.insert(c);
         }
-        if (distance < kHopeless * kContradicts) hopeful.push_back(c);
+        if (distance < kHopeless * kContradicts) {
+          hopeful.push_back(c);
+        } else {
+          hopeless_.insert(c);
+        }
       }
       group = std::move(hopeful);
       const Evaluation& seen = alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
@@ -158,10 +162,7 @@ class Selector {
         if (const auto c = the_expected_one(seen)) expected.emplace(alignment, *c);
       }
     }
-    for (const std::size_t alignment : doubtful) {
-      state_.contradicting.insert(state_.taken.at(alignment));
-      state_.taken.erase(alignment);
-    }
+    drop(doubtful, components);
     state_.taken.insert(expected.begin(), expected.end());
     // A few more or less among very many change nothing that others are judged by.
     const bool settled = (doubtful.size() + expected.size()) * kFewOf <= state_.taken.size();
@@ -174,6 +175,26 @@ class Selector {
     for (const auto& [frames, evaluation] : evaluations)
       state_.contradicting.insert(evaluation.contradicting.begin(), evaluation.contradicting.end());
     return take_from(evaluations, components) || !settled;
+  }
+
+  /// Takes them back, and with them the connections that nothing else makes.
+  void drop(const std::set<std::size_t>& alignments, Components& components) {
+    for (const std::size_t alignment : alignments) {
+      state_.contradicting.insert(state_.taken.at(alignment));
+      state_.taken.erase(alignment);
+    }
+    if (alignments.empty()) return;
+    components = Components(graph_.frames.size());
+    for (const auto& [alignment, c] : state_.taken)
+      components.join(candidates_[c].frames.first, candidates_[c].frames.second);
+    std::erase_if(state_.tree, [&](const Hypothesis& edge) {
+      return std::ranges::none_of(edge.members, [&](std::size_t c) { return is_taken(c); });
+    });
+  }
+
+  bool is_taken(std::size_t candidate) const {
+    const auto it = state_.taken.find(candidates_[candidate].alignment);
+    return it != state_.taken.end() && it->second == candidate;
   }
 
   /// Alignments that are taken, but that the others contradict.
@@ -195,7 +216,7 @@ class Selector {
   static std::optional<std::size_t> the_expected_one(const std::vector<Seen>& modes) {
     const auto best =
         std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.distance; });
-    if (best->by_graph.sigma_m > kKnownM || best->by_graph.distance > kExpected) return std::nullopt;
+    if (!(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected) return std::nullopt;
     const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
       return mode.candidate == best->candidate ||
              mode.by_graph.distance - best->by_graph.distance > 2.0 * kMargin;
@@ -257,10 +278,7 @@ class Selector {
   }
 
   bool was_taken(const Hypothesis& hypothesis) const {
-    const auto taken = std::ranges::count_if(hypothesis.members, [&](std::size_t c) {
-      const auto it = state_.taken.find(candidates_[c].alignment);
-      return it != state_.taken.end() && it->second == c;
-    });
+    const auto taken = std::ranges::count_if(hypothesis.members, [&](std::size_t c) { return is_taken(c); });
     return 2 * static_cast<std::size_t>(taken) >= hypothesis.members.size();
   }
 
@@ -329,19 +347,18 @@ class Selector {
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
     for (const std::size_t c : against_gps_) ++against[candidates_[c].alignment].first;
     for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
+    for (const std::size_t c : hopeless_) ++against[candidates_[c].alignment].second;
     std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;
-    {
-      for (std::size_t c = 0; c < candidates_.size(); ++c) {
-        const Candidate& candidate = candidates_[c];
-        if (state_.taken.contains(candidate.alignment)) continue;
-        const auto [alone, end] = against[candidate.alignment];
-        const bool banned = state_.banned.contains(candidate.alignment);
-        selection.judged[candidate.alignment] = alone == candidate.modes           ? Judgement::against_gps
-                                                : banned || end == candidate.modes ? Judgement::against_others
-                                                                                   : Judgement::undecided;
-        if (selection.judged[candidate.alignment] != Judgement::undecided && candidate.modes == 1)
-          count_mistake(candidate, estimate, clusters[candidate.frames], selection);
-      }
+    for (std::size_t c = 0; c < candidates_.size(); ++c) {
+      const Candidate& candidate = candidates_[c];
+      if (state_.taken.contains(candidate.alignment)) continue;
+      const auto [alone, end] = against[candidate.alignment];
+      const bool banned = state_.banned.contains(candidate.alignment);
+      selection.judged[candidate.alignment] = alone == candidate.modes           ? Judgement::against_gps
+                                              : banned || end == candidate.modes ? Judgement::against_others
+                                                                                 : Judgement::undecided;
+      if (selection.judged[candidate.alignment] != Judgement::undecided && candidate.modes == 1)
+        count_mistake(candidate, estimate, clusters[candidate.frames], selection);
     }
     return selection;
   }
@@ -368,6 +385,7 @@ class Selector {
   std::map<FramePair, std::vector<std::size_t>> groups_;
   std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
   std::set<std::size_t> against_gps_;      ///< candidates, likewise
+  std::set<std::size_t> hopeless_;         ///< of these, those that are not in groups_
   State state_;
 };
 

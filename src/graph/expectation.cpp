@@ -39,7 +39,9 @@ Expectation expectation_of_rest(const Between& between, const GraphSolver& solve
   if (rest.info() != Eigen::Success) return {};
   const Matrix6d known = rest.solve(Matrix6d::Identity());
   if (!known.allFinite()) return {};
-  return judge(known * (all * r.e), known, between);
+  // What the rest expects: where the solution lies, its pull and the tie's are in balance.
+  const Vector6d pull = huber_weight(between, r.e) * (between.information * r.e);
+  return judge(r.e + known * pull, known, between);
 }
 
 }  // namespace fleetmap::graph

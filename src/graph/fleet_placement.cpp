@@ -30,7 +30,9 @@ bool is_pose(const Pose& T) {
 
 bool is_covariance(const Matrix6d& C) {
   return C.allFinite() && C.cwiseAbs().maxCoeff() <= 1e12 && C.isApprox(C.transpose(), 1e-9) &&
-         (C.diagonal().array() >= 0.0).all();
+         (C.diagonal().array() >= 0.0).all() &&
+         // But for rounding, positive semidefinite.
+         Matrix6d(C + 1e-12 * C.cwiseAbs().maxCoeff() * Matrix6d::Identity()).ldlt().isPositive();
 }
 
 bool is_valid(const Node& node) {

@@ -10,6 +10,8 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr double kConverged = 1e-4;  // m or rad
+/// Where ties contradict each other, Huber's weight creeps: steps this small, at last, are good enough.
+constexpr double kNearlyConverged = 0.01;  // m or rad
 /// The equations are factored anew after a step that turns anything by more, or that shrank to no less than
 /// this share of the one before; else only their right side is set up. What a reused matrix is wrong by, for
 /// a turn d, is W d^2 of a stiff tie: in the directions that only GPS holds that can exceed what GPS knows.
@@ -19,6 +21,15 @@ constexpr double kShrinks = 0.5;
 constexpr double kTurnOfStart = 0.02;  // rad
 /// An alignment whose squared error is beyond the 99 % quantile of six degrees of freedom counts less.
 constexpr double kHuber = 16.8;
+
+/// How log(R) changes with a small turn before R's right side: log(R exp(d)) = log(R) + J d.
+Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
+  const double angle = log.norm();
+  const double second =
+      angle < 1e-3 ? 1.0 / 12.0 : 1.0 / (angle * angle) - 0.5 / (angle * std::tan(0.5 * angle));
+  const Eigen::Matrix3d S = skew(log);
+  return Eigen::Matrix3d::Identity() + 0.5 * S + second * S * S;
+}
 
 /// Elimination order of chains: every second pillar first, then every second of the rest, and so on, so that
 /// every pillar is a few steps from the root (cyclic reduction).
@@ -112,8 +123,9 @@ void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
   Vector6d right = WJ.transpose() * r;
   // The orientation of G, about the axes of ENU.
   const Eigen::Vector3d turn = so3_log(pillar.R_enu_base * T.linear().transpose());
-  const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * T.linear();
-  A.bottomRightCorner<3, 3>() += T.linear().transpose() * WR;
+  const Eigen::Matrix3d R = so3_log_jacobian(turn) * T.linear();
+  const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * R;
+  A.bottomRightCorner<3, 3>() += R.transpose() * WR;
   right.tail<3>() += WR.transpose() * turn;
   if (factoring_) {
     cholesky_->add<6, 6>(pose, pose, A);
@@ -155,17 +167,23 @@ void GraphSolver::linearise(const Estimate& estimate) {
   add_drifts(estimate);
 }
 
-GraphSolver::Moved GraphSolver::move(Estimate& estimate, const Eigen::VectorXd& step) const {
+GraphSolver::Moved GraphSolver::size_of(const Eigen::VectorXd& step) const {
   Moved moved;
+  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+    const auto xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
+    moved.most = std::max(moved.most, xi.cwiseAbs().maxCoeff());
+    moved.turn = std::max(moved.turn, xi.tail<3>().cwiseAbs().maxCoeff());
+  }
+  return moved;
+}
+
+void GraphSolver::move(Estimate& estimate, const Eigen::VectorXd& step) const {
   for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
     const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
     estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
-    moved.most = std::max(moved.most, xi.cwiseAbs().maxCoeff());
-    moved.turn = std::max(moved.turn, xi.tail<3>().cwiseAbs().maxCoeff());
     if (drift_variable(p) < 0) continue;
     estimate.drift[p] += step.segment<3>(static_cast<Eigen::Index>(cholesky_->offset(drift_variable(p))));
   }
-  return moved;
 }
 
 GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int most) {
@@ -176,7 +194,12 @@ GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int most) {
     if (factoring_ && !cholesky_->factor()) return Outcome::failed;
     const Eigen::VectorXd step = cholesky_->solve(right_);
     if (!step.allFinite()) return Outcome::failed;
-    const Moved moved = move(estimate, step);
+    const Moved moved = size_of(step);
+    if (!factoring_ && moved.most > before) {
+      factoring_ = true;  // the reused matrix does not hold here: not taken
+      continue;
+    }
+    move(estimate, step);
     factoring_ = moved.turn > kTurnToFactor || moved.most > kShrinks * before;
     at_start_ = moved.turn > kTurnOfStart;
     before = moved.most;
@@ -185,7 +208,7 @@ GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int most) {
     return Outcome::converged;
   }
   solved_ = true;
-  return Outcome::moving;
+  return before < kNearlyConverged ? Outcome::converged : Outcome::moving;
 }
 
 bool GraphSolver::factor_at(const Estimate& estimate) {

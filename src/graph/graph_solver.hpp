@@ -69,7 +69,8 @@ class GraphSolver {
     double most = 0.0, turn = 0.0;  ///< m or rad; rad
   };
   /// By how much the step moves any pillar.
-  Moved move(Estimate& estimate, const Eigen::VectorXd& step) const;
+  Moved size_of(const Eigen::VectorXd& step) const;
+  void move(Estimate& estimate, const Eigen::VectorXd& step) const;
   void linearise(const Estimate& estimate);
   void add_relative(const Estimate& estimate, const Between& between, bool robust);
   void add_window(const Estimate& estimate, std::size_t p);
