@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "commands.hpp"
+#include "experiment/case.hpp"
 #include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/world_config.hpp"
@@ -49,6 +50,8 @@ Result<std::string> check(const std::string& file, const std::vector<config::Ove
     case config::FileKind::kExperiment: {
       const auto experiment = config::load_experiment(file, false);
       if (!experiment) return tl::unexpected(experiment.error());
+      const Status valid = experiment::check_cases(experiment::all_cases(*experiment));
+      if (!valid) return tl::unexpected(valid.error());
       return "a valid experiment with " + std::to_string(experiment->studies.size()) + " studies";
     }
     case config::FileKind::kRobot:

@@ -30,6 +30,7 @@ void read_overrides(Section& section, const std::string& key, std::vector<Overri
   section.read(key, texts);
   for (const std::string& text : texts) {
     if (auto parsed = parse_override(text)) {
+      parsed->at = section.place(key);
       overrides.push_back(std::move(*parsed));
     } else {
       section.problem(key, parsed.error().message);
@@ -82,7 +83,7 @@ void read_values(Section& section, Axis& axis) {
   for (const std::string& text : texts) {
     AxisValue value;
     value.label = text;
-    for (const std::string& key : keys) value.overrides.push_back({key, text});
+    for (const std::string& key : keys) value.overrides.push_back({key, text, section.place("keys")});
     if (counts_agents) {
       const auto count = number(text);
       if (!count || *count < 1.0 || *count > 1000.0 ||
@@ -306,6 +307,7 @@ Result<ExperimentConfig> load_experiment(const std::filesystem::path& file, bool
   std::size_t agents = read_base(top, config.base);
   read_overrides(top, "set", config.overrides);
   top.read("seed_keys", config.seed_keys);
+  config.seed_keys_at = top.place("seed_keys");
   config.metrics = read_metrics(top);
 
   Section quick_section = top.section("quick");

@@ -21,18 +21,59 @@ Result<Document> load_with(const std::filesystem::path& file, const std::vector<
   return document;
 }
 
-/// Everything but `agents`, `defaults` and the fleet's own keys is laid on every agent: that is where --set
-/// goes.
-YAML::Node agent_keys_of(const YAML::Node& root, const std::set<std::string>& fleet_keys) {
+/// Nothing: the keys could be any file's.
+std::optional<FileKind> kind_of(const YAML::Node& root) {
+  const auto has = [&](const char* key) { return root.IsMap() && root[key].IsDefined(); };
+  if (has("agents")) return FileKind::kFleet;
+  if (has("studies")) return FileKind::kExperiment;
+  if (has("kind")) return FileKind::kWorld;
+  if (has("elevations_deg") || has("pattern") || has("field_of_view_deg")) return FileKind::kSensor;
+  if (has("id")) return FileKind::kRobot;
+  return std::nullopt;
+}
+
+const char* name_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::kRobot:
+      return "an agent";
+    case FileKind::kFleet:
+      return "a fleet";
+    case FileKind::kWorld:
+      return "a world";
+    case FileKind::kSensor:
+      return "a sensor";
+    case FileKind::kExperiment:
+      return "an experiment";
+  }
+  return "";
+}
+
+Status expect_kind(const Document& document, std::initializer_list<FileKind> wanted, const char* remedy) {
+  const auto kind = kind_of(document.root());
+  if (!kind || std::ranges::find(wanted, *kind) != wanted.end()) return {};
+  return failure(document.name() + ": this is " + name_of(*kind) + "; give " + remedy);
+}
+
+/// What an agent's file, entry or defaults may hold.
+std::set<std::string> agent_keys() {
+  const YAML::Node nothing(YAML::NodeType::Map);
+  Document document = Document::from(nothing, "");
+  Section section(document, nothing, "");
+  FleetConfig::Member member;
+  read_agent(section, member.agent);
+  read_recording(section);
+  read_robot_twin(section, member.robot, member.switched_off);
+  return section.asked_for();
+}
+
+/// An agent's keys at the top of a fleet's file are laid on every agent: that is where --set goes.
+YAML::Node agent_keys_of(const YAML::Node& root, const std::set<std::string>& known) {
   YAML::Node keys(YAML::NodeType::Map);
   for (const auto& entry : root) {
-    if (!fleet_keys.contains(entry.first.Scalar())) keys[entry.first] = entry.second;
+    if (known.contains(entry.first.Scalar())) keys[entry.first] = entry.second;
   }
   return keys;
 }
-
-const std::set<std::string> kFleetKeys{"agents", "defaults", "network",  "settle_time",
-                                       "world",  "mission",  "max_time", "dds"};
 
 /// The odometry is told of the LiDAR that the twin carries, where the configuration does not say otherwise.
 void suit_estimator(FleetConfig::Member& member, Section lidar) {
@@ -53,7 +94,11 @@ std::optional<TwinConfig> read_twin(Section& top) {
   TwinConfig twin;
   Section world = top.section("world");
   world.read_path("file", twin.world);
-  if (twin.world.empty()) world.problem("file", "expected the world's file, e.g. ../worlds/farm_200.yaml");
+  if (twin.world.empty()) {
+    world.problem("file", "expected the world's file, e.g. ../worlds/farm_200.yaml");
+  } else if (const auto reason = unreadable(twin.world)) {
+    world.problem("file", twin.world.string() + ": " + *reason + "; expected the world's file");
+  }
   if (world.has("seed")) {
     std::uint64_t seed = 0;
     world.read("seed", seed);
@@ -64,6 +109,18 @@ std::optional<TwinConfig> read_twin(Section& top) {
   top.read("max_time", twin.max_time);
   if (!(twin.max_time > 0.0)) top.problem("max_time", "expected seconds > 0");
   return twin;
+}
+
+/// The profiles of the links; an agent reads them when it starts.
+void check_profiles(Section& dds, const std::filesystem::path& folder) {
+  for (const char* link : {"onboard", "long_range", "short_range"}) {
+    const std::filesystem::path file = folder / (std::string(link) + ".xml");
+    const auto reason = unreadable(file);
+    if (!reason) continue;
+    return dds.problem("qos", file.string() + ": " + *reason +
+                                  "; expected the folder of the links' profiles (qos/ of fleetmap), relative "
+                                  "to this file or with its whole path");
+  }
 }
 
 /// Every robot on this machine: an onboard domain each, the radios shared, all over the loopback.
@@ -78,6 +135,7 @@ LoopbackDomains read_loopback(Section& top) {
   dds.read("base_domain", domains.base);
   dds.read_path("qos", domains.qos);
   dds.finish();
+  if (dds.has("qos")) check_profiles(dds, domains.qos);
   if (domains.base > 200) dds.problem("base_domain", "expected at most 200: DDS has domains up to 232");
   return domains;
 }
@@ -116,7 +174,14 @@ Result<FleetConfig> read_fleet(Document& document) {
     fleet.twin->mission_at =
         place_of(document, mission.IsDefined() ? mission.Mark() : YAML::Mark::null_mark(), "mission");
   }
-  const YAML::Node everywhere = agent_keys_of(root, kFleetKeys);
+  const std::set<std::string> known = agent_keys();
+  const YAML::Node everywhere = agent_keys_of(root, known);
+  document.share(defaults, "agents", "defaults");
+  document.share(everywhere, "agents", "");
+  top.has("agents");
+  top.has("defaults");
+  top.allow(known);
+  top.finish();
   if (!agents.IsDefined() || !agents.IsSequence() || agents.size() == 0) {
     top.problem("agents", "expected a list with at least one agent: - {id: r1, recording: {path: ...}}");
     return tl::unexpected(document.status().error());
@@ -177,6 +242,8 @@ Result<RobotConfig> read_robot(Document& document) {
   if (!top.has("id")) top.problem("id", "expected the robot's name, e.g. id: r1");
   robot.dds.agent = robot.agent.id;
   read_dds(top, robot.dds);
+  Section dds = top.section("dds");
+  if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);
   top.finish();
   if (robot.agent.directory.empty())
@@ -212,12 +279,17 @@ Result<Override> parse_override(const std::string& text) {
 Result<RobotConfig> load_robot(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Result<Document> document = load_with(file, overrides);
   if (!document) return tl::unexpected(document.error());
+  const Status expected = expect_kind(*document, {FileKind::kRobot},
+                                      "an agent, or of a fleet the name of one of its agents (--as r1)");
+  if (!expected) return tl::unexpected(expected.error());
   return read_robot(*document);
 }
 
 Result<FleetConfig> load_fleet(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Result<Document> document = load_with(file, overrides);
   if (!document) return tl::unexpected(document.error());
+  if (const Status expected = expect_kind(*document, {FileKind::kFleet}, "a fleet"); !expected)
+    return tl::unexpected(expected.error());
   return read_fleet(*document);
 }
 
@@ -241,12 +313,15 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   if (file) document = Document::load(*file);
   if (!document) return tl::unexpected(document.error());
   if (const Status applied = document->apply(overrides); !applied) return tl::unexpected(applied.error());
+  const Status expected = expect_kind(*document, {FileKind::kRobot, FileKind::kFleet}, "an agent or a fleet");
+  if (!expected) return tl::unexpected(expected.error());
   const YAML::Node& root = document->root();
   const bool is_fleet =
       root["agents"].IsDefined() && root["agents"].IsSequence() && root["agents"].size() > 0;
   const bool is_twin = root["world"].IsDefined();
   const YAML::Node entry =
-      is_fleet ? merged(merged(root["defaults"], root["agents"][0]), agent_keys_of(root, kFleetKeys)) : root;
+      is_fleet ? merged(merged(root["defaults"], root["agents"][0]), agent_keys_of(root, agent_keys()))
+               : root;
   Section top(*document, entry, "");
   FleetConfig::Member member;
   member.agent.id = AgentId::parse("r1").value();
@@ -264,23 +339,10 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   return robot;
 }
 
-namespace {
-
-FileKind kind_of(const YAML::Node& root) {
-  const auto has = [&](const char* key) { return root.IsMap() && root[key].IsDefined(); };
-  if (has("agents")) return FileKind::kFleet;
-  if (has("studies")) return FileKind::kExperiment;
-  if (has("kind")) return FileKind::kWorld;
-  if (has("elevations_deg") || has("pattern") || has("field_of_view_deg")) return FileKind::kSensor;
-  return FileKind::kRobot;
-}
-
-}  // namespace
-
 Result<FileKind> check(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Result<Document> document = load_with(file, overrides);
   if (!document) return tl::unexpected(document.error());
-  const FileKind kind = kind_of(document->root());
+  const FileKind kind = kind_of(document->root()).value_or(FileKind::kRobot);
   const bool may_override = kind == FileKind::kFleet || kind == FileKind::kRobot;
   if (!overrides.empty() && !may_override)
     return failure(file.string() + ": --set changes keys of AGENT.yaml and FLEET.yaml only");

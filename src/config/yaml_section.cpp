@@ -146,8 +146,9 @@ Status Document::apply(const std::vector<Override>& overrides) {
 }
 
 void Document::share(const YAML::Node& node, const std::string& list, const std::string& path) {
-  if (!node.IsDefined() || node.Mark().is_null()) return;
-  if (!shared_.emplace(node.Mark().pos, std::pair(list, path)).second) return;
+  if (!node.IsDefined()) return;
+  const bool marked = !node.Mark().is_null();  // a map put together from several is not
+  if (marked && !shared_.emplace(node.Mark().pos, std::pair(list, path)).second) return;
   if (node.IsSequence())
     for (const YAML::Node& element : node) share(element, list, path);
   if (!node.IsMap()) return;
@@ -207,6 +208,15 @@ YAML::Node Section::find(const std::string& key) {
 }
 
 bool Section::has(const std::string& key) { return find(key).IsDefined(); }
+
+std::string Section::place(const std::string& key) const {
+  const YAML::Node& map = node_;
+  const YAML::Node found = map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+  const YAML::Mark at = found.IsDefined() && !found.Mark().is_null() ? found.Mark() : mark();
+  std::string text = document_->name();
+  if (!at.is_null()) text.append(":").append(std::to_string(at.line + 1));
+  return text + ": " + path_of(key);
+}
 
 Section Section::section(const std::string& key) {
   const YAML::Node found = find(key);

@@ -90,6 +90,8 @@ class Section {
   std::vector<Section> list(const std::string& key);
 
   bool has(const std::string& key);
+  /// "file:line: key", for what is found wrong with it only later.
+  std::string place(const std::string& key) const;
   void problem(const std::string& key, const std::string& what);
   /// Keys that others may ask for.
   void allow(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }

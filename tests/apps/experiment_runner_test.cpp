@@ -188,6 +188,30 @@ TEST_F(ExperimentTest, ResultsHoldCasesSpreadsAndVerdicts) {
   EXPECT_THAT(lines[4], HasSubstr(",2,failed,"));
 }
 
+TEST_F(ExperimentTest, AMetricThatNoCaseGaveIsNamed) {
+  write_experiment(
+      "metrics: [{name: map.rms}, {name: time}]\nstudies: [{name: a, metrics: [map.rms, time]}]\n");
+  EXPECT_TRUE(run(runner()).good());
+  EXPECT_THAT(said_.str(), HasSubstr("! a: no case gave the metric map.rms;"));
+  EXPECT_THAT(said_.str(), Not(HasSubstr("metric time")));
+  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("no case gave the metric map.rms"));
+}
+
+TEST_F(ExperimentTest, KeysThatNoFleetHasAreNamedOnceWithTheExperimentsLine) {
+  write_experiment(
+      "seed_keys: [world.sed]\nstudies:\n  - name: a\n"
+      "    axes: [{name: rate, keys: [robot.lidar_rte], values: [5, -4]}]\n");
+  const auto config = load();
+  ASSERT_TRUE(config) << config.error().message;
+  const Status valid = check_cases(all_cases(*config));
+  ASSERT_FALSE(valid);
+  EXPECT_THAT(
+      valid.error().message,
+      HasSubstr("experiment.yaml:5: studies[0].axes[0].keys: robot.lidar_rte: unknown key; did you mean"));
+  EXPECT_THAT(valid.error().message, HasSubstr("experiment.yaml:2: seed_keys: world.sed: unknown key"));
+  EXPECT_EQ(std::ranges::count(valid.error().message, '\n'), 1);
+}
+
 TEST_F(ExperimentTest, TheReportNeedsNoOtherFile) {
   run(runner());
   const std::string page = text_of(out() / "report.html");

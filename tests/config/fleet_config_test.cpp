@@ -10,6 +10,8 @@
 namespace fleetmap::config {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -164,6 +166,41 @@ TEST_F(FleetConfigTest, FleetProblemsAreNamed) {
               HasSubstr("config.yaml:2: agents[0].recording: expected"));
   EXPECT_THAT(fleet_error("agents:\n  - {id: a, recording: {path: x, frames: [9, 3]}}\n"),
               HasSubstr("agents[0].recording.frames: expected [first, last]"));
+}
+
+TEST_F(FleetConfigTest, WhatEveryAgentGetsIsReportedOnceAndWhereItStands) {
+  const std::string agents =
+      "agents:\n  - {id: a, recording: {path: x}, lidar: {min_range: 1}}\n"
+      "  - {id: b, recording: {path: y}}\n";
+  EXPECT_THAT(fleet_error(agents + "max_tme: 900\n"),
+              EndsWith("/config.yaml:4: max_tme: unknown key; did you mean 'max_time'?"));
+  EXPECT_THAT(
+      fleet_error(agents + "defaults:\n  lidar: {max_range: -40}\n  nodes: {spcing: 3}\n"),
+      AllOf(HasSubstr("config.yaml:5: defaults.lidar.max_range: must be"),
+            HasSubstr("config.yaml:6: defaults.nodes.spcing: unknown key"), Not(HasSubstr("agents["))));
+  EXPECT_THAT(fleet_error(agents + "nodes: {spacing: far}\n"),
+              EndsWith("/config.yaml:4: nodes.spacing: expected a number, found 'far'"));
+  EXPECT_EQ(fleet_error(agents, {{"lidar.hight", "1"}, {"robot.lidar_rate", "-4", "e.yaml:7: axes[0]"}})
+                .find("--set lidar.hight: unknown key"),
+            0u);
+  EXPECT_EQ(fleet_error(agents, {{"robot.lidar_rate", "-4", "e.yaml:7: axes[0]"}}),
+            "e.yaml:7: axes[0]: robot.lidar_rate: expected 0.1 to 100 Hz");
+}
+
+TEST_F(FleetConfigTest, AFileOfAnotherKindIsSaidToBeOne) {
+  const std::string fleet = "agents:\n  - {id: a, recording: {path: x}}\n";
+  EXPECT_THAT(robot_error(fleet), HasSubstr("config.yaml: this is a fleet; give an agent, or of a fleet"));
+  EXPECT_THAT(fleet_error(kRobot), HasSubstr("this is an agent; give a fleet"));
+  EXPECT_THAT(fleet_error("kind: solar_farm\n"), HasSubstr("this is a world; give a fleet"));
+  EXPECT_THAT(fleet_error("studies: []\n"), HasSubstr("this is an experiment; give a fleet"));
+  EXPECT_THAT(load_sensors(write("pattern: spinning\n"), {}).error().message,
+              HasSubstr("this is a sensor; give an agent or a fleet"));
+}
+
+TEST_F(FleetConfigTest, FilesThatAreNamedMustBeThere) {
+  EXPECT_THAT(robot_error(kRobot + "dds:\n  qos: nowhere\n"), HasSubstr("config.yaml:5: dds.qos: "));
+  EXPECT_THAT(fleet_error("agents: [{id: a}]\nworld: {file: none.yaml}\n"),
+              AllOf(HasSubstr("config.yaml:2: world.file: "), HasSubstr("none.yaml: no such file")));
 }
 
 TEST_F(FleetConfigTest, FleetOfRecordingsNeedsNoFile) {

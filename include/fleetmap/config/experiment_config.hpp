@@ -66,6 +66,7 @@ struct ExperimentConfig {
   std::filesystem::path base;  ///< FLEET.yaml that every case starts from
   std::vector<Override> overrides;
   std::vector<std::string> seed_keys;  ///< dotted keys of `base` that get the case's seed
+  std::string seed_keys_at;            ///< file, line and key, for messages
   std::vector<MetricSpec> metrics;
   std::vector<Study> studies;
 

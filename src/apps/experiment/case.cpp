@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -57,7 +58,8 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
     one.point.push_back(value.label);
     one.name += "." + study.axes[axis].name + "=" + file_name(value.label);
   }
-  for (const std::string& key : config.seed_keys) one.overrides.push_back({key, std::to_string(seed)});
+  for (const std::string& key : config.seed_keys)
+    one.overrides.push_back({key, std::to_string(seed), config.seed_keys_at});
   one.name += ".seed=" + two_digits(seed);
   return one;
 }
@@ -118,6 +120,21 @@ Result<std::string> input_hash(const Case& one) {
   const std::string text = *inputs + "\nagents " + std::to_string(one.agents) + (one.modes ? " modes" : "") +
                            (one.overlap ? " overlap" : "");
   return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+}
+
+Status check_cases(const std::vector<Case>& cases) {
+  std::set<std::string> seen, found;
+  std::string problems;
+  for (const Case& one : cases) {
+    std::string point = one.study;
+    for (const std::string& label : one.point) point += "\n" + label;
+    if (!seen.insert(point).second) continue;
+    const auto valid = config::check(one.base, one.overrides);
+    if (!valid && found.insert(valid.error().message).second)
+      problems += (problems.empty() ? "" : "\n") + valid.error().message;
+  }
+  if (!problems.empty()) return failure(problems);
+  return {};
 }
 
 }  // namespace fleetmap::apps::experiment

@@ -51,4 +51,7 @@ std::vector<Case> all_cases(const config::ExperimentConfig& config);
 /// inputs give equal results.
 Result<std::string> input_hash(const Case& one);
 
+/// A fleet's file that cannot be read with a point's keys is found before hours are spent on the others.
+Status check_cases(const std::vector<Case>& cases);
+
 }  // namespace fleetmap::apps::experiment

@@ -6,6 +6,7 @@
 #include "experiment/progress_line.hpp"
 #include "experiment/report_page.hpp"
 #include "experiment/results_file.hpp"
+#include "experiment/study_values.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
@@ -56,6 +57,8 @@ Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, 
   result.checks = check_shapes(config, result.outcome.records);
   if (const Status written = write_results(config, result.outcome, result.checks, runner.directory); !written)
     return tl::unexpected(written.error());
+  for (const std::string& line : absent_metrics(config, result.outcome.records))
+    out << "! " << line << "; the columns of results.csv are those that there are\n";
   print_outcome(result, runner.directory, out);
   return result;
 }

@@ -218,6 +218,8 @@ std::string report_page(const config::ExperimentConfig& config, const Outcome& o
                  std::to_string(outcome.records.size() - static_cast<std::size_t>(done)) +
                  " failed. Every case starts from " + config.base.filename().string() + ".");
   if (outcome.interrupted) page.paragraph("Interrupted: what follows is of the cases that were finished.");
+  for (const std::string& line : absent_metrics(config, outcome.records))
+    page.paragraph(line + "; the columns of results.csv are those that there are.");
   add_failures(page, outcome);
   add_shapes(page, checks);
   for (const config::Study& study : config.studies)

@@ -96,4 +96,25 @@ Spread spread(const std::vector<double>& values, bool log_scale) {
   return out;
 }
 
+std::vector<std::string> absent_metrics(const config::ExperimentConfig& config,
+                                        const std::vector<CaseRecord>& records) {
+  std::vector<std::string> absent;
+  for (const config::Study& study : config.studies) {
+    std::vector<std::string> wanted = study.metrics;
+    for (const config::Expectation& expectation : study.expectations) wanted.push_back(expectation.metric);
+    const auto is_done = [&](const CaseRecord& record) {
+      return record.of.study == study.name && record.done();
+    };
+    if (std::ranges::none_of(records, is_done)) continue;  // a failed study has nothing to say of names
+    for (const std::string& metric : wanted) {
+      const bool given = std::ranges::any_of(records, [&](const CaseRecord& record) {
+        return is_done(record) && record.result->metrics.contains(metric);
+      });
+      const std::string line = study.name + ": no case gave the metric " + metric;
+      if (!given && std::ranges::find(absent, line) == absent.end()) absent.push_back(line);
+    }
+  }
+  return absent;
+}
+
 }  // namespace fleetmap::apps::experiment

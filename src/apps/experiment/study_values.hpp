@@ -40,4 +40,8 @@ struct Spread {
 /// Of the finite values; of a log-scale metric the geometric mean, and only positive values count.
 Spread spread(const std::vector<double>& values, bool log_scale);
 
+/// Metrics that a study shows or expects, but none of the cases that came to their end gave.
+std::vector<std::string> absent_metrics(const config::ExperimentConfig& config,
+                                        const std::vector<CaseRecord>& records);
+
 }  // namespace fleetmap::apps::experiment
