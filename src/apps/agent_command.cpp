@@ -65,6 +65,11 @@ class SensorRecorder {
 
 void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   const store::Store& store = agent.store();
+  if (agent.perception().counters().scans == 0) {
+    spdlog::info("{}: no scan heard yet on {}: is the driver on, with ROS_DOMAIN_ID as dds.onboard.domain?",
+                 agent.config().id.str(), agent.config().perception.topics.points);
+    return;
+  }
   if (const agent::Navigator* navigator = agent.navigator()) {
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
@@ -192,12 +197,21 @@ void add_agent(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("agent", "one robot over DDS; ends with SIGINT or SIGTERM and writes its map");
   command->add_option("-c,--config", options->config, "AGENT.yaml, or FLEET.yaml with --as")->required();
-  command->add_option("--as", options->as, "this agent of FLEET.yaml, all on this machine");
-  command->add_option("--out", options->out, "with --as: the agent keeps its files in OUT/NAME");
-  command->add_option("--record", options->record,
-                      "write the sensor topics as a rosbag2 bag into this folder");
-  command->add_option("--exit-after-idle", options->exit_after_idle,
-                      "s; end by itself when sensors and exchange have been silent for so long");
+  CLI::Option* as = command->add_option("--as", options->as, "this agent of FLEET.yaml, all on this machine");
+  command
+      ->add_option(
+          "--out", options->out,
+          "with --as: the agent keeps its files in OUT/NAME; without, the file's directory says where")
+      ->needs(as)
+      ->check(some_path());
+  command
+      ->add_option("--record", options->record, "write the sensor topics as a rosbag2 bag into this folder")
+      ->check(some_path());
+  command
+      ->add_option("--exit-after-idle", options->exit_after_idle,
+                   "s; end by itself when sensors and exchange have been silent for so long; a minute later "
+                   "while no scan was heard yet, and another while somebody lacks a part of the map")
+      ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -5,6 +6,7 @@
 
 #include "commands.hpp"
 #include "evaluation.hpp"
+#include "options.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -73,13 +75,29 @@ void print_summary(const std::string& directory, const nlohmann::json& evaluatio
   std::cout << "evaluation: " << directory << "/evaluation.html\n";
 }
 
+/// Of the map or of a trajectory.
+bool measured_anything(const nlohmann::json& evaluation) {
+  if (evaluation.contains("map") || evaluation.contains("fleet") || !evaluation["pairs"].empty()) return true;
+  for (const nlohmann::json& agent : evaluation["agents"]) {
+    if (!agent.empty()) return true;
+  }
+  return false;
+}
+
 int run(EvalOptions& options) {
   options.inputs.pictures = !options.no_pictures;
   options.inputs.modes = !options.no_modes;
   options.inputs.overlap = !options.no_overlap;
+  std::error_code error;
+  if (std::filesystem::is_directory(options.directory, error)) {
+    if (const Status writable = check_writable(options.directory); !writable)
+      return report(writable.error(), kFailed);
+  }
   const auto evaluation = evaluate_run(options.directory, options.inputs);
   if (!evaluation) return report(evaluation.error(), kFailed);
   print_summary(options.directory, *evaluation);
+  if (!measured_anything(*evaluation))
+    return report({options.directory + ": nothing could be measured, see the notes"}, kFailed);
   return kDone;
 }
 

@@ -97,10 +97,11 @@ void add_experiment(CLI::App& app, int& exit_code) {
           "--out", options->out,
           "folder for results.json, results.csv and report.html; a start that was interrupted goes on "
           "where it was")
-      ->required();
+      ->required()
+      ->check(some_path());
   command->add_flag("--quick", options->quick, "the file's quick set: fewer points and seeds");
   command->add_option("--jobs", options->jobs, "cases at a time, each a process of its own; else one a core")
-      ->check(CLI::Range(1U, 1024U));
+      ->check(whole_number(1, 1024));
   command->add_option("--set", options->set, "key=value, a key of every fleet that the studies do not vary")
       ->allow_extra_args(false);
   command->add_flag("--keep", options->keep, "leave stores, maps and recordings of finished cases");

@@ -1,7 +1,11 @@
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include "commands.hpp"
 #include "fleetmap/agent/results.hpp"
@@ -30,7 +34,23 @@ struct OpenedMap {
   graph::Placement placement;
 };
 
+/// A file that SQLite would call damaged, or a disk error, is most often another one than was meant.
+Status check_store(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    return failure(file.string() + ": is a folder; give the store.db of a robot in it");
+  if (!std::filesystem::exists(file, error)) return failure(file.string() + ": no such file");
+  constexpr std::string_view kStart = "SQLite format 3";
+  std::string start(kStart.size(), ' ');
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return failure(file.string() + ": cannot be read; check its permissions");
+  if (!in.read(start.data(), static_cast<std::streamsize>(start.size())) || start != kStart)
+    return failure(file.string() + ": is no store; give the store.db of a robot");
+  return {};
+}
+
 Result<OpenedMap> open_map(const MapOptions& options) {
+  if (const Status meant = check_store(options.store); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(options.store);
   if (!store) return tl::unexpected(store.error());
   const std::optional<agent::MapRecipe> kept = agent::map_recipe(*store);
@@ -83,13 +103,12 @@ int export_map(const MapOptions& options) {
 int draw_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
+  if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
   const store::MergedMap merged = agent::merged_map(map->store, map->placement, map->recipe.merge);
   auto pictures = pictures_by_robot(merged);
   if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
   auto density = picture_of_density(merged.cloud, 1.0);
   if (density) pictures->push_back(std::move(*density));
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
   for (const MapPicture& picture : *pictures) {
     if (const Status written = write_picture(options.out, picture); !written)
       return report(written.error(), kFailed);
@@ -116,11 +135,13 @@ void add_map(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->expected(3);
   }
-  export_command->add_option("--out", options->out, "FILE.ply or FILE.pcd")->required();
+  export_command->add_option("--out", options->out, "FILE.ply or FILE.pcd")->required()->check(some_path());
   export_command->add_option(
       "--voxel", options->voxel,
       "m, one point is kept in each cube of this edge; else as in the agent's last map");
-  picture_command->add_option("--out", options->out, "folder for the PNG files")->required();
+  picture_command->add_option("--out", options->out, "folder for the PNG files")
+      ->required()
+      ->check(some_path());
   picture_command->callback([options, &exit_code] { exit_code = draw_map(*options); });
   info_command->callback([options, &exit_code] { exit_code = info(*options); });
   export_command->callback([options, &exit_code] { exit_code = export_map(*options); });

@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -76,6 +77,9 @@ int run(const OdometryOptions& options) {
   if (!config) return report(config.error(), kBadConfiguration);
   const recording::ReaderConfig reader_config =
       config->recording ? config->recording->reader : recording::ReaderConfig{};
+  const std::filesystem::path folder = std::filesystem::path(options.out).parent_path();
+  if (const Status writable = check_writable(folder.empty() ? "." : folder); !writable)
+    return report(writable.error(), kFailed);
   auto reader = recording::open(options.recording, reader_config);
   if (!reader) return report(reader.error(), kFailed);
   const auto done = run_odometry(**reader, config->agent.perception);
@@ -108,7 +112,7 @@ void add_odometry(CLI::App& app, int& exit_code) {
       app.add_subcommand("odometry", "odometry alone: a recording in, a TUM trajectory of base_link out");
   command->add_option("recording", options->recording, "rosbag2 folder or .db3, or KITTI raw folder")
       ->required();
-  command->add_option("--out", options->out, "TUM file")->required();
+  command->add_option("--out", options->out, "TUM file")->required()->check(some_path());
   command->add_option("-c,--config", options->config, "AGENT.yaml or FLEET.yaml for the sensors");
   command->add_option("--set", options->set, "key=value, e.g. lidar.model=hdl64e")->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

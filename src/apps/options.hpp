@@ -1,6 +1,10 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +15,19 @@ namespace fleetmap::apps {
 
 /// The values of --set.
 Result<std::vector<config::Override>> parse_overrides(const std::vector<std::string>& texts);
+
+/// What an option's text must be; refused before it is converted, which would wrap -1 round.
+CLI::Validator whole_number(std::uint64_t least,
+                            std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+CLI::Validator positive_number();
+CLI::Validator non_negative_number();
+/// Not empty, as it is when a script's variable is unset.
+CLI::Validator some_path();
+
+/// Fails unless `directory` is a folder that files can be made in.
+Status check_writable(const std::filesystem::path& directory);
+/// The same, and makes it where it is missing.
+Status make_writable(const std::filesystem::path& directory);
 
 /// Set by SIGINT and SIGTERM once this was called.
 const std::atomic<bool>& stop_on_signals();

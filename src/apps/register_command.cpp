@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "commands.hpp"
 #include "fleetmap/cloud/file_io.hpp"
@@ -85,6 +86,10 @@ int run(const RegisterOptions& options) {
   if (!source) return report(source.error(), kFailed);
   const auto target = cloud::read_cloud(options.target);
   if (!target) return report(target.error(), kFailed);
+  for (const auto& [name, cloud] :
+       {std::pair(&options.source, &*source), std::pair(&options.target, &*target)}) {
+    if (cloud->empty()) return report({*name + ": holds no point; there is nothing to register"}, kFailed);
+  }
   const auto result = registration::register_clouds(*target, *source, config->agent.registration, prior);
   std::cout << to_json(result).dump(2) << '\n';
   return kDone;

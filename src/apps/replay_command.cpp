@@ -153,7 +153,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   command->add_option("--as", options->as, "play as this robot");
   command->add_option("--rate", options->rate, "times real time")->check(CLI::Range(0.01, 100.0));
   command->add_option("--wait", options->wait_for_reader, "s to wait for an agent that listens")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

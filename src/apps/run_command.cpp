@@ -2,6 +2,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -25,7 +26,7 @@ struct RunOptions {
   std::vector<std::string> recordings;
   std::string out;
   std::string record;
-  std::size_t agents = 0;
+  std::optional<std::size_t> agents;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::string> set;
 };
@@ -124,12 +125,12 @@ int run(const RunOptions& options) {
   if (!overrides) return report(overrides.error(), kUsage);
   auto config = fleet_config(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
-  if (options.agents > config->members.size()) {
-    return report({"--agents " + std::to_string(options.agents) + ": " + options.config + " has only " +
+  if (options.agents && *options.agents > config->members.size()) {
+    return report({"--agents " + std::to_string(*options.agents) + ": " + options.config + " has only " +
                    std::to_string(config->members.size()) + " agents; give at most so many"},
                   kUsage);
   }
-  if (options.agents > 0) config->keep_first(options.agents);
+  if (options.agents) config->keep_first(*options.agents);
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
   if (!options.record.empty()) record = options.record;
@@ -170,12 +171,17 @@ void add_run(CLI::App& app, int& exit_code) {
       ->add_option("--recording", options->recordings,
                    "NAME=PATH of one robot's recording, instead of a file")
       ->allow_extra_args(false);
-  command->add_option("--out", options->out, "folder for maps, trajectories and the report")->required();
-  command->add_option("--record", options->record,
-                      "also write each robot's sensor samples as a bag into DIR/NAME");
-  command->add_option("--agents", options->agents, "only the first N agents of the file");
+  command->add_option("--out", options->out, "folder for maps, trajectories and the report")
+      ->required()
+      ->check(some_path());
+  command
+      ->add_option("--record", options->record,
+                   "also write each robot's sensor samples as a bag into DIR/NAME")
+      ->check(some_path());
+  command->add_option("--agents", options->agents, "only the first N agents of the file")
+      ->check(whole_number(1));
   command->add_option("--threads", options->threads, "at most so many; no influence on the result")
-      ->check(CLI::Range(1u, 256u));
+      ->check(whole_number(1, 256));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

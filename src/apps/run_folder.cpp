@@ -83,9 +83,25 @@ bool is_mesh(const fs::path& file) {
   return false;
 }
 
+/// Maps and the report are what a run writes at its end.
+void note_cut_off(RunFolder& run) {
+  if (is_there(run.directory / "report.json")) return;
+  for (AgentFolder& agent : run.agents) {
+    const fs::path store = agent.directory / "store.db";
+    agent.cut_off = is_there(store) && !is_there(agent.directory / "map.ply") &&
+                    !is_there(agent.directory / "report.json");
+    if (!agent.cut_off) continue;
+    run.notes.push_back(agent.directory.string() +
+                        ": the run was cut off, or still goes on: no map was written; `fleetmap map export " +
+                        store.string() + " --out map.ply` saves what the store holds");
+  }
+}
+
 }  // namespace
 
 Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
+  if (!truths.empty() && !is_there(truths))
+    return failure(truths.string() + ": no such folder of true trajectories");
   RunFolder run;
   run.directory = directory;
   std::error_code error;
@@ -116,6 +132,7 @@ Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
       run.notes.push_back(truths.string() + ": holds no usable true trajectory of " + agent.id.str());
   }
   run.report = report_in(directory / "report.json", run.notes);
+  note_cut_off(run);
   return run;
 }
 
@@ -143,6 +160,7 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run) {
   for (const AgentFolder& agent : run.agents) {
     const fs::path file = agent.directory / "map.ply";
     if (!is_there(file)) {
+      if (agent.cut_off) continue;
       run.notes.push_back(file.string() + ": is missing: " + agent.id.str() + " has no map");
       continue;
     }

@@ -20,6 +20,7 @@ struct AgentFolder {
   AgentId id;
   std::filesystem::path directory;
   std::optional<eval::Trajectory> trajectory, ekf, odometry, truth;
+  bool cut_off = false;  ///< it has a store, but neither a map nor a report
 };
 
 /// What `fleetmap run` left in a folder.

@@ -138,6 +138,10 @@ int run(const SimOptions& options) {
     return report({options.config + ": has no twin; expected world: {file: WORLD.yaml}"}, kBadConfiguration);
   const auto setup = set_up_twin(*config);
   if (!setup) return report(setup.error(), kBadConfiguration);
+  if (!options.out.empty()) {
+    if (const Status writable = make_writable(options.out); !writable)
+      return report(writable.error(), kFailed);
+  }
   auto scene = sim::Scene::create(setup->world->mesh());
   if (!scene) return report(scene.error(), kFailed);
   std::vector<std::unique_ptr<LiveRobot>> robots;
@@ -180,8 +184,9 @@ void add_sim(CLI::App& app, int& exit_code) {
       app.add_subcommand("sim", "the digital twin over DDS, in real time, for agents in other processes");
   command->add_option("-c,--config", options->config, "FLEET.yaml with world: {file: WORLD.yaml}")
       ->required();
-  command->add_option("--out", options->out, "leave the truth there: NAME/truth.tum and truth.ply");
-  command->add_option("--duration", options->duration, "s; end by itself")->check(CLI::NonNegativeNumber);
+  command->add_option("--out", options->out, "leave the truth there: NAME/truth.tum and truth.ply")
+      ->check(some_path());
+  command->add_option("--duration", options->duration, "s; end by itself")->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   command->callback([options, &exit_code] { exit_code = run(*options); });

@@ -41,7 +41,8 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     std::error_code error;
     if (std::filesystem::exists(config.directory / "store.db", error)) {
       return failure(config.directory.string() +
-                     ": holds the result of an earlier run; give another --out or delete it");
+                     ": holds an earlier run, or what is left of one that was cut off; a run starts anew, "
+                     "give another --out or delete it");
     }
     Member& member = members_.emplace_back();
     member.id = config.id;

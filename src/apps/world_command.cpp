@@ -10,6 +10,7 @@
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
+#include "options.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -34,9 +35,7 @@ void describe(const sim::World& world, double surface) {
 
 Status write(const sim::World& world, double surface, const WorldOptions& options) {
   const std::filesystem::path folder(options.out);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return failure(options.out + ": " + error.message() + "; give a folder that can be made");
+  if (const Status writable = make_writable(folder); !writable) return writable;
   if (const Status written = sim::write_ply(folder / "world.ply", world.mesh()); !written) return written;
   if (const Status written = sim::write_obj(folder / "world.obj", world.mesh()); !written) return written;
   const cloud::PointCloud truth =
@@ -70,13 +69,15 @@ void add_world(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("world", "make a world of the twin: its mesh and ground-truth points");
   command->add_option("file", options->file, "WORLD.yaml")->required();
-  command->add_option("--out", options->out,
-                      "folder for world.ply, world.obj and truth.ply; else it is only described");
-  command->add_option("--seed", options->seed, "instead of the file's");
+  command
+      ->add_option("--out", options->out,
+                   "folder for world.ply, world.obj and truth.ply; else it is only described")
+      ->check(some_path());
+  command->add_option("--seed", options->seed, "instead of the file's")->check(whole_number(0));
   command->add_option("--density", options->density, "ground-truth points per m^2 of surface")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--max-points", options->max_points, "ground-truth points at most")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{200'000'000}));
+      ->check(whole_number(1, 200'000'000));
   command->callback([options, &exit_code] { exit_code = make(*options); });
 }
 

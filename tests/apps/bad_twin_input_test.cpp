@@ -58,7 +58,8 @@ TEST_F(BadTwinInput, RowsTooNearForARobot) {
 
 TEST_F(BadTwinInput, AWallIsNoGround) {
   mesh_world("wall.obj", "v 0 0 0\nv 20 0 0\nv 20 0 5\nv 0 0 5\nf 1 2 3\nf 1 3 4\n");
-  refused({"world.yaml: ", "wall.obj: this world cannot be driven", "give the mesh in metres with z up"});
+  refused(
+      {"world.yaml:2: path: ", "wall.obj: this world cannot be driven", "give the mesh in metres with z up"});
 }
 
 TEST_F(BadTwinInput, AMeshThatIsCutOff) {
@@ -130,7 +131,12 @@ TEST_F(BadTwinInput, MoreRobotsThanTheFileNames) {
 
 TEST_F(BadTwinInput, ASensorThatIsNotThere) {
   replace("fleet.yaml", "lidar: lidar.yaml", "lidar: none.yaml");
-  refused({"fleet.yaml:10: agents[0].robot.lidar: ", "none.yaml: no such file"});
+  refused({"fleet.yaml:10: defaults.robot.lidar: ", "none.yaml: no such file"});
+}
+
+TEST_F(BadTwinInput, AClearanceThatNoAisleHas) {
+  twin_.write_fleet("", {}, ", clearance: 5");
+  refused({"fleet.yaml:", "can't be driven", "m off every keep-out; lower `clearance`"});
 }
 
 TEST_F(BadTwinInput, ASensorThatIsNone) {

@@ -39,6 +39,63 @@ TEST_F(CommandLine, UsageErrorsExitWith2) {
   EXPECT_EQ(exit_code_, 2);
 }
 
+TEST_F(CommandLine, NumbersOutOfRangeExitWith2) {
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  for (const Case& wrong : std::initializer_list<Case>{
+           {{"run", "-c", "f", "--out", path("out"), "--agents", "0"},
+            "--agents: must be a whole number of at least 1"},
+           {{"run", "-c", "f", "--out", path("out"), "--agents", "-1"},
+            "--agents: must be a whole number of at least 1"},
+           {{"run", "-c", "f", "--out", path("out"), "--threads", "-1"},
+            "--threads: must be a whole number from 1 to 256"},
+           {{"world", "w", "--seed", "-1"}, "--seed: must be a whole number of at least 0, is -1"},
+           {{"world", "w", "--seed", "010"}, "--seed: must be a whole number"},
+           {{"world", "w", "--density", "0"}, "--density: must be a number greater than 0, is 0\n"},
+           {{"world", "w", "--density", "nan"}, "--density: must be a number greater than 0"},
+           {{"sim", "-c", "f", "--duration", "-1"}, "--duration: must be a number of at least 0, is -1\n"},
+           {{"agent", "-c", "f", "--exit-after-idle", "-3"},
+            "--exit-after-idle: must be a number of at least 0"}}) {
+    run(wrong.arguments);
+    EXPECT_EQ(exit_code_, 2) << wrong.says;
+    EXPECT_THAT(output_, HasSubstr(wrong.says));
+  }
+}
+
+TEST_F(CommandLine, AnEmptyOutIsRefusedBeforeAnythingRuns) {
+  for (const std::vector<std::string>& command :
+       std::initializer_list<std::vector<std::string>>{{"run", "-c", "f"},
+                                                       {"sim", "-c", "f"},
+                                                       {"agent", "-c", "f", "--as", "r1"},
+                                                       {"world", "w"},
+                                                       {"odometry", "bag"},
+                                                       {"map", "export", "store.db"},
+                                                       {"map", "picture", "store.db"},
+                                                       {"experiment", "-c", "e"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--out", ""});
+    run(arguments);
+    EXPECT_EQ(exit_code_, 2) << command.front();
+    EXPECT_THAT(output_, HasSubstr("--out: is empty; give a path")) << command.front();
+  }
+}
+
+TEST_F(CommandLine, AgentTakesOutOnlyWithAs) {
+  run({"agent", "-c", "r1.yaml", "--out", path("out")});
+  EXPECT_EQ(exit_code_, 2);
+  EXPECT_THAT(output_, HasSubstr("--as"));
+}
+
+TEST_F(CommandLine, OutThatCannotBeWrittenStopsTheTwinAtOnce) {
+  folder_.write("file", "no folder");
+  run({"sim", "-c", std::string(FLEETMAP_SOURCE_DIR) + "/config/fleets/demo.yaml", "--out",
+       path("file/out")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("file/out: cannot be made"));
+}
+
 TEST_F(CommandLine, HelpExitsWith0AndNamesEveryCommand) {
   run({"--help"});
   EXPECT_EQ(exit_code_, 0);
@@ -89,7 +146,10 @@ TEST_F(CommandLine, StoreThatIsNoneIsRefused) {
   folder_.write("store.db", "this is no database, only text that is long enough to look at");
   run({"map", "info", path("store.db")});
   EXPECT_EQ(exit_code_, 1);
-  EXPECT_THAT(output_, HasSubstr("store.db"));
+  EXPECT_THAT(output_, HasSubstr("store.db: is no store; give the store.db of a robot\n"));
+  run({"map", "info", path(".")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("is a folder; give the store.db of a robot in it"));
   run({"map", "export", path("none.db"), "--out", path("map.ply")});
   EXPECT_EQ(exit_code_, 1);
 }
@@ -103,6 +163,12 @@ TEST_F(CommandLine, RegisterPrintsAVerdictForUnusableClouds) {
   EXPECT_EQ(exit_code_, 0) << output_;
   EXPECT_THAT(output_, HasSubstr("\"verdict\": \"rejected\""));
   EXPECT_THAT(output_, HasSubstr("\"reason\""));
+  folder_.write("empty.ply",
+                "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+                "z\nend_header\n");
+  run({"register", path("empty.ply"), path("empty.ply")});
+  EXPECT_EQ(exit_code_, 1) << output_;
+  EXPECT_THAT(output_, HasSubstr("empty.ply: "));
   run({"register", path("a.ply"), path("b.ply")});
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, HasSubstr("b.ply"));
@@ -148,6 +214,19 @@ TEST_F(CommandLine, EvalSaysWhatItMeasuredAndWhatIsMissing) {
   run({"eval", path("run"), "--truth", path("none.ply")});
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, HasSubstr("none.ply"));
+  run({"eval", path("run"), "--truth-trajectories", path("none")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("none: no such folder"));
+}
+
+TEST_F(CommandLine, EvalOfARunThatWasCutOffTellsHowToSaveItsMap) {
+  folder_.write("run/r1/odometry.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  folder_.write("run/r1/store.db", "");
+  run({"eval", path("run")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("r1: the run was cut off"));
+  EXPECT_THAT(output_, HasSubstr("fleetmap map export " + path("run/r1/store.db")));
+  EXPECT_THAT(output_, HasSubstr("nothing could be measured"));
 }
 
 }  // namespace
