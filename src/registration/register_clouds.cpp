@@ -57,9 +57,6 @@ void judge(RegistrationResult& result, const RegistrationConfig& config) {
     result.reason =
         text("where the clouds overlap %.2f of what stands out of the floor agrees, at least %.2f are needed",
              result.agreement, config.min_agreement);
-  } else if (result.modes.front().score < config.min_score) {
-    result.reason = text("the likeliest pose scores %.2f, at least %.2f are needed",
-                         result.modes.front().score, config.min_score);
   } else if (result.rmse > config.max_rmse_m) {
     result.reason = text("inlier RMSE is %.2f m, at most %.2f m is good", result.rmse, config.max_rmse_m);
   } else if (result.excess > config.max_excess) {

@@ -22,7 +22,6 @@ Status RegistrationConfig::validate() const {
   if (!(inlier_m > 0.0f)) return failure("registration inlier_m must be positive");
   if (!(misfit_m > 0.0f)) return failure("registration misfit_m must be positive");
   if (!(patch_m >= 1.0f && patch_m <= 50.0f)) return failure("registration patch_m must lie in [1, 50] m");
-  if (!(min_score >= 0.0 && min_score < 1.0)) return failure("registration min_score must lie in [0, 1)");
   if (!(max_excess > 0.0)) return failure("registration max_excess must be positive");
   if (!(min_weight > 0.5 && min_weight < 1.0)) return failure("registration min_weight must lie in (0.5, 1)");
   if (const Status icp_valid = icp.validate(); !icp_valid)
