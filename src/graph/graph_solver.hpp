@@ -44,8 +44,9 @@ class GraphSolver {
     moving,  ///< finite, but not where it belongs
     failed,  ///< the equations cannot be solved
   };
-  /// Changes `estimate` until it moves less than 0.1 mm, or `most` times. The covariances below are those at
-  /// the last factorisation, which is not repeated for small turns.
+  /// Changes `estimate` until it moves less than 0.1 mm, or `most` times; less than 1 cm in the last step
+  /// counts as converged too. The covariances below are those at the last factorisation, which is not
+  /// repeated for small turns.
   Outcome solve(Estimate& estimate, int most);
   /// Makes the covariances those at `estimate`. False if they cannot be computed.
   bool factor_at(const Estimate& estimate);

@@ -1,0 +1,50 @@
+#include "expectation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "simulated_fleet.hpp"
+
+namespace fleetmap::graph {
+namespace {
+
+using testing::SimulatedFleet;
+
+TEST(Expectation, OfTheRestIsWhatAGraphWithoutTheTieExpects) {
+  SimulatedFleet fleet(4);
+  const Eigen::Vector3d off(0.4, 0.0, 0.0);  // far beyond where the Huber weight begins
+  const Alignment base = fleet.alignments.front();
+  fleet.align(base.i, base.j, base.computed_by, off);
+  std::vector<const Node*> nodes;
+  for (const Node& node : fleet.nodes) nodes.push_back(&node);
+  std::vector<NodeId> ends;
+  for (const Alignment& a : fleet.alignments) ends.insert(ends.end(), {a.i, a.j});
+  const ReducedGraph graph = reduce(nodes, ends, fleet.site, {});
+  std::vector<Between> ties;
+  std::vector<GraphSolver::Ends> pairs;
+  for (const Alignment& a : fleet.alignments) {
+    ties.emplace_back(graph.pillar_of.at(a.i), graph.pillar_of.at(a.j), a.best().T_i_j, a.best().covariance);
+    pairs.emplace_back(ties.back().a, ties.back().b);
+  }
+  Estimate with;
+  with.drift.assign(graph.pillars.size(), Eigen::Vector3d::Zero());
+  for (const Pillar& pillar : graph.pillars)
+    with.T_enu.push_back(fleet.truth.at(graph.nodes[pillar.node]->id));
+  Estimate without = with;
+  std::vector<const Between*> all;
+  for (const Between& tie : ties) all.push_back(&tie);
+  GraphSolver solver(graph, pairs);
+  solver.set_ties(all);
+  ASSERT_EQ(solver.solve(with, 100), GraphSolver::Outcome::converged);
+  solver.invert();
+  const Expectation rest = expectation_of_rest(ties.back(), solver, with);
+  all.pop_back();
+  solver.set_ties(all);
+  ASSERT_EQ(solver.solve(without, 100), GraphSolver::Outcome::converged);
+  solver.invert();
+  const Expectation expected = expectation(ties.back(), solver, without);
+  EXPECT_NEAR(rest.distance, expected.distance, 0.15 * expected.distance);
+  EXPECT_NEAR(rest.sigma_m, expected.sigma_m, 0.05 * expected.sigma_m);
+}
+
+}  // namespace
+}  // namespace fleetmap::graph
