@@ -33,9 +33,9 @@ struct RegistrationConfig {
   std::size_t min_inliers = 100;
   double min_inlier_fraction = 0.15;  ///< inliers over source points
   double min_agreement = 0.45;        ///< inliers over source points in the overlap
-  double max_rmse_m = 0.2;    ///< m, E_ij of a good alignment (paper)
-  double max_excess = 1.05;   ///< rmse over what both clouds' own noise explains
-  double min_weight = 0.999;  ///< a mode of less weight is not accepted
+  double max_rmse_m = 0.2;            ///< m, E_ij of a good alignment (paper)
+  double max_excess = 1.05;           ///< rmse over what both clouds' own noise explains
+  double min_weight = 0.999;          ///< a mode of less weight is not accepted
   Status validate() const;
 };
 
