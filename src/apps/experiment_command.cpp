@@ -5,7 +5,6 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
-#include <set>
 #include <thread>
 
 #include "commands.hpp"
@@ -36,19 +35,6 @@ std::string this_program() {
   return std::string(FLEETMAP_VERSION) + " " + to_hex(hash).substr(0, 16);
 }
 
-/// A fleet's file that cannot be read with a point's keys is found before hours are spent on the others.
-Status check_fleets(const std::vector<experiment::Case>& cases) {
-  std::set<std::string> seen;
-  for (const experiment::Case& one : cases) {
-    std::string point = one.study;
-    for (const std::string& label : one.point) point += "\n" + label;
-    if (!seen.insert(point).second) continue;
-    if (const auto valid = config::check(one.base, one.overrides); !valid)
-      return failure(one.name + ": " + valid.error().message);
-  }
-  return {};
-}
-
 int list_cases(const std::vector<experiment::Case>& cases) {
   for (const experiment::Case& one : cases) {
     std::cout << one.name << ": " << one.agents << " robots";
@@ -67,8 +53,10 @@ int run(const ExperimentOptions& options) {
   for (config::Study& study : config->studies)
     study.overrides.insert(study.overrides.end(), overrides->begin(), overrides->end());
   const std::vector<experiment::Case> cases = experiment::all_cases(*config);
+  // What cannot be read with a point's keys is found before hours are spent on the others.
+  if (const Status valid = experiment::check_cases(cases); !valid)
+    return report(valid.error(), kBadConfiguration);
   if (options.list) return list_cases(cases);
-  if (const Status valid = check_fleets(cases); !valid) return report(valid.error(), kBadConfiguration);
 
   const std::atomic<bool>& stop = stop_on_signals();
   const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
