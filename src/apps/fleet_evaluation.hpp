@@ -3,9 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/eval/alignment_errors.hpp"
-#include "fleetmap/eval/metrics.hpp"
 #include "run_folder.hpp"
 
 namespace fleetmap::apps {
@@ -24,11 +22,5 @@ nlohmann::json fleet_json(const RunFolder& run, const HeldFleet* held, const eva
 
 /// Normalised errors (NEES) of everything that states a covariance.
 nlohmann::json calibration_json(RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth);
-
-/// The part of the map that at least two robots saw, registered as the whole map is; null where there is
-/// none. A place counts as seen by a robot by where its submaps truly lie, so misplaced points count against
-/// the map.
-nlohmann::json overlap_json(HeldFleet& held, const eval::TruePoses& truth, const cloud::PointCloud& surface,
-                            const Pose& T_truth_map, const eval::MapMetricsConfig& config);
 
 }  // namespace fleetmap::apps

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fleet_evaluation.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 
 namespace fleetmap::apps {
@@ -93,7 +92,8 @@ json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& na
   if (draw) keep(picture_of_errors(evaluated->points, evaluated->errors));
   json result = map_json(*evaluated, inputs_.map);
   if (held == nullptr || nodes_.empty() || !inputs_.overlap) return result;
-  json overlap = overlap_json(*held, nodes_, *truth_, evaluated->metrics.T_truth_map, inputs_.map);
+  if (!overlap_) overlap_.emplace(held->store, held->recipe.merge, nodes_, *truth_, inputs_.map);
+  json overlap = overlap_->of(held->placement.T_enu_node, evaluated->metrics.T_truth_map);
   if (!overlap.is_null()) result["overlap"] = std::move(overlap);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "evaluation.hpp"
 #include "fleetmap/eval/alignment_errors.hpp"
 #include "map_pictures.hpp"
+#include "overlap_evaluation.hpp"
 #include "run_folder.hpp"
 
 namespace fleetmap::apps {
@@ -22,7 +23,7 @@ class MapEvaluation {
 
   /// "map" (of the map that most robots hold) and, where they differ, "maps".
   Status add_to(nlohmann::json& evaluation, const std::vector<DistinctMap>& maps, HeldFleet* held);
-  /// The map of what is held as it is placed now, without pictures.
+  /// The map of what is held as it is placed now, without pictures. Of one `held` only.
   nlohmann::json of_held(HeldFleet& held);
 
   std::vector<MapPicture> pictures;
@@ -36,6 +37,7 @@ class MapEvaluation {
   const EvaluationInputs& inputs_;
   std::optional<cloud::PointCloud> truth_;
   const eval::TruePoses& nodes_;
+  std::optional<OverlapEvaluation> overlap_;  ///< made when first needed
 };
 
 }  // namespace fleetmap::apps

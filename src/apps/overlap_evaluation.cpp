@@ -1,4 +1,5 @@
-#include "fleet_evaluation.hpp"
+#include "overlap_evaluation.hpp"
+
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/eval/places_seen.hpp"
 
@@ -11,10 +12,20 @@ constexpr double kPlace = 1.0;              ///< m, edge of a place
 constexpr std::uint32_t kLeastReturns = 5;  ///< of a robot in a place, for it to have seen it
 constexpr std::size_t kTwoRobots = 2;
 
+json scores(const eval::MapMetrics& metrics) {
+  return {{"f1", metrics.f1},
+          {"accuracy", metrics.accuracy},
+          {"completeness", metrics.completeness},
+          {"rmse", metrics.rmse}};
+}
+
+}  // namespace
+
 /// The submaps, each where it truly lies.
-class TrueSubmaps {
+class OverlapEvaluation::TrueSubmaps {
  public:
-  TrueSubmaps(store::Store& store, const eval::TruePoses& truth) : store_(store), truth_(truth) {
+  TrueSubmaps(store::Store& store, const store::MergeConfig& merge, const eval::TruePoses& truth)
+      : store_(store), merge_(merge), truth_(truth) {
     for (const auto& [id, T] : truth) {
       if (store.has_submap(id)) robots_.emplace(id.agent, robots_.size());
     }
@@ -36,13 +47,13 @@ class TrueSubmaps {
   }
 
   /// The map of those parts, with the submaps placed at `poses`.
-  cloud::PointCloud merged(const std::map<NodeId, Pose>& poses, const store::MergeConfig& config) const {
+  cloud::PointCloud merged(const std::map<NodeId, Pose>& poses) const {
     std::map<NodeId, Pose> known;
     for (const auto& [id, T] : poses) {
       if (truth_.contains(id) && store_.has_submap(id)) known.emplace(id, T);
     }
     return store::merge(
-               known, [this](const NodeId& id) { return shared_part(id); }, config)
+               known, [this](const NodeId& id) { return shared_part(id); }, merge_)
         .cloud;
   }
 
@@ -56,37 +67,36 @@ class TrueSubmaps {
   }
 
   store::Store& store_;
+  const store::MergeConfig& merge_;
   const eval::TruePoses& truth_;
   std::map<AgentId, std::size_t> robots_;
   eval::PlacesSeen seen_{kPlace, kLeastReturns};
 };
 
-json scores(const eval::MapMetrics& metrics) {
-  return {{"f1", metrics.f1},
-          {"accuracy", metrics.accuracy},
-          {"completeness", metrics.completeness},
-          {"rmse", metrics.rmse}};
+OverlapEvaluation::OverlapEvaluation(store::Store& store, const store::MergeConfig& merge,
+                                     const eval::TruePoses& truth, const cloud::PointCloud& surface,
+                                     const eval::MapMetricsConfig& config)
+    : submaps_(std::make_unique<TrueSubmaps>(store, merge, truth)), truth_(truth), config_(config) {
+  if (submaps_->robots() < kTwoRobots) return;
+  shared_ = submaps_->seen().within(surface, kTwoRobots);
+  if (shared_.empty()) return;
+  if (const auto limit = eval::evaluate_map(submaps_->merged(truth), shared_, config))
+    limit_ = scores(*limit);
 }
 
-}  // namespace
+OverlapEvaluation::~OverlapEvaluation() = default;
 
-json overlap_json(HeldFleet& held, const eval::TruePoses& truth, const cloud::PointCloud& surface,
-                  const Pose& T_truth_map, const eval::MapMetricsConfig& config) {
-  const TrueSubmaps submaps(held.store, truth);
-  if (submaps.robots() < kTwoRobots) return nullptr;
-  const cloud::PointCloud shared = submaps.seen().within(surface, kTwoRobots);
-  const cloud::PointCloud map = submaps.merged(held.placement.T_enu_node, held.recipe.merge);
-  if (shared.empty() || map.empty()) return nullptr;
-  const auto metrics = eval::evaluate_registered_map(map, shared, T_truth_map, config);
+json OverlapEvaluation::of(const std::map<NodeId, Pose>& T_enu_node, const Pose& T_truth_map) const {
+  if (shared_.empty()) return nullptr;
+  const cloud::PointCloud map = submaps_->merged(T_enu_node);
+  if (map.empty()) return nullptr;
+  const auto metrics = eval::evaluate_registered_map(map, shared_, T_truth_map, config_);
   if (!metrics) return nullptr;
   json overlap = scores(*metrics);
-  overlap["places"] = submaps.seen().count(kTwoRobots);
+  overlap["places"] = submaps_->seen().count(kTwoRobots);
   overlap["map_points"] = map.size();
   overlap["truth_points"] = metrics->truth_points;
-  // What the sensors and the odometry within submaps allow: the same with every node where it truly was.
-  const cloud::PointCloud best = submaps.merged(truth, held.recipe.merge);
-  if (const auto limit = eval::evaluate_map(best, shared, config))
-    overlap["with_true_poses"] = scores(*limit);
+  if (!limit_.is_null()) overlap["with_true_poses"] = limit_;
   return overlap;
 }
 
