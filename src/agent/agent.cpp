@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/cloud/codec.hpp"

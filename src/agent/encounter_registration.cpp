@@ -1,12 +1,8 @@
 #include "fleetmap/agent/encounter_registration.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "fleetmap/cloud/codec.hpp"
-#include "fleetmap/cloud/voxel_grid.hpp"
 #include "fleetmap/place/descriptor.hpp"
 #include "fleetmap/place/proximity_search.hpp"
 
@@ -29,41 +25,6 @@ constexpr double kAlikeTiltSigma = 0.02;   // rad
 constexpr double kAlternativeWeight = 1e-3;
 
 }  // namespace
-
-std::vector<std::pair<NodeId, Pose>> submaps_around(const store::Store& store, const graph::Node& node,
-                                                    double radius) {
-  std::vector<std::pair<NodeId, Pose>> around;
-  for (const graph::Node* other : store.nodes_from({node.id.agent, 0, store.next_node_seq()})) {
-    if (other->frame() != node.frame() || !store.has_submap(other->id)) continue;
-    const Pose T_node_submap = node.T_odom_base.inverse() * other->T_odom_base;
-    if (T_node_submap.translation().norm() <= radius) around.emplace_back(other->id, T_node_submap);
-  }
-  return around;
-}
-
-Surroundings gather(store::Store& store, const graph::Node& node, double radius) {
-  Surroundings surroundings{node, {}};
-  for (const auto& [id, T_node_submap] : submaps_around(store, node, radius)) {
-    Result<Bytes> encoded = store.submap(id);
-    if (encoded) {
-      surroundings.submaps.emplace_back(T_node_submap, std::move(*encoded));
-    } else {
-      spdlog::warn("{}", encoded.error().message);
-    }
-  }
-  return surroundings;
-}
-
-Result<registration::SpherizedCloud> spherize(const Surroundings& surroundings,
-                                              const registration::SpherizeConfig& config) {
-  cloud::VoxelMerger merger(config.voxel_m, cloud::VoxelPoint::centroid);
-  for (const auto& [T_node_submap, encoded] : surroundings.submaps) {
-    const Result<cloud::PointCloud> submap = cloud::decode(encoded);
-    if (!submap) return tl::unexpected(submap.error());
-    merger.add(cloud::transformed(*submap, T_node_submap));
-  }
-  return registration::spherize(merger.cloud(), surroundings.node.up_in_base.cast<float>(), config);
-}
 
 registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source) {
   const LocalFrame frame(target.position);

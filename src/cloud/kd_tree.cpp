@@ -116,9 +116,9 @@ std::optional<Neighbor> KdTree::nearest(const Eigen::Vector3f& query, float max_
   return found;
 }
 
-std::size_t KdTree::knn(const Eigen::Vector3f& query, std::span<Neighbor> out) const {
-  if (index_->tree == nullptr || !query.allFinite() || out.empty()) return 0;
-  NearestIn result(out, std::numeric_limits<float>::max());
+std::size_t KdTree::knn(const Eigen::Vector3f& query, std::span<Neighbor> out, float max_distance) const {
+  if (index_->tree == nullptr || !query.allFinite() || out.empty() || !(max_distance > 0.0f)) return 0;
+  NearestIn result(out, std::min(max_distance * max_distance, std::numeric_limits<float>::max()));
   index_->find(result, query);
   index_->restore(out.first(result.size()));
   return result.size();

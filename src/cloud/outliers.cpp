@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include "fleetmap/cloud/kd_tree.hpp"
@@ -11,6 +13,9 @@ namespace fleetmap::cloud {
 namespace {
 
 constexpr std::size_t kMaxNeighbors = 63;
+// Against rounding in bounds of distances.
+constexpr float kSlack = 1.001f;
+constexpr float kSlackM = 1e-3f;
 
 /// Mean distance of each point to its neighbours in m; negative where it has none.
 std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbors) {
@@ -18,9 +23,19 @@ std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbor
   std::array<Neighbor, kMaxNeighbors + 1> buffer;
   const std::span<Neighbor> wanted(buffer.data(), std::min(neighbors, kMaxNeighbors) + 1);
   std::vector<double> means(cloud.size(), -1.0);
+  // What surrounded the point before surrounds this one too, so a little farther there is no need to look:
+  // neighbours in a cloud mostly follow each other.
+  std::optional<Eigen::Vector3f> last;
+  float last_reach = 0.0f;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::size_t found = tree.knn(cloud.points[i], wanted);
+    const Eigen::Vector3f& point = cloud.points[i];
+    if (!point.allFinite()) continue;
+    const float reach = last ? kSlack * (last_reach + (point - *last).norm()) + kSlackM
+                             : std::numeric_limits<float>::infinity();
+    const std::size_t found = tree.knn(point, wanted, reach);
     if (found < 2) continue;
+    last = point;
+    last_reach = std::sqrt(wanted[found - 1].squared_distance);
     double sum = 0.0;
     for (std::size_t k = 1; k < found; ++k) sum += std::sqrt(static_cast<double>(wanted[k].squared_distance));
     means[i] = sum / static_cast<double>(found - 1);

@@ -20,9 +20,19 @@ PointCloud ball_of(const PointCloud& map, float radius_m, SpherizedCloud& counts
       inside.push_back(i);
     }
   }
-  counts.points_in = map.size();
-  counts.in_ball = inside.size();
+  counts.points_in += map.size();
+  counts.in_ball += inside.size();
   return select(map, inside);
+}
+
+PointCloud thinned_ball(std::span<const PlacedCloud> parts, const SpherizeConfig& config,
+                        SpherizedCloud& counts) {
+  cloud::VoxelMerger merger(config.voxel_m, cloud::VoxelPoint::centroid);
+  for (const PlacedCloud& part : parts) {
+    merger.add(ball_of(cloud::transformed(*part.points, part.T_node_cloud), config.radius_m, counts));
+  }
+  counts.thinned = merger.voxels();
+  return merger.cloud();
 }
 
 }  // namespace
@@ -39,15 +49,19 @@ Status SpherizeConfig::validate() const {
 
 Result<SpherizedCloud> spherize(const PointCloud& map_in_node_frame, const Eigen::Vector3f& up,
                                 const SpherizeConfig& config) {
+  const PlacedCloud whole{&map_in_node_frame, Pose::Identity()};
+  return spherize(std::span(&whole, 1), up, config);
+}
+
+Result<SpherizedCloud> spherize(std::span<const PlacedCloud> parts, const Eigen::Vector3f& up,
+                                const SpherizeConfig& config) {
   cloud::GroundConfig ground = config.ground;
   ground.up = up;
   if (auto valid = config.validate(); !valid) return failure(valid.error().message);
   if (auto valid = ground.validate(); !valid) return failure("spherize: " + valid.error().message);
 
   SpherizedCloud spherized;
-  PointCloud points =
-      voxel_downsample(ball_of(map_in_node_frame, config.radius_m, spherized), config.voxel_m);
-  spherized.thinned = points.size();
+  PointCloud points = thinned_ball(parts, config, spherized);
   PointCloud sparse_ground;
   if (config.remove_ground) {
     const cloud::GroundSplit split = split_ground(points, ground);

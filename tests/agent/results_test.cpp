@@ -6,6 +6,7 @@
 
 #include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "support/temporary_folder.hpp"
@@ -158,16 +159,32 @@ TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
   EXPECT_GT(results->map.points, 0u);
 }
 
-TEST_F(ResultsTest, SurroundingsAreOfOneOdometryFrameAndWithinTheRadius) {
+TEST_F(ResultsTest, SubmapsAroundAreOfOneOdometryFrameAndWithinTheRadius) {
   store::Store store = open();
   add_node(store, 0.0);
   const graph::Node near = add_node(store, 5.0);
   add_node(store, 50.0);
   add_node(store, 5.0, 1);
-  const Surroundings surroundings = gather(store, near, 10.0);
-  ASSERT_EQ(surroundings.submaps.size(), 2u);
-  EXPECT_NEAR(surroundings.submaps[0].first.translation().x(), -5.0, 1e-9);
-  EXPECT_NEAR(surroundings.submaps[1].first.translation().x(), 0.0, 1e-9);
+  const auto around = submaps_around(store, near, 10.0);
+  ASSERT_EQ(around.size(), 2u);
+  EXPECT_NEAR(around[0].second.translation().x(), -5.0, 1e-9);
+  EXPECT_NEAR(around[1].second.translation().x(), 0.0, 1e-9);
+}
+
+TEST_F(ResultsTest, AnOwnCloudIsMadeAnewOnceMoreSubmapsLieAround) {
+  store::Store store = open();
+  const graph::Node first = add_node(store, 0.0);
+  registration::SpherizeConfig config;
+  config.radius_m = 10.0f;
+  OwnClouds clouds(config);
+  const auto alone = clouds.of(store, first);
+  EXPECT_EQ(clouds.of(store, first), alone);
+  ASSERT_TRUE(alone->spherized()) << alone->spherized().error().message;
+  add_node(store, 5.0);
+  const auto both = clouds.of(store, first);
+  ASSERT_NE(both, alone);
+  ASSERT_TRUE(both->spherized());
+  EXPECT_GT(both->spherized()->points_in, alone->spherized()->points_in);
 }
 
 TEST_F(ResultsTest, PriorIsTheDifferenceOfBothGlobalPoses) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -53,6 +55,19 @@ TEST(KdTree, AgreesWithBruteForce) {
       }
     }
   }
+}
+
+TEST(KdTree, NearestNeighboursCloserThanADistanceAreTheFirstOfAll) {
+  const auto points = random_points(2000, 5, false);
+  const KdTree tree(points);
+  std::array<Neighbor, 20> found;
+  for (const auto& query : random_points(60, 98, false)) {
+    const auto all = tree.knn(query, found.size());
+    const float reach = 0.5f * (std::sqrt(all[6].squared_distance) + std::sqrt(all[7].squared_distance));
+    ASSERT_EQ(tree.knn(query, found, reach), 7u);
+    for (std::size_t i = 0; i < 7; ++i) ASSERT_EQ(found[i], all[i]);
+  }
+  EXPECT_EQ(tree.knn({0, 0, 0}, found, 0.0f), 0u);
 }
 
 TEST(KdTree, NearestRespectsItsMaximumDistance) {

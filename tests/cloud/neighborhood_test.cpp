@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 #include "cloud/scenes.hpp"
@@ -69,6 +71,36 @@ TEST(Outliers, StrayPointsGoAndSurfacesStay) {
   EXPECT_EQ(split.kept.size() + split.removed.size(), cloud.size());
   EXPECT_GT(split.kept.size(), surface * 97 / 100);
   EXPECT_LT(split.kept.back(), surface);
+}
+
+/// Law: what the definition says, whatever the order of the points.
+TEST(Outliers, AreThoseOfBruteForceInAnyOrder) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> along(0.0f, 5.0f);
+  PointCloud cloud;
+  for (int i = 0; i < 600; ++i)
+    cloud.points.emplace_back(along(random), along(random), 0.05f * along(random));
+  const OutlierConfig config;
+  std::vector<double> means;
+  for (const auto& p : cloud.points) {
+    std::vector<double> distances;
+    for (const auto& q : cloud.points) distances.push_back(static_cast<double>((p - q).norm()));
+    std::sort(distances.begin(), distances.end());
+    const auto last = distances.begin() + 1 + static_cast<std::ptrdiff_t>(config.neighbors);
+    means.push_back(std::accumulate(distances.begin() + 1, last, 0.0) /
+                    static_cast<double>(config.neighbors));
+  }
+  const auto count = static_cast<double>(means.size());
+  const double mean = std::accumulate(means.begin(), means.end(), 0.0) / count;
+  double squares = 0.0;
+  for (const double m : means) squares += (m - mean) * (m - mean);
+  const double limit = mean + config.sigmas * std::sqrt(squares / (count - 1.0));
+  std::vector<std::size_t> expected;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (means[i] > limit) expected.push_back(i);
+  }
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(split_outliers(cloud, config).removed, expected);
 }
 
 TEST(Outliers, EmptyAndSinglePointsAreHarmless) {

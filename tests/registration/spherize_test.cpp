@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "registration/made_world.hpp"
 
@@ -36,6 +38,24 @@ TEST(Spherize, GivesABallWithoutGroundWithinTheBudget) {
     low += p.z() < -1.1f ? 1u : 0u;
   }
   EXPECT_LT(static_cast<double>(low), 0.02 * static_cast<double>(result->encoded));
+}
+
+TEST(Spherize, OfPartsIsThatOfTheWhole) {
+  const PointCloud map = dense_map();
+  const Pose T = make_pose(rotation_from_rpy(0.0, 0.0, 0.5), Eigen::Vector3d(20, -7, 0.3));
+  std::vector<std::size_t> first(map.size() / 3), second;
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (std::size_t i = first.size(); i < map.size(); ++i) second.push_back(i);
+  const PointCloud a = cloud::select(map, first);
+  const PointCloud b = cloud::transformed(cloud::select(map, second), T.inverse());
+  const std::array<PlacedCloud, 2> parts{PlacedCloud{&a, Pose::Identity()}, PlacedCloud{&b, T}};
+  const auto whole = spherize(map, Eigen::Vector3f::UnitZ(), {});
+  const auto joined = spherize(parts, Eigen::Vector3f::UnitZ(), {});
+  ASSERT_TRUE(whole && joined);
+  EXPECT_EQ(joined->points_in, map.size());
+  EXPECT_NEAR(static_cast<double>(joined->thinned), static_cast<double>(whole->thinned), 20.0) << "rounding";
+  EXPECT_NEAR(static_cast<double>(joined->encoded), static_cast<double>(whole->encoded),
+              0.02 * static_cast<double>(whole->encoded));
 }
 
 TEST(Spherize, FollowsUpOnASlope) {
@@ -79,9 +99,10 @@ TEST(Spherize, NothingLeftIsAnEmptyCloudAndBadInputIsCounted) {
 TEST(Spherize, BadConfigAndUpAreNamed) {
   SpherizeConfig config;
   config.radius_m = -1.0f;
-  EXPECT_THAT(spherize({}, Eigen::Vector3f::UnitZ(), config).error().message,
+  EXPECT_THAT(spherize(PointCloud{}, Eigen::Vector3f::UnitZ(), config).error().message,
               ::testing::HasSubstr("radius_m"));
-  EXPECT_THAT(spherize({}, Eigen::Vector3f::Zero(), {}).error().message, ::testing::HasSubstr("up"));
+  EXPECT_THAT(spherize(PointCloud{}, Eigen::Vector3f::Zero(), {}).error().message,
+              ::testing::HasSubstr("up"));
 }
 
 }  // namespace

@@ -33,9 +33,10 @@ class KdTree {
   /// The nearest point closer than `max_distance` (m).
   std::optional<Neighbor> nearest(const Eigen::Vector3f& query,
                                   float max_distance = std::numeric_limits<float>::infinity()) const;
-  /// Fills `out` with the nearest points, nearest first; returns how many there were: min(out.size(),
-  /// size()).
-  std::size_t knn(const Eigen::Vector3f& query, std::span<Neighbor> out) const;
+  /// Fills `out` with the nearest points closer than `max_distance` (m), nearest first; returns how many
+  /// there were: at most min(out.size(), size()).
+  std::size_t knn(const Eigen::Vector3f& query, std::span<Neighbor> out,
+                  float max_distance = std::numeric_limits<float>::infinity()) const;
   std::vector<Neighbor> knn(const Eigen::Vector3f& query, std::size_t k) const;
   /// All points closer than `radius` (m), nearest first, equal distances by index.
   std::vector<Neighbor> radius(const Eigen::Vector3f& query, float radius) const;

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/ground.hpp"
 #include "fleetmap/cloud/outliers.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap::registration {
 
@@ -38,6 +40,17 @@ struct SpherizedCloud {
   std::size_t outliers = 0;  ///< removed as outliers
   std::size_t encoded = 0;   ///< points in `bytes`
 };
+
+/// Part of a map, in a frame of its own.
+struct PlacedCloud {
+  const cloud::PointCloud* points = nullptr;
+  Pose T_node_cloud = Pose::Identity();
+};
+
+/// The parts together are the map: of points that several of them hold in one voxel the mean is taken.
+/// `up` and errors as below.
+Result<SpherizedCloud> spherize(std::span<const PlacedCloud> parts, const Eigen::Vector3f& up,
+                                const SpherizeConfig& config);
 
 /// `map_in_node_frame` is in the frame of the node (O at the origin); `up` points against gravity in that
 /// frame. Fails on a bad config and where nothing fits the byte budget; a cloud of which nothing remains is
