@@ -75,7 +75,7 @@ std::vector<Candidate> candidates_of(const PreparedCloud::Data& target, const Pr
         make_pose(so3_exp(tilt.cast<double>()) * rotation_from_rpy(0.0, 0.0, static_cast<double>(found.yaw)),
                   Eigen::Vector3f(found.xy.x(), found.xy.y(), found.height).cast<double>());
     Candidate candidate;
-    candidate.T = align(target.surfels, source.coarse, T_start, icp, false).T_target_source;
+    candidate.T = align(target.surfels, source.coarse, T_start, icp).T_target_source;
     if (window.prior && !agrees(*window.prior, candidate.T, config.prior_sigmas)) continue;
     candidate.misfit = coarse_misfit(target, source, candidate.T, config);
     if (candidate.misfit < 1.0) all.push_back(candidate);
@@ -121,14 +121,15 @@ bool weigh(std::vector<FoundMode>& modes) {
 }
 
 /// Aligns `points` from each start; what ends outside of the prior or at the same place is dropped; best
-/// score first.
+/// score first. With covariances if `bendings` are given.
 std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const PreparedCloud::Data& source,
                                const MovingPoints& points, const std::vector<Pose>& starts,
-                               const IcpConfig& icp, const Window& window, const RegistrationConfig& config) {
+                               const IcpConfig& icp, const Window& window, const RegistrationConfig& config,
+                               const Bendings* bendings) {
   std::vector<FoundMode> modes;
   for (const Pose& start : starts) {
     FoundMode mode;
-    mode.icp = align(target.surfels, points, start, icp, true);
+    mode.icp = align(target.surfels, points, start, icp, bendings);
     mode.T_level = mode.icp.T_target_source;
     if (window.prior && !agrees(*window.prior, mode.T_level, config.prior_sigmas)) continue;
     mode.fit = compare(target, source, mode.T_level, config);
@@ -154,7 +155,8 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
 }  // namespace
 
 std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const PreparedCloud::Data& source,
-                                  const RegistrationConfig& config, const std::optional<Prior>& prior) {
+                                  const RegistrationConfig& config, const std::optional<Prior>& prior,
+                                  const Drifts& drifts) {
   const Window window = window_of(target, source, config, prior);
   std::vector<Pose> starts;
   for (const Candidate& candidate : candidates_of(target, source, window, config))
@@ -162,7 +164,8 @@ std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const Prepa
   IcpConfig middle = config.icp;
   middle.kernels_m = {0.2f, 0.1f};
   middle.far_stages = 0;
-  const std::vector<FoundMode> rough = aligned(target, source, source.middle, starts, middle, window, config);
+  const std::vector<FoundMode> rough =
+      aligned(target, source, source.middle, starts, middle, window, config, nullptr);
   std::vector<Pose> contenders;
   for (const FoundMode& mode : rough) {
     if (mode.weight >= kContenderWeight && contenders.size() < config.max_modes)
@@ -171,8 +174,9 @@ std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const Prepa
   IcpConfig fine = config.icp;
   fine.kernels_m = {config.icp.kernels_m.back()};
   fine.far_stages = 0;
+  const Bendings bendings{{drifts.target, target.R_level_cloud}, {drifts.source, source.R_level_cloud}};
   return aligned(target, source, contenders.size() == 1 ? source.all : source.fine, contenders, fine, window,
-                 config);
+                 config, &bendings);
 }
 
 }  // namespace fleetmap::registration

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "comparison.hpp"
+#include "fleetmap/registration/map_drift.hpp"
 #include "fleetmap/registration/prior.hpp"
 
 namespace fleetmap::registration {
@@ -18,6 +19,7 @@ struct FoundMode {
 
 /// Every pose at which the clouds fit, within the prior, most weight first.
 std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const PreparedCloud::Data& source,
-                                  const RegistrationConfig& config, const std::optional<Prior>& prior);
+                                  const RegistrationConfig& config, const std::optional<Prior>& prior,
+                                  const Drifts& drifts);
 
 }  // namespace fleetmap::registration

@@ -31,6 +31,7 @@ MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap&
   all.points = points;
   const int side = 2 * static_cast<int>(std::ceil(config.max_range_m / config.patch_m)) + 1;
   all.patch_count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  all.patch_m = config.patch_m;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint16_t at = surfels.of_points()[i];
     Facing facing;
@@ -49,6 +50,7 @@ MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap&
 MovingPoints picked(const MovingPoints& all, std::size_t count) {
   MovingPoints some;
   some.patch_count = all.patch_count;
+  some.patch_m = all.patch_m;
   const std::size_t wanted = std::min(count, all.points.size());
   for (std::size_t k = 0; k < wanted; ++k) {
     const std::size_t i = k * all.points.size() / wanted;

@@ -97,17 +97,21 @@ const char* to_string(Verdict verdict) {
 }
 
 RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCloud& source,
-                                   const RegistrationConfig& config, const std::optional<Prior>& prior) {
+                                   const RegistrationConfig& config, const std::optional<Prior>& prior,
+                                   const Drifts& drifts) {
   if (auto valid = config.validate(); !valid) return rejected(valid.error().message);
   if (prior) {
     if (auto valid = prior->validate(); !valid) return rejected(valid.error().message);
+  }
+  for (const MapDrift* drift : {&drifts.target, &drifts.source}) {
+    if (auto valid = drift->validate(); !valid) return rejected(valid.error().message);
   }
   const std::size_t fewest = std::min(target.size(), source.size());
   if (fewest < config.min_points) {
     return rejected(text("a cloud has only %zu points after thinning, at least %zu are needed", fewest,
                          config.min_points));
   }
-  const std::vector<FoundMode> modes = find_modes(*target.data(), *source.data(), config, prior);
+  const std::vector<FoundMode> modes = find_modes(*target.data(), *source.data(), config, prior, drifts);
   if (modes.empty()) {
     return rejected("the clouds fit at no pose" + std::string(prior ? " within the prior" : ""));
   }
@@ -131,7 +135,8 @@ RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCl
 }
 
 RegistrationResult register_clouds(const cloud::PointCloud& target, const cloud::PointCloud& source,
-                                   const RegistrationConfig& config, const std::optional<Prior>& prior) {
+                                   const RegistrationConfig& config, const std::optional<Prior>& prior,
+                                   const Drifts& drifts) {
   if (auto valid = config.validate(); !valid) return rejected(valid.error().message);
   Eigen::Vector3d up_target = Eigen::Vector3d::UnitZ(), up_source = up_target;
   if (prior) {
@@ -140,7 +145,7 @@ RegistrationResult register_clouds(const cloud::PointCloud& target, const cloud:
     up_source = prior->T_target_source.linear().transpose() * up_target;
   }
   return register_clouds(PreparedCloud(target, up_target, config), PreparedCloud(source, up_source, config),
-                         config, prior);
+                         config, prior, drifts);
 }
 
 }  // namespace fleetmap::registration

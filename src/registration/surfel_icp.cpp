@@ -22,6 +22,7 @@ struct System {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
   std::vector<Vector6d> patch_gradients;  ///< where asked for
+  std::vector<Eigen::Matrix<float, 6, 6>> patch_informations;
   std::vector<std::uint8_t> patch_used;
 };
 
@@ -48,7 +49,14 @@ class Rows {
     residuals_[count_] = r;
     ++count_;
   }
-  Vector6d gradient(int row) const { return (weights_[row] * residuals_[row] * J_.col(row)).cast<double>(); }
+  /// Adds what rows from `first` on say to one patch.
+  void add_to(Vector6d& gradient, Eigen::Matrix<float, 6, 6>& information, int first) const {
+    for (int row = first; row < count_; ++row) {
+      const Eigen::Matrix<float, 6, 1> J = J_.col(row), weighted = weights_[row] * J;
+      gradient += (residuals_[row] * weighted).cast<double>();
+      information.noalias() += weighted * J.transpose();
+    }
+  }
   int size() const { return count_; }
   void move_into(System& system) {
     using Row = Eigen::Map<const Eigen::Array<float, 1, Eigen::Dynamic>, Eigen::Aligned16>;
@@ -96,6 +104,7 @@ System linearize(const SurfelMap& target, const MovingPoints& source, const Pose
   System system;
   if (with_patches) {
     system.patch_gradients.assign(source.patch_count, Vector6d::Zero());
+    system.patch_informations.assign(source.patch_count, Eigen::Matrix<float, 6, 6>::Zero());
     system.patch_used.assign(source.patch_count, 0);
   }
   const Eigen::Matrix3f R = T.linear().cast<float>();
@@ -115,10 +124,10 @@ System linearize(const SurfelMap& target, const MovingPoints& source, const Pose
       if (!rows.has_room()) rows.move_into(system);
       const int first = rows.size();
       add_rows(*surfels[k], moved[k] - surfels[k]->mean, moved[k] - t, kernel2, rows);
-      for (int row = first; with_patches && row < rows.size(); ++row) {
-        system.patch_gradients[source.patches[i]] += rows.gradient(row);
-        system.patch_used[source.patches[i]] = 1;
-      }
+      if (!with_patches || rows.size() == first) continue;
+      const std::size_t patch = source.patches[i];
+      rows.add_to(system.patch_gradients[patch], system.patch_informations[patch], first);
+      system.patch_used[patch] = 1;
     }
   }
   rows.move_into(system);
@@ -163,10 +172,13 @@ Step solve(const System& system, double lever, double degenerate_share) {
   return step;
 }
 
+std::size_t side_of(const System& system) {
+  return static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(system.patch_used.size()))));
+}
+
 /// Gradients of square blocks of patches: what drift of the odometry did to a map is common to much of it.
 std::vector<Vector6d> block_gradients(const System& system) {
-  const auto side =
-      static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(system.patch_used.size()))));
+  const std::size_t side = side_of(system);
   const std::size_t blocks = side / kBlockPatches + 1;
   std::vector<Vector6d> sums(blocks * blocks, Vector6d::Zero());
   std::vector<std::uint8_t> used(sums.size(), 0);
@@ -183,7 +195,29 @@ std::vector<Vector6d> block_gradients(const System& system) {
   return gradients;
 }
 
-Matrix6d covariance_of(const System& system, double lever, const IcpConfig& config) {
+/// Covariance of the gradient at `T` from the drift of both maps.
+Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& T, const Bendings& bendings) {
+  const std::size_t side = side_of(system);
+  std::vector<PatchInformation> in_source, in_target;
+  for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
+    if (system.patch_used[k] == 0) continue;
+    const auto middle = [&](std::size_t cell) {
+      return static_cast<double>(source.patch_m) *
+             (static_cast<double>(cell) - static_cast<double>(side / 2) + 0.5);
+    };
+    const Eigen::Vector3d center(middle(k % side), middle(k / side), 0.0);
+    in_source.push_back({center.head<2>(), system.patch_informations[k].cast<double>()});
+    in_target.push_back({(T * center).head<2>(), in_source.back().H});
+  }
+  // Twists of the normal equations have the target's axes and turn about the source's origin.
+  Matrix6d from_source = Matrix6d::Zero(), from_target = Matrix6d::Identity();
+  from_source.topLeftCorner<3, 3>() = from_source.bottomRightCorner<3, 3>() = T.linear();
+  from_target.topRightCorner<3, 3>() = -skew(T.translation());
+  return bendings.source.gradient_covariance(in_source, from_source) +
+         bendings.target.gradient_covariance(in_target, from_target);
+}
+
+Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever, const IcpConfig& config) {
   const Vector6d scale = scale_of(lever), inverse = scale.cwiseInverse();
   const double most = config.max_stddev_m * config.max_stddev_m;
   const Matrix6d unknown = most * Matrix6d(inverse.array().square().matrix().asDiagonal());
@@ -196,7 +230,7 @@ Matrix6d covariance_of(const System& system, double lever, const IcpConfig& conf
   if (used < 8.0) return unknown;
   spread *= used / (used - 6.0);
   const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
-  const Matrix6d B = inverse.asDiagonal() * spread * inverse.asDiagonal();
+  const Matrix6d B = inverse.asDiagonal() * Matrix6d(spread + drift) * inverse.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
   const double floor = std::max(1e-12, kSpuriousShare * eigen.eigenvalues()[5]);
   Vector6d inverse_values = Vector6d::Zero();
@@ -232,7 +266,7 @@ Status IcpConfig::validate() const {
 }
 
 IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose& T_initial,
-                const IcpConfig& config, bool with_covariance) {
+                const IcpConfig& config, const Bendings* bendings) {
   IcpResult result;
   result.T_target_source = T_initial;
   const double lever = lever_of(source.points);
@@ -253,14 +287,15 @@ IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose&
       if (result.converged) break;
     }
   }
-  if (with_covariance) {
+  if (bendings != nullptr) {
     const System system =
         linearize(target, source, result.T_target_source, config.kernels_m.size() <= config.far_stages,
                   config.kernels_m.back(), config, true);
     result.unconstrained = solve(system, lever, config.degenerate_share).unconstrained;
     Matrix6d turn = Matrix6d::Zero();  // to the right tangent
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = result.T_target_source.linear().transpose();
-    result.covariance = turn * covariance_of(system, lever, config) * turn.transpose();
+    const Matrix6d drift = drift_of(system, source, result.T_target_source, *bendings);
+    result.covariance = turn * covariance_of(system, drift, lever, config) * turn.transpose();
   }
   return result;
 }

@@ -276,6 +276,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
   for (const Place& place : places_of(set)) {
     if (only_site != nullptr && place.name != only_site) continue;
     const std::vector<MappedNode> nodes = read_nodes(dir / (place.name + tag + ".clouds"));
+    const MapDrift drift = MapDrift::straight(place.how.drift_m, place.how.drift_rad, place.how.reach_m);
     for (const double sigma : {1.5, 5.0, 10.0, -5.0}) {  // negative: the prior is of another place
       if (only_sigma != nullptr && std::abs(std::stod(only_sigma) - sigma) > 0.1) continue;
       Tally tally;
@@ -295,7 +296,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
             prior = drawn_prior(nodes[i].T_enu_node, elsewhere, -sigma, 0.05, 0.02, seed);
           }
           const double start = thread_cpu_seconds();
-          const auto result = register_clouds(nodes[i].map, nodes[j].map, config, prior);
+          const auto result = register_clouds(nodes[i].map, nodes[j].map, config, prior, {drift, drift});
           const double cpu_ms = 1e3 * (thread_cpu_seconds() - start);
           count(truth, result, cpu_ms, tally);
           count(truth, result, cpu_ms,

@@ -129,15 +129,13 @@ TEST(RegisterClouds, SomeNonFinitePointsDoNotMatter) {
 
 /// Law of a covariance: errors are of the size that it promises.
 TEST(RegisterClouds, ErrorsAreOfTheSizeOfTheCovariance) {
-  RegistrationConfig config;  // of maps that are not bent
-  config.icp.min_stddev_m = 0.006;
-  config.icp.min_stddev_rad = 0.0003;
+  const Drifts none{MapDrift::straight(0.0, 0.0), MapDrift::straight(0.0, 0.0)};
   double nees = 0.0;
   int runs = 0;
   for (unsigned seed = 41; seed <= 56; ++seed) {
     const Pair pair = pair_in(MadeWorld(seed), 6.0, 0.2, seed, 12'000);
     const auto result =
-        register_clouds(pair.target, pair.source, config, Prior{pair.T_target_source, 2.0, 0.1, 0.1});
+        register_clouds(pair.target, pair.source, {}, Prior{pair.T_target_source, 2.0, 0.1, 0.1}, none);
     if (result.verdict != Verdict::accepted) continue;
     const Vector6d error = se3_log(pair.T_target_source.inverse() * result.T_target_source);
     nees += error.dot(result.covariance.ldlt().solve(error));
@@ -148,6 +146,63 @@ TEST(RegisterClouds, ErrorsAreOfTheSizeOfTheCovariance) {
   RecordProperty("mean_nees", std::to_string(mean_nees));
   EXPECT_GT(mean_nees, 0.3);
   EXPECT_LT(mean_nees, 15.0);
+}
+
+/// `cloud` as a robot has it that drove along its x axis with odometry that errs as straight(...) says.
+PointCloud bent(const PointCloud& cloud, double sigma_m, double sigma_rad, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gauss;
+  constexpr int kHalf = 40;  // steps of a metre
+  std::vector<Pose> T_bent(2 * kHalf + 1, Pose::Identity());
+  for (const int direction : {-1, 1}) {
+    for (int k = 1; k <= kHalf; ++k) {
+      Vector6d twist;
+      for (int axis = 0; axis < 6; ++axis) twist[axis] = (axis < 3 ? sigma_m : sigma_rad) * gauss(random);
+      const Pose T_cloud_base = make_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(direction * k, 0, 0));
+      const auto at = [&](int step) { return static_cast<std::size_t>(kHalf + direction * step); };
+      T_bent[at(k)] = T_bent[at(k - 1)] * T_cloud_base * se3_exp(twist) * T_cloud_base.inverse();
+    }
+  }
+  PointCloud result = cloud;
+  for (auto& p : result.points) {
+    const int stop = std::clamp(static_cast<int>(std::lround(p.x())), -kHalf, kHalf);
+    p = (T_bent[static_cast<std::size_t>(kHalf + stop)] * p.cast<double>()).cast<float>();
+  }
+  return result;
+}
+
+/// The same law for maps of odometry that drifts, as much as is said and three times as much.
+TEST(RegisterClouds, DriftOfTheMapsGoesIntoTheCovariance) {
+  for (const double much : {1.0, 3.0}) {
+    const double sigma_m = 0.004 * much, sigma_rad = 0.0003 * much;
+    const MapDrift drift = MapDrift::straight(sigma_m, sigma_rad);
+    std::vector<double> nees;
+    for (unsigned seed = 61; seed <= 76; ++seed) {
+      const Pair pair = pair_in(MadeWorld(seed), 6.0, 0.2, seed, 12'000);
+      const auto result = register_clouds(bent(pair.target, sigma_m, sigma_rad, seed),
+                                          bent(pair.source, sigma_m, sigma_rad, seed + 100), {},
+                                          Prior{pair.T_target_source, 2.0, 0.1, 0.1}, {drift, drift});
+      if (result.modes.empty()) continue;
+      const Vector6d error = se3_log(pair.T_target_source.inverse() * result.T_target_source);
+      nees.push_back(error.dot(result.covariance.ldlt().solve(error)) / 6.0);
+    }
+    ASSERT_GE(nees.size(), 12u);
+    std::sort(nees.begin(), nees.end());
+    const double median = nees[nees.size() / 2];  // 0.89 for a perfect covariance
+    RecordProperty("median_nees", std::to_string(median));
+    EXPECT_GT(median, 0.2) << much;
+    EXPECT_LT(median, 2.5) << much;
+  }
+}
+
+TEST(RegisterClouds, DriftThatIsNoneIsRefused) {
+  const Pair pair = pair_in(MadeWorld(1), 6.0, 0.2, 1);
+  Drifts drifts;
+  drifts.source = MapDrift::straight();
+  drifts.source.stops[3].step_covariance(2, 2) = std::numeric_limits<double>::quiet_NaN();
+  const auto result = register_clouds(pair.target, pair.source, {}, std::nullopt, drifts);
+  EXPECT_EQ(result.verdict, Verdict::rejected);
+  EXPECT_THAT(result.reason, ::testing::HasSubstr("covariances of steps"));
 }
 
 TEST(RegisterClouds, ACorridorLeavesTheDirectionAlongItUncertain) {

@@ -21,10 +21,10 @@ struct IcpConfig {
   /// constraint: no step is taken along it.
   double degenerate_share = 1e-4;
   double max_stddev_m = 10.0;  ///< m, covariance along a direction that nothing constrains
-  /// Floors of the covariance: maps bend with the drift of the odometry that made them (here some 0.13 % over
-  /// 20 m), and no residual shows it.
-  double min_stddev_m = 0.024;     ///< m, along every direction
-  double min_stddev_rad = 0.0014;  ///< rad, about every axis
+  /// Floors of the covariance: what neither residuals nor the drift of the maps show (voxels, rounding, posts
+  /// seen from both sides).
+  double min_stddev_m = 0.005;     ///< m, along every direction
+  double min_stddev_rad = 0.0002;  ///< rad, about every axis
   Status validate() const;
 };
 
@@ -34,8 +34,8 @@ struct IcpResult {
   int iterations = 0;
   int unconstrained = 0;  ///< directions (of 6) that nothing constrains, as at the end
   /// Of T_target_source, right tangent: [m, rad]. Residuals of one patch of ground may share an error, those
-  /// of different patches not (the cluster-robust sandwich estimator). Large, but finite, along what the
-  /// scene does not constrain.
+  /// of different patches not (the cluster-robust sandwich estimator); to which comes what the drift of both
+  /// maps does. Large, but finite, along what the scene does not constrain.
   Matrix6d covariance = Matrix6d::Identity();
 };
 

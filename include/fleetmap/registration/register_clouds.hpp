@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/registration/map_drift.hpp"
 #include "fleetmap/registration/prepared_cloud.hpp"
 #include "fleetmap/registration/prior.hpp"
 #include "fleetmap/registration/registration_config.hpp"
@@ -53,17 +54,19 @@ struct RegistrationResult {
 /// All poses T_target_source that fit, and whether one of them is certain. A correlation of both clouds' maps
 /// over every pose of the prior's window (over all poses in reach without one) gives candidates,
 /// point-to-surfel ICP refines them, and what each patch of ground says for one and against another, with the
-/// prior, weighs them (paper, spherized registration). Deterministic.
+/// prior, weighs them (paper, spherized registration). `drifts` go into the covariances. Deterministic.
 ///
 /// Both clouds must be level within some 0.15 rad, after the prior's tilt if there is one. Non-finite points
 /// are left out; clouds too small to tell are rejected.
 RegistrationResult register_clouds(const cloud::PointCloud& target, const cloud::PointCloud& source,
                                    const RegistrationConfig& config,
-                                   const std::optional<Prior>& prior = std::nullopt);
+                                   const std::optional<Prior>& prior = std::nullopt,
+                                   const Drifts& drifts = {});
 
 /// The same for clouds prepared with the same `config`.
 RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCloud& source,
                                    const RegistrationConfig& config,
-                                   const std::optional<Prior>& prior = std::nullopt);
+                                   const std::optional<Prior>& prior = std::nullopt,
+                                   const Drifts& drifts = {});
 
 }  // namespace fleetmap::registration
