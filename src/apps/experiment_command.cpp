@@ -81,10 +81,10 @@ void add_experiment(CLI::App& app, int& exit_code) {
       "experiment", "runs fleets in the twin over a grid of settings and seeds, and reports what came of it");
   command->add_option("-c,--config", options->config, "EXPERIMENT.yaml")->required();
   command
-      ->add_option(
-          "--out", options->out,
-          "folder for results.json, results.csv and report.html; a start that was interrupted goes on "
-          "where it was")
+      ->add_option("--out", options->out,
+                   "folder for results.json, results.csv, tables.md and report.html; a start that was "
+                   "interrupted goes on "
+                   "where it was")
       ->required()
       ->check(some_path());
   command->add_flag("--quick", options->quick, "the file's quick set: fewer points and seeds");

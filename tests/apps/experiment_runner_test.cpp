@@ -186,6 +186,10 @@ TEST_F(ExperimentTest, ResultsHoldCasesSpreadsAndVerdicts) {
   EXPECT_THAT(lines[1], HasSubstr(",0.202,606"));
   EXPECT_THAT(lines[4], ::testing::EndsWith(",,"));
   EXPECT_THAT(lines[4], HasSubstr(",2,failed,"));
+
+  const std::string tables = text_of(out() / "tables.md");
+  EXPECT_THAT(tables, HasSubstr("| runs | 2 of 2 | 1 of 2 | 2 of 2 |\n"));
+  EXPECT_THAT(tables, HasSubstr("| 0.203 [0.202, 0.204] | "));
 }
 
 TEST_F(ExperimentTest, AMetricThatNoCaseGaveIsNamed) {

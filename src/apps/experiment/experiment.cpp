@@ -6,6 +6,7 @@
 #include "experiment/progress_line.hpp"
 #include "experiment/report_page.hpp"
 #include "experiment/results_file.hpp"
+#include "experiment/study_table.hpp"
 #include "experiment/study_values.hpp"
 
 namespace fleetmap::apps::experiment {
@@ -21,6 +22,9 @@ Status write_results(const config::ExperimentConfig& config, const Outcome& outc
       results_json(config, outcome, checks).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (const Status written = write_whole(directory / "results.json", json + "\n"); !written) return written;
   if (const Status written = write_whole(directory / "results.csv", results_csv(config, outcome)); !written)
+    return written;
+  if (const Status written = write_whole(directory / "tables.md", markdown_tables(config, outcome.records));
+      !written)
     return written;
   return write_whole(directory / "report.html", report_page(config, outcome, checks, directory));
 }

@@ -16,8 +16,9 @@ struct ExperimentResult {
   bool good() const;
 };
 
-/// Runs what is still to be run and writes results.json, results.csv and report.html into `runner.directory`,
-/// after an interrupt too (of what there is). Tells `out` how it goes and what came of it.
+/// Runs what is still to be run and writes results.json, results.csv, tables.md and report.html into
+/// `runner.directory`, after an interrupt too (of what there is). Tells `out` how it goes and what came of
+/// it.
 Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, const Engine& engine,
                                         const RunnerConfig& runner, const std::atomic<bool>& stop,
                                         std::ostream& out, bool terminal);

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "experiment/study_table.hpp"
 #include "experiment/study_values.hpp"
 #include "fleetmap/eval/html_page.hpp"
 #include "fleetmap/eval/plot.hpp"
@@ -16,11 +17,6 @@ namespace fs = std::filesystem;
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
-}
-
-std::string metric_title(const config::ExperimentConfig& config, const std::string& name) {
-  const config::MetricSpec* metric = config.metric(name);
-  return metric ? with_unit(metric->title, metric->unit) : name;
 }
 
 void add_shapes(eval::HtmlPage& page, const std::vector<ShapeCheck>& checks) {
@@ -108,44 +104,6 @@ void add_metric(eval::HtmlPage& page, const config::ExperimentConfig& config, co
                                 : metric_bars(study, records, metric, axes));
 }
 
-std::string point_name(const config::Study& study, const std::vector<std::string>& labels) {
-  std::string name;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (k > 0) name += ", ";
-    name += study.axes[k].name + "=" + labels[k];
-    if (!study.axes[k].unit.empty()) name += " " + study.axes[k].unit;
-  }
-  return name.empty() ? "all" : name;
-}
-
-/// "mean [min, max]", and of how many runs if not of all that came to their end.
-std::string spread_text(const Spread& values, std::size_t done) {
-  if (values.count == 0) return "-";
-  std::string text = eval::short_number(values.mean);
-  if (values.count > 1)
-    text += " [" + eval::short_number(values.min) + ", " + eval::short_number(values.max) + "]";
-  if (values.count != done) text += " of " + std::to_string(values.count);
-  return text;
-}
-
-void add_points(eval::HtmlPage& page, const config::ExperimentConfig& config, const config::Study& study,
-                const std::vector<CaseRecord>& records) {
-  eval::Table table{{"point", "runs"}};
-  for (const std::string& metric : study.metrics) table[0].push_back(metric_title(config, metric));
-  for (const Slice& point : slices(study, study.axes.size())) {
-    const auto found = records_at(study, records, point.labels);
-    const auto done = static_cast<std::size_t>(std::ranges::count_if(found, &CaseRecord::done));
-    table.push_back({point_name(study, point.labels),
-                     std::to_string(done) + " of " + std::to_string(study.seeds.size())});
-    for (const std::string& metric : study.metrics) {
-      const config::MetricSpec* spec = config.metric(metric);
-      const Spread values = spread(values_at(found, metric), spec && spec->log_scale);
-      table.back().push_back(spread_text(values, done));
-    }
-  }
-  page.table(table);
-}
-
 const CaseRecord* first_done(const config::Study& study, const std::vector<CaseRecord>& records,
                              const std::vector<std::string>& point) {
   const auto found = records_at(study, records, point);
@@ -202,7 +160,7 @@ void add_study(eval::HtmlPage& page, const config::ExperimentConfig& config, con
                  ". Lines and cells are means, bands and brackets run from least to greatest.");
   if (!study.axes.empty())
     for (const std::string& metric : study.metrics) add_metric(page, config, study, records, metric);
-  add_points(page, config, study, records);
+  page.table(study_table(config, study, records));
   add_histograms(page, study, records);
   add_pictures(page, study, records, directory);
 }
