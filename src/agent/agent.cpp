@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "fleetmap/agent/cloud_drift.hpp"
 #include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
@@ -266,10 +267,14 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
   struct Job {
     std::shared_ptr<OwnCloud> target, source;
     registration::Prior prior;
+    registration::Drifts drifts;
     Registered registered;
   };
-  auto job =
-      std::make_shared<Job>(Job{own_clouds_.of(store_, target), own_clouds_.of(store_, source), prior, {}});
+  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, target),
+                                       own_clouds_.of(store_, source),
+                                       prior,
+                                       drifts_around(target, source),
+                                       {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
@@ -279,7 +284,7 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
         const auto source = job->source->prepared(config_.registration);
         if (target && source) {
           job->registered.result =
-              registration::register_clouds(*target, *source, config_.registration, job->prior);
+              registration::register_clouds(*target, *source, config_.registration, job->prior, job->drifts);
         } else {
           job->registered.result = tl::unexpected(target ? source.error() : target.error());
         }
@@ -334,15 +339,17 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
     std::shared_ptr<OwnCloud> target;
     graph::Node source;
     Bytes encoded;
+    registration::Drifts drifts;
     Registered registered;
   };
-  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, {}});
+  auto job = std::make_shared<Job>(
+      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, drifts_around(*ours, *theirs), {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        job->registered.result = register_encoded(*job->target, job->source, job->encoded);
+        job->registered.result = register_encoded(*job->target, job->source, job->encoded, job->drifts);
         job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job, pair = arrived.pair] {
@@ -351,8 +358,14 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
       });
 }
 
+registration::Drifts Agent::drifts_around(const graph::Node& target, const graph::Node& source) const {
+  return {drift_around(store_, target, config_.spherize.radius_m),
+          drift_around(store_, source, config_.spherize.radius_m)};
+}
+
 Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
-                                                                 const Bytes& encoded) const {
+                                                                 const Bytes& encoded,
+                                                                 const registration::Drifts& drifts) const {
   const auto message = wire::decode<wire::SpherizedCloud>(encoded);
   if (!message) return tl::unexpected(message.error());
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
@@ -362,7 +375,7 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
   if (!target_cloud) return tl::unexpected(target_cloud.error());
   return registration::register_clouds(
       *target_cloud, registration::PreparedCloud(*source_cloud, source.up_in_base, config_.registration),
-      config_.registration, prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m));
+      config_.registration, prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m), drifts);
 }
 
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,

@@ -108,7 +108,9 @@ class Agent {
   };
   /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
   Result<registration::RegistrationResult> register_encoded(OwnCloud& target, const graph::Node& source,
-                                                            const Bytes& encoded) const;
+                                                            const Bytes& encoded,
+                                                            const registration::Drifts& drifts) const;
+  registration::Drifts drifts_around(const graph::Node& target, const graph::Node& source) const;
   void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
                 const std::optional<exchange::NodePair>& pair);
   void log_registration(const NodeId& i, const NodeId& j, const Registered& registered);
