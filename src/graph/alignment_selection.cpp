@@ -17,7 +17,6 @@ constexpr int kMostRounds = 4;
 constexpr std::size_t kFewOf = 100;
 /// To judge by, an estimate need not be exact; the last one must converge.
 constexpr int kStepsARound = 3;
-constexpr int kMostSteps = 60;
 constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
@@ -66,7 +65,9 @@ class Selector {
     const Estimate rigid = estimate;
     if (unaided_.solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) {
       estimate = rigid;
-      return {};
+      Selection nothing;
+      nothing.solvable = false;
+      return nothing;
     }
     look_alone(estimate);
     std::vector<GraphSolver::Ends> may_be_tied;

@@ -48,6 +48,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
 
 /// Which alignments, in which mode, are right.
 struct Selection {
+  bool solvable = true;                      ///< GPS and odometry alone; if not, nothing is decided
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::map<std::size_t, Judgement> judged;   ///< alignments that are not taken
   /// Of each agent: clusters of alignments that contradict, by the other agent of the pair.

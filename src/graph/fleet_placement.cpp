@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -225,7 +226,15 @@ void add_covariances(const ReducedGraph& graph, const GraphSolver& solver, std::
 
 // ---- agents
 
-/// Agents that turn out to be faulty.
+/// What was solved together.
+struct Solution {
+  ReducedGraph graph;
+  Estimate estimate;
+  std::vector<Candidate> candidates;
+  Selection selection;
+};
+
+/// Agents that compute false alignments.
 std::set<AgentId> faulty(const Selection& selection, const Items& items,
                          std::map<AgentId, AgentCredit>& credits) {
   std::map<AgentId, std::size_t> used;
@@ -240,8 +249,58 @@ std::set<AgentId> faulty(const Selection& selection, const Items& items,
   return found;
 }
 
-void report(const Selection& selection, const std::vector<Candidate>& candidates, Items& items,
-            Placement& placement) {
+/// Solves, and anew without the alignments of agents that turn out to be faulty.
+void solve(Items& items, std::vector<std::size_t>& taking_part, std::span<const NodeId> ends,
+           const LocalFrame& site, const FleetPlacementConfig& config,
+           std::map<AgentId, AgentCredit>& credits, Solution& solution) {
+  solution.graph = reduce(items.nodes, ends, site, config);
+  const Estimate rigid = rigid_frames(solution.graph, site, config);
+  for (int attempt = 0;; ++attempt) {
+    solution.candidates = candidates_of(items, taking_part, solution.graph, config);
+    solution.estimate = rigid;
+    solution.selection =
+        select_alignments(solution.graph, solution.candidates, items.computed_by, solution.estimate);
+    const std::set<AgentId> found = faulty(solution.selection, items, credits);
+    if (found.empty() || attempt == kMostQuarantines) return;
+    for (const AgentId& agent : found) credits[agent].quarantined = true;
+    std::erase_if(taking_part, [&](std::size_t k) {
+      if (!found.contains(items.computed_by[k])) return false;
+      items.judged[k].judgement = Judgement::quarantined;
+      return true;
+    });
+  }
+}
+
+/// Agents whose own GPS and odometry cannot be solved: finite numbers that are absurd together.
+std::set<AgentId> unsolvable(std::span<const Node* const> nodes, std::span<const NodeId> ends,
+                             const LocalFrame& site, const FleetPlacementConfig& config) {
+  std::set<AgentId> found;
+  for (std::size_t first = 0, end = 0; first < nodes.size(); first = end) {
+    const AgentId& agent = nodes[first]->id.agent;
+    while (end < nodes.size() && nodes[end]->id.agent == agent) ++end;
+    const ReducedGraph graph = reduce(nodes.subspan(first, end - first), ends, site, config);
+    Estimate estimate = rigid_frames(graph, site, config);
+    if (GraphSolver(graph, {}).solve(estimate, kMostSteps) != GraphSolver::Outcome::converged)
+      found.insert(agent);
+  }
+  return found;
+}
+
+/// Takes their nodes out of the items, and what they are aligned with stays undecided. Returns the nodes.
+std::vector<const Node*> set_aside(Items& items, std::vector<std::size_t>& taking_part,
+                                   const std::set<AgentId>& agents) {
+  std::vector<const Node*> aside;
+  std::ranges::copy_if(items.nodes, std::back_inserter(aside),
+                       [&](const Node* node) { return agents.contains(node->id.agent); });
+  std::erase_if(items.nodes, [&](const Node* node) { return agents.contains(node->id.agent); });
+  std::erase_if(taking_part, [&](std::size_t k) {
+    return agents.contains(items.alignments[k]->i.agent) || agents.contains(items.alignments[k]->j.agent);
+  });
+  return aside;
+}
+
+void report(const Solution& solution, Items& items, Placement& placement) {
+  const auto& [graph, estimate, candidates, selection] = solution;
   for (const auto& [alignment, judgement] : selection.judged) items.judged[alignment].judgement = judgement;
   for (const auto& [alignment, candidate] : selection.taken) {
     items.judged[alignment].judgement = Judgement::used;
@@ -257,8 +316,8 @@ void report(const Selection& selection, const std::vector<Candidate>& candidates
   placement.judged = items.judged;
 }
 
-void add_components(const ReducedGraph& graph, const Selection& selection,
-                    const std::vector<Candidate>& candidates, Placement& placement) {
+void add_components(const Solution& solution, Placement& placement) {
+  const auto& [graph, estimate, candidates, selection] = solution;
   std::vector<std::size_t> group(graph.frames.size());
   std::iota(group.begin(), group.end(), 0u);
   for (const auto& [alignment, candidate] : selection.taken) {
@@ -269,7 +328,6 @@ void add_components(const ReducedGraph& graph, const Selection& selection,
   std::map<std::size_t, std::vector<FrameId>> members;
   for (std::size_t f = 0; f < group.size(); ++f) members[group[f]].push_back(graph.frames[f].id);
   for (const auto& [root, frames] : members) placement.components.push_back(frames);
-  std::ranges::sort(placement.components);
 }
 
 }  // namespace
@@ -321,28 +379,25 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
     ends.push_back(items.alignments[k]->i);
     ends.push_back(items.alignments[k]->j);
   }
-  const ReducedGraph graph = reduce(items.nodes, ends, site, config);
-  const Estimate rigid = rigid_frames(graph, site, config);
-  Estimate estimate;
-  Selection selection;
-  std::vector<Candidate> candidates;
-  for (int attempt = 0;; ++attempt) {
-    candidates = candidates_of(items, taking_part, graph, config);
-    estimate = rigid;
-    selection = select_alignments(graph, candidates, items.computed_by, estimate);
-    const std::set<AgentId> found = faulty(selection, items, placement.credits);
-    if (found.empty() || attempt == kMostQuarantines) break;
-    for (const AgentId& agent : found) placement.credits[agent].quarantined = true;
-    std::erase_if(taking_part, [&](std::size_t k) {
-      if (!found.contains(items.computed_by[k])) return false;
-      items.judged[k].judgement = Judgement::quarantined;
-      return true;
-    });
+  Solution solution;
+  solve(items, taking_part, ends, site, config, placement.credits, solution);
+  std::vector<const Node*> aside;
+  if (!solution.selection.solvable) {
+    aside = set_aside(items, taking_part, unsolvable(items.nodes, ends, site, config));
+    if (!aside.empty()) solve(items, taking_part, ends, site, config, placement.credits, solution);
   }
-  report(selection, candidates, items, placement);
-  place_nodes(graph, estimate, placement);
-  add_components(graph, selection, candidates, placement);
-  if (selection.solver) add_covariances(graph, *selection.solver, covariance_of, placement);
+  report(solution, items, placement);
+  place_nodes(solution.graph, solution.estimate, placement);
+  add_components(solution, placement);
+  if (!aside.empty()) {
+    const ReducedGraph alone =
+        reduce(std::span<const Node* const>(aside), std::span<const NodeId>(), site, config);
+    place_nodes(alone, rigid_frames(alone, site, config), placement);
+    for (const FrameSpan& frame : alone.frames) placement.components.push_back({frame.id});
+  }
+  std::ranges::sort(placement.components);
+  if (solution.selection.solver)
+    add_covariances(solution.graph, *solution.selection.solver, covariance_of, placement);
   return placement;
 }
 

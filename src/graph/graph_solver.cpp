@@ -143,16 +143,17 @@ void GraphSolver::add_drifts(const Estimate& estimate) {
     part(drift_variable(p), 3) -= estimate.drift[p];
   }
   for (const DriftLink& link : graph_->drift) {
-    const double weight = 1.0 / (1.0 - link.decay * link.decay);
-    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
+    const Eigen::Vector3d weight = (1.0 - link.decay.array().square()).inverse();
+    const Eigen::Vector3d pull = weight.cwiseProduct(link.decay);
+    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay.cwiseProduct(estimate.drift[link.a]);
     const int a = drift_variable(link.a), b = drift_variable(link.b);
     if (factoring_) {
-      cholesky_->add<3, 3>(a, a, weight * link.decay * link.decay * Eigen::Matrix3d::Identity());
-      cholesky_->add<3, 3>(b, b, weight * Eigen::Matrix3d::Identity());
-      cholesky_->add<3, 3>(b, a, -weight * link.decay * Eigen::Matrix3d::Identity());
+      cholesky_->add<3, 3>(a, a, pull.cwiseProduct(link.decay).asDiagonal().toDenseMatrix());
+      cholesky_->add<3, 3>(b, b, weight.asDiagonal().toDenseMatrix());
+      cholesky_->add<3, 3>(b, a, (-pull).asDiagonal().toDenseMatrix());
     }
-    part(a, 3) += weight * link.decay * r;
-    part(b, 3) -= weight * r;
+    part(a, 3) += pull.cwiseProduct(r);
+    part(b, 3) -= weight.cwiseProduct(r);
   }
 }
 
@@ -234,8 +235,8 @@ double GraphSolver::cost_without_ties(const Estimate& estimate) const {
     if (first_drift_[p]) cost += estimate.drift[p].squaredNorm();
   }
   for (const DriftLink& link : graph_->drift) {
-    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay * estimate.drift[link.a];
-    cost += r.squaredNorm() / (1.0 - link.decay * link.decay);
+    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay.cwiseProduct(estimate.drift[link.a]);
+    cost += (r.array().square() / (1.0 - link.decay.array().square())).sum();
   }
   return cost;
 }

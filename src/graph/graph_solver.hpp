@@ -26,6 +26,9 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
 /// Share by which a tie with the error `e` counts (Huber).
 double huber_weight(const Between& between, const Vector6d& e);
 
+/// After which a solve has not converged.
+inline constexpr int kMostSteps = 60;
+
 /// Gauss-Newton on the reduced graph with a set of alignments.
 class GraphSolver {
  public:

@@ -15,30 +15,10 @@ constexpr double kMostSigma = 1e3;             // m; what is worse is no fix
 constexpr double kLeastRestVariance = 0.01;    // m^2, of a window's mean fix
 constexpr double kLeastTiltVariance = 1.2e-5;  // rad^2, (0.2 deg)^2
 constexpr double kMostRotationVariance = 4.0;  // rad^2
-
-Eigen::Vector3d position_variance(const Node& node) {
-  return node.G->covariance.diagonal().head<3>().cwiseMax(1e-6).cwiseMin(kMostSigma * kMostSigma);
-}
-
-/// What an agent's GPS usually is: the median variance of its nodes, axis by axis. What a node has beyond
-/// that, as in an outage, does not drift along with the rest.
-std::map<AgentId, Eigen::Vector3d> usual_variances(const std::vector<const Node*>& nodes) {
-  std::map<AgentId, std::array<std::vector<double>, 3>> all;
-  for (const Node* node : nodes) {
-    const Eigen::Vector3d variance = position_variance(*node);
-    for (int axis = 0; axis < 3; ++axis)
-      all[node->id.agent][static_cast<std::size_t>(axis)].push_back(variance(axis));
-  }
-  std::map<AgentId, Eigen::Vector3d> usual;
-  for (auto& [agent, axes] : all) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      auto middle = axes[axis].begin() + static_cast<std::ptrdiff_t>(axes[axis].size() / 2);
-      std::ranges::nth_element(axes[axis], middle);
-      usual[agent](static_cast<Eigen::Index>(axis)) = *middle;
-    }
-  }
-  return usual;
-}
+/// Variance that a filter adds each second that it reckons by wheels and gyro.
+constexpr double kReckoning = 0.02;         // m^2/s
+constexpr double kReckoningTurn = 4e-6;     // rad^2/s
+constexpr double kMostCorrelation = 0.998;  // keeps the equations well conditioned
 
 struct Step {
   double metres = 0.0;
@@ -50,58 +30,106 @@ Step between(const Node& a, const Node& b) {
           std::abs(to_seconds(b.stamp - a.stamp))};
 }
 
-/// First node of each window of a frame.
-std::vector<std::size_t> window_starts(const ReducedGraph& graph, const FrameSpan& frame,
-                                       const FleetPlacementConfig& config) {
-  std::vector<std::size_t> starts{frame.first};
+/// Nodes [first, end) of a frame, whose fixes count as one.
+struct Window {
+  std::size_t first = 0, end = 0;
+  Vector6d variance = Vector6d::Zero();  ///< of G, the mean
+  Vector6d before = Vector6d::Zero();    ///< of the window before, zero if there is none
+  double seconds = 0.0;                  ///< since that one
+};
+
+Vector6d variance_of(const Node& node) {
+  Vector6d variance = node.G->covariance.diagonal();
+  variance.head<3>() = variance.head<3>().cwiseMax(1e-6).cwiseMin(kMostSigma * kMostSigma);
+  variance.tail<3>() = variance.tail<3>().cwiseMax(kLeastTiltVariance).cwiseMin(kMostRotationVariance);
+  return variance;
+}
+
+/// G says nothing new: without fixes the variances of height and heading can but grow. Those of east and
+/// north may shrink, as when the robot comes back to where its heading was known, but not below `known`.
+bool reckoned(const Window& window, const Vector6d& known) {
+  return window.variance(2) > window.before(2) && window.variance(5) > window.before(5) &&
+         window.variance.head<2>().sum() > known.head<2>().sum();
+}
+
+/// Windows of a frame that hold fixes; the first of it in any case.
+std::vector<Window> windows_of(const ReducedGraph& graph, const FrameSpan& frame,
+                               const FleetPlacementConfig& config) {
+  std::vector<Window> windows{{.first = frame.first}};
   Step since;
   for (std::size_t k = frame.first + 1; k < frame.end; ++k) {
     const Step step = between(*graph.nodes[k - 1], *graph.nodes[k]);
     since.metres += step.metres;
     since.seconds += step.seconds;
     if (since.metres < config.window_m && since.seconds < 0.5 * config.gps_correlation_time &&
-        k - starts.back() < kMaxWindowNodes) {
+        k - windows.back().first < kMaxWindowNodes) {
       continue;
     }
-    starts.push_back(k);
+    windows.back().end = k;
+    windows.push_back({.first = k, .seconds = since.seconds});
     since = {};
   }
-  return starts;
+  windows.back().end = frame.end;
+  std::vector<Window> fixed;
+  for (Window& window : windows) {
+    for (std::size_t k = window.first; k < window.end; ++k)
+      window.variance += variance_of(*graph.nodes[k]) / static_cast<double>(window.end - window.first);
+    if (&window != &windows.front()) window.before = (&window - 1)->variance;
+    if (fixed.empty() || !reckoned(window, fixed.back().variance)) fixed.push_back(window);
+  }
+  return fixed;
 }
 
-/// The fixes of nodes [first, end) as one of the pillar at `first`.
-void fill_window(Pillar& pillar, const ReducedGraph& graph, std::size_t end, const LocalFrame& site,
-                 const Eigen::Vector3d& usual, const FleetPlacementConfig& config) {
+/// What share of a filter's error is left at the end of some time, in an axis: what it is sure of, V_a, grows
+/// by the variance of its reckoning, until fixes make it V_b. All is left where they did not. The drift of
+/// the fixes themselves is left as well, though the filter may not know.
+double share_left(double V_a, double V_b, double reckoning, double seconds,
+                  const FleetPlacementConfig& config) {
+  const double drift = std::exp(-seconds / config.gps_correlation_time);
+  const double left = std::max(drift, V_b / (V_a + reckoning * seconds));
+  return std::min(left, std::min(1.0, V_b / V_a));
+}
+
+/// Of the heading of G, as if it were independent of the window before: there is no variable for its error.
+double heading_variance(const Window& window, const FleetPlacementConfig& config) {
+  const double V_a = window.before(5), V_b = window.variance(5);
+  if (V_a == 0.0) return V_b;
+  const double left = share_left(V_a, V_b, kReckoningTurn, window.seconds, config);
+  const double information = (1.0 - left) * (1.0 - left) / std::max(V_b - left * left * V_a, 1e-3 * V_b);
+  return 1.0 / std::max(information, 1.0 / kMostRotationVariance);
+}
+
+/// The fixes of a window as one of the pillar at its first node.
+void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window, const LocalFrame& site,
+                 const FleetPlacementConfig& config) {
   const Node& anchor = *graph.nodes[pillar.node];
   const Pose T_base_odom = anchor.T_odom_base.inverse();
-  const double count = static_cast<double>(end - pillar.node);
-  Eigen::Vector3d drift = Eigen::Vector3d::Zero(), rest = Eigen::Vector3d::Zero();
-  for (std::size_t k = pillar.node; k < end; ++k) {
+  const double count = static_cast<double>(window.end - window.first);
+  for (std::size_t k = window.first; k < window.end; ++k) {
     const Node& node = *graph.nodes[k];
     pillar.lever += T_base_odom * Eigen::Vector3d(node.T_odom_base.translation());
     pillar.fix += site.to_enu(node.G->position);
-    const Eigen::Vector3d variance = position_variance(node);
-    const Eigen::Vector3d drifting = config.gps_drift_share * variance.cwiseMin(usual);
-    drift += drifting;
-    rest += variance - drifting;
   }
   pillar.has_window = true;
   pillar.lever /= count;
   pillar.fix /= count;
-  pillar.drift_sigma = (drift / count).cwiseSqrt();
-  pillar.rest_variance = (rest / count).array() + kLeastRestVariance;
-  const double seconds = std::abs(to_seconds(graph.nodes[end - 1]->stamp - anchor.stamp));
-  // The orientation's error drifts as well: fixes closer in time than its correlation share one.
+  pillar.seconds = to_seconds(anchor.stamp - graph.nodes.front()->stamp);
+  pillar.variance_before = window.before.head<3>();
+  pillar.drift_sigma = (config.gps_drift_share * window.variance.head<3>()).cwiseSqrt();
+  pillar.rest_variance =
+      ((1.0 - config.gps_drift_share) * window.variance.head<3>()).array() + kLeastRestVariance;
+  const double seconds = std::abs(to_seconds(graph.nodes[window.end - 1]->stamp - anchor.stamp));
+  pillar.R_enu_base = pose_in(site, *anchor.G).linear();
+  // The level's error drifts as well: what is closer in time than its correlation shares one.
   const double shared = std::max(1.0, config.gps_correlation_time / std::max(1.0, seconds));
-  const Pose T = pose_in(site, *anchor.G);
-  pillar.R_enu_base = T.linear();
-  pillar.rotation_variance = shared * anchor.G->covariance.diagonal().tail<3>().cwiseMax(kLeastTiltVariance);
+  const Vector6d of_anchor = variance_of(anchor);
+  pillar.rotation_variance << shared * of_anchor.segment<2>(3), heading_variance(window, config);
   pillar.rotation_variance = pillar.rotation_variance.cwiseMin(kMostRotationVariance);
 }
 
 void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is_end, const LocalFrame& site,
-               const std::map<AgentId, Eigen::Vector3d>& usual, const FleetPlacementConfig& config) {
-  const std::vector<std::size_t> starts = window_starts(graph, frame, config);
+               const FleetPlacementConfig& config) {
+  const std::vector<Window> windows = windows_of(graph, frame, config);
   std::size_t window = 0;
   frame.first_pillar = graph.pillars.size();
   Matrix6d covariance = Matrix6d::Zero();
@@ -111,17 +139,12 @@ void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is
       const Matrix6d carry = adjoint(node.T_odom_base.inverse() * graph.nodes[k - 1]->T_odom_base);
       covariance = carry * covariance * carry.transpose() + odometry_step(graph, k);
     }
-    const bool starts_window = window < starts.size() && starts[window] == k;
+    const bool starts_window = window < windows.size() && windows[window].first == k;
     if (!starts_window && !is_end[k] && k + 1 != frame.end) continue;
     Pillar pillar;
     pillar.node = k;
     pillar.frame = graph.frames.size();
-    if (starts_window) {
-      const std::size_t end = window + 1 < starts.size() ? starts[window + 1] : frame.end;
-      fill_window(pillar, graph, end, site, usual.at(node.id.agent), config);
-      pillar.seconds = to_seconds(node.stamp - graph.nodes.front()->stamp);
-      ++window;
-    }
+    if (starts_window) fill_window(pillar, graph, windows[window++], site, config);
     if (k > frame.first) {
       const std::size_t a = graph.pillars.size() - 1;
       const Node& before = *graph.nodes[graph.pillars[a].node];
@@ -135,6 +158,22 @@ void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is
   graph.frames.push_back(frame);
 }
 
+/// How the errors of G of two windows that follow each other correlate, axis by axis.
+Eigen::Vector3d correlation(const Pillar& a, const Pillar& b, double seconds,
+                            const FleetPlacementConfig& config) {
+  Eigen::Vector3d result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double scale = 1.0 / config.gps_drift_share;
+    const double V_b = scale * b.drift_sigma(axis) * b.drift_sigma(axis);
+    const double V_a = scale * a.drift_sigma(axis) * a.drift_sigma(axis);
+    // What was lost in windows without fixes between the two is not left.
+    const double lost = V_a / std::max(V_a, b.variance_before(axis));
+    const double left = lost * share_left(V_a / lost, V_b, kReckoning, seconds, config);
+    result(axis) = left * std::sqrt(V_a / V_b);
+  }
+  return result.cwiseMin(kMostCorrelation);
+}
+
 /// The drift of a robot's GPS goes on when its program starts anew.
 void link_drifts(ReducedGraph& graph, const FleetPlacementConfig& config) {
   std::map<AgentId, std::vector<std::size_t>> windows;
@@ -144,9 +183,9 @@ void link_drifts(ReducedGraph& graph, const FleetPlacementConfig& config) {
   for (auto& [agent, of_agent] : windows) {
     std::ranges::stable_sort(of_agent, {}, [&](std::size_t p) { return graph.pillars[p].seconds; });
     for (std::size_t k = 1; k < of_agent.size(); ++k) {
-      const double seconds = graph.pillars[of_agent[k]].seconds - graph.pillars[of_agent[k - 1]].seconds;
-      const double decay = std::exp(-std::max(seconds, 0.1) / config.gps_correlation_time);
-      graph.drift.push_back({of_agent[k - 1], of_agent[k], decay});
+      const std::size_t a = of_agent[k - 1], b = of_agent[k];
+      const double seconds = std::max(graph.pillars[b].seconds - graph.pillars[a].seconds, 0.1);
+      graph.drift.push_back({a, b, correlation(graph.pillars[a], graph.pillars[b], seconds, config)});
     }
   }
 }
@@ -176,11 +215,10 @@ ReducedGraph reduce(std::span<const Node* const> nodes, std::span<const NodeId> 
   const std::set<NodeId> wanted(ends.begin(), ends.end());
   std::vector<bool> is_end(graph.nodes.size());
   for (std::size_t k = 0; k < graph.nodes.size(); ++k) is_end[k] = wanted.contains(graph.nodes[k]->id);
-  const auto usual = usual_variances(graph.nodes);
   for (std::size_t first = 0; first < graph.nodes.size();) {
     std::size_t end = first + 1;
     while (end < graph.nodes.size() && graph.nodes[end]->frame() == graph.nodes[first]->frame()) ++end;
-    add_frame(graph, {graph.nodes[first]->frame(), first, end, 0, 0}, is_end, site, usual, config);
+    add_frame(graph, {graph.nodes[first]->frame(), first, end, 0, 0}, is_end, site, config);
     first = end;
   }
   link_drifts(graph, config);

@@ -16,12 +16,13 @@ struct Pillar {
   std::size_t frame = 0;  ///< in ReducedGraph::frames
   bool has_window = false;
   // The window's fixes as one: their mean, at the mean of the places where the odometry saw them.
-  Eigen::Vector3d lever = Eigen::Vector3d::Zero();           ///< m, in base_link of the pillar
-  Eigen::Vector3d fix = Eigen::Vector3d::Zero();             ///< m, ENU
-  Eigen::Vector3d drift_sigma = Eigen::Vector3d::Zero();     ///< m, of the part that drifts, east, north, up
-  Eigen::Vector3d rest_variance = Eigen::Vector3d::Ones();   ///< m^2, of what is left
-  double seconds = 0.0;                                      ///< since the first node of the fleet
-  Eigen::Matrix3d R_enu_base = Eigen::Matrix3d::Identity();  ///< of G
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();            ///< m, in base_link of the pillar
+  Eigen::Vector3d fix = Eigen::Vector3d::Zero();              ///< m, ENU
+  Eigen::Vector3d drift_sigma = Eigen::Vector3d::Zero();      ///< m, of the part that drifts, east, north, up
+  Eigen::Vector3d rest_variance = Eigen::Vector3d::Ones();    ///< m^2, of what is left
+  Eigen::Vector3d variance_before = Eigen::Vector3d::Zero();  ///< m^2, of G in the frame's window before
+  double seconds = 0.0;                                       ///< since the first node of the fleet
+  Eigen::Matrix3d R_enu_base = Eigen::Matrix3d::Identity();   ///< of G
   Eigen::Vector3d rotation_variance = Eigen::Vector3d::Ones();  ///< rad^2, about the axes of ENU
 };
 
@@ -36,10 +37,11 @@ struct Between {
   Between(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C);
 };
 
-/// The drifts of two windows that follow each other: drift_b = decay * drift_a + noise, unit variance.
+/// The drifts of two windows that follow each other: drift_b = decay * drift_a + noise, unit variance, axis
+/// by axis.
 struct DriftLink {
   std::size_t a = 0, b = 0;
-  double decay = 0.0;
+  Eigen::Vector3d decay = Eigen::Vector3d::Zero();
 };
 
 struct FrameSpan {

@@ -155,7 +155,8 @@ TEST(FleetPlacement, WhenAllBetweenTwoRobotsAreFalseAThirdTiesThem) {
     SimulatedFleetConfig config;
     config.reach = 50.0;  // r1 and r3 meet as well
     config.lanes = 6;
-    config.length = 80.0;  // long enough for GPS to tell one row from the next
+    config.length = 120.0;  // long enough for GPS to tell one row from the next
+    config.filtered = true;
     SimulatedFleet fleet(seed, config);
     std::set<std::pair<AgentId, std::uint32_t>> false_ones;
     for (Alignment& a : fleet.alignments) {
@@ -406,6 +407,55 @@ TEST(FleetPlacement, ImpossibleNumbersDoNotCount) {
     EXPECT_TRUE(T.matrix() == placement.T_enu_node.at(id).matrix()) << to_string(id);
 }
 
+TEST(FleetPlacement, ARobotOfAbsurdNumbersHurtsItselfAlone) {
+  using Spoil = std::function<void(SimulatedFleet&, Node&)>;
+  const auto anyhow = [](SimulatedFleet& fleet, double turn) {
+    return so3_exp(Eigen::Vector3d(fleet.gauss(turn), fleet.gauss(turn), fleet.gauss(turn)));
+  };
+  const auto anywhere = [](SimulatedFleet& fleet, double metres) {
+    return Eigen::Vector3d(fleet.gauss(metres), fleet.gauss(metres), fleet.gauss(1e3));
+  };
+  const Spoil wrong_motion = [&](SimulatedFleet& fleet, Node& node) {
+    node.T_odom_base = make_pose(anyhow(fleet, 2.0), anywhere(fleet, 50.0));
+    node.odom_covariance = 1e-18 * Matrix6d::Identity();
+  };
+  const Spoil far = [](SimulatedFleet&, Node& node) {
+    node.G->position.latitude += 0.14;  // 900 km
+    node.G->covariance = 1e-6 * Matrix6d::Identity();
+  };
+  const Spoil jumping = [&](SimulatedFleet& fleet, Node& node) {
+    node.G->position = fleet.site.to_geo(anywhere(fleet, 1e5));
+    node.G->covariance = 1e-6 * Matrix6d::Identity();
+  };
+  const Spoil all = [&](SimulatedFleet& fleet, Node& node) {
+    wrong_motion(fleet, node);
+    jumping(fleet, node);
+    node.G->q_enu_base = Eigen::Quaterniond(anyhow(fleet, 2.0));
+  };
+  for (const Spoil& spoil : {wrong_motion, far, jumping, all}) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+      SimulatedFleet fleet(seed);
+      for (Node& node : fleet.nodes)
+        if (node.id.agent == kR3) spoil(fleet, node);
+      const Placement placement = place(fleet);
+      const auto judged = judgements(placement);
+      for (const Alignment& a : fleet.alignments) {
+        const bool of_others = a.i.agent != kR3 && a.j.agent != kR3;
+        EXPECT_EQ(judged.at({a.computed_by, a.seq}) == Judgement::used, of_others) << of(seed);
+      }
+      EXPECT_LT(joint_error(fleet, placement, {kR1, kR2}), 0.8) << of(seed);
+      EXPECT_EQ(placement.components.size(), 2u) << of(seed);
+      ASSERT_EQ(placement.T_enu_node.size(), fleet.nodes.size());
+      for (const auto& [id, T] : placement.T_enu_node) EXPECT_TRUE(T.matrix().allFinite()) << to_string(id);
+      std::ranges::shuffle(fleet.nodes, fleet.random());
+      std::ranges::shuffle(fleet.alignments, fleet.random());
+      const Placement shuffled = place(fleet);
+      for (const auto& [id, T] : placement.T_enu_node)
+        EXPECT_TRUE(T.matrix() == shuffled.T_enu_node.at(id).matrix()) << to_string(id);
+    }
+  }
+}
+
 TEST(FleetPlacement, CovariancesPromiseWhatErrorsAre) {
   double sum = 0.0, ends = 0.0;
   int samples = 0, end_samples = 0;
@@ -429,6 +479,38 @@ TEST(FleetPlacement, CovariancesPromiseWhatErrorsAre) {
   EXPECT_LT(ends / end_samples, 2.0);
   RecordProperty("nees", std::to_string(sum / samples));
   RecordProperty("nees_at_the_end", std::to_string(ends / end_samples));
+}
+
+/// NEES a dimension of a few nodes of each robot, over many fleets.
+double mean_nees(const SimulatedFleetConfig& config) {
+  double sum = 0.0;
+  int samples = 0;
+  for (unsigned seed = 500; seed < 560; ++seed) {
+    const SimulatedFleet fleet(seed, config);
+    std::vector<NodeId> some;
+    for (const Node& node : fleet.nodes) {
+      if (node.id.seq % 20 == 7) some.push_back(node.id);
+    }
+    const Placement placement = place(fleet, some);
+    for (const NodeId& id : some) {
+      const Vector6d error = se3_log(placement.T_enu_node.at(id).inverse() * fleet.truth.at(id));
+      sum += error.dot(placement.covariance.at(id).llt().solve(error)) / 6.0;
+      ++samples;
+    }
+  }
+  return sum / samples;
+}
+
+TEST(FleetPlacement, CovariancesPromiseWhatErrorsAreWhereAFilterReckonsWithoutGps) {
+  SimulatedFleetConfig config;
+  config.filtered = true;
+  const std::pair<double, double> all_the_time(0.0, 0.0), three_minutes(30.0, 210.0), the_rest(30.0, 1e9);
+  for (const auto& [from, until] : {all_the_time, three_minutes, the_rest}) {
+    config.lost_from = from, config.lost_until = until;
+    const double nees = mean_nees(config);
+    EXPECT_GT(nees, 0.6) << from << " to " << until;
+    EXPECT_LT(nees, 1.3) << from << " to " << until;
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "simulated_filter.hpp"
 
 namespace fleetmap::graph::testing {
 
@@ -29,6 +30,10 @@ struct SimulatedFleetConfig {
   double gps_correlation_time = 60.0;  ///< s
   double yaw_sigma = 1.0 * kDegree;
   double tilt_sigma = 0.3 * kDegree;
+  /// G is that of an EKF, which reckons where there are no fixes: not from `lost_from` to `lost_until`, s.
+  bool filtered = false;
+  double lost_from = 0.0, lost_until = 0.0;
+  double reckoning = 0.12;                ///< m a root of a second, of the filter without fixes
   double odometry_share = 0.002;          ///< m a metre
   double odometry_turn = 0.05 * kDegree;  ///< rad a metre
   double alignment_sigma = 0.03;          ///< m
@@ -169,6 +174,7 @@ class SimulatedFleet {
     const double sigma = config_.gps_sigma;
     std::array<double, 6> drift;
     for (double& d : drift) d = gauss(1.0);
+    SimulatedFilter filter(sigma, config_.gps_correlation_time, config_.reckoning, random_);
     Pose T_odom =
         make_pose(rotation_from_rpy(0.0, 0.0, gauss(2.0)), Eigen::Vector3d(gauss(5.0), gauss(5.0), 0.0));
     Pose before = on_lanes(r, 0.0);
@@ -202,10 +208,29 @@ class SimulatedFleet {
           Eigen::Vector2d::Constant(config_.tilt_sigma * config_.tilt_sigma),
           config_.yaw_sigma * config_.yaw_sigma;
       node.G->covariance = variance.asDiagonal();
+      if (config_.filtered)
+        reckon(filter, before, T, start + k * config_.spacing / config_.speed, k == 0, node);
       truth[node.id] = T;
       nodes.push_back(node);
       before = T;
     }
+  }
+
+  /// G of the node as the filter has it, after the way from the one before.
+  void reckon(SimulatedFilter& filter, const Pose& before, const Pose& T, double seconds, bool first,
+              Node& node) {
+    const int steps = first ? 1 : std::max(1, static_cast<int>(config_.spacing / config_.speed));
+    const bool fix = seconds < config_.lost_from || seconds >= config_.lost_until;
+    for (int k = 0; k < steps; ++k) filter.step((T.translation() - before.translation()) / steps, fix);
+    node.G->position = site.to_geo(T.translation() + filter.position_error());
+    const Eigen::Vector3d turn(gauss(config_.tilt_sigma), gauss(config_.tilt_sigma), filter.heading_error());
+    node.G->q_enu_base = Eigen::Quaterniond(
+        Eigen::Matrix3d(site.R_enu_local(node.G->position).transpose() * so3_exp(turn) * T.linear()));
+    const Eigen::Matrix4d C = filter.covariance();
+    node.G->covariance.topLeftCorner<3, 3>() = C.topLeftCorner<3, 3>();
+    node.G->covariance.topRightCorner<3, 1>() = C.topRightCorner<3, 1>();
+    node.G->covariance.bottomLeftCorner<1, 3>() = C.bottomLeftCorner<1, 3>();
+    node.G->covariance(5, 5) = C(3, 3);
   }
 
   void step(const Pose& before, const Pose& T, Pose& T_odom, Node& node) {
