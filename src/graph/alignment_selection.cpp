@@ -1,5 +1,6 @@
 #include "alignment_selection.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -130,6 +131,10 @@ class Selector {
       if (ties() != judged_by) tied_->set_ties(ties());
       if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
     }
+    if (drop_outvoted(estimate)) {
+      tied_->set_ties(ties());
+      if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
+    }
     state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
     for (const auto& [frames, evaluation] : alone_) {
       for (const Hypothesis& hypothesis : evaluation.hypotheses)
@@ -191,6 +196,18 @@ class Selector {
     std::erase_if(state_.tree, [&](const Hypothesis& edge) {
       return std::ranges::none_of(edge.members, [&](std::size_t c) { return is_taken(c); });
     });
+  }
+
+  /// What was taken last, nothing has judged since: takes back what the solution contradicts, though it
+  /// pulled there. True if there was any.
+  bool drop_outvoted(const Estimate& estimate) {
+    return std::erase_if(state_.taken, [&](const auto& one) {
+             const Between& tie = candidates_[one.second].between;
+             const Vector6d e = relative_residual(estimate, tie.a, tie.b, tie.T_a_b).e;
+             const bool outvoted = !(e.dot(judged_covariance(tie).llt().solve(e)) < kContradicts);
+             if (outvoted) state_.contradicting.insert(one.second);
+             return outvoted;
+           }) > 0;
   }
 
   bool is_taken(std::size_t candidate) const {
