@@ -23,6 +23,9 @@ constexpr double kGap = 0.35;            // s between scans from which on "it st
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
+constexpr double kChangeGain = 0.1;  // of the changes of the turn rate: over a second
+
+double square(double value) { return value * value; }
 
 }  // namespace
 
@@ -87,6 +90,8 @@ class Loam::Pipeline {
   MotionPrior make_prior(Stamp reference, double dt) const;
   MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
+  Eigen::Vector3d turn_acceleration_variance(Stamp reference) const;
+  double half_sweep() const;
   Matrix6d find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
                            const Pose& T_reference_stamp);
   Matrix6d find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise, const Pose& moved);
@@ -114,6 +119,8 @@ class Loam::Pipeline {
   bool velocity_known_ = false;
   MotionState state_;                           ///< of the last scan at its reference instant
   Vector6d twist_variance_ = Vector6d::Zero();  ///< of state_.twist
+  /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
+  Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
   int degenerate_in_a_row_ = 0;
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
@@ -197,17 +204,23 @@ MatchResult Loam::Pipeline::estimate(Stamp reference) {
       velocity_known_ && lost_in_a_row_ == 0 ? std::min(kFirstError, kUsualError * dt / 0.1) : kFirstError;
   MatchResult best = matcher_.align(match_planes_, match_edges_, map_, prior, prior.predicted(), error);
   if (dt > kGap || lost_in_a_row_ > 0) {
-    const MotionState still{state_.T_odom_base, Vector6d::Zero()};
+    const MotionState still{state_.T_odom_base, Vector6d::Zero(), Eigen::Vector3d::Zero()};
     const MatchResult other = matcher_.align(match_planes_, match_edges_, map_, prior, still, error);
     if (other.inlier_fraction > best.inlier_fraction) best = other;
   }
   return velocity_known_ ? best : straighten_first_scan(best, dt);
 }
 
-MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
-  MotionPrior prior(config_, state_, twist_variance_, dt);
+/// s from the sweep's reference instant to its end.
+double Loam::Pipeline::half_sweep() const {
   double half = 0.0;
   for (const FeaturePoint& p : match_planes_) half = std::max(half, std::abs(static_cast<double>(p.time)));
+  return half;
+}
+
+MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
+  MotionPrior prior(config_, state_, twist_variance_, dt);
+  const double half = half_sweep();
   const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
   if (const auto rate = gyro_.mean(from, to, kHold)) {
     prior.set_gyro_rate(*rate - gyro_bias_, config_.gyro_noise);
@@ -215,6 +228,7 @@ MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
   if (const auto R = gyro_.rotation(reference_, reference, gyro_bias_, kHold)) {
     prior.set_gyro_rotation(*R, config_.gyro_noise * dt);
   }
+  if (const auto trend = gyro_.trend(from, to)) prior.set_turn_acceleration(trend->slope);
   if (const auto wheel = wheels_.mean(from, to, kHold)) {
     prior.set_forward_speed(wheel->x(), config_.wheel_speed_noise + 0.05 * std::abs(wheel->x()));
     if (wheel->z() > 0.99) prior.set_yaw_rate(wheel->y(), config_.wheel_yaw_noise);
@@ -234,7 +248,8 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
     map_.clear();
     insert(first_planes_, first_edges_, first);
     const MotionPrior again(config_, first, twist_variance_, dt);
-    const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist};
+    const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist,
+                            Eigen::Vector3d::Zero()};
     result = matcher_.align(match_planes_, match_edges_, map_, again, start, kUsualError);
     state_ = first;
   }
@@ -250,8 +265,15 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   MotionState now = match.state;
   if (update.lost) now = make_prior(reference, dt).predicted();
 
-  const Pose T_reference_stamp = se3_exp(-sweep.reference_offset * now.twist);
+  if (velocity_known_ && !update.lost) {
+    const Eigen::Vector3d change = (now.twist - state_.twist).tail<3>() / dt;
+    turn_change_ += kChangeGain * (change.cwiseAbs2() - turn_change_);
+  }
+  const Pose T_reference_stamp = now.motion_to(-sweep.reference_offset);
   update.pose_noise = find_pose_noise(match, update.lost, sweep.reference_offset, T_reference_stamp);
+  // A line laid through a parabola over the sweep's half length h is off by a (s^2/2 - h^2/6) at s.
+  const double bow = 0.5 * square(sweep.reference_offset) - square(half_sweep()) / 6.0;
+  update.pose_noise.diagonal().tail<3>() += bow * bow * turn_acceleration_variance(reference);
   update.covariance =
       find_drift(match, update.lost, update.pose_noise, state_.T_odom_base.inverse() * now.T_odom_base);
   update.T_odom_base = now.T_odom_base * T_reference_stamp;
@@ -284,6 +306,14 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   if (restart || ((keyframe || young) && !update.lost)) insert(insert_planes_, match_edges_, now);
 }
 
+/// (rad/s^2)^2, of MotionState::turn_acceleration: by the gyro's own scatter; without it as much as it has
+/// changed of late, for within a sweep it may change as much again.
+Eigen::Vector3d Loam::Pipeline::turn_acceleration_variance(Stamp reference) const {
+  const Duration half = from_seconds(half_sweep());
+  const auto trend = gyro_.trend(reference - half, reference + half);
+  return trend ? trend->variance : turn_change_;
+}
+
 /// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
 /// d_stamp = Ad d_pose + s d_twist.
 Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
@@ -299,7 +329,11 @@ Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, do
 
   Eigen::Matrix<double, 6, 12> M;
   M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
-  const Matrix6d noise = M * at_reference * M.transpose();
+  // The points err as far as they lie off their surfaces, not as they were weighed.
+  Matrix12d scatter = match.prior_information;
+  if (!lost) scatter += match.residual_variance * match.lidar_information;
+  const Matrix12d error = at_reference * scatter * at_reference;
+  const Matrix6d noise = M * error * M.transpose();
   return 0.5 * (noise + noise.transpose());
 }
 
@@ -334,9 +368,9 @@ void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, Stamp reference) 
 
 void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                             const MotionState& state) {
-  const ConstantTwist twist(state.twist);
+  const SweepMotion motion(state.twist, state.turn_acceleration);
   auto in_odom = [&](const FeaturePoint& p) -> Eigen::Vector3d {
-    return state.T_odom_base * twist.at_reference(p.position, p.time).cast<double>();
+    return state.T_odom_base * motion.at_reference(p.position, p.time).cast<double>();
   };
   const Eigen::Vector3d sensor = state.T_odom_base * config_.T_base_lidar.translation();
   for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p), sensor);
@@ -351,13 +385,15 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
 
 void Loam::Pipeline::describe(const Sweep& sweep, OdometryUpdate& update) const {
   update.stamp = sweep.stamp;
-  const ConstantTwist twist(update.twist);
-  const Eigen::Isometry3f T_stamp_reference = se3_exp(sweep.reference_offset * update.twist).cast<float>();
+  const SweepMotion motion(state_.twist, state_.turn_acceleration);
+  const Eigen::Isometry3f T_stamp_reference =
+      state_.motion_to(-sweep.reference_offset).inverse().cast<float>();
   update.points.points.resize(sweep.points.size());
   update.points.intensities.resize(sweep.points.size());
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     const SweepPoint& p = sweep.points[i];
-    const Eigen::Vector3f at_reference = config_.deskew ? twist.at_reference(p.position, p.time) : p.position;
+    const Eigen::Vector3f at_reference =
+        config_.deskew ? motion.at_reference(p.position, p.time) : p.position;
     update.points.points[i] = T_stamp_reference * at_reference;
     update.points.intensities[i] = p.intensity;
   }

@@ -59,9 +59,17 @@ Vector6d MotionPrior::mean_twist(const Vector6d& now) const {
   return 0.5 * (before + now);
 }
 
+Eigen::Vector3d MotionPrior::turn_acceleration(const Vector6d& twist) const {
+  if (turn_acceleration_) return *turn_acceleration_;
+  // As far as the velocity before was known.
+  const Eigen::Vector3d share = 0.5 * (Eigen::Vector3d::Ones() - smoothing_.tail<3>());
+  return share.cwiseProduct((twist - previous_.twist).tail<3>()) / dt_;
+}
+
 MotionState MotionPrior::predicted() const {
   MotionState state;
   state.twist = twist_mean_;
+  state.turn_acceleration = turn_acceleration(twist_mean_);
   state.T_odom_base = previous_.T_odom_base * se3_exp(dt_ * mean_twist(twist_mean_));
   if (R_previous_now_) state.T_odom_base.linear() = previous_.T_odom_base.linear() * *R_previous_now_;
   return state;

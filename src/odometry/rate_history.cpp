@@ -7,6 +7,7 @@
 namespace fleetmap::odometry {
 namespace {
 
+constexpr std::ptrdiff_t kLeastForTrend = 5;
 constexpr std::size_t kMaxSamples = 8192;
 constexpr Duration kClockJump = std::chrono::seconds(1);
 constexpr Duration kMaxGap = std::chrono::milliseconds(500);  // between samples that still cover an interval
@@ -84,6 +85,30 @@ std::optional<Eigen::Matrix3d> RateHistory::rotation(Stamp from, Stamp to, const
   }
   advance(to, at(to));
   return R;
+}
+
+std::optional<RateHistory::Trend> RateHistory::trend(Stamp from, Stamp to) const {
+  const auto before = [](const Sample& s, Stamp t) { return s.stamp < t; };
+  const auto first = std::lower_bound(samples_.begin(), samples_.end(), from, before);
+  const auto last =
+      std::upper_bound(first, samples_.end(), to, [](Stamp t, const Sample& s) { return t < s.stamp; });
+  const auto n = static_cast<double>(last - first);
+  if (last - first < kLeastForTrend) return std::nullopt;
+  double time = 0.0, square_time = 0.0;
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero(), square_rate = rate, product = rate;
+  for (auto it = first; it != last; ++it) {
+    const double t = to_seconds(it->stamp - from);
+    const Eigen::Vector3d r = it->rate - first->rate;
+    time += t;
+    square_time += t * t;
+    rate += r;
+    square_rate += r.cwiseAbs2();
+    product += t * r;
+  }
+  const double spread = square_time - time * time / n;
+  const Eigen::Vector3d slope = (product - time / n * rate) / spread;
+  const Eigen::Vector3d rest = square_rate - rate.cwiseAbs2() / n - spread * slope.cwiseAbs2();
+  return Trend{slope, rest.cwiseMax(0.0) / ((n - 2.0) * spread)};
 }
 
 }  // namespace fleetmap::odometry

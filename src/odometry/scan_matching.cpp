@@ -12,6 +12,8 @@ constexpr double kStepTranslation = 5e-4;  // m, a smaller step ends the iterati
 constexpr double kStepRotation = 2e-5;     // rad
 constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
 constexpr double kFinalSlack = 0.02;       // m
+/// Distances as large as assumed that the a posteriori variance begins with: a few cannot be sure of it.
+constexpr double kAssumedDistances = 10.0;
 /// A direction is degenerate if its information is within this factor of what noisy normals feign ...
 constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
@@ -58,6 +60,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     if (!step.allFinite()) break;
     result.state.T_odom_base = result.state.T_odom_base * se3_exp(step.head<6>());
     result.state.twist += step.tail<6>();
+    result.state.turn_acceleration = prior.turn_acceleration(result.state.twist);
     result.lidar_information = lidar.H;
     result.prior_information = known.H;
     if (slack <= kFinalSlack && step.head<3>().norm() < kStepTranslation &&
@@ -73,6 +76,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   result.edges = sums_.edges;
   result.inlier_fraction =
       static_cast<double>(sums_.inliers) / static_cast<double>(std::max<std::size_t>(1, sums_.points));
+  result.residual_variance =
+      (sums_.inlier_normalised + kAssumedDistances) / (sums_.inlier_dimensions + kAssumedDistances);
   result.rms = std::sqrt(sums_.inlier_square / static_cast<double>(std::max<std::size_t>(1, sums_.inliers)));
   return result;
 }
@@ -84,7 +89,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     bin.g.setZero();
   }
   sums_ = {};
-  const ConstantTwist twist(state.twist);
+  const SweepMotion motion(state.twist, state.turn_acceleration);
   const Eigen::Matrix3d R = state.T_odom_base.linear();
   const Eigen::Vector3d t = state.T_odom_base.translation();
   const Eigen::Vector3d sensor = R * config_.T_base_lidar.translation() + t;
@@ -93,7 +98,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   const double edge_variance = square(config_.edge_noise);
 
   auto visit = [&](const FeaturePoint& feature, bool edge) {
-    const Eigen::Vector3d p = twist.at_reference(feature.position, feature.time).cast<double>();
+    const Eigen::Vector3d p = motion.at_reference(feature.position, feature.time).cast<double>();
     const Eigen::Vector3d q = R * p + t;
     const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q, sensor);
     if (window == nullptr) return;
@@ -127,6 +132,8 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     if (residual2 < 9.0 * variance) {
       ++sums_.inliers;
       sums_.inlier_square += residual2;
+      sums_.inlier_normalised += residual2 / variance;
+      sums_.inlier_dimensions += plane ? 1.0 : 2.0;
     }
   };
   for (const FeaturePoint& feature : planes) visit(feature, false);

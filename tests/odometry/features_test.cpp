@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "fleetmap/odometry/deskew.hpp"
+#include "fleetmap/odometry/motion_prior.hpp"
+#include "fleetmap/odometry/rate_history.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::odometry {
@@ -114,17 +117,45 @@ TEST(Sweep, RecoversRingsAndTimes) {
   }
 }
 
-/// The series equals the exponential map.
-TEST(ConstantTwist, EqualsTheExponentialMap) {
-  Vector6d twist;
-  twist << 3.0, -0.5, 0.2, 0.3, -0.4, 2.0;
-  const ConstantTwist motion(twist);
+/// The series equals the exponential map of the mean velocity since the reference instant.
+TEST(SweepMotion, EqualsTheExponentialMap) {
+  MotionState state;
+  state.twist << 3.0, -0.5, 0.2, 0.3, -0.4, 2.0;
   const Eigen::Vector3d p(12.0, -7.0, 1.5);
-  for (const double s : {-0.1, -0.05, 0.0, 0.02, 0.1}) {
-    const Eigen::Vector3d exact = se3_exp(s * twist) * p;
-    EXPECT_LT((motion.at_reference(p.cast<float>(), static_cast<float>(s)).cast<double>() - exact).norm(),
-              1e-3);
+  for (const double acceleration : {0.0, 4.0}) {
+    state.turn_acceleration << 0.5 * acceleration, acceleration, -acceleration;
+    const SweepMotion motion(state.twist, state.turn_acceleration);
+    for (const double s : {-0.1, -0.05, 0.0, 0.02, 0.1}) {
+      const Eigen::Vector3d exact = state.motion_to(s) * p;
+      EXPECT_LT((motion.at_reference(p.cast<float>(), static_cast<float>(s)).cast<double>() - exact).norm(),
+                1e-3);
+    }
   }
+}
+
+/// A steady acceleration seen through a noisy gyro: the slope errs as its variance says.
+TEST(RateHistory, TellsTheTrendAndHowWell) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d slope(1.5, -0.7, 0.0);
+  double nees = 0.0;
+  constexpr int kRounds = 2000;
+  for (int round = 0; round < kRounds; ++round) {
+    RateHistory gyro;
+    for (int k = 0; k <= 20; ++k) {
+      const Eigen::Vector3d noise(normal(random), normal(random), normal(random));
+      gyro.add(Stamp{k * std::chrono::milliseconds(10)},
+               Eigen::Vector3d(1.0, 2.0, 3.0) + 0.01 * k * slope + 0.01 * noise);
+    }
+    const auto trend =
+        gyro.trend(Stamp{std::chrono::milliseconds(50)}, Stamp{std::chrono::milliseconds(250)});
+    ASSERT_TRUE(trend);
+    nees += (trend->slope - slope).cwiseAbs2().cwiseQuotient(trend->variance).mean() / kRounds;
+  }
+  EXPECT_NEAR(nees, 14.0 / 12.0, 0.15);  // of Student's distribution with 14 degrees of freedom
+  RateHistory few;
+  for (int k = 0; k < 4; ++k) few.add(Stamp{k * std::chrono::milliseconds(10)}, slope);
+  EXPECT_FALSE(few.trend(Stamp{}, Stamp{std::chrono::seconds(1)}));
 }
 
 }  // namespace

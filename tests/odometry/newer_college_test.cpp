@@ -59,7 +59,7 @@ TEST_F(NewerCollege, ConstantTwistStraightensScans) {
 
     Vector6d twist = Vector6d::Zero();
     for (int iteration = 0; iteration < 5; ++iteration) {
-      const ConstantTwist motion(twist);
+      const SweepMotion motion(twist);
       Matrix6d H = Matrix6d::Zero();
       Vector6d g = Vector6d::Zero();
       for (std::size_t i = 0; i < raw.size(); i += 2) {
@@ -72,7 +72,7 @@ TEST_F(NewerCollege, ConstantTwistStraightensScans) {
       }
       twist -= H.ldlt().solve(g);
     }
-    const ConstantTwist motion(twist);
+    const SweepMotion motion(twist);
     double before = 0.0, after = 0.0;
     for (std::size_t i = 1; i < raw.size(); i += 2) {
       before += (raw[i].position.cast<double>() - wanted[i]).squaredNorm();

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
 #include "odometry/trajectory_error.hpp"
@@ -139,6 +142,58 @@ TEST(SyntheticOdometry, GyroPriorWithBiasDoesNoHarm) {
   const Matrix6d covariance = uncertainty.since_reference();
   for (int i = 0; i < 6; ++i) EXPECT_LT(std::abs(error[i]), 3.0 * std::sqrt(covariance(i, i))) << i;
   EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.5);
+}
+
+struct Swaying {
+  double tilt_error = 0.0;   ///< rad, RMS of roll and pitch since the first scan
+  double tilt_stated = 0.0;  ///< rad, RMS of what is stated for them
+};
+
+/// Straight on for some seconds while the body pitches by 0.02 rad at `rate` Hz and rolls by half of it.
+Swaying drive_swaying(double rate, bool with_gyro) {
+  const SyntheticDrive motion({{1, 0, 0}, {5, 1.5, 0}});
+  const auto pose_at = [&](double t) {
+    const double phase = 2.0 * std::numbers::pi * rate * t;
+    return Pose(motion.at(t) *
+                make_pose(rotation_from_rpy(0.01 * std::cos(phase), 0.02 * std::sin(phase), 0.0),
+                          Eigen::Vector3d::Zero()));
+  };
+  const testing::SyntheticWorld world = testing::yard_world();
+  LoamConfig config;
+  config.T_base_lidar = ScanOptions{}.T_base_lidar;
+  Loam loam(config, vlp16());
+  Swaying result;
+  std::vector<Pose> offsets;
+  double fed = 0.0;
+  for (int k = 0; k < 58; ++k) {
+    const double t = 0.1 * k;
+    for (; with_gyro && fed < t + 0.12; fed += 0.01) {
+      sensor::Imu imu = motion.imu(fed);
+      imu.angular_velocity =
+          so3_log(pose_at(fed - 0.005).linear().transpose() * pose_at(fed + 0.005).linear()) / 0.01;
+      loam.add_imu(imu);
+    }
+    const auto update = loam.add_scan(make_scan(world, pose_at, t, vlp16()));
+    if (!update || k < 20) continue;
+    offsets.push_back(pose_at(t) * update->T_odom_base.inverse());
+    const Vector6d error = se3_log(update->T_odom_base.inverse() * offsets.front().inverse() * pose_at(t));
+    result.tilt_error += error.segment<2>(3).squaredNorm();
+    result.tilt_stated += update->pose_noise(3, 3) + update->pose_noise(4, 4);
+  }
+  const auto count = 2.0 * static_cast<double>(offsets.size());
+  result.tilt_error = std::sqrt(result.tilt_error / count);
+  result.tilt_stated = std::sqrt(result.tilt_stated / count);
+  return result;
+}
+
+/// A body on rough ground does not turn evenly during a scan. A gyro tells how; without one the scan tells
+/// less, and the stated noise grows.
+TEST(SyntheticOdometry, SwayDuringAScanIsFollowedOrStated) {
+  const Swaying calm = drive_swaying(0.0, false), seen = drive_swaying(1.2, true),
+                guessed = drive_swaying(1.2, false);
+  EXPECT_LT(seen.tilt_error, 0.7 * guessed.tilt_error);
+  EXPECT_LT(seen.tilt_stated, 0.9 * guessed.tilt_stated);
+  EXPECT_GT(guessed.tilt_stated, 1.05 * calm.tilt_stated);
 }
 
 }  // namespace

@@ -22,6 +22,13 @@ class RateHistory {
   /// mean().
   std::optional<Eigen::Matrix3d> rotation(Stamp from, Stamp to, const Eigen::Vector3d& bias,
                                           Duration hold) const;
+  /// Steady change of the rate over [from, to] and how well the samples tell it.
+  struct Trend {
+    Eigen::Vector3d slope;     ///< of the line through the samples, rate units / s
+    Eigen::Vector3d variance;  ///< of the slope, by how far the samples lie off the line
+  };
+  /// Empty if fewer than five samples lie within the interval.
+  std::optional<Trend> trend(Stamp from, Stamp to) const;
   std::size_t size() const { return samples_.size(); }
 
  private:

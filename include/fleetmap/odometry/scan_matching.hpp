@@ -21,7 +21,10 @@ struct MatchResult {
   std::size_t planes = 0;        ///< plane features with a surface in the map
   std::size_t edges = 0;         ///< edge features with an edge in the map
   double inlier_fraction = 0.0;  ///< of these, the share that lies within 3 sigma
-  double rms = 0.0;              ///< m, of the inliers' distances to their surfaces and edges
+  /// Mean square of the inliers' distances over what they were taken to be, 1 as assumed: how much of its
+  /// stated variance the scene really showed (the a posteriori variance of unit weight).
+  double residual_variance = 1.0;
+  double rms = 0.0;  ///< m, of the inliers' distances to their surfaces and edges
   int degenerate_count = 0;
   /// Unit pose directions [m, m, m, and rotation times the scene's mean range] that the scene does not
   /// constrain: the first `degenerate_count` columns. There the state follows the prior.
@@ -49,7 +52,8 @@ class ScanMatcher {
     Vector6d g;
   };
   struct Sums {
-    double weight = 0, spurious = 0, range = 0, inlier_square = 0;
+    double weight = 0, spurious = 0, range = 0, inlier_square = 0, inlier_normalised = 0,
+           inlier_dimensions = 0;
     std::size_t points = 0, inliers = 0, planes = 0, edges = 0;
   };
   static constexpr int kTimeBins = 16;
