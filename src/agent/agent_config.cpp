@@ -24,6 +24,9 @@ Status AgentConfig::validate() const {
         of("store", store.validate()), of("map", map.validate()), placement.validate()}) {
     if (!status) return status;
   }
+  // Else both clouds of a closure hold the same submaps.
+  if (loop_closures.min_path < 2.0 * static_cast<double>(spherize.radius_m))
+    return failure("loop_closures.min_path must be at least twice spherize.radius");
   return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fleetmap/agent/pass_around.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
 
@@ -21,17 +22,6 @@ auto least_recent(Entries& entries) {
 }
 
 }  // namespace
-
-std::vector<std::pair<NodeId, Pose>> submaps_around(const store::Store& store, const graph::Node& node,
-                                                    double radius) {
-  std::vector<std::pair<NodeId, Pose>> around;
-  for (const graph::Node* other : store.nodes_from({node.id.agent, 0, store.next_node_seq()})) {
-    if (other->frame() != node.frame() || !store.has_submap(other->id)) continue;
-    const Pose T_node_submap = node.T_odom_base.inverse() * other->T_odom_base;
-    if (T_node_submap.translation().norm() <= radius) around.emplace_back(other->id, T_node_submap);
-  }
-  return around;
-}
 
 const Result<cloud::PointCloud>& OwnSubmap::points(float voxel_m) {
   if (!points_) {
@@ -93,13 +83,15 @@ void OwnClouds::forget_submaps() {
 }
 
 std::shared_ptr<OwnCloud> OwnClouds::of(store::Store& store, const graph::Node& node) {
-  const auto around = submaps_around(store, node, config_.radius_m);
+  auto around = pass_around(store, node, static_cast<double>(config_.radius_m));
+  std::erase_if(around, [&](const graph::Node* other) { return !store.has_submap(other->id); });
   CloudEntry& entry = clouds_[node.id];
   entry.used = ++uses_;
   if (!entry.cloud || static_cast<double>(around.size()) > kGrowth * static_cast<double>(entry.submaps)) {
     OwnCloud::Submaps submaps;
-    for (const auto& [id, T_node_submap] : around) {
-      if (auto submap = submap_of(store, id)) submaps.emplace_back(T_node_submap, std::move(submap));
+    for (const graph::Node* other : around) {
+      const Pose T_node_submap = node.T_odom_base.inverse() * other->T_odom_base;
+      if (auto submap = submap_of(store, other->id)) submaps.emplace_back(T_node_submap, std::move(submap));
     }
     forget_submaps();
     entry.cloud = std::make_shared<OwnCloud>(node, std::move(submaps), config_);

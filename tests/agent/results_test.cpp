@@ -7,6 +7,7 @@
 #include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/own_clouds.hpp"
+#include "fleetmap/agent/pass_around.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "support/temporary_folder.hpp"
@@ -159,16 +160,14 @@ TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
   EXPECT_GT(results->map.points, 0u);
 }
 
-TEST_F(ResultsTest, SubmapsAroundAreOfOneOdometryFrameAndWithinTheRadius) {
+TEST_F(ResultsTest, APassIsOfOneOdometryFrameAndEndsWhereTheRobotTurnsBack) {
   store::Store store = open();
-  add_node(store, 0.0);
-  const graph::Node near = add_node(store, 5.0);
-  add_node(store, 50.0);
+  std::vector<graph::Node> nodes;
+  for (const double x : {0.0, 5.0, 10.0, 15.0, 10.0, 5.0, 0.0}) nodes.push_back(add_node(store, x));
   add_node(store, 5.0, 1);
-  const auto around = submaps_around(store, near, 10.0);
-  ASSERT_EQ(around.size(), 2u);
-  EXPECT_NEAR(around[0].second.translation().x(), -5.0, 1e-9);
-  EXPECT_NEAR(around[1].second.translation().x(), 0.0, 1e-9);
+  const auto pass = pass_around(store, nodes[1], 11.0);
+  ASSERT_EQ(pass.size(), 4u);
+  for (std::size_t k = 0; k < pass.size(); ++k) EXPECT_EQ(pass[k]->id, nodes[k].id);
 }
 
 TEST_F(ResultsTest, AnOwnCloudIsMadeAnewOnceMoreSubmapsLieAround) {

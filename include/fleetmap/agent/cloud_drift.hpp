@@ -6,10 +6,10 @@
 
 namespace fleetmap::agent {
 
-/// How uncertain the inner shape of the spherized cloud around `node` is: its stops are the nodes of the same
-/// odometry frame within `radius` (m), with the odometry's own covariances between them. Works for other
-/// robots' nodes as well; where some are not held, odometry is taken to err over the gap as
-/// registration::MapDrift::straight() has it.
-registration::MapDrift drift_around(const store::Store& store, const graph::Node& node, double radius);
+/// How uncertain the inner shape of the spherized cloud around `node` is: its stops are those of
+/// pass_around(), with the odometry's own covariances between them. Works for other robots' nodes as well;
+/// where some are not held, odometry is taken to err over the gap as registration::MapDrift::straight() has
+/// it.
+registration::MapDrift drift_around(const store::Store& store, const graph::Node& node, double reach);
 
 }  // namespace fleetmap::agent

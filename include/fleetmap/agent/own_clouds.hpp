@@ -17,10 +17,6 @@
 
 namespace fleetmap::agent {
 
-/// Nodes with a submap, of the same odometry frame and within `radius` (m) of `node`: T_node_submap of each.
-std::vector<std::pair<NodeId, Pose>> submaps_around(const store::Store& store, const graph::Node& node,
-                                                    double radius);
-
 /// The points of one own submap, as thin as spherized clouds begin with.
 class OwnSubmap {
  public:
@@ -36,7 +32,8 @@ class OwnSubmap {
   std::optional<Result<cloud::PointCloud>> points_;
 };
 
-/// M^s of one own node (Alg. 3, first half), in its base_link, made when it is first asked for.
+/// M^s of one own node (Alg. 3, first half), in its base_link, made of the submaps of pass_around() when it
+/// is first asked for.
 class OwnCloud {
  public:
   using Submaps = std::vector<std::pair<Pose, std::shared_ptr<OwnSubmap>>>;  ///< with T_node_submap
