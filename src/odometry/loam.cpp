@@ -27,6 +27,23 @@ constexpr double kChangeGain = 0.1;  // of the changes of the turn rate: over a 
 
 double square(double value) { return value * value; }
 
+/// How far the prior was off over how far it was taken to be, of the last seconds.
+class PriorMisfit {
+ public:
+  /// Of one scan: normalised squares, and in how many dimensions the points told them.
+  void add(double squares, double dimensions) {
+    squares_ = kKept * squares_ + squares;
+    dimensions_ = kKept * dimensions_ + dimensions;
+  }
+  /// 1: as taken to be. Told by few points it is near 1.
+  double variance() const { return (squares_ + kAssumed) / (dimensions_ + kAssumed); }
+
+ private:
+  static constexpr double kKept = 0.95;     // from scan to scan
+  static constexpr double kAssumed = 10.0;  // dimensions
+  double squares_ = 0.0, dimensions_ = 0.0;
+};
+
 }  // namespace
 
 class Loam::Pipeline {
@@ -92,6 +109,7 @@ class Loam::Pipeline {
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
   Eigen::Vector3d turn_acceleration_variance(Stamp reference) const;
   double half_sweep() const;
+  void judge_prior(const MatchResult& match, const Matrix12d& covariance);
   Matrix6d find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
                            const Pose& T_reference_stamp);
   Matrix6d find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise, const Pose& moved);
@@ -121,6 +139,7 @@ class Loam::Pipeline {
   Vector6d twist_variance_ = Vector6d::Zero();  ///< of state_.twist
   /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
   Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
+  PriorMisfit translation_misfit_;
   int degenerate_in_a_row_ = 0;
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
@@ -314,6 +333,21 @@ Eigen::Vector3d Loam::Pipeline::turn_acceleration_variance(Stamp reference) cons
   return trend ? trend->variance : turn_change_;
 }
 
+/// How far the points move the translation away from the prior, against how far it was taken to be off: a
+/// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
+/// less well. Not of rotation: a gyro's bias turns all scans alike, so that points and gyro agree from scan
+/// to scan says less.
+void Loam::Pipeline::judge_prior(const MatchResult& match, const Matrix12d& covariance) {
+  const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
+  if (!d.allFinite()) return;
+  // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
+  const Vector12d told =
+      Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
+  const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
+  translation_misfit_.add(misfit.head<3>().sum() + misfit.segment<3>(6).sum(),
+                          told.head<3>().sum() + told.segment<3>(6).sum());
+}
+
 /// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
 /// d_stamp = Ad d_pose + s d_twist.
 Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
@@ -329,8 +363,15 @@ Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, do
 
   Eigen::Matrix<double, 6, 12> M;
   M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
-  // The points err as far as they lie off their surfaces, not as they were weighed.
-  Matrix12d scatter = match.prior_information;
+  if (!lost) judge_prior(match, at_reference);
+  // The points err as far as they lie off their surfaces, and the prior as far as the points moved the motion
+  // away from it, not as both were weighed.
+  Vector12d scale = Vector12d::Ones();
+  if (!lost) {
+    scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
+    scale.segment<3>(6) = scale.head<3>();
+  }
+  Matrix12d scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
   if (!lost) scatter += match.residual_variance * match.lidar_information;
   const Matrix12d error = at_reference * scatter * at_reference;
   const Matrix6d noise = M * error * M.transpose();

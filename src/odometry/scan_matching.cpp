@@ -63,6 +63,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     result.state.turn_acceleration = prior.turn_acceleration(result.state.twist);
     result.lidar_information = lidar.H;
     result.prior_information = known.H;
+    result.prior_gradient = known.g + known.H * step;
     if (slack <= kFinalSlack && step.head<3>().norm() < kStepTranslation &&
         step.segment<3>(3).norm() < kStepRotation) {
       result.converged = true;

@@ -56,7 +56,7 @@ struct LoamConfig {
   // Drift over a metre driven or a radian turned; grows with the root of the way.
   double drift_share = 0.2;          ///< of the variance of a pose in the map
   double drift_translation = 0.001;  ///< m, 1 sigma
-  double drift_rotation = 5.0e-5;    ///< rad, 1 sigma
+  double drift_rotation = 7.0e-5;    ///< rad, 1 sigma
 
   /// Fails with the field's name and the rule that it breaks.
   Status validate() const;

@@ -18,6 +18,8 @@ struct MatchResult {
   /// Information of [pose, twist] at `state` from the points alone, degenerate directions removed.
   Matrix12d lidar_information = Matrix12d::Zero();
   Matrix12d prior_information = Matrix12d::Zero();
+  Vector12d prior_gradient =
+      Vector12d::Zero();         ///< prior_information times how far `state` lies from the prior
   std::size_t planes = 0;        ///< plane features with a surface in the map
   std::size_t edges = 0;         ///< edge features with an edge in the map
   double inlier_fraction = 0.0;  ///< of these, the share that lies within 3 sigma
