@@ -59,7 +59,11 @@ class Selector {
   Selector(const ReducedGraph& graph, std::span<const Candidate> candidates,
            std::span<const AgentId> computed_by)
       : graph_(graph), candidates_(candidates), computed_by_(computed_by), unaided_(graph, {}) {
-    for (std::size_t c = 0; c < candidates.size(); ++c) groups_[candidates[c].frames].push_back(c);
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      groups_[candidates[c].frames].push_back(c);
+      ends_.push_back(static_cast<int>(candidates[c].between.a));
+      ends_.push_back(static_cast<int>(candidates[c].between.b));
+    }
   }
 
   Selection run(Estimate& estimate) {
@@ -97,7 +101,7 @@ class Selector {
  private:
   /// What GPS and odometry say of every candidate; drops the hopeless from the groups.
   void look_alone(const Estimate& estimate) {
-    unaided_.invert();
+    unaided_.invert(ends_);
     for (auto& [frames, group] : groups_) {
       std::vector<std::size_t> open, hopeful;
       for (const std::size_t c : group) {
@@ -144,7 +148,7 @@ class Selector {
 
   /// Judges everything by the tied graph. True if what is taken changed.
   bool look_again(const Estimate& estimate, Components& components) {
-    tied_->invert();
+    tied_->invert(ends_);
     const std::set<std::size_t> doubtful = contradicted_by_rest(estimate);
     state_.contradicting.clear();
     std::map<std::size_t, std::size_t> expected;  // alignment to candidate
@@ -401,6 +405,7 @@ class Selector {
   GraphSolver unaided_;              ///< by GPS and odometry
   std::optional<GraphSolver> tied_;  ///< by what is taken as well
   std::map<FramePair, std::vector<std::size_t>> groups_;
+  std::vector<int> ends_;                  ///< pillars of the candidates
   std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
   std::set<std::size_t> against_gps_;      ///< candidates, likewise
   std::set<std::size_t> hopeless_;         ///< of these, those that are not in groups_

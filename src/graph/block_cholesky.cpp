@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "block_kernels.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -13,20 +15,6 @@ template <int R, int C>
 using Block = Eigen::Map<Eigen::Matrix<double, R, C>>;
 template <int R, int C>
 using ConstBlock = Eigen::Map<const Eigen::Matrix<double, R, C>>;
-
-/// A_ik -= L_ij L_kj^T.
-template <int I, int K, int J>
-void subtract(double* a, const double* l_ij, const double* l_kj) {
-  Block<I, K>(a).noalias() -= ConstBlock<I, J>(l_ij).lazyProduct(ConstBlock<K, J>(l_kj).transpose());
-}
-
-using Subtract = void (*)(double*, const double*, const double*);
-Subtract subtraction(int i, int k, int j) {
-  static constexpr Subtract kTable[2][2][2] = {
-      {{subtract<3, 3, 3>, subtract<3, 3, 6>}, {subtract<3, 6, 3>, subtract<3, 6, 6>}},
-      {{subtract<6, 3, 3>, subtract<6, 3, 6>}, {subtract<6, 6, 3>, subtract<6, 6, 6>}}};
-  return kTable[i == 6][k == 6][j == 6];
-}
 
 /// Lower Cholesky factor in place; false if not positive definite.
 template <int J>
@@ -83,24 +71,6 @@ void solve_upper(const double* l, double* x) {
       x[k] /= L(k, k);
     }
   }
-}
-
-/// Z_ij -= Z_ik U_kj, and Z_kj -= Z_ik^T U_ij. U is null where it is zero.
-template <int I, int K, int J>
-void subtract_both(const double* z_ik, const double* u_kj, const double* u_ij, double* z_ij, double* z_kj) {
-  if (u_kj != nullptr)
-    Block<I, J>(z_ij).noalias() -= ConstBlock<I, K>(z_ik).lazyProduct(ConstBlock<K, J>(u_kj));
-  if (u_ij == nullptr) return;
-  const Eigen::Matrix<double, K, I> Z_ki = ConstBlock<I, K>(z_ik).transpose();
-  Block<K, J>(z_kj).noalias() -= Z_ki.lazyProduct(ConstBlock<I, J>(u_ij));
-}
-
-using SubtractBoth = void (*)(const double*, const double*, const double*, double*, double*);
-SubtractBoth subtraction_of_both(int i, int k, int j) {
-  static constexpr SubtractBoth kTable[2][2][2] = {
-      {{subtract_both<3, 3, 3>, subtract_both<3, 3, 6>}, {subtract_both<3, 6, 3>, subtract_both<3, 6, 6>}},
-      {{subtract_both<6, 3, 3>, subtract_both<6, 3, 6>}, {subtract_both<6, 6, 3>, subtract_both<6, 6, 6>}}};
-  return kTable[i == 6][k == 6][j == 6];
 }
 
 }  // namespace
@@ -194,6 +164,7 @@ double* BlockCholesky::find_block(int i, int j) {
 }
 
 bool BlockCholesky::factor() {
+  const BlockKernels& kernels = block_kernels();
   for (const Column& column : columns_) {
     double* diagonal = &values_[column.diagonal];
     const bool definite = column.dim == 6 ? factor_diagonal<6>(diagonal) : factor_diagonal<3>(diagonal);
@@ -208,13 +179,14 @@ bool BlockCholesky::factor() {
       if (rows_[k].zero) continue;
       const Column& target = columns_[static_cast<std::size_t>(rows_[k].row)];
       const double* l_kj = &values_[rows_[k].at];
-      subtraction(target.dim, target.dim, column.dim)(&values_[target.diagonal], l_kj, l_kj);
+      kernels.subtraction(target.dim, target.dim, column.dim)(&values_[target.diagonal], l_kj, l_kj);
       std::size_t t = target.first;
       for (std::size_t i = k + 1; i < column.end; ++i) {
         if (rows_[i].zero) continue;
         while (rows_[t].row != rows_[i].row) ++t;
         const int dim_i = columns_[static_cast<std::size_t>(rows_[i].row)].dim;
-        subtraction(dim_i, target.dim, column.dim)(&values_[rows_[t].at], &values_[rows_[i].at], l_kj);
+        kernels.subtraction(dim_i, target.dim, column.dim)(&values_[rows_[t].at], &values_[rows_[i].at],
+                                                           l_kj);
       }
     }
   }
@@ -323,15 +295,32 @@ Matrix6d BlockCholesky::inner(const Sparse& a, const Sparse& b) {
   return sum;
 }
 
-void BlockCholesky::invert() {
-  inverse_.assign(values_.size(), 0.0);
-  for (std::size_t j = columns_.size(); j-- > 0;)
+void BlockCholesky::invert(std::span<const int> variables) {
+  // A column of the inverse follows from those on its path to the root of the elimination tree.
+  std::vector<bool> wanted(columns_.size(), false);
+  for (const int variable : variables) {
+    int k = to_column_[static_cast<std::size_t>(variable)];
+    while (!wanted[static_cast<std::size_t>(k)]) {
+      wanted[static_cast<std::size_t>(k)] = true;
+      const Column& c = columns_[static_cast<std::size_t>(k)];
+      if (c.first == c.end) break;
+      k = rows_[c.first].row;
+    }
+  }
+  inverse_.resize(values_.size());
+  for (std::size_t j = columns_.size(); j-- > 0;) {
+    if (!wanted[j]) continue;
+    const std::size_t end = j + 1 < columns_.size() ? columns_[j + 1].diagonal : values_.size();
+    std::fill(inverse_.begin() + static_cast<std::ptrdiff_t>(columns_[j].diagonal),
+              inverse_.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
     with_dim(columns_[j].dim, [&]<int J>(std::integral_constant<int, J>) { invert_column<J>(columns_[j]); });
+  }
 }
 
 template <int J>
 void BlockCholesky::invert_column(const Column& c) {
   using Square = Eigen::Matrix<double, J, J>;
+  const BlockKernels& kernels = block_kernels();
   Square L_inverse = Square::Identity();
   solve_lower<J, J>(&values_[c.diagonal], L_inverse.data());
   Square Z_jj = L_inverse.transpose() * L_inverse;
@@ -353,14 +342,11 @@ void BlockCholesky::invert_column(const Column& c) {
     for (std::size_t i = k + 1; i < c.end; ++i) {
       if (rows_[i].zero && rows_[k].zero) continue;
       while (rows_[t].row != rows_[i].row) ++t;
-      subtraction_of_both(dim(i), column.dim, J)(&inverse_[rows_[t].at], u(k), u(i), &inverse_[rows_[i].at],
-                                                 &inverse_[rows_[k].at]);
+      kernels.subtraction_of_both(dim(i), column.dim, J)(&inverse_[rows_[t].at], u(k), u(i),
+                                                         &inverse_[rows_[i].at], &inverse_[rows_[k].at]);
     }
-    if (rows_[k].zero) continue;
-    with_dim(column.dim, [&]<int K>(std::integral_constant<int, K>) {
-      Block<K, J>(&inverse_[rows_[k].at]).noalias() -=
-          ConstBlock<K, K>(&inverse_[column.diagonal]).lazyProduct(ConstBlock<K, J>(u(k)));
-    });
+    kernels.subtraction_of_both(column.dim, column.dim, J)(&inverse_[column.diagonal], u(k), nullptr,
+                                                           &inverse_[rows_[k].at], nullptr);
   }
   for (std::size_t k = c.first; k < c.end; ++k) {
     if (rows_[k].zero) continue;

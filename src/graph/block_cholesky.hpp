@@ -47,11 +47,11 @@ class BlockCholesky {
   Sparse forward(std::span<const std::pair<int, Matrix6d>> H_transposed) const;
   static Matrix6d inner(const Sparse& a, const Sparse& b);
 
-  /// Computes those blocks of A^-1 where L has any, of all pairs that were given in particular (Takahashi's
-  /// recursion), for about twice what factor() takes.
-  void invert();
-  /// Block (i, j) of A^-1 for variables of 6, after invert(): none where L has no such block, zero where no
-  /// factors connect the two.
+  /// Computes those blocks of A^-1 where L has any, of all pairs of `variables` that were given in particular
+  /// (Takahashi's recursion), for at most twice what factor() takes.
+  void invert(std::span<const int> variables);
+  /// Block (i, j) of A^-1 for two of those variables, of 6 numbers, after invert(): none where L has no such
+  /// block, zero where no factors connect the two.
   std::optional<Matrix6d> inverse_block(int i, int j) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "alignment_selection.hpp"
@@ -64,7 +65,8 @@ Items sorted_items(std::span<const Node> nodes, std::span<const Alignment> align
   for (const Node& node : nodes) {
     if (is_valid(node) && site.to_enu(node.G->position).norm() <= kMostMetres) items.nodes.push_back(&node);
   }
-  std::ranges::sort(items.nodes, {}, [](const Node* node) -> const NodeId& { return node->id; });
+  const auto by_id = [](const Node* node) -> const NodeId& { return node->id; };
+  if (!std::ranges::is_sorted(items.nodes, {}, by_id)) std::ranges::sort(items.nodes, {}, by_id);
   for (const Alignment& alignment : alignments) items.alignments.push_back(&alignment);
   std::ranges::sort(items.alignments, {},
                     [](const Alignment* a) { return std::tie(a->computed_by, a->seq); });
@@ -177,17 +179,19 @@ std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, s
 }
 
 void place_nodes(const ReducedGraph& graph, const Estimate& estimate, Placement& placement) {
-  for (std::size_t p = 0; p < graph.pillars.size(); ++p)
-    placement.T_enu_node[graph.nodes[graph.pillars[p].node]->id] = estimate.T_enu[p];
+  std::vector<Pose> T_enu(graph.nodes.size());
+  for (std::size_t p = 0; p < graph.pillars.size(); ++p) T_enu[graph.pillars[p].node] = estimate.T_enu[p];
   for (const Between& step : graph.odometry) {
     std::size_t k = graph.pillars[step.a].node;
     if (k + 1 == graph.pillars[step.b].node) continue;
     const Vector6d error =
         se3_log(step.T_a_b.inverse() * estimate.T_enu[step.a].inverse() * estimate.T_enu[step.b]);
     for (const InBetween& node : nodes_between(graph, step.a, step.b))
-      placement.T_enu_node[graph.nodes[++k]->id] =
-          estimate.T_enu[step.a] * node.T_a_node * se3_exp(node.gain * error);
+      T_enu[++k] = estimate.T_enu[step.a] * node.T_a_node * se3_exp(node.gain * error);
   }
+  auto& placed = placement.T_enu_node;
+  for (std::size_t k = 0; k < T_enu.size(); ++k)
+    placed.insert_or_assign(placed.end(), graph.nodes[k]->id, T_enu[k]);
   for (const FrameSpan& frame : graph.frames) {
     const Node& newest = *graph.nodes[frame.end - 1];
     placement.T_enu_odom[frame.id] = estimate.T_enu[frame.end_pillar - 1] * newest.T_odom_base.inverse();
@@ -216,11 +220,10 @@ Matrix6d covariance_of_node(const ReducedGraph& graph, const GraphSolver& solver
 void add_covariances(const ReducedGraph& graph, const GraphSolver& solver, std::span<const NodeId> wanted,
                      Placement& placement) {
   if (wanted.empty()) return;
-  std::map<NodeId, std::size_t> index;
-  for (std::size_t k = 0; k < graph.nodes.size(); ++k) index[graph.nodes[k]->id] = k;
-  for (const NodeId& id : wanted) {
-    if (const auto it = index.find(id); it != index.end())
-      placement.covariance[id] = covariance_of_node(graph, solver, it->second);
+  const std::set<NodeId> ids(wanted.begin(), wanted.end());
+  for (std::size_t k = 0; k < graph.nodes.size(); ++k) {
+    const NodeId& id = graph.nodes[k]->id;
+    if (ids.contains(id)) placement.covariance[id] = covariance_of_node(graph, solver, k);
   }
 }
 

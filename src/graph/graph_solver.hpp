@@ -63,8 +63,8 @@ class GraphSolver {
                                     const Matrix6d& H_b) const;
   BlockCholesky::Sparse sensitivity(std::size_t pillar) const;
 
-  /// Makes relative_covariance() ready for the solution there is.
-  void invert() { cholesky_->invert(); }
+  /// Makes relative_covariance() between `pillars` ready for the solution there is.
+  void invert(std::span<const int> pillars) { cholesky_->invert(pillars); }
   /// Of H_a xi_a + xi_b.
   Matrix6d relative_covariance(std::size_t a, std::size_t b, const Matrix6d& H_a) const;
 

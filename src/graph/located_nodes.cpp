@@ -140,7 +140,7 @@ GlobalPose supposed(const Node& node, const Pose& T_enu_odom, const LocalFrame& 
 std::vector<Node> with_global_poses(std::span<const Node> nodes, std::span<const Alignment> alignments,
                                     const LocalFrame& site, double gps_correlation_time) {
   std::vector<Node> located_nodes(nodes.begin(), nodes.end());
-  std::ranges::sort(located_nodes, {}, &Node::id);
+  if (!std::ranges::is_sorted(located_nodes, {}, &Node::id)) std::ranges::sort(located_nodes, {}, &Node::id);
   if (std::ranges::all_of(located_nodes, [](const Node& node) { return node.G.has_value(); })) {
     return located_nodes;
   }

@@ -1,5 +1,7 @@
 #include "fleetmap/graph/place.hpp"
 
+#include <algorithm>
+
 #include "fleetmap/graph/located_nodes.hpp"
 
 namespace fleetmap::graph {
@@ -9,6 +11,9 @@ Status PlacementConfig::validate() const { return fleet.validate(); }
 Placement place(std::span<const Node> nodes_as_made, std::span<const Alignment> alignments,
                 const LocalFrame& site, const PlacementConfig& config,
                 std::span<const NodeId> covariance_of) {
+  if (config.mode == PlacementMode::fleet &&
+      std::ranges::all_of(nodes_as_made, [](const Node& node) { return node.G.has_value(); }))
+    return place_by_fleet_graph(nodes_as_made, alignments, site, config.fleet, covariance_of);
   const std::vector<Node> nodes =
       with_global_poses(nodes_as_made, alignments, site, config.paper.gps_correlation_time);
   return config.mode == PlacementMode::fleet

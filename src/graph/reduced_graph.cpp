@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace fleetmap::graph {
 namespace {
@@ -209,9 +210,10 @@ ReducedGraph reduce(std::span<const Node* const> nodes, std::span<const NodeId> 
                     const FleetPlacementConfig& config) {
   ReducedGraph graph;
   graph.nodes.assign(nodes.begin(), nodes.end());
-  std::ranges::sort(graph.nodes, [](const Node* a, const Node* b) {
-    return std::pair(a->frame(), a->id.seq) < std::pair(b->frame(), b->id.seq);
-  });
+  const auto by_frame = [](const Node* node) {
+    return std::tie(node->id.agent, node->session, node->id.seq);
+  };
+  if (!std::ranges::is_sorted(graph.nodes, {}, by_frame)) std::ranges::sort(graph.nodes, {}, by_frame);
   const std::set<NodeId> wanted(ends.begin(), ends.end());
   std::vector<bool> is_end(graph.nodes.size());
   for (std::size_t k = 0; k < graph.nodes.size(); ++k) is_end[k] = wanted.contains(graph.nodes[k]->id);

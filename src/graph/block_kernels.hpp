@@ -1,0 +1,27 @@
+#pragma once
+
+namespace fleetmap::graph {
+
+/// Products of the small blocks that a sparse factorisation is made of, column by column in memory, of 3 or 6
+/// rows and columns. On processors that have them, with wider registers: the same operations in the same
+/// order, never fused, so the same bits.
+struct BlockKernels {
+  /// A_ik -= L_ij L_kj^T.
+  using Subtract = void (*)(double* a_ik, const double* l_ij, const double* l_kj);
+  /// Z_ij -= Z_ik U_kj, and Z_kj -= Z_ik^T U_ij; each only if its U is not null.
+  using SubtractBoth = void (*)(const double* z_ik, const double* u_kj, const double* u_ij, double* z_ij,
+                                double* z_kj);
+
+  Subtract subtract[2][2][2];           ///< [i][k][j]: 0 for 3, 1 for 6 numbers
+  SubtractBoth subtract_both[2][2][2];  ///< likewise
+
+  Subtract subtraction(int i, int k, int j) const { return subtract[i == 6][k == 6][j == 6]; }
+  SubtractBoth subtraction_of_both(int i, int k, int j) const {
+    return subtract_both[i == 6][k == 6][j == 6];
+  }
+};
+
+/// Those of this processor.
+const BlockKernels& block_kernels();
+
+}  // namespace fleetmap::graph
