@@ -237,11 +237,11 @@ class Selector {
   /// be.
   static std::optional<std::size_t> the_expected_one(const std::vector<Seen>& modes) {
     const auto best =
-        std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.distance; });
+        std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.cost; });
     if (!(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected) return std::nullopt;
     const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
       return mode.candidate == best->candidate ||
-             mode.by_graph.distance - best->by_graph.distance > 2.0 * kMargin;
+             mode.by_graph.cost - best->by_graph.cost > 2.0 * kMargin;
     });
     return ahead ? std::optional(best->candidate) : std::nullopt;
   }

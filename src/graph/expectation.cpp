@@ -13,7 +13,10 @@ constexpr double kFloorRad = 0.01;
 
 Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& between) {
   const Matrix6d S = known + judged_covariance(between);
-  return {e.dot(S.llt().solve(e)), std::sqrt(known.diagonal().head<3>().maxCoeff())};
+  const Eigen::LLT<Matrix6d> llt(S);
+  const double distance = e.dot(llt.solve(e));
+  const double log_det = 2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + log_det};
 }
 
 }  // namespace

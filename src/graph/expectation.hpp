@@ -13,6 +13,9 @@ inline constexpr double kContradicts = 33.1;
 struct Expectation {
   double distance = 0.0;  ///< squared Mahalanobis distance of what was measured from what is expected
   double sigma_m = std::numeric_limits<double>::infinity();  ///< how well the graph knows, in the worst axis
+  /// -2 log likelihood of what was measured, less a constant: `distance`, and log det of the covariance that
+  /// it is judged by. What says little fits anywhere, and is no likelier for it.
+  double cost = 0.0;
 };
 
 /// Covariance of a registration's error as candidates are judged by it.

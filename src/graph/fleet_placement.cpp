@@ -16,6 +16,7 @@ namespace fleetmap::graph {
 namespace {
 
 /// Mistakes with one other agent count up to this: its clouds may be at fault.
+constexpr double kSharpM = 1.2;  // m, 1 sigma
 constexpr std::size_t kMistakesPerOther = 2;
 constexpr std::size_t kMistakesToQuarantine = 4;
 constexpr std::size_t kMistakesPerUsed = 2;
@@ -99,6 +100,11 @@ std::vector<std::size_t> present(Items& items) {
   return present;
 }
 
+/// An alternative that leaves the place open by more than what tells rows apart fits wherever the others do.
+bool is_sharp(const AlignmentMode& mode) {
+  return mode.covariance.diagonal().head<3>().maxCoeff() < kSharpM * kSharpM;
+}
+
 std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::size_t>& present,
                                      const ReducedGraph& graph, const FleetPlacementConfig& config) {
   std::vector<Candidate> candidates;
@@ -106,7 +112,9 @@ std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::
     const Alignment& a = *items.alignments[k];
     const std::size_t i = graph.pillar_of.at(a.i), j = graph.pillar_of.at(a.j);
     const std::size_t frame_i = graph.pillars[i].frame, frame_j = graph.pillars[j].frame;
+    const bool any_sharp = std::ranges::any_of(a.modes, is_sharp);
     for (std::size_t m = 0; m < a.modes.size(); ++m) {
+      if (any_sharp && !is_sharp(a.modes[m])) continue;
       Candidate candidate;
       candidate.alignment = k;
       candidate.mode = m;

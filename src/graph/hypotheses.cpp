@@ -21,10 +21,12 @@ constexpr std::size_t kMostJoint = 12;
 /// A candidate as the solved graph sees it: its residual is that of an error drawn from S.
 struct Seen {
   std::size_t candidate = 0;
+  std::size_t alignment = 0;
   Vector6d e;
   BlockCholesky::Sparse z;
   Matrix6d S;  ///< of e: what the graph does not know, and the registration's own error
   Matrix6d S_inverse;
+  double cost = 0.0;              ///< -2 log likelihood of e, less a constant
   Eigen::Matrix<double, 6, 3> B;  ///< how e changes when the second frame moves in ENU
 };
 
@@ -35,10 +37,14 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   Seen seen;
   seen.candidate = index;
+  seen.alignment = candidate.alignment;
   seen.e = r.e;
   seen.z = solver.sensitivity(between.a, between.b, r.H_a, Matrix6d::Identity());
   seen.S = BlockCholesky::inner(seen.z, seen.z) + judged_covariance(between);
-  seen.S_inverse = seen.S.llt().solve(Matrix6d::Identity());
+  const Eigen::LLT<Matrix6d> llt(seen.S);
+  seen.S_inverse = llt.solve(Matrix6d::Identity());
+  seen.cost = seen.e.dot(seen.S_inverse * seen.e) +
+              2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
   seen.B.topRows<3>() = candidate.sign * estimate.T_enu[between.b].linear().transpose();
   seen.B.bottomRows<3>().setZero();
   return seen;
@@ -53,12 +59,12 @@ double distance_given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
 }
 
 /// Symmetric: who may be right together with whom.
-std::vector<std::vector<bool>> consistency(std::span<const Candidate> all, const std::vector<Seen>& seen,
+std::vector<std::vector<bool>> consistency(const std::vector<Seen>& seen,
                                            const std::vector<std::vector<Matrix6d>>& S) {
   std::vector<std::vector<bool>> consistent(seen.size(), std::vector<bool>(seen.size(), false));
   for (std::size_t a = 0; a < seen.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      if (all[seen[a].candidate].alignment == all[seen[b].candidate].alignment) continue;
+      if (seen[a].alignment == seen[b].alignment) continue;
       consistent[a][b] = consistent[b][a] = distance_given(seen[b], seen[a], S[a][b]) < kPairGate;
     }
   }
@@ -66,7 +72,8 @@ std::vector<std::vector<bool>> consistency(std::span<const Candidate> all, const
 }
 
 /// Greedy clique: the free vertex with the most free neighbours first, then always the one that agrees with
-/// all taken and has the most neighbours.
+/// all taken and has the most neighbours. Of the modes of one alignment that agree with the others the
+/// likeliest: what says little agrees with all.
 std::vector<std::size_t> clique(const std::vector<std::vector<bool>>& consistent,
                                 const std::vector<Seen>& seen, const std::vector<bool>& free) {
   const std::size_t n = seen.size();
@@ -84,6 +91,15 @@ std::vector<std::size_t> clique(const std::vector<std::vector<bool>>& consistent
   std::vector<std::size_t> taken;
   for (const std::size_t a : order) {
     if (std::ranges::all_of(taken, [&](std::size_t b) { return consistent[a][b]; })) taken.push_back(a);
+  }
+  for (std::size_t& member : taken) {
+    for (const std::size_t other : order) {
+      if (seen[other].alignment != seen[member].alignment || !(seen[other].cost < seen[member].cost))
+        continue;
+      const bool agrees =
+          std::ranges::all_of(taken, [&](std::size_t b) { return b == member || consistent[other][b]; });
+      if (agrees) member = other;
+    }
   }
   return taken;
 }
@@ -130,7 +146,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
   for (std::size_t a = 0; a < seen.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) S[a].push_back(BlockCholesky::inner(seen[a].z, seen[b].z));
   }
-  const auto consistent = consistency(all, seen, S);
+  const auto consistent = consistency(seen, S);
   std::vector<bool> free(seen.size(), true);
   // What was not looked at is taken to be like what was.
   const double share =

@@ -227,6 +227,32 @@ TEST(FleetPlacement, ModesOfAmbiguousAlignmentsAreToldApart) {
   EXPECT_GT(right * 100, all * 90);
 }
 
+/// A pose that few points fit is stated with metres of uncertainty, so it fits wherever the right one does.
+TEST(FleetPlacement, AModeThatSaysLittleIsNotTakenForTheOneThatSaysMuch) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SimulatedFleet fleet(seed);
+    for (Alignment& a : fleet.alignments) {
+      if (fleet.random()() % 3 != 0) continue;
+      Pose T = fleet.truth.at(a.j);
+      T.pretranslate(Eigen::Vector3d(3.0, 0.0, 0.0));
+      a.modes.push_back(fleet.seen_at(a.i, T));
+      a.modes.back().covariance =
+          Vector6d(100.0, 100.0, 100.0, 0.67, 0.67, 0.67).asDiagonal();  // as a registration without a hold
+      Pose blurred = fleet.truth.at(a.j);
+      blurred.pretranslate(Eigen::Vector3d(0.0, 1.0, 0.0));
+      a.modes.push_back(fleet.seen_at(a.i, blurred));
+      a.modes.back().covariance = Vector6d(1.0, 1.0, 1.0, 0.01, 0.01, 0.01).asDiagonal();
+    }
+    std::size_t right = 0;
+    for (const JudgedAlignment& one : place(fleet).judged) {
+      if (one.judgement != Judgement::used) continue;
+      EXPECT_EQ(one.mode, 0u) << "seed " << seed;
+      ++right;
+    }
+    EXPECT_GT(right * 10, fleet.alignments.size() * 9);
+  }
+}
+
 TEST(FleetPlacement, AnAmbiguousAlignmentAllOfWhoseModesAreContradictedIsRejected) {
   for (const double near : {1.5, 2.5, 4.0}) {
     SimulatedFleet fleet(1);
