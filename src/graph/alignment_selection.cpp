@@ -240,8 +240,7 @@ class Selector {
         std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.cost; });
     if (!(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected) return std::nullopt;
     const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
-      return mode.candidate == best->candidate ||
-             mode.by_graph.cost - best->by_graph.cost > 2.0 * kMargin;
+      return mode.candidate == best->candidate || mode.by_graph.cost - best->by_graph.cost > 2.0 * kMargin;
     });
     return ahead ? std::optional(best->candidate) : std::nullopt;
   }
