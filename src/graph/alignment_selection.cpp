@@ -369,16 +369,21 @@ class Selector {
     for (const std::size_t c : against_gps_) ++against[candidates_[c].alignment].first;
     for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
     for (const std::size_t c : hopeless_) ++against[candidates_[c].alignment].second;
+    std::map<std::size_t, std::size_t> modes;
+    for (const Candidate& candidate : candidates_) ++modes[candidate.alignment];
     std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;
-    for (std::size_t c = 0; c < candidates_.size(); ++c) {
-      const Candidate& candidate = candidates_[c];
-      if (state_.taken.contains(candidate.alignment)) continue;
+    for (const Candidate& candidate : candidates_) {
+      if (state_.taken.contains(candidate.alignment) || selection.judged.contains(candidate.alignment))
+        continue;
       const auto [alone, end] = against[candidate.alignment];
+      const std::size_t all = modes[candidate.alignment];
       const bool banned = state_.banned.contains(candidate.alignment);
-      selection.judged[candidate.alignment] = alone == candidate.modes           ? Judgement::against_gps
-                                              : banned || end == candidate.modes ? Judgement::against_others
-                                                                                 : Judgement::undecided;
-      if (selection.judged[candidate.alignment] != Judgement::undecided && candidate.modes == 1)
+      const Judgement judgement = alone == all           ? Judgement::against_gps
+                                  : banned || end == all ? Judgement::against_others
+                                                         : Judgement::undecided;
+      selection.judged[candidate.alignment] = judgement;
+      // Of one that is ambiguous by its first mode: that none of them is right is one mistake.
+      if (judgement != Judgement::undecided)
         count_mistake(candidate, estimate, clusters[candidate.frames], selection);
     }
     return selection;

@@ -173,6 +173,7 @@ TEST(FleetPlacement, WhenAllBetweenTwoRobotsAreFalseAThirdTiesThem) {
   }
 }
 
+/// With one mode an alignment, and with two.
 TEST(FleetPlacement, ARobotThatComputesGarbageIsQuarantinedAndBendsNothing) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SimulatedFleetConfig config;
@@ -188,9 +189,12 @@ TEST(FleetPlacement, ARobotThatComputesGarbageIsQuarantinedAndBendsNothing) {
       for (const auto& [i, j] : fleet.near_pairs(faulty, other, 2)) {
         Alignment& a = fleet.align(i, j, faulty);
         a.seq += 1000;
-        Vector6d garbage;
-        for (int k = 0; k < 6; ++k) garbage(k) = fleet.gauss(k < 3 ? 8.0 : 0.5);
-        a.modes.front().T_i_j = a.modes.front().T_i_j * se3_exp(garbage);
+        a.modes.resize(1 + seed % 2, a.modes.front());
+        for (AlignmentMode& mode : a.modes) {
+          Vector6d garbage;
+          for (int k = 0; k < 6; ++k) garbage(k) = fleet.gauss(k < 3 ? 8.0 : 0.5);
+          mode.T_i_j = mode.T_i_j * se3_exp(garbage);
+        }
       }
     }
     const Placement placement = place(fleet);
