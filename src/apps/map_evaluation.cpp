@@ -84,7 +84,9 @@ json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& na
     keep(picture_of_density(map, inputs_.map.density_radius));
   }
   if (!truth_) return description_json(eval::describe_map(map, inputs_.map), inputs_.map);
-  const auto evaluated = eval::evaluate_map_points(map, *truth_, inputs_.map);
+  // A fleet's map lies as far off as GPS says, which may be a row or more; where robots were is known.
+  if (held != nullptr) start_ = eval::laid_on_truth(held->placement.T_enu_node, nodes_);
+  const auto evaluated = eval::evaluate_map_points(map, *truth_, inputs_.map, start_);
   if (!evaluated) {
     notes.push_back(name + ": " + evaluated.error().message);
     return description_json(eval::describe_map(map, inputs_.map), inputs_.map);

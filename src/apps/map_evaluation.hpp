@@ -37,6 +37,7 @@ class MapEvaluation {
   const EvaluationInputs& inputs_;
   std::optional<cloud::PointCloud> truth_;
   const eval::TruePoses& nodes_;
+  Pose start_ = Pose::Identity();             ///< T_truth_map that registrations start from
   std::optional<OverlapEvaluation> overlap_;  ///< made when first needed
 };
 

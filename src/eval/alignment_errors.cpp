@@ -1,6 +1,7 @@
 #include "fleetmap/eval/alignment_errors.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -41,6 +42,31 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+Pose laid_on_truth(const std::map<NodeId, Pose>& T_enu_node, const TruePoses& truth) {
+  Eigen::Vector3d placed = Eigen::Vector3d::Zero(), there = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const auto& [id, T] : T_enu_node) {
+    const auto T_true = truth.find(id);
+    if (T_true == truth.end()) continue;
+    placed += T.translation();
+    there += T_true->second.translation();
+    count += 1.0;
+  }
+  if (count == 0.0) return Pose::Identity();
+  placed /= count;
+  there /= count;
+  double along = 0.0, across = 0.0;
+  for (const auto& [id, T] : T_enu_node) {
+    const auto T_true = truth.find(id);
+    if (T_true == truth.end()) continue;
+    const Eigen::Vector3d from = T.translation() - placed, to = T_true->second.translation() - there;
+    along += from.head<2>().dot(to.head<2>());
+    across += from.x() * to.y() - from.y() * to.x();
+  }
+  const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, std::atan2(across, along));
+  return make_pose(R, there - R * placed);
+}
 
 std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
                                    const graph::Placement& placement, const TruePoses& truth,

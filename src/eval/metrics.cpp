@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <unordered_set>
 
 #include "fit_to_truth.hpp"
@@ -180,9 +179,10 @@ Status MapMetricsConfig::validate() const {
 
 namespace {
 
-/// `known` is T_truth_map; else the map is registered.
+/// `T_truth_map` is known, or where the registration starts.
 Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                                      const std::optional<Pose>& known, const MapMetricsConfig& config) {
+                                      const Pose& T_truth_map, bool known, const MapMetricsConfig& config) {
+  if (!all_finite(T_truth_map)) return failure("T_truth_map must be finite");
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   // Near its middle a map's coordinates are small, and turning it does not move it.
   const Eigen::Vector3f middle = middle_of(map);
@@ -195,7 +195,8 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   sort_by_place(truth_points.points);
   const TruthSurface surface(std::move(truth_points));
   const Eigen::Translation3d to_middle(middle.cast<double>());
-  const Pose T = known ? to_middle.inverse() * *known * to_middle : registered(thin, surface, config);
+  Pose T = to_middle.inverse() * T_truth_map * to_middle;
+  if (!known) T = registered(cloud::transformed(thin, T), surface, config) * T;
   const cloud::PointCloud placed = cloud::transformed(thin, T);
   const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.most_distances);
   const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
@@ -230,14 +231,13 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
 }  // namespace
 
 Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                                         const MapMetricsConfig& config) {
-  return evaluated_points(map, truth, std::nullopt, config);
+                                         const MapMetricsConfig& config, const Pose& T_truth_map) {
+  return evaluated_points(map, truth, T_truth_map, false, config);
 }
 
 Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                            const Pose& T_truth_map, const MapMetricsConfig& config) {
-  if (!all_finite(T_truth_map)) return failure("T_truth_map must be finite");
-  const auto evaluated = evaluated_points(map, truth, T_truth_map, config);
+  const auto evaluated = evaluated_points(map, truth, T_truth_map, true, config);
   if (!evaluated) return tl::unexpected(evaluated.error());
   return evaluated->metrics;
 }

@@ -43,6 +43,17 @@ struct TwoRobots {
   }
 };
 
+TEST(LaidOnTruth, IsTheShiftAndTheTurnBetweenBothFrames) {
+  const TwoRobots fleet;
+  const Pose T = laid_on_truth(fleet.placement.T_enu_node, fleet.truth);
+  for (const auto& [id, T_enu_node] : fleet.placement.T_enu_node)
+    EXPECT_TRUE((T * T_enu_node).translation().isApprox(fleet.truth.at(id).translation(), 1e-9));
+  EXPECT_TRUE(laid_on_truth(fleet.placement.T_enu_node, {}).isApprox(Pose::Identity()));
+  // One node alone tells no turn.
+  const std::map<NodeId, Pose> one{*fleet.placement.T_enu_node.begin()};
+  EXPECT_TRUE(laid_on_truth(one, fleet.truth).linear().isApprox(Eigen::Matrix3d::Identity()));
+}
+
 TEST(AlignmentErrors, RightOnesAreRightInWhateverFrameTheTruthIs) {
   const TwoRobots fleet;
   const auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);

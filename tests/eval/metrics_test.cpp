@@ -56,6 +56,19 @@ TEST(MapMetrics, a_moved_map_is_registered_first) {
   EXPECT_LT(metrics->rmse, 0.01);
 }
 
+TEST(MapMetrics, a_map_that_lies_far_off_is_registered_from_where_it_is_said_to_lie) {
+  const cloud::PointCloud truth = corner(0.1f);
+  const Pose T = se3_exp(Vector6d{7.0, -5.0, 2.0, 0.0, 0.0, 0.02});
+  const cloud::PointCloud map = cloud::transformed(truth, T.inverse());
+  const Pose start = Eigen::Translation3d(0.3, -0.3, 0.2) * T;
+  const auto evaluated = evaluate_map_points(map, truth, {}, start);
+  ASSERT_TRUE(evaluated);
+  EXPECT_TRUE(evaluated->metrics.T_truth_map.isApprox(T, 0.01));
+  EXPECT_GT(evaluated->metrics.f1[1], 0.99);
+  const auto without = evaluate_map_points(map, truth);
+  EXPECT_TRUE(!without || without->metrics.f1[1] < 0.9);
+}
+
 TEST(MapMetrics, a_layer_beside_the_surface_has_its_distance_as_error) {
   // Points on both sides, so that the registration leaves them where they are.
   const cloud::PointCloud truth = corner(0.1f);

@@ -20,6 +20,10 @@ namespace fleetmap::eval {
 /// T_truth_base of each node at its stamp.
 using TruePoses = std::map<NodeId, Pose>;
 
+/// T_truth_enu that lays the placed nodes on where they truly were: the mean shift and the best turn about
+/// the vertical, which both frames share. Identity without nodes in common.
+Pose laid_on_truth(const std::map<NodeId, Pose>& T_enu_node, const TruePoses& truth);
+
 /// What counts as right.
 struct RightPose {
   double translation = 0.5;                ///< m

@@ -65,14 +65,16 @@ struct MapMetrics {
 Result<MapMetrics> evaluate_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                 const MapMetricsConfig& config = {});
 
-/// The same, and where the error is.
+/// The same, and where the error is. The registration starts from `T_truth_map`: farther than a few metres
+/// off a map of what repeats would be registered beside its place.
 struct EvaluatedMap {
   MapMetrics metrics;
   cloud::PointCloud points;   ///< those of the map whose distance was taken, registered to the truth
   std::vector<float> errors;  ///< m, of each of them, at most inlier_distance
 };
 Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const cloud::PointCloud& truth,
-                                         const MapMetricsConfig& config = {});
+                                         const MapMetricsConfig& config = {},
+                                         const Pose& T_truth_map = Pose::Identity());
 
 /// The same of a map whose registration to the truth is known already: a part of another one, say.
 Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
