@@ -21,8 +21,6 @@ constexpr int kStepsARound = 3;
 constexpr int kMostTrials = 6;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
-/// Where the tied graph knows better than this where a node must be, it decides about the single candidate.
-constexpr double kKnownM = 1.2;
 constexpr double kExpected = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
 /// What contradicts this many times as much as may be is not looked at again.
 constexpr double kHopeless = 4.0;

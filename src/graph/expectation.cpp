@@ -1,6 +1,5 @@
 #include "expectation.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace fleetmap::graph {
@@ -15,11 +14,14 @@ Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& betwe
   const Matrix6d S = known + judged_covariance(between);
   const Eigen::LLT<Matrix6d> llt(S);
   const double distance = e.dot(llt.solve(e));
-  const double log_det = 2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
-  return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + log_det};
+  return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + log_det(llt)};
 }
 
 }  // namespace
+
+double log_det(const Eigen::LLT<Matrix6d>& llt) {
+  return 2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
+}
 
 Matrix6d judged_covariance(const Between& between) {
   Matrix6d C = kInflation * between.covariance;

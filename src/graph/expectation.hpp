@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <limits>
 
 #include "graph_solver.hpp"
@@ -9,6 +10,10 @@ namespace fleetmap::graph {
 /// Quantile of chi squared, six degrees of freedom, 1e-5: beyond it a candidate contradicts what is expected.
 inline constexpr double kContradicts = 33.1;
 
+/// m, 1 sigma: what knows a place better tells rows apart. A graph that does decides about a single
+/// candidate.
+inline constexpr double kKnownM = 1.2;
+
 /// What a graph expects of a relative pose that was measured between two of its pillars.
 struct Expectation {
   double distance = 0.0;  ///< squared Mahalanobis distance of what was measured from what is expected
@@ -17,6 +22,9 @@ struct Expectation {
   /// it is judged by. What says little fits anywhere, and is no likelier for it.
   double cost = 0.0;
 };
+
+/// Of the matrix that was factored.
+double log_det(const Eigen::LLT<Matrix6d>& llt);
 
 /// Covariance of a registration's error as candidates are judged by it.
 Matrix6d judged_covariance(const Between& between);

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "alignment_selection.hpp"
+#include "expectation.hpp"
 #include "graph_solver.hpp"
 #include "reduced_graph.hpp"
 
@@ -16,7 +17,6 @@ namespace fleetmap::graph {
 namespace {
 
 /// Mistakes with one other agent count up to this: its clouds may be at fault.
-constexpr double kSharpM = 1.2;  // m, 1 sigma
 constexpr std::size_t kMistakesPerOther = 2;
 constexpr std::size_t kMistakesToQuarantine = 4;
 constexpr std::size_t kMistakesPerUsed = 2;
@@ -102,7 +102,7 @@ std::vector<std::size_t> present(Items& items) {
 
 /// An alternative that leaves the place open by more than what tells rows apart fits wherever the others do.
 bool is_sharp(const AlignmentMode& mode) {
-  return mode.covariance.diagonal().head<3>().maxCoeff() < kSharpM * kSharpM;
+  return mode.covariance.diagonal().head<3>().maxCoeff() < kKnownM * kKnownM;
 }
 
 std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::size_t>& present,

@@ -43,8 +43,7 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
   seen.S = BlockCholesky::inner(seen.z, seen.z) + judged_covariance(between);
   const Eigen::LLT<Matrix6d> llt(seen.S);
   seen.S_inverse = llt.solve(Matrix6d::Identity());
-  seen.cost = seen.e.dot(seen.S_inverse * seen.e) +
-              2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  seen.cost = seen.e.dot(seen.S_inverse * seen.e) + log_det(llt);
   seen.B.topRows<3>() = candidate.sign * estimate.T_enu[between.b].linear().transpose();
   seen.B.bottomRows<3>().setZero();
   return seen;

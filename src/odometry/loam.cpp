@@ -363,16 +363,17 @@ Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, do
 
   Eigen::Matrix<double, 6, 12> M;
   M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
-  if (!lost) judge_prior(match, at_reference);
-  // The points err as far as they lie off their surfaces, and the prior as far as the points moved the motion
-  // away from it, not as both were weighed.
-  Vector12d scale = Vector12d::Ones();
+  Matrix12d scatter = match.prior_information;
   if (!lost) {
+    // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
+    // motion away from it, not as both were weighed.
+    judge_prior(match, at_reference);
+    Vector12d scale = Vector12d::Ones();
     scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
     scale.segment<3>(6) = scale.head<3>();
+    scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
+    scatter += match.residual_variance * match.lidar_information;
   }
-  Matrix12d scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
-  if (!lost) scatter += match.residual_variance * match.lidar_information;
   const Matrix12d error = at_reference * scatter * at_reference;
   const Matrix6d noise = M * error * M.transpose();
   return 0.5 * (noise + noise.transpose());

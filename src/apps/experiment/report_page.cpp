@@ -121,7 +121,7 @@ void add_histograms(eval::HtmlPage& page, const config::Study& study,
       if (!record) continue;
       const auto found = record->result->histograms.find(name);
       if (found == record->result->histograms.end()) continue;
-      by_width[found->second.bin_width].push_back({point_name(study, point.labels), found->second.shares});
+      by_width[found->second.bin_width].push_back({point_name(point), found->second.shares});
     }
     for (const auto& [width, series] : by_width) {
       eval::Axes axes;
@@ -145,8 +145,7 @@ void add_pictures(eval::HtmlPage& page, const config::Study& study, const std::v
       std::ifstream in(directory / "cases" / record->folder / picture->second, std::ios::binary);
       const std::vector<std::uint8_t> png{std::istreambuf_iterator<char>(in), {}};
       if (png.empty()) continue;
-      page.picture(
-          png, kind + ": " + point_name(study, point.labels) + ", seed " + std::to_string(record->of.seed));
+      page.picture(png, kind + ": " + point_name(point) + ", seed " + std::to_string(record->of.seed));
     }
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "experiment/study_values.hpp"
 #include "fleetmap/eval/plot.hpp"
 
 namespace fleetmap::apps::experiment {
@@ -35,15 +34,7 @@ std::string metric_title(const config::ExperimentConfig& config, const std::stri
   return metric->unit.empty() ? metric->title : metric->title + " [" + metric->unit + "]";
 }
 
-std::string point_name(const config::Study& study, const std::vector<std::string>& labels) {
-  std::string name;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (k > 0) name += ", ";
-    name += study.axes[k].name + "=" + labels[k];
-    if (!study.axes[k].unit.empty()) name += " " + study.axes[k].unit;
-  }
-  return name.empty() ? "all" : name;
-}
+std::string point_name(const Slice& point) { return point.name.empty() ? "all" : point.name; }
 
 std::vector<std::vector<std::string>> study_table(const config::ExperimentConfig& config,
                                                   const config::Study& study,
@@ -53,7 +44,7 @@ std::vector<std::vector<std::string>> study_table(const config::ExperimentConfig
   for (const Slice& point : slices(study, study.axes.size())) {
     const auto found = records_at(study, records, point.labels);
     const auto done = static_cast<std::size_t>(std::ranges::count_if(found, &CaseRecord::done));
-    table[0].push_back(point_name(study, point.labels));
+    table[0].push_back(point_name(point));
     table[1].push_back(std::to_string(done) + " of " + std::to_string(study.seeds.size()));
     for (std::size_t k = 0; k < study.metrics.size(); ++k) {
       const config::MetricSpec* spec = config.metric(study.metrics[k]);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/case_record.hpp"
+#include "experiment/study_values.hpp"
 
 namespace fleetmap::apps::experiment {
 
@@ -11,7 +11,7 @@ namespace fleetmap::apps::experiment {
 std::string metric_title(const config::ExperimentConfig& config, const std::string& name);
 
 /// "rate=10 Hz, team=plain"; "all" of a study without axes.
-std::string point_name(const config::Study& study, const std::vector<std::string>& labels);
+std::string point_name(const Slice& point);
 
 /// A row a metric, a column a point: "mean [min, max]" over the seeds, and of how many runs where some did
 /// not give it. The first row holds the points' names, the second how many runs came to their end.
