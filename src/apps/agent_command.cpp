@@ -11,6 +11,7 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/wire/topics.hpp"
+#include "live_bus.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "sample_player.hpp"
@@ -154,7 +155,7 @@ int run(const AgentOptions& options) {
   const auto config = options.as.empty() ? config::load_robot(options.config, *overrides)
                                          : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
-  auto bus = bus::DdsBus::create(config->dds);
+  auto bus = join_dds(config->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
   auto agent = agent::Agent::create(config->agent, **bus);
   if (!agent) return report(agent.error(), kFailed);

@@ -9,6 +9,7 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/wire/topics.hpp"
+#include "live_bus.hpp"
 #include "options.hpp"
 #include "sample_player.hpp"
 
@@ -110,7 +111,7 @@ int run(const ReplayOptions& options) {
     return report({"fleetmap replay: name a recording, or give -c a file with recording.path"}, kUsage);
   auto reader = recording::open(path, reader_config);
   if (!reader) return report(reader.error(), kFailed);
-  auto bus = bus::DdsBus::create(robot->dds);
+  auto bus = join_dds(robot->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
 
   const std::atomic<bool>& stop = stop_on_signals();

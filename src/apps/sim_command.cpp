@@ -12,6 +12,7 @@
 #include "fleetmap/sim/scene.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
+#include "live_bus.hpp"
 #include "options.hpp"
 #include "sample_player.hpp"
 #include "twin_results.hpp"
@@ -42,7 +43,7 @@ class LiveRobot {
     // It stands for sensors and chassis: the radios are the agent's.
     dds.long_range.enabled = false;
     dds.short_range.enabled = false;
-    auto bus = bus::DdsBus::create(dds);
+    auto bus = join_dds(dds);
     if (!bus) return tl::unexpected(bus.error());
     auto twin = sim::RobotTwin::create(setup.world, setup.origin, member.robot, (*bus)->now());
     if (!twin) return failure("agent " + member.agent.id.str() + ": " + twin.error().message);

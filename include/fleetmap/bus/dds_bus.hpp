@@ -91,6 +91,9 @@ class DdsBus final : public Bus {
   };
   Matches matches(const Topic& topic) const;
 
+  /// What the links run without because this machine has not enough of it, with the remedy.
+  std::vector<std::string> warnings() const;
+
  private:
   struct State;
   explicit DdsBus(std::unique_ptr<State> state);

@@ -126,6 +126,14 @@ void DdsBus::finish_work() {
   state_->background.finish();
 }
 
+std::vector<std::string> DdsBus::warnings() const {
+  std::vector<std::string> all;
+  for (const auto& [name, link] : state_->links) {
+    if (!link->warning().empty()) all.push_back(link->warning());
+  }
+  return all;
+}
+
 std::vector<TopicStats> DdsBus::stats() const {
   std::vector<TopicStats> all;
   for (const auto& [link, made] : state_->links) made->add_stats(all);

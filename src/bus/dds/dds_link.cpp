@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fleetmap/bus/shared_memory.hpp"
 #include "inbox.hpp"
 #include "participant_qos.hpp"
 #include "raw_type.hpp"
@@ -100,6 +101,14 @@ Result<std::shared_ptr<DdsLink>> DdsLink::create(Link link, const DdsLinkConfig&
                    to_string(link) + "\" after loading it; its log says why");
   }
   apply(config, link, agent, participant_qos);
+  if (const std::size_t bytes = shared_memory_bytes(participant_qos); bytes > 0) {
+    remove_dead_segments();
+    if (const Status room = check_room(bytes); !room) {
+      leave_out_shared_memory(participant_qos);
+      result->warning_ = std::string(to_string(link)) +
+                         ": without shared memory, so UDP may lose large clouds: " + room.error().message;
+    }
+  }
   result->participant_ =
       factory->create_participant(config.domain, participant_qos, nullptr, dds::StatusMask::none());
   if (!result->participant_) {

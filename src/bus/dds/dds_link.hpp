@@ -31,6 +31,8 @@ class DdsLink : public std::enable_shared_from_this<DdsLink> {
   Handle subscribe(const Topic& topic, Bus::OnMessage on_message);
   DdsBus::Matches matches(const Topic& topic) const;
   void add_stats(std::vector<TopicStats>& all) const;
+  /// What the profile asks for and this machine has not; empty if all is there.
+  const std::string& warning() const { return warning_; }
 
  private:
   class WriterListener;
@@ -63,6 +65,7 @@ class DdsLink : public std::enable_shared_from_this<DdsLink> {
   const DdsLinkConfig config_;
   const QosFile qos_;
   const std::shared_ptr<Executor> executor_;
+  std::string warning_;
   eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
   eprosima::fastdds::dds::Publisher* publisher_ = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber_ = nullptr;

@@ -7,9 +7,11 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 
+#include <atomic>
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <random>
 
 namespace fleetmap::bus {
 namespace {
@@ -52,6 +54,17 @@ Locator_t to_locator(const Peer& peer) {
   IPLocator::setIPv4(locator, peer.address);
   locator.port = peer.port;
   return locator;
+}
+
+/// Fast DDS derives a participant's port in shared memory from its number, and numbers those of a process
+/// from 0. A process that starts anew after it was killed would get the port of the dead one, and who writes
+/// to that goes on writing to what is no longer read (Fast DDS 2.9.1; docs/dds.md). So each start takes other
+/// numbers; UDP's discovery ports are named and stay.
+int unused_number() {
+  static std::atomic<unsigned> next = std::random_device()();
+  constexpr unsigned kFirst = 16;
+  constexpr unsigned kNumbers = 100;  // ports of the domain above would start at 120
+  return static_cast<int>(kFirst + next++ % kNumbers);
 }
 
 std::uint16_t first_port(const DdsLinkConfig& config, const eprosima::fastrtps::rtps::PortParameters& ports) {
@@ -135,19 +148,28 @@ Status check_address(const DdsLinkConfig& config, const std::string& link) {
                  "; correct it or disable the link");
 }
 
+std::size_t shared_memory_bytes(const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  for (const auto& transport : qos.transport().user_transports) {
+    if (const auto shared = std::dynamic_pointer_cast<SharedMemTransportDescriptor>(transport))
+      return shared->segment_size();
+  }
+  return 0;
+}
+
+void leave_out_shared_memory(eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  std::erase_if(qos.transport().user_transports, [](const auto& transport) {
+    return std::dynamic_pointer_cast<SharedMemTransportDescriptor>(transport) != nullptr;
+  });
+}
+
 void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
            eprosima::fastdds::dds::DomainParticipantQos& qos) {
   qos.name("fleetmap/" + agent.str() + "/" + to_string(link));
 
   std::string own = config.address;
   if (own.empty() && link == Link::kOnboard) own = kLoopback;
-  auto& transports = qos.transport().user_transports;
-  if (!config.shared_memory) {
-    std::erase_if(transports, [](const auto& transport) {
-      return std::dynamic_pointer_cast<SharedMemTransportDescriptor>(transport) != nullptr;
-    });
-  }
-  for (auto& transport : transports) {
+  if (!config.shared_memory) leave_out_shared_memory(qos);
+  for (auto& transport : qos.transport().user_transports) {
     const auto udp = std::dynamic_pointer_cast<UDPv4TransportDescriptor>(transport);
     if (!udp) continue;
     // A copy, since every participant of this profile in the process gets the same descriptor.
@@ -157,6 +179,7 @@ void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
   }
 
   set_ports(config, link, qos);
+  if (link == Link::kOnboard) qos.wire_protocol().participant_id = unused_number();
   set_peers(config, link, own.empty() ? kLoopback : own, qos);
 }
 

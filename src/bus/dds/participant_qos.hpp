@@ -18,4 +18,8 @@ Status check_address(const DdsLinkConfig& config, const std::string& link);
 void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
            eprosima::fastdds::dds::DomainParticipantQos& qos);
 
+/// Size of the segment that a participant would make; 0 without shared memory.
+std::size_t shared_memory_bytes(const eprosima::fastdds::dds::DomainParticipantQos& qos);
+void leave_out_shared_memory(eprosima::fastdds::dds::DomainParticipantQos& qos);
+
 }  // namespace fleetmap::bus
