@@ -37,7 +37,8 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
       loam_(config.odometry, config.lidar),
       ekf_(config.localization),
       scans_(config.waiting_scans),
-      last_heard_(bus.now()) {
+      last_heard_(bus.now()),
+      last_scan_(last_heard_) {
   bus_.advertise(wire::topics::odometry());
   bus_.advertise(wire::topics::global_pose());
   subscribe();
@@ -86,7 +87,7 @@ void Perception::on_sample(const bus::Topic& topic, std::uint64_t& count, Use us
 }
 
 void Perception::on_scan(const Bytes& cdr) {
-  last_heard_ = bus_.now();
+  last_heard_ = last_scan_ = bus_.now();
   ++counters_.scans;
   scans_.push(cdr);
   if (scans_.dropped() > counters_.dropped_scans) {

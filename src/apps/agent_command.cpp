@@ -20,6 +20,7 @@
 namespace fleetmap::apps {
 namespace {
 
+constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
 /// What others get to come back and bring what is missing.
 constexpr Duration kPeerPatience = std::chrono::minutes(1);
@@ -64,13 +65,25 @@ class SensorRecorder {
   std::vector<bus::Handle> subscriptions_;
 };
 
+/// The LiDAR alone is silent: the rest looks well, but no map is made.
+bool misses_scans(const agent::Perception& perception) {
+  return perception.last_heard() - perception.last_scan() > kNoScan;
+}
+
 void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   const store::Store& store = agent.store();
-  if (agent.perception().counters().scans == 0) {
+  const bool none_yet = agent.perception().counters().scans == 0;
+  if (misses_scans(agent.perception())) {
+    spdlog::warn(
+        "{}: other sensors are heard, but no scan on {} for {:.0f} s: is the LiDAR on? If its driver runs, "
+        "start it anew, or look at its shared memory (docs/dds.md, A reader that is killed)",
+        agent.config().id.str(), agent.config().perception.topics.points,
+        to_seconds(bus.now() - agent.perception().last_scan()));
+  } else if (none_yet) {
     spdlog::info("{}: no scan heard yet on {}: is the driver on, with ROS_DOMAIN_ID as dds.onboard.domain?",
                  agent.config().id.str(), agent.config().perception.topics.points);
-    return;
   }
+  if (none_yet) return;
   if (const agent::Navigator* navigator = agent.navigator()) {
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",

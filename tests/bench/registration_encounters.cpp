@@ -11,6 +11,7 @@
 #include <future>
 #include <map>
 
+#include "bench/distinctive_structure.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
@@ -271,6 +272,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
       "site, sigma            n | right wrong | amb+  amb-  | rej.  | CPU 50/99 ms  | error 50/90/99 mm     "
       "| deg 50/90   | NEES/6 mean, median | rms xyz mm, mrad\n");
   std::map<std::string, Tally> totals;
+  std::map<std::string, Tally> by_similarity;  // at 10 m
   const char* only_site = std::getenv("SITE");
   const char* only_sigma = std::getenv("SIGMA");
   for (const Place& place : places_of(set)) {
@@ -301,6 +303,12 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
           count(truth, result, cpu_ms, tally);
           count(truth, result, cpu_ms,
                 totals[sigma < 0 ? "elsewhere" : "sigma " + std::to_string(sigma).substr(0, 4)]);
+          if (sigma == 10.0) {
+            const double alike = SelfSimilarity(nodes[i].map, nodes[j].map, truth).up_to(20.0);
+            const int tenth = std::min(static_cast<int>(10.0 * alike), 10);
+            const std::string bin = "alike " + std::to_string(0.1 * tenth).substr(0, 3);
+            count(truth, result, cpu_ms, by_similarity[bin]);
+          }
           if (details) {
             std::printf("  %zu %zu apart %.1f %s right %d excess %.3f modes %zu score %.4f %s\n", i, j, apart,
                         to_string(result.verdict), static_cast<int>(is_right(truth, result.T_target_source)),
@@ -325,6 +333,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
     }
   }
   for (const auto& [name, tally] : totals) print(name, tally);
+  for (const auto& [name, tally] : by_similarity) print(name, tally);
 }
 
 }  // namespace

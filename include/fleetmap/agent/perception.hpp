@@ -64,6 +64,8 @@ class Perception {
   void stop();
   /// When a sensor was last heard, on the bus's clock.
   Stamp last_heard() const { return last_heard_; }
+  /// When a scan was, or else when this was made.
+  Stamp last_scan() const { return last_scan_; }
   std::optional<GlobalPose> global_pose() const { return ekf_.pose(); }
   const PerceptionCounters& counters() const { return counters_; }
   const odometry::LoamCounters& odometry_counters() const { return loam_counters_; }
@@ -99,7 +101,7 @@ class Perception {
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;
   bool busy_ = false;
-  Stamp last_heard_;
+  Stamp last_heard_, last_scan_;
   PerceptionCounters counters_;
   std::map<std::string, std::uint64_t> warned_;
   std::vector<bus::Handle> subscriptions_;
