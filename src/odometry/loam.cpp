@@ -1,12 +1,12 @@
 #include "fleetmap/odometry/loam.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <string>
 
 #include "fleetmap/odometry/deskew.hpp"
 #include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/local_map.hpp"
+#include "fleetmap/odometry/pose_uncertainty.hpp"
 #include "fleetmap/odometry/rate_history.hpp"
 #include "fleetmap/odometry/scan_matching.hpp"
 #include "fleetmap/odometry/sweep.hpp"
@@ -23,27 +23,6 @@ constexpr double kGap = 0.35;            // s between scans from which on "it st
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
-constexpr double kChangeGain = 0.1;  // of the changes of the turn rate: over a second
-
-double square(double value) { return value * value; }
-
-/// How far the prior was off over how far it was taken to be, of the last seconds.
-class PriorMisfit {
- public:
-  /// Of one scan: normalised squares, and in how many dimensions the points told them.
-  void add(double squares, double dimensions) {
-    squares_ = kKept * squares_ + squares;
-    dimensions_ = kKept * dimensions_ + dimensions;
-  }
-  /// 1: as taken to be. Told by few points it is near 1.
-  double variance() const { return (squares_ + kAssumed) / (dimensions_ + kAssumed); }
-
- private:
-  static constexpr double kKept = 0.95;     // from scan to scan
-  static constexpr double kAssumed = 10.0;  // dimensions
-  double squares_ = 0.0, dimensions_ = 0.0;
-};
-
 }  // namespace
 
 class Loam::Pipeline {
@@ -56,7 +35,8 @@ class Loam::Pipeline {
         match_thinning_(config_.match_spacing),
         insert_thinning_(config_.insert_spacing),
         map_(config_),
-        matcher_(config_) {}
+        matcher_(config_),
+        uncertainty_(config_) {}
 
   void add_imu(const sensor::Imu& imu) {
     counters_.imu_dropped += !gyro_.add(imu.stamp, config_.q_base_imu * imu.angular_velocity);
@@ -107,12 +87,7 @@ class Loam::Pipeline {
   MotionPrior make_prior(Stamp reference, double dt) const;
   MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
-  Eigen::Vector3d turn_acceleration_variance(Stamp reference) const;
   double half_sweep() const;
-  void judge_prior(const MatchResult& match, const Matrix12d& covariance);
-  Matrix6d find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
-                           const Pose& T_reference_stamp);
-  Matrix6d find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise, const Pose& moved);
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
@@ -125,6 +100,7 @@ class Loam::Pipeline {
   Thinning match_thinning_, insert_thinning_;
   LocalMap map_;
   ScanMatcher matcher_;
+  PoseUncertainty uncertainty_;
   RateHistory gyro_, wheels_;
   Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero();
   int bias_samples_ = 0;
@@ -135,12 +111,7 @@ class Loam::Pipeline {
 
   bool started_ = false;
   bool velocity_known_ = false;
-  MotionState state_;                           ///< of the last scan at its reference instant
-  Vector6d twist_variance_ = Vector6d::Zero();  ///< of state_.twist
-  /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
-  Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
-  PriorMisfit translation_misfit_;
-  int degenerate_in_a_row_ = 0;
+  MotionState state_;  ///< of the last scan at its reference instant
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
   int lost_in_a_row_ = 0;
@@ -205,8 +176,7 @@ void Loam::Pipeline::pick_features(const Sweep& sweep) {
 void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& update) {
   started_ = true;
   velocity_known_ = false;
-  twist_variance_.head<3>().setConstant(config_.initial_speed * config_.initial_speed);
-  twist_variance_.tail<3>().setConstant(config_.initial_turn_rate * config_.initial_turn_rate);
+  uncertainty_.start();
   reference_ = reference;
   first_reference_offset_ = sweep.reference_offset;
   first_planes_ = insert_planes_;
@@ -238,7 +208,7 @@ double Loam::Pipeline::half_sweep() const {
 }
 
 MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
-  MotionPrior prior(config_, state_, twist_variance_, dt);
+  MotionPrior prior(config_, state_, uncertainty_.twist_variance(), dt);
   const double half = half_sweep();
   const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
   if (const auto rate = gyro_.mean(from, to, kHold)) {
@@ -266,7 +236,7 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
     if (counters_.updates == 1) first.T_odom_base = se3_exp(first_reference_offset_ * first.twist);
     map_.clear();
     insert(first_planes_, first_edges_, first);
-    const MotionPrior again(config_, first, twist_variance_, dt);
+    const MotionPrior again(config_, first, uncertainty_.twist_variance(), dt);
     const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist,
                             Eigen::Vector3d::Zero()};
     result = matcher_.align(match_planes_, match_edges_, map_, again, start, kUsualError);
@@ -284,17 +254,20 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   MotionState now = match.state;
   if (update.lost) now = make_prior(reference, dt).predicted();
 
-  if (velocity_known_ && !update.lost) {
-    const Eigen::Vector3d change = (now.twist - state_.twist).tail<3>() / dt;
-    turn_change_ += kChangeGain * (change.cwiseAbs2() - turn_change_);
-  }
+  if (velocity_known_ && !update.lost) uncertainty_.turn_changed((now.twist - state_.twist).tail<3>() / dt);
   const Pose T_reference_stamp = now.motion_to(-sweep.reference_offset);
-  update.pose_noise = find_pose_noise(match, update.lost, sweep.reference_offset, T_reference_stamp);
-  // A line laid through a parabola over the sweep's half length h is off by a (s^2/2 - h^2/6) at s.
-  const double bow = 0.5 * square(sweep.reference_offset) - square(half_sweep()) / 6.0;
-  update.pose_noise.diagonal().tail<3>() += bow * bow * turn_acceleration_variance(reference);
-  update.covariance =
-      find_drift(match, update.lost, update.pose_noise, state_.T_odom_base.inverse() * now.T_odom_base);
+  const double half = half_sweep();
+  const auto trend = gyro_.trend(reference - from_seconds(half), reference + from_seconds(half));
+  const auto [pose_noise, growth] = uncertainty_.state(
+      {.match = match,
+       .lost = update.lost,
+       .T_before_now = state_.T_odom_base.inverse() * now.T_odom_base,
+       .T_reference_stamp = T_reference_stamp,
+       .reference_offset = sweep.reference_offset,
+       .half_sweep = half,
+       .turn_acceleration_variance = trend ? std::optional(trend->variance) : std::nullopt});
+  update.pose_noise = pose_noise;
+  update.covariance = growth;
   update.T_odom_base = now.T_odom_base * T_reference_stamp;
   update.twist = now.twist;
   update.edges = match.edges;
@@ -323,77 +296,6 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
                         so3_log(moved.linear()).norm() > config_.keyframe_angle;
   const bool young = insertions_ < kFirstInsertions;
   if (restart || ((keyframe || young) && !update.lost)) insert(insert_planes_, match_edges_, now);
-}
-
-/// (rad/s^2)^2, of MotionState::turn_acceleration: by the gyro's own scatter; without it as much as it has
-/// changed of late, for within a sweep it may change as much again.
-Eigen::Vector3d Loam::Pipeline::turn_acceleration_variance(Stamp reference) const {
-  const Duration half = from_seconds(half_sweep());
-  const auto trend = gyro_.trend(reference - half, reference + half);
-  return trend ? trend->variance : turn_change_;
-}
-
-/// How far the points move the translation away from the prior, against how far it was taken to be off: a
-/// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
-/// less well. Not of rotation: a gyro's bias turns all scans alike, so that points and gyro agree from scan
-/// to scan says less.
-void Loam::Pipeline::judge_prior(const MatchResult& match, const Matrix12d& covariance) {
-  const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
-  if (!d.allFinite()) return;
-  // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
-  const Vector12d told =
-      Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
-  const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
-  translation_misfit_.add(misfit.head<3>().sum() + misfit.segment<3>(6).sum(),
-                          told.head<3>().sum() + told.segment<3>(6).sum());
-}
-
-/// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
-/// d_stamp = Ad d_pose + s d_twist.
-Matrix6d Loam::Pipeline::find_pose_noise(const MatchResult& match, bool lost, double reference_offset,
-                                         const Pose& T_reference_stamp) {
-  Matrix12d information = match.prior_information;
-  if (!lost) information += match.lidar_information;
-  const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
-  // What stays unknown of the velocity is unknown at the next scan, too.
-  Vector6d cap;
-  cap.head<3>().setConstant(config_.initial_speed * config_.initial_speed);
-  cap.tail<3>().setConstant(config_.initial_turn_rate * config_.initial_turn_rate);
-  twist_variance_ = at_reference.diagonal().tail<6>().cwiseMax(0.0).cwiseMin(cap);
-
-  Eigen::Matrix<double, 6, 12> M;
-  M << adjoint(T_reference_stamp.inverse()), -reference_offset * Matrix6d::Identity();
-  Matrix12d scatter = match.prior_information;
-  if (!lost) {
-    // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
-    // motion away from it, not as both were weighed.
-    judge_prior(match, at_reference);
-    Vector12d scale = Vector12d::Ones();
-    scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
-    scale.segment<3>(6) = scale.head<3>();
-    scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
-    scatter += match.residual_variance * match.lidar_information;
-  }
-  const Matrix12d error = at_reference * scatter * at_reference;
-  const Matrix6d noise = M * error * M.transpose();
-  return 0.5 * (noise + noise.transpose());
-}
-
-/// New ground enters the map at poses that err as pose_noise says, so the map drifts with the way. Along
-/// degenerate directions, and when lost, each motion is a guess: there the errors of successive motions are
-/// one and the same wrong velocity: n of them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
-Matrix6d Loam::Pipeline::find_drift(const MatchResult& match, bool lost, const Matrix6d& pose_noise,
-                                    const Pose& moved) {
-  const double way = moved.translation().norm() + so3_log(moved.linear()).norm();
-  Matrix6d drift = way * config_.drift_share * pose_noise;
-  drift.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
-  drift.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
-  const bool blind = lost || match.degenerate_count > 0;
-  degenerate_in_a_row_ = blind ? degenerate_in_a_row_ + 1 : 0;
-  if (!blind) return drift;
-  const auto V = match.degenerate_directions.leftCols(lost ? 0 : match.degenerate_count);
-  const Matrix6d guessed = lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
-  return drift + (2.0 * degenerate_in_a_row_ - 1.0) * guessed * pose_noise * guessed;
 }
 
 /// The gyro's bias is what it says more than the LiDAR sees, over some seconds.

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+
+#include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/odometry/scan_matching.hpp"
+
+namespace fleetmap::odometry {
+
+/// How far the prior was off over how far it was taken to be, of the last seconds.
+class PriorMisfit {
+ public:
+  /// Of one scan: normalised squares, and in how many dimensions the points told them.
+  void add(double squares, double dimensions);
+  /// 1: as taken to be. Told by few points it is near 1.
+  double variance() const;
+
+ private:
+  double squares_ = 0.0, dimensions_ = 0.0;
+};
+
+/// How far LOAM's poses may be off, learned from scan to scan. Covariances are of right tangents [m, rad].
+class PoseUncertainty {
+ public:
+  explicit PoseUncertainty(LoamConfig config);
+
+  /// The velocity is not known.
+  void start();
+  /// From one scan to the next the turn rates changed by so much a second [rad/s^2].
+  void turn_changed(const Eigen::Vector3d& change);
+
+  /// One scan as it was matched.
+  struct Matched {
+    const MatchResult& match;
+    bool lost = false;
+    Pose T_before_now = Pose::Identity();       ///< between the reference instants of two scans
+    Pose T_reference_stamp = Pose::Identity();  ///< from the scan's stamp to its reference instant
+    double reference_offset = 0.0;              ///< s from stamp to reference instant
+    double half_sweep = 0.0;                    ///< s from the reference instant to the sweep's end
+    /// (rad/s^2)^2, as the gyro's own scatter says; without a gyro it is as much as it has changed of late,
+    /// for within a sweep it may change as much again.
+    std::optional<Eigen::Vector3d> turn_acceleration_variance;
+  };
+  struct Stated {
+    Matrix6d pose_noise;  ///< of the scan in the local map, at its stamp
+    Matrix6d growth;      ///< what was lost on the way from the scan before
+  };
+  Stated state(const Matched& scan);
+
+  /// Of the last scan's velocity [m/s, rad/s].
+  const Vector6d& twist_variance() const { return twist_variance_; }
+
+ private:
+  void judge_prior(const MatchResult& match, const Matrix12d& covariance);
+  Matrix6d pose_noise(const Matched& scan);
+  Matrix6d growth(const Matched& scan, const Matrix6d& pose_noise);
+
+  LoamConfig config_;
+  Vector6d twist_variance_ = Vector6d::Zero();
+  /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
+  Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
+  PriorMisfit translation_misfit_;
+  int degenerate_in_a_row_ = 0;
+};
+
+}  // namespace fleetmap::odometry

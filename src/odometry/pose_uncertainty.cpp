@@ -1,0 +1,109 @@
+#include "fleetmap/odometry/pose_uncertainty.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <utility>
+
+namespace fleetmap::odometry {
+namespace {
+
+constexpr double kKept = 0.95;       // of a prior's misfit, from scan to scan
+constexpr double kAssumed = 10.0;    // dimensions in which it is taken to be as stated
+constexpr double kChangeGain = 0.1;  // of the changes of the turn rate: over a second
+
+double square(double value) { return value * value; }
+
+}  // namespace
+
+void PriorMisfit::add(double squares, double dimensions) {
+  squares_ = kKept * squares_ + squares;
+  dimensions_ = kKept * dimensions_ + dimensions;
+}
+
+double PriorMisfit::variance() const { return (squares_ + kAssumed) / (dimensions_ + kAssumed); }
+
+PoseUncertainty::PoseUncertainty(LoamConfig config) : config_(std::move(config)) {}
+
+void PoseUncertainty::start() {
+  twist_variance_.head<3>().setConstant(square(config_.initial_speed));
+  twist_variance_.tail<3>().setConstant(square(config_.initial_turn_rate));
+}
+
+void PoseUncertainty::turn_changed(const Eigen::Vector3d& change) {
+  turn_change_ += kChangeGain * (change.cwiseAbs2() - turn_change_);
+}
+
+PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
+  Stated stated{pose_noise(scan), Matrix6d::Zero()};
+  // A line laid through a parabola over the sweep's half length h is off by a (s^2/2 - h^2/6) at s.
+  const double bow = 0.5 * square(scan.reference_offset) - square(scan.half_sweep) / 6.0;
+  stated.pose_noise.diagonal().tail<3>() +=
+      bow * bow * scan.turn_acceleration_variance.value_or(turn_change_);
+  stated.growth = growth(scan, stated.pose_noise);
+  return stated;
+}
+
+/// How far the points move the translation away from the prior, against how far it was taken to be off: a
+/// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
+/// less well. Not of rotation: a gyro's bias turns all scans alike, so that points and gyro agree from scan
+/// to scan says less.
+void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance) {
+  const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
+  if (!d.allFinite()) return;
+  // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
+  const Vector12d told =
+      Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
+  const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
+  translation_misfit_.add(misfit.head<3>().sum() + misfit.segment<3>(6).sum(),
+                          told.head<3>().sum() + told.segment<3>(6).sum());
+}
+
+/// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
+/// d_stamp = Ad d_pose + s d_twist.
+Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
+  const MatchResult& match = scan.match;
+  Matrix12d information = match.prior_information;
+  if (!scan.lost) information += match.lidar_information;
+  const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
+  // What stays unknown of the velocity is unknown at the next scan, too.
+  Vector6d cap;
+  cap.head<3>().setConstant(square(config_.initial_speed));
+  cap.tail<3>().setConstant(square(config_.initial_turn_rate));
+  twist_variance_ = at_reference.diagonal().tail<6>().cwiseMax(0.0).cwiseMin(cap);
+
+  Eigen::Matrix<double, 6, 12> M;
+  M << adjoint(scan.T_reference_stamp.inverse()), -scan.reference_offset * Matrix6d::Identity();
+  Matrix12d scatter = match.prior_information;
+  if (!scan.lost) {
+    // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
+    // motion away from it, not as both were weighed.
+    judge_prior(match, at_reference);
+    Vector12d scale = Vector12d::Ones();
+    scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
+    scale.segment<3>(6) = scale.head<3>();
+    scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
+    scatter += match.residual_variance * match.lidar_information;
+  }
+  const Matrix12d error = at_reference * scatter * at_reference;
+  const Matrix6d noise = M * error * M.transpose();
+  return 0.5 * (noise + noise.transpose());
+}
+
+/// New ground enters the map at poses that err as pose_noise says, so the map drifts with the way. Along
+/// degenerate directions, and when lost, each motion is a guess: there the errors of successive motions are
+/// one and the same wrong velocity: n of them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
+Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& pose_noise) {
+  const MatchResult& match = scan.match;
+  const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
+  Matrix6d drift = way * config_.drift_share * pose_noise;
+  drift.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
+  drift.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
+  const bool blind = scan.lost || match.degenerate_count > 0;
+  degenerate_in_a_row_ = blind ? degenerate_in_a_row_ + 1 : 0;
+  if (!blind) return drift;
+  const auto V = match.degenerate_directions.leftCols(scan.lost ? 0 : match.degenerate_count);
+  const Matrix6d guessed = scan.lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
+  return drift + (2.0 * degenerate_in_a_row_ - 1.0) * guessed * pose_noise * guessed;
+}
+
+}  // namespace fleetmap::odometry
