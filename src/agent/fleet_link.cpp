@@ -26,6 +26,14 @@ bool moves_submaps(const exchange::Message& message) {
          std::holds_alternative<exchange::SubmapChunk>(message);
 }
 
+/// Whom we ask may be gone: to ask again and again moves nothing.
+bool asks(const exchange::Message& message) {
+  return std::holds_alternative<exchange::CloudRequest>(message) ||
+         std::holds_alternative<exchange::ProximityMatch>(message) ||
+         std::holds_alternative<exchange::ItemRequest>(message) ||
+         std::holds_alternative<exchange::SubmapRequest>(message);
+}
+
 }  // namespace
 
 FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exchange,
@@ -40,8 +48,10 @@ FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exc
 
 void FleetLink::tick() {
   for (const exchange::Outgoing& outgoing : exchange_.tick(bus_.now())) {
-    if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
-    if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
+    if (!asks(outgoing.message)) {
+      if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
+      if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
+    }
     bus_.publish(wire::topic_of(outgoing.message), wire::encode(outgoing.message));
   }
   on_events_();

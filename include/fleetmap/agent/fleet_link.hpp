@@ -13,8 +13,9 @@ namespace fleetmap::agent {
 
 struct FleetLinkCounters {
   std::uint64_t refused_messages = 0;  ///< that could not be decoded: other version, damaged, hostile
-  Stamp last_submap;                   ///< when a piece of a submap, or a request for one, last came or went
-  Stamp last_useful;                   ///< when the last message came or went that was more than "I am here"
+  Stamp last_submap;  ///< when a piece of a submap last came or went, or a request for one came
+  /// When a message last came that was more than "I am here", or went that was no mere request.
+  Stamp last_useful;
 };
 
 /// Moves messages between the exchange's state machine and the bus.
