@@ -23,6 +23,7 @@ constexpr double kGap = 0.35;            // s between scans from which on "it st
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
+
 }  // namespace
 
 class Loam::Pipeline {
