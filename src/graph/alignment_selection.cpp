@@ -2,8 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -19,6 +18,12 @@ constexpr std::size_t kFewOf = 100;
 /// To judge by, an estimate need not be exact; the last one must converge.
 constexpr int kStepsARound = 3;
 constexpr int kMostTrials = 6;
+/// Of a hypothesis as a whole, against another one's: what many have in common makes them all go wrong.
+constexpr double kMostSupport = 24.0;
+/// Chi squared, three degrees of freedom, 1e-3: of a hypothesis between frames that others tie.
+constexpr double kTiedShiftGate = 16.3;
+/// A hypothesis fits the others if so many of its members do: all but some that fail by themselves.
+constexpr double kClosed = 0.8;
 /// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
 constexpr double kMargin = 3.0;
 constexpr double kExpected = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
@@ -44,12 +49,12 @@ struct Components {
 
 /// What is taken, and how it came.
 struct State {
-  std::set<std::size_t> banned;              ///< alignments
+  std::set<std::size_t> left_out;            ///< alignments: hypotheses that fit no loop
+  std::set<std::size_t> undecided;           ///< of these, where it could be others as well
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::vector<Hypothesis> tree;              ///< what connected frames first
   std::set<std::size_t> contradicting;       ///< candidates: what is taken rules them out
-  /// Log, of the whole; nothing is less likely than what cannot be solved.
-  double likelihood = -std::numeric_limits<double>::infinity();
+  bool solved = false;
 };
 
 class Selector {
@@ -81,7 +86,7 @@ class Selector {
     const Estimate start = estimate;
     rounds(estimate);
     const bool tried = doubt(start, estimate);
-    if (!std::isfinite(state_.likelihood)) {
+    if (!state_.solved) {
       // What ties frames cannot be solved with: they lie where GPS says, and nothing is decided.
       state_ = {};
       estimate = start;
@@ -116,8 +121,23 @@ class Selector {
         }
       }
       group = std::move(hopeful);
-      const Evaluation& seen = alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
-      against_gps_.insert(seen.contradicting.begin(), seen.contradicting.end());
+      alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
+      reject(alone_[frames], open, estimate);
+    }
+  }
+
+  /// What GPS contradicts as a whole, with what was not looked at of it.
+  void reject(const Evaluation& pair, const std::vector<std::size_t>& open, const Estimate& estimate) {
+    for (const Hypothesis& one : pair.rejected) against_gps_.insert(one.members.begin(), one.members.end());
+    if (std::ranges::none_of(pair.rejected, [](const Hypothesis& one) { return one.members.size() > 1; }))
+      return;
+    std::vector<Hypothesis> hypotheses = pair.rejected;
+    hypotheses.insert(hypotheses.end(), pair.hypotheses.begin(), pair.hypotheses.end());
+    const auto members = agreeing(candidates_, hypotheses, open, unaided_, estimate);
+    for (std::size_t k = 0; k < pair.rejected.size(); ++k) {
+      if (pair.rejected[k].members.size() < 2) continue;
+      against_gps_.insert(members[k].begin(), members[k].end());
+      together_.insert(members[k].begin(), members[k].end());
     }
   }
 
@@ -137,11 +157,7 @@ class Selector {
       tied_->set_ties(ties());
       if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
     }
-    state_.likelihood = -0.5 * unaided_.cost_without_ties(estimate);
-    for (const auto& [frames, evaluation] : alone_) {
-      for (const Hypothesis& hypothesis : evaluation.hypotheses)
-        state_.likelihood += was_taken(hypothesis) ? hypothesis.support : 0.0;
-    }
+    state_.solved = true;
   }
 
   /// Judges everything by the tied graph. True if what is taken changed.
@@ -156,11 +172,12 @@ class Selector {
       std::map<std::size_t, std::vector<Seen>> modes;  // by alignment
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
-        if (state_.taken.contains(alignment) || state_.banned.contains(alignment)) continue;
+        if (state_.taken.contains(alignment) || state_.left_out.contains(alignment)) continue;
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
           open[frames].push_back(c);
-          modes[alignment].push_back({seen, c});
+          // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
+          if (!together_.contains(c)) modes[alignment].push_back({seen, c});
         } else {
           state_.contradicting.insert(c);
         }
@@ -181,7 +198,8 @@ class Selector {
       if (settled || !tied) evaluations[frames] = evaluate(candidates_, candidates, *tied_, estimate);
     }
     for (const auto& [frames, evaluation] : evaluations)
-      state_.contradicting.insert(evaluation.contradicting.begin(), evaluation.contradicting.end());
+      for (const Hypothesis& hypothesis : evaluation.rejected)
+        state_.contradicting.insert(hypothesis.members.begin(), hypothesis.members.end());
     return take_from(evaluations, components) || !settled;
   }
 
@@ -249,16 +267,17 @@ class Selector {
     return ties;
   }
 
-  bool is_banned(const Hypothesis& hypothesis) const {
-    return std::ranges::any_of(
-        hypothesis.members, [&](std::size_t c) { return state_.banned.contains(candidates_[c].alignment); });
+  bool is_left_out(const Hypothesis& hypothesis) const {
+    return std::ranges::any_of(hypothesis.members, [&](std::size_t c) {
+      return state_.left_out.contains(candidates_[c].alignment);
+    });
   }
 
   /// The best hypothesis of a pair, if it is clearly the best.
   std::optional<Hypothesis> clear_best(const Evaluation& evaluation) const {
     const Hypothesis* best = nullptr;
     for (const Hypothesis& hypothesis : evaluation.hypotheses) {
-      if (is_banned(hypothesis)) continue;
+      if (is_left_out(hypothesis)) continue;
       if (best != nullptr) {
         if (best->evidence - hypothesis.evidence < kMargin) return std::nullopt;
         break;
@@ -281,7 +300,7 @@ class Selector {
       const std::optional<Hypothesis> best = clear_best(evaluation);
       if (!best) continue;
       if (components.root(frames.first) == components.root(frames.second)) {
-        take(*best);
+        if (best->shift < kTiedShiftGate) take(*best);
       } else {
         connecting.push_back(*best);
       }
@@ -296,9 +315,9 @@ class Selector {
     return state_.taken.size() > before;
   }
 
-  bool was_taken(const Hypothesis& hypothesis) const {
+  double share_taken(const Hypothesis& hypothesis) const {
     const auto taken = std::ranges::count_if(hypothesis.members, [&](std::size_t c) { return is_taken(c); });
-    return 2 * static_cast<std::size_t>(taken) >= hypothesis.members.size();
+    return static_cast<double>(taken) / static_cast<double>(hypothesis.members.size());
   }
 
   /// Edges of the tree between two frames.
@@ -323,41 +342,83 @@ class Selector {
     return edges;
   }
 
-  /// What was taken first may be false: where it contradicts the hypotheses of other pairs, leaves out one
-  /// after the other on the loop, and keeps what makes the whole likelier. True if anything was tried.
+  /// Where hypotheses contradict each other around a loop one of them is false: leaves out the one without
+  /// which GPS and odometry fit the others best, and all that it could be if luck would decide. True if
+  /// anything was solved again.
   bool doubt(const Estimate& start, Estimate& estimate) {
-    std::set<std::set<std::size_t>> tried;
-    int trials = 0;
-    while (trials < kMostTrials) {
-      const std::optional<std::set<std::size_t>> next = untried(tried);
-      if (!next) return trials > 0;
-      tried.insert(*next);
-      ++trials;
-      State kept = std::exchange(state_, {});
-      state_.banned = *next;
+    bool again = false;
+    for (int k = 0; k < kMostTrials; ++k) {
+      const std::vector<Hypothesis> loop = open_loop();
+      if (loop.empty()) break;
+      State without;
+      without.left_out = state_.left_out;
+      without.undecided = state_.undecided;
+      bool changes = false;
+      const std::vector<Hypothesis> suspects = suspects_of(loop, start);
+      for (const Hypothesis& suspect : suspects) {
+        changes = changes || share_taken(suspect) > 0.0;
+        for (const std::size_t c : whole(suspect, start)) {
+          without.left_out.insert(candidates_[c].alignment);
+          if (suspects.size() > 1) without.undecided.insert(candidates_[c].alignment);
+        }
+      }
+      if (!changes) {
+        state_.left_out = std::move(without.left_out);
+        state_.undecided = std::move(without.undecided);
+        continue;
+      }
+      const State before = std::exchange(state_, std::move(without));
       Estimate trial = start;
       rounds(trial);
-      if (state_.likelihood > kept.likelihood + kMargin) {
-        estimate = std::move(trial);
-      } else {
-        state_ = std::move(kept);
+      if (!state_.solved && before.solved) {
+        state_ = before;
+        break;
       }
+      again = true;
+      estimate = std::move(trial);
     }
-    return true;
+    return again;
   }
 
-  /// What is banned now and the members of one more edge that lies on a loop with a rejected hypothesis.
-  std::optional<std::set<std::size_t>> untried(const std::set<std::set<std::size_t>>& tried) const {
+  /// Its members, with what was not looked at.
+  std::vector<std::size_t> whole(const Hypothesis& hypothesis, const Estimate& start) const {
+    const std::set<std::size_t> own(hypothesis.members.begin(), hypothesis.members.end());
+    std::vector<Hypothesis> hypotheses{hypothesis};
+    const Evaluation& pair = alone_.at(hypothesis.frames);
+    for (const auto* some : {&pair.hypotheses, &pair.rejected}) {
+      std::ranges::copy_if(*some, std::back_inserter(hypotheses), [&](const Hypothesis& other) {
+        return std::ranges::none_of(other.members, [&](std::size_t c) { return own.contains(c); });
+      });
+    }
+    return agreeing(candidates_, hypotheses, groups_.at(hypothesis.frames), unaided_, start).front();
+  }
+
+  /// The hypotheses around a loop that does not close, at least one of which is false. Empty if all close.
+  std::vector<Hypothesis> open_loop() const {
     for (const auto& [frames, evaluation] : alone_) {
       const std::optional<Hypothesis> best = clear_best(evaluation);
-      if (!best || frames.first == frames.second || was_taken(*best)) continue;
-      for (const std::size_t k : path(frames.first, frames.second)) {
-        std::set<std::size_t> banned = state_.banned;
-        for (const std::size_t c : state_.tree[k].members) banned.insert(candidates_[c].alignment);
-        if (!tried.contains(banned)) return banned;
-      }
+      if (!best || frames.first == frames.second || share_taken(*best) >= kClosed) continue;
+      std::vector<Hypothesis> loop{*best};
+      for (const std::size_t k : path(frames.first, frames.second)) loop.push_back(state_.tree[k]);
+      if (loop.size() > 2) return loop;
     }
-    return std::nullopt;
+    return {};
+  }
+
+  /// Which of a loop's hypotheses may be the false one.
+  std::vector<Hypothesis> suspects_of(const std::vector<Hypothesis>& loop, const Estimate& start) const {
+    std::vector<double> likelihood;  // log, that the others are right
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      std::vector<Hypothesis> others = loop;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      double& l = likelihood.emplace_back(-0.5 * joint_shift(candidates_, others, unaided_, start));
+      for (const Hypothesis& other : others) l += std::min(other.support, kMostSupport);
+    }
+    const double most = std::ranges::max(likelihood);
+    std::vector<Hypothesis> suspects;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (likelihood[k] > most - kMargin) suspects.push_back(loop[k]);
+    return suspects;
   }
 
   Selection conclude(const Estimate& estimate) const {
@@ -375,10 +436,12 @@ class Selector {
         continue;
       const auto [alone, end] = against[candidate.alignment];
       const std::size_t all = modes[candidate.alignment];
-      const bool banned = state_.banned.contains(candidate.alignment);
-      const Judgement judgement = alone == all           ? Judgement::against_gps
-                                  : banned || end == all ? Judgement::against_others
-                                                         : Judgement::undecided;
+      const bool left_out = state_.left_out.contains(candidate.alignment);
+      const bool undecided = state_.undecided.contains(candidate.alignment);
+      const Judgement judgement = alone == all             ? Judgement::against_gps
+                                  : undecided              ? Judgement::undecided
+                                  : left_out || end == all ? Judgement::against_others
+                                                           : Judgement::undecided;
       selection.judged[candidate.alignment] = judgement;
       // Of one that is ambiguous by its first mode: that none of them is right is one mistake.
       if (judgement != Judgement::undecided)
@@ -410,6 +473,7 @@ class Selector {
   std::vector<int> ends_;                  ///< pillars of the candidates
   std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
   std::set<std::size_t> against_gps_;      ///< candidates, likewise
+  std::set<std::size_t> together_;         ///< of these, what GPS contradicts as a whole
   std::set<std::size_t> hopeless_;         ///< of these, those that are not in groups_
   State state_;
 };

@@ -37,14 +37,26 @@ struct Hypothesis {
 };
 
 struct Evaluation {
-  std::vector<Hypothesis> hypotheses;   ///< best evidence first
-  std::set<std::size_t> contradicting;  ///< candidates that fit the estimate alone, but not together
+  std::vector<Hypothesis> hypotheses;  ///< best evidence first
+  std::vector<Hypothesis> rejected;    ///< whose members fit the estimate alone, but not together
 };
 
 /// The hypotheses among `candidates` (indices in `all`) of one frame pair, seen from a solved graph that none
 /// of them contradicts. Of very many some are looked at, spread over the mission.
 Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                     const GraphSolver& solver, const Estimate& estimate);
+
+/// By hypothesis of one frame pair: its members, and those of `candidates` that were not looked at and agree
+/// with it better than with the others.
+std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
+                                               std::span<const Hypothesis> hypotheses,
+                                               std::span<const std::size_t> candidates,
+                                               const GraphSolver& solver, const Estimate& estimate);
+
+/// What it costs GPS and odometry that the hypotheses, each of another frame pair, are right together:
+/// squared Mahalanobis distance, three degrees of freedom each.
+double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
+                   const GraphSolver& solver, const Estimate& estimate);
 
 /// Which alignments, in which mode, are right.
 struct Selection {
@@ -58,9 +70,9 @@ struct Selection {
 };
 
 /// Takes the hypotheses that connect frames first, best evidence first, solves, looks again at the rest with
-/// what is known then, and so on. Where what was taken first contradicts others, tries without it, and keeps
-/// what is likeliest as a whole. `estimate` is that without alignments, and becomes the one with what was
-/// taken. `computed_by` runs by alignment.
+/// what is known then, and so on. Where hypotheses contradict each other around a loop, goes without the one
+/// that GPS and odometry contradict most. `estimate` is that without alignments, and becomes the one with
+/// what was taken. `computed_by` runs by alignment.
 Selection select_alignments(const ReducedGraph& graph, std::span<const Candidate> candidates,
                             std::span<const AgentId> computed_by, Estimate& estimate);
 

@@ -218,29 +218,6 @@ bool GraphSolver::factor_at(const Estimate& estimate) {
   return solved_ = cholesky_->factor();
 }
 
-double GraphSolver::cost_without_ties(const Estimate& estimate) const {
-  double cost = 0.0;
-  for (const Between& step : graph_->odometry) {
-    const Vector6d e = relative_residual(estimate, step.a, step.b, step.T_a_b).e;
-    cost += e.dot(step.information * e);
-  }
-  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
-    const Pillar& pillar = graph_->pillars[p];
-    if (!pillar.has_window) continue;
-    const Eigen::Vector3d r =
-        pillar.fix - estimate.T_enu[p] * pillar.lever - pillar.drift_sigma.cwiseProduct(estimate.drift[p]);
-    const Eigen::Vector3d turn = so3_log(pillar.R_enu_base * estimate.T_enu[p].linear().transpose());
-    cost += r.cwiseAbs2().cwiseQuotient(pillar.rest_variance).sum() +
-            turn.cwiseAbs2().cwiseQuotient(pillar.rotation_variance).sum();
-    if (first_drift_[p]) cost += estimate.drift[p].squaredNorm();
-  }
-  for (const DriftLink& link : graph_->drift) {
-    const Eigen::Vector3d r = estimate.drift[link.b] - link.decay.cwiseProduct(estimate.drift[link.a]);
-    cost += (r.array().square() / (1.0 - link.decay.array().square())).sum();
-  }
-  return cost;
-}
-
 BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
                                                const Matrix6d& H_b) const {
   const std::array<std::pair<int, Matrix6d>, 2> H{

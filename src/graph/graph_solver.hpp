@@ -55,9 +55,6 @@ class GraphSolver {
   bool factor_at(const Estimate& estimate);
   bool solved() const { return solved_; }
 
-  /// Sum of squares of all that is no tie (odometry, GPS, orientation, drift), each over its variance.
-  double cost_without_ties(const Estimate& estimate) const;
-
   /// L^-1 H^T of a relative pose between two pillars, whose covariance is the inner product with itself.
   BlockCholesky::Sparse sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
                                     const Matrix6d& H_b) const;

@@ -1,6 +1,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "alignment_selection.hpp"
 #include "expectation.hpp"
@@ -49,12 +51,28 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
   return seen;
 }
 
-/// Squared distance of `b` from where `a` lets it be expected.
-double distance_given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
+struct Given {
+  double distance = 0.0;  ///< squared, from where the other lets it be expected
+  double cost = 0.0;      ///< -2 log likelihood there, less a constant
+};
+
+/// `b` if `a` is right.
+Given given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
   const Matrix6d gain = S_ba * a.S_inverse;
   const Vector6d e = b.e - gain * a.e;
-  const Matrix6d S = b.S - gain * S_ba.transpose();
-  return e.dot(S.llt().solve(e));
+  const Eigen::LLT<Matrix6d> llt(b.S - gain * S_ba.transpose());
+  const double distance = e.dot(llt.solve(e));
+  return {distance, distance + log_det(llt)};
+}
+
+/// `seen` if the member is right that was made nearest to it, and says most of where it must be.
+Given given_nearest(std::span<const Candidate> all, const std::vector<Seen>& members, const Seen& seen) {
+  const auto apart = [&](const Seen& member) {
+    const std::size_t a = all[member.candidate].between.a, b = all[seen.candidate].between.a;
+    return std::max(a, b) - std::min(a, b);
+  };
+  const Seen& nearest = *std::ranges::min_element(members, {}, apart);
+  return given(nearest, seen, BlockCholesky::inner(seen.z, nearest.z));
 }
 
 /// Symmetric: who may be right together with whom.
@@ -64,7 +82,7 @@ std::vector<std::vector<bool>> consistency(const std::vector<Seen>& seen,
   for (std::size_t a = 0; a < seen.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (seen[a].alignment == seen[b].alignment) continue;
-      consistent[a][b] = consistent[b][a] = distance_given(seen[b], seen[a], S[a][b]) < kPairGate;
+      consistent[a][b] = consistent[b][a] = given(seen[b], seen[a], S[a][b]).distance < kPairGate;
     }
   }
   return consistent;
@@ -103,36 +121,84 @@ std::vector<std::size_t> clique(const std::vector<std::vector<bool>>& consistent
   return taken;
 }
 
-/// Squared distance that the estimate must be shifted by, as a whole, for the members to fit.
-double shift_of(const std::vector<std::size_t>& members, const std::vector<Seen>& seen,
-                const std::vector<std::vector<Matrix6d>>& S) {
+/// Up to `most` of them, spread.
+std::vector<std::size_t> some_of(const std::vector<std::size_t>& members, std::size_t most) {
   std::vector<std::size_t> some;
-  const std::size_t count = std::min(members.size(), kMostJoint);
+  const std::size_t count = std::min(members.size(), most);
   for (std::size_t k = 0; k < count; ++k) some.push_back(members[k * members.size() / count]);
-  const auto rows = static_cast<Eigen::Index>(6 * some.size());
-  Eigen::MatrixXd joint(rows, rows), B(rows, 3);
+  return some;
+}
+
+/// Squared distance that the estimate must be shifted by, each pair of frames as a whole, for all members to
+/// fit. `of_pair` gives the pair of each, counted from zero.
+double shift_of(const std::vector<const Seen*>& members, const std::vector<Eigen::Index>& of_pair) {
+  const auto rows = static_cast<Eigen::Index>(6 * members.size());
+  Eigen::MatrixXd joint(rows, rows);
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(rows, 3 * (of_pair.back() + 1));
   Eigen::VectorXd e(rows);
-  for (std::size_t a = 0; a < some.size(); ++a) {
+  for (std::size_t a = 0; a < members.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    e.segment<6>(at) = seen[some[a]].e;
-    B.middleRows<6>(at) = seen[some[a]].B;
-    joint.block<6, 6>(at, at) = seen[some[a]].S;
+    e.segment<6>(at) = members[a]->e;
+    B.block<6, 3>(at, 3 * of_pair[a]) = members[a]->B;
+    joint.block<6, 6>(at, at) = members[a]->S;
     for (std::size_t b = 0; b < a; ++b) {
       const auto bt = static_cast<Eigen::Index>(6 * b);
-      const bool lower = some[a] > some[b];
-      const Matrix6d& S_ab = lower ? S[some[a]][some[b]] : S[some[b]][some[a]];
-      joint.block<6, 6>(at, bt) = lower ? S_ab : Matrix6d(S_ab.transpose());
+      joint.block<6, 6>(at, bt) = BlockCholesky::inner(members[a]->z, members[b]->z);
       joint.block<6, 6>(bt, at) = joint.block<6, 6>(at, bt).transpose();
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> llt(joint);
   if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector3d right = B.transpose() * llt.solve(e);
-  const Eigen::Matrix3d information = B.transpose() * llt.solve(B);
+  const Eigen::VectorXd right = B.transpose() * llt.solve(e);
+  const Eigen::MatrixXd information = B.transpose() * llt.solve(B);
   return right.dot(information.llt().solve(right));
 }
 
 }  // namespace
+
+std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
+                                               std::span<const Hypothesis> hypotheses,
+                                               std::span<const std::size_t> candidates,
+                                               const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<std::vector<std::size_t>> found;
+  std::vector<std::vector<Seen>> members;
+  std::set<std::size_t> looked_at;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    found.push_back(hypothesis.members);
+    looked_at.insert(hypothesis.members.begin(), hypothesis.members.end());
+    std::vector<Seen>& seen = members.emplace_back();
+    for (const std::size_t c : hypothesis.members) seen.push_back(look(all, c, solver, estimate));
+  }
+  for (const std::size_t c : candidates) {
+    if (looked_at.contains(c)) continue;
+    const Seen seen = look(all, c, solver, estimate);
+    std::optional<std::size_t> likeliest;
+    double least = 0.0;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const Given given = given_nearest(all, members[k], seen);
+      if (!(given.distance < kPairGate) || (likeliest && !(given.cost < least))) continue;
+      likeliest = k;
+      least = given.cost;
+    }
+    if (likeliest) found[*likeliest].push_back(c);
+  }
+  return found;
+}
+
+double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
+                   const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<Seen> seen;
+  std::vector<Eigen::Index> of_pair;
+  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+    for (const std::size_t c : some_of(hypotheses[k].members, kMostJoint)) {
+      seen.push_back(look(all, c, solver, estimate));
+      of_pair.push_back(static_cast<Eigen::Index>(k));
+    }
+  }
+  std::vector<const Seen*> members;
+  for (const Seen& one : seen) members.push_back(&one);
+  return shift_of(members, of_pair);
+}
 
 Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                     const GraphSolver& solver, const Estimate& estimate) {
@@ -161,14 +227,13 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
     }
     std::ranges::sort(hypothesis.members);
     hypothesis.frames = all[hypothesis.members.front()].frames;
-    hypothesis.shift = shift_of(members, seen, S);
+    std::vector<const Seen*> some;
+    for (const std::size_t a : some_of(members, kMostJoint)) some.push_back(&seen[a]);
+    hypothesis.shift = shift_of(some, std::vector<Eigen::Index>(some.size(), 0));
     hypothesis.support = kTrust * std::log2(1.0 + weight);
     hypothesis.evidence = hypothesis.support - 0.5 * hypothesis.shift;
-    if (hypothesis.shift < kShiftGate) {
-      evaluation.hypotheses.push_back(std::move(hypothesis));
-    } else {
-      evaluation.contradicting.insert(hypothesis.members.begin(), hypothesis.members.end());
-    }
+    auto& where = hypothesis.shift < kShiftGate ? evaluation.hypotheses : evaluation.rejected;
+    where.push_back(std::move(hypothesis));
   }
   std::ranges::stable_sort(evaluation.hypotheses, std::ranges::greater(), &Hypothesis::evidence);
   return evaluation;

@@ -17,7 +17,7 @@ constexpr double kLeastRestVariance = 0.01;    // m^2, of a window's mean fix
 constexpr double kLeastTiltVariance = 1.2e-5;  // rad^2, (0.2 deg)^2
 constexpr double kMostRotationVariance = 4.0;  // rad^2
 /// Variance that a filter adds each second that it reckons by wheels and gyro.
-constexpr double kReckoning = 0.02;         // m^2/s
+constexpr double kReckoning = 0.01;         // m^2/s
 constexpr double kReckoningTurn = 4e-6;     // rad^2/s
 constexpr double kMostCorrelation = 0.998;  // keeps the equations well conditioned
 
@@ -37,6 +37,9 @@ struct Window {
   Vector6d variance = Vector6d::Zero();  ///< of G, the mean
   Vector6d before = Vector6d::Zero();    ///< of the window before, zero if there is none
   double seconds = 0.0;                  ///< since that one
+  /// Of the position, what no reckoning since has made worse: what is above it comes and goes with the way
+  /// (a false heading leads off it, and back again), and holds nothing that fixes say.
+  Eigen::Vector3d best = Eigen::Vector3d::Zero();
 };
 
 Vector6d variance_of(const Node& node) {
@@ -75,7 +78,12 @@ std::vector<Window> windows_of(const ReducedGraph& graph, const FrameSpan& frame
   for (Window& window : windows) {
     for (std::size_t k = window.first; k < window.end; ++k)
       window.variance += variance_of(*graph.nodes[k]) / static_cast<double>(window.end - window.first);
-    if (&window != &windows.front()) window.before = (&window - 1)->variance;
+    window.best = window.variance.head<3>();
+    if (&window != &windows.front()) {
+      const Window& before = *(&window - 1);
+      window.before = before.variance;
+      window.best = window.best.cwiseMin((before.best.array() + kReckoning * window.seconds).matrix());
+    }
     if (fixed.empty() || !reckoned(window, fixed.back().variance)) fixed.push_back(window);
   }
   return fixed;
@@ -100,6 +108,14 @@ double heading_variance(const Window& window, const FleetPlacementConfig& config
   return 1.0 / std::max(information, 1.0 / kMostRotationVariance);
 }
 
+/// Of the place in a window, by a heading of G that is false for longer than it: each window's track is
+/// turned by the same error, which so counts as often as windows share it.
+Eigen::Vector3d variance_by_heading(const Window& window, const Eigen::Vector3d& moved_enu, double seconds) {
+  const double shared = std::max(1.0, window.variance(5) / kReckoningTurn / std::max(1.0, seconds));
+  const Eigen::Vector3d across(moved_enu.y(), moved_enu.x(), 0.0);
+  return shared * window.variance(5) * across.cwiseAbs2();
+}
+
 /// The fixes of a window as one of the pillar at its first node.
 void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window, const LocalFrame& site,
                  const FleetPlacementConfig& config) {
@@ -115,12 +131,15 @@ void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window
   pillar.lever /= count;
   pillar.fix /= count;
   pillar.seconds = to_seconds(anchor.stamp - graph.nodes.front()->stamp);
-  pillar.variance_before = window.before.head<3>();
-  pillar.drift_sigma = (config.gps_drift_share * window.variance.head<3>()).cwiseSqrt();
-  pillar.rest_variance =
-      ((1.0 - config.gps_drift_share) * window.variance.head<3>()).array() + kLeastRestVariance;
-  const double seconds = std::abs(to_seconds(graph.nodes[window.end - 1]->stamp - anchor.stamp));
+  const Node& last = *graph.nodes[window.end - 1];
+  const double seconds = std::abs(to_seconds(last.stamp - anchor.stamp));
   pillar.R_enu_base = pose_in(site, *anchor.G).linear();
+  const Eigen::Vector3d moved =
+      pillar.R_enu_base * (T_base_odom * Eigen::Vector3d(last.T_odom_base.translation()));
+  const Eigen::Vector3d drift = config.gps_drift_share * window.best;
+  pillar.drift_sigma = drift.cwiseSqrt();
+  pillar.rest_variance = window.variance.head<3>() - drift + variance_by_heading(window, moved, seconds);
+  pillar.rest_variance.array() += kLeastRestVariance;
   // The level's error drifts as well: what is closer in time than its correlation shares one.
   const double shared = std::max(1.0, config.gps_correlation_time / std::max(1.0, seconds));
   const Vector6d of_anchor = variance_of(anchor);
@@ -165,12 +184,9 @@ Eigen::Vector3d correlation(const Pillar& a, const Pillar& b, double seconds,
   Eigen::Vector3d result;
   for (int axis = 0; axis < 3; ++axis) {
     const double scale = 1.0 / config.gps_drift_share;
-    const double V_b = scale * b.drift_sigma(axis) * b.drift_sigma(axis);
     const double V_a = scale * a.drift_sigma(axis) * a.drift_sigma(axis);
-    // What was lost in windows without fixes between the two is not left.
-    const double lost = V_a / std::max(V_a, b.variance_before(axis));
-    const double left = lost * share_left(V_a / lost, V_b, kReckoning, seconds, config);
-    result(axis) = left * std::sqrt(V_a / V_b);
+    const double V_b = scale * b.drift_sigma(axis) * b.drift_sigma(axis);
+    result(axis) = share_left(V_a, V_b, kReckoning, seconds, config) * std::sqrt(V_a / V_b);
   }
   return result.cwiseMin(kMostCorrelation);
 }

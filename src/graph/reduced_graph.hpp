@@ -16,13 +16,12 @@ struct Pillar {
   std::size_t frame = 0;  ///< in ReducedGraph::frames
   bool has_window = false;
   // The window's fixes as one: their mean, at the mean of the places where the odometry saw them.
-  Eigen::Vector3d lever = Eigen::Vector3d::Zero();            ///< m, in base_link of the pillar
-  Eigen::Vector3d fix = Eigen::Vector3d::Zero();              ///< m, ENU
-  Eigen::Vector3d drift_sigma = Eigen::Vector3d::Zero();      ///< m, of the part that drifts, east, north, up
-  Eigen::Vector3d rest_variance = Eigen::Vector3d::Ones();    ///< m^2, of what is left
-  Eigen::Vector3d variance_before = Eigen::Vector3d::Zero();  ///< m^2, of G in the frame's window before
-  double seconds = 0.0;                                       ///< since the first node of the fleet
-  Eigen::Matrix3d R_enu_base = Eigen::Matrix3d::Identity();   ///< of G
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();           ///< m, in base_link of the pillar
+  Eigen::Vector3d fix = Eigen::Vector3d::Zero();             ///< m, ENU
+  Eigen::Vector3d drift_sigma = Eigen::Vector3d::Zero();     ///< m, of the part that drifts, east, north, up
+  Eigen::Vector3d rest_variance = Eigen::Vector3d::Ones();   ///< m^2, of what is left
+  double seconds = 0.0;                                      ///< since the first node of the fleet
+  Eigen::Matrix3d R_enu_base = Eigen::Matrix3d::Identity();  ///< of G
   Eigen::Vector3d rotation_variance = Eigen::Vector3d::Ones();  ///< rad^2, about the axes of ENU
 };
 
