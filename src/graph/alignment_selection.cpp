@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kMostRounds = 4;
 /// Changes of fewer than one alignment in so many settle a round.
-constexpr std::size_t kFewOf = 100;
+constexpr std::size_t kFewOf = 25;
 /// To judge by, an estimate need not be exact; the last one must converge.
-constexpr int kStepsARound = 3;
+constexpr int kStepsARound = 2;
 constexpr int kMostTrials = 6;
 /// Of a hypothesis as a whole, against another one's: what many have in common makes them all go wrong.
 constexpr double kMostSupport = 24.0;
@@ -121,6 +121,10 @@ class Selector {
         }
       }
       group = std::move(hopeful);
+      const std::vector<Vote> votes = neighbours_votes(candidates_, group, unaided_, estimate);
+      for (std::size_t k = 0; k < group.size(); ++k)
+        if (votes[k].disagree > std::max(1, votes[k].agree)) outvoted_.insert(group[k]);
+      std::erase_if(open, [&](std::size_t c) { return outvoted_.contains(c); });
       alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
       reject(alone_[frames], open, estimate);
     }
@@ -148,7 +152,7 @@ class Selector {
       const std::vector<const Between*> judged_by = ties();
       tied_->set_ties(judged_by);
       if (tied_->solve(estimate, kStepsARound) == GraphSolver::Outcome::failed) return;
-      more = round <= kMostRounds && look_again(estimate, components);
+      more = round <= kMostRounds && look_again(estimate, components, round == 1);
       if (more) continue;
       if (ties() != judged_by) tied_->set_ties(ties());
       if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
@@ -161,7 +165,7 @@ class Selector {
   }
 
   /// Judges everything by the tied graph. True if what is taken changed.
-  bool look_again(const Estimate& estimate, Components& components) {
+  bool look_again(const Estimate& estimate, Components& components, bool first) {
     tied_->invert(ends_);
     const std::set<std::size_t> doubtful = contradicted_by_rest(estimate);
     state_.contradicting.clear();
@@ -175,6 +179,7 @@ class Selector {
         if (state_.taken.contains(alignment) || state_.left_out.contains(alignment)) continue;
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
+          if (first && outvoted_.contains(c)) continue;
           open[frames].push_back(c);
           // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
           if (!together_.contains(c)) modes[alignment].push_back({seen, c});
@@ -200,7 +205,7 @@ class Selector {
     for (const auto& [frames, evaluation] : evaluations)
       for (const Hypothesis& hypothesis : evaluation.rejected)
         state_.contradicting.insert(hypothesis.members.begin(), hypothesis.members.end());
-    return take_from(evaluations, components) || !settled;
+    return take_from(evaluations, components) || !settled || (first && !outvoted_.empty());
   }
 
   /// Takes them back, and with them the connections that nothing else makes.
@@ -474,6 +479,7 @@ class Selector {
   std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
   std::set<std::size_t> against_gps_;      ///< candidates, likewise
   std::set<std::size_t> together_;         ///< of these, what GPS contradicts as a whole
+  std::set<std::size_t> outvoted_;         ///< candidates that their neighbours contradict
   std::set<std::size_t> hopeless_;         ///< of these, those that are not in groups_
   State state_;
 };

@@ -53,6 +53,14 @@ std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
                                                std::span<const std::size_t> candidates,
                                                const GraphSolver& solver, const Estimate& estimate);
 
+/// How many of the alignments made just before and after a candidate, by the same frames, agree with it.
+struct Vote {
+  int agree = 0, disagree = 0;
+};
+/// Of each of `candidates` of one frame pair. Who would agree with anything is not counted.
+std::vector<Vote> neighbours_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
+                                   const GraphSolver& solver, const Estimate& estimate);
+
 /// What it costs GPS and odometry that the hypotheses, each of another frame pair, are right together:
 /// squared Mahalanobis distance, three degrees of freedom each.
 double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,

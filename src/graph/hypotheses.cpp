@@ -1,6 +1,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -18,6 +20,8 @@ constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis again
 /// of one place go wrong together, so n that agree are worth log2(1 + n) of one.
 constexpr double kTrust = 6.0;
 constexpr std::size_t kMostLookedAt = 16;
+/// On each side, of which it is asked whether they agree.
+constexpr std::size_t kNeighbours = 2;
 constexpr std::size_t kMostJoint = 12;
 
 /// A candidate as the solved graph sees it: its residual is that of an error drawn from S.
@@ -54,15 +58,17 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
 struct Given {
   double distance = 0.0;  ///< squared, from where the other lets it be expected
   double cost = 0.0;      ///< -2 log likelihood there, less a constant
+  double sigma_m = 0.0;   ///< of that place
 };
 
 /// `b` if `a` is right.
 Given given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
   const Matrix6d gain = S_ba * a.S_inverse;
   const Vector6d e = b.e - gain * a.e;
-  const Eigen::LLT<Matrix6d> llt(b.S - gain * S_ba.transpose());
+  const Matrix6d S = b.S - gain * S_ba.transpose();
+  const Eigen::LLT<Matrix6d> llt(S);
   const double distance = e.dot(llt.solve(e));
-  return {distance, distance + log_det(llt)};
+  return {distance, distance + log_det(llt), std::sqrt(S.diagonal().head<3>().maxCoeff())};
 }
 
 /// `seen` if the member is right that was made nearest to it, and says most of where it must be.
@@ -183,6 +189,28 @@ std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
     if (likeliest) found[*likeliest].push_back(c);
   }
   return found;
+}
+
+std::vector<Vote> neighbours_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
+                                   const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<std::size_t> along(candidates.size());
+  std::iota(along.begin(), along.end(), 0u);
+  std::ranges::stable_sort(along, {}, [&](std::size_t k) { return all[candidates[k]].between.a; });
+  std::vector<Vote> votes(candidates.size());
+  std::deque<std::pair<std::size_t, Seen>> before;
+  for (const std::size_t k : along) {
+    Seen seen = look(all, candidates[k], solver, estimate);
+    for (const auto& [other, seen_before] : before) {
+      if (seen_before.alignment == seen.alignment) continue;
+      const Given one = given(seen_before, seen, BlockCholesky::inner(seen.z, seen_before.z));
+      const bool agrees = one.distance < kPairGate;
+      if (agrees && one.sigma_m > kKnownM) continue;  // it would agree with anything
+      for (Vote* vote : {&votes[k], &votes[other]}) ++(agrees ? vote->agree : vote->disagree);
+    }
+    before.emplace_back(k, std::move(seen));
+    if (before.size() > kNeighbours) before.pop_front();
+  }
+  return votes;
 }
 
 double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,

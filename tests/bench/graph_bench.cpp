@@ -27,7 +27,9 @@ double best_of(int times, const Run& run) {
 }
 
 void measure(int robots, int nodes_each, int every, double false_share) {
-  SimulatedFleet fleet(1, graph::testing::long_mission(robots, nodes_each));
+  graph::testing::SimulatedFleetConfig mission = graph::testing::long_mission(robots, nodes_each);
+  mission.filtered = true;  // G as an EKF makes it of fixes
+  SimulatedFleet fleet(1, mission);
   const auto false_ones = fleet.align_neighbours(every, false_share);
   graph::PlacementConfig fleet_mode;
   fleet_mode.mode = graph::PlacementMode::fleet;

@@ -332,6 +332,20 @@ TEST(FleetPlacement, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUse
   }
 }
 
+/// Where GPS lets almost anything agree with anything, neighbours along the way outvote the false ones.
+TEST(FleetPlacement, OfALongMissionAtFiveMetresOfGpsOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
+  for (const unsigned seed : {1u, 3u}) {
+    SimulatedFleetConfig config = testing::long_mission(5, 2000);
+    config.filtered = true;
+    config.gps_sigma = 5.0;
+    SimulatedFleet fleet(seed, config);
+    const auto false_ones = fleet.align_neighbours(10, 0.2);
+    const Placement placement = place(fleet);
+    expect_none_used(placement, false_ones, of(seed));
+    EXPECT_GE(placement.used.size() * 100, (fleet.alignments.size() - false_ones.size()) * 99) << of(seed);
+  }
+}
+
 TEST(FleetPlacement, GpsOutageOfThreeMinutes) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SimulatedFleet fleet(seed);
