@@ -205,7 +205,10 @@ class Selector {
     for (const auto& [frames, evaluation] : evaluations)
       for (const Hypothesis& hypothesis : evaluation.rejected)
         state_.contradicting.insert(hypothesis.members.begin(), hypothesis.members.end());
-    return take_from(evaluations, components) || !settled || (first && !outvoted_.empty());
+    const std::size_t before = state_.taken.size();
+    take_from(evaluations, components);
+    const std::size_t changed = doubtful.size() + expected.size() + state_.taken.size() - before;
+    return changed * kFewOf > state_.taken.size() || (first && !outvoted_.empty());
   }
 
   /// Takes them back, and with them the connections that nothing else makes.
