@@ -147,7 +147,8 @@ class Selector {
 
   void rounds(Estimate& estimate) {
     Components components(graph_.frames.size());
-    bool more = take_from(alone_, components);
+    take_from(alone_, components);
+    bool more = !state_.taken.empty();
     for (int round = 1; more; ++round) {
       const std::vector<const Between*> judged_by = ties();
       tied_->set_ties(judged_by);
@@ -206,9 +207,9 @@ class Selector {
       for (const Hypothesis& hypothesis : evaluation.rejected)
         state_.contradicting.insert(hypothesis.members.begin(), hypothesis.members.end());
     const std::size_t before = state_.taken.size();
-    take_from(evaluations, components);
+    const bool connected = take_from(evaluations, components);
     const std::size_t changed = doubtful.size() + expected.size() + state_.taken.size() - before;
-    return changed * kFewOf > state_.taken.size() || (first && !outvoted_.empty());
+    return connected || changed * kFewOf > state_.taken.size() || (first && !outvoted_.empty());
   }
 
   /// Takes them back, and with them the connections that nothing else makes.
@@ -300,9 +301,9 @@ class Selector {
     for (const std::size_t c : hypothesis.members) state_.taken.emplace(candidates_[c].alignment, c);
   }
 
-  /// True if anything was taken.
+  /// True if it connects frames.
   bool take_from(const std::map<FramePair, Evaluation>& evaluations, Components& components) {
-    const std::size_t before = state_.taken.size();
+    bool connects = false;
     std::vector<Hypothesis> connecting;
     for (const auto& [frames, evaluation] : evaluations) {
       const std::optional<Hypothesis> best = clear_best(evaluation);
@@ -319,8 +320,9 @@ class Selector {
       if (!components.join(hypothesis.frames.first, hypothesis.frames.second)) continue;
       take(hypothesis);
       state_.tree.push_back(hypothesis);
+      connects = true;
     }
-    return state_.taken.size() > before;
+    return connects;
   }
 
   double share_taken(const Hypothesis& hypothesis) const {
