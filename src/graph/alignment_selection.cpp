@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "expectation.hpp"
+#include "judged_alone.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -18,17 +19,11 @@ constexpr std::size_t kFewOf = 25;
 /// To judge by, an estimate need not be exact; the last one must converge.
 constexpr int kStepsARound = 2;
 constexpr int kMostTrials = 6;
-/// Of a hypothesis as a whole, against another one's: what many have in common makes them all go wrong.
-constexpr double kMostSupport = 24.0;
 /// Chi squared, three degrees of freedom, 1e-3: of a hypothesis between frames that others tie.
 constexpr double kTiedShiftGate = 16.3;
 /// A hypothesis fits the others if so many of its members do: all but some that fail by themselves.
 constexpr double kClosed = 0.8;
-/// A hypothesis must be ahead of the next one of its pair by this, as log odds: luck decides nothing.
-constexpr double kMargin = 3.0;
 constexpr double kExpected = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
-/// What contradicts this many times as much as may be is not looked at again.
-constexpr double kHopeless = 4.0;
 /// False alignments of a pair that shift by the same are one mistake.
 constexpr double kSameMistakeM = 1.5;
 
@@ -62,10 +57,9 @@ class Selector {
   Selector(const ReducedGraph& graph, std::span<const Candidate> candidates,
            std::span<const AgentId> computed_by)
       : graph_(graph), candidates_(candidates), computed_by_(computed_by), unaided_(graph, {}) {
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-      groups_[candidates[c].frames].push_back(c);
-      ends_.push_back(static_cast<int>(candidates[c].between.a));
-      ends_.push_back(static_cast<int>(candidates[c].between.b));
+    for (const Candidate& candidate : candidates) {
+      ends_.push_back(static_cast<int>(candidate.between.a));
+      ends_.push_back(static_cast<int>(candidate.between.b));
     }
   }
 
@@ -77,9 +71,10 @@ class Selector {
       nothing.solvable = false;
       return nothing;
     }
-    look_alone(estimate);
+    unaided_.invert(ends_);
+    alone_ = judge_alone(candidates_, unaided_, estimate);
     std::vector<GraphSolver::Ends> may_be_tied;
-    for (const auto& [frames, group] : groups_)
+    for (const auto& [frames, group] : alone_.groups)
       for (const std::size_t c : group)
         may_be_tied.emplace_back(candidates_[c].between.a, candidates_[c].between.b);
     if (!may_be_tied.empty()) tied_.emplace(graph_, may_be_tied);
@@ -102,52 +97,9 @@ class Selector {
   }
 
  private:
-  /// What GPS and odometry say of every candidate; drops the hopeless from the groups.
-  void look_alone(const Estimate& estimate) {
-    unaided_.invert(ends_);
-    for (auto& [frames, group] : groups_) {
-      std::vector<std::size_t> open, hopeful;
-      for (const std::size_t c : group) {
-        const double distance = expectation(candidates_[c].between, unaided_, estimate).distance;
-        if (distance < kContradicts) {
-          open.push_back(c);
-        } else {
-          against_gps_.insert(c);
-        }
-        if (distance < kHopeless * kContradicts) {
-          hopeful.push_back(c);
-        } else {
-          hopeless_.insert(c);
-        }
-      }
-      group = std::move(hopeful);
-      const std::vector<Vote> votes = neighbours_votes(candidates_, group, unaided_, estimate);
-      for (std::size_t k = 0; k < group.size(); ++k)
-        if (votes[k].disagree > std::max(1, votes[k].agree)) outvoted_.insert(group[k]);
-      std::erase_if(open, [&](std::size_t c) { return outvoted_.contains(c); });
-      alone_[frames] = evaluate(candidates_, open, unaided_, estimate);
-      reject(alone_[frames], open, estimate);
-    }
-  }
-
-  /// What GPS contradicts as a whole, with what was not looked at of it.
-  void reject(const Evaluation& pair, const std::vector<std::size_t>& open, const Estimate& estimate) {
-    for (const Hypothesis& one : pair.rejected) against_gps_.insert(one.members.begin(), one.members.end());
-    if (std::ranges::none_of(pair.rejected, [](const Hypothesis& one) { return one.members.size() > 1; }))
-      return;
-    std::vector<Hypothesis> hypotheses = pair.rejected;
-    hypotheses.insert(hypotheses.end(), pair.hypotheses.begin(), pair.hypotheses.end());
-    const auto members = agreeing(candidates_, hypotheses, open, unaided_, estimate);
-    for (std::size_t k = 0; k < pair.rejected.size(); ++k) {
-      if (pair.rejected[k].members.size() < 2) continue;
-      against_gps_.insert(members[k].begin(), members[k].end());
-      together_.insert(members[k].begin(), members[k].end());
-    }
-  }
-
   void rounds(Estimate& estimate) {
     Components components(graph_.frames.size());
-    take_from(alone_, components);
+    take_from(alone_.hypotheses, components);
     bool more = !state_.taken.empty();
     for (int round = 1; more; ++round) {
       const std::vector<const Between*> judged_by = ties();
@@ -172,7 +124,7 @@ class Selector {
     state_.contradicting.clear();
     std::map<std::size_t, std::size_t> expected;  // alignment to candidate
     std::map<FramePair, std::vector<std::size_t>> open;
-    for (const auto& [frames, group] : groups_) {
+    for (const auto& [frames, group] : alone_.groups) {
       const bool tied = components.root(frames.first) == components.root(frames.second);
       std::map<std::size_t, std::vector<Seen>> modes;  // by alignment
       for (const std::size_t c : group) {
@@ -180,10 +132,10 @@ class Selector {
         if (state_.taken.contains(alignment) || state_.left_out.contains(alignment)) continue;
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
-          if (first && outvoted_.contains(c)) continue;
+          if (first && alone_.outvoted.contains(c)) continue;
           open[frames].push_back(c);
           // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
-          if (!together_.contains(c)) modes[alignment].push_back({seen, c});
+          if (!alone_.together.contains(c)) modes[alignment].push_back({seen, c});
         } else {
           state_.contradicting.insert(c);
         }
@@ -209,7 +161,7 @@ class Selector {
     const std::size_t before = state_.taken.size();
     const bool connected = take_from(evaluations, components);
     const std::size_t changed = doubtful.size() + expected.size() + state_.taken.size() - before;
-    return connected || changed * kFewOf > state_.taken.size() || (first && !outvoted_.empty());
+    return connected || changed * kFewOf > state_.taken.size() || (first && !alone_.outvoted.empty());
   }
 
   /// Takes them back, and with them the connections that nothing else makes.
@@ -356,15 +308,15 @@ class Selector {
   /// which GPS and odometry fit the others best, and all that it could be if luck would decide. True if
   /// anything was solved again.
   bool doubt(const Estimate& start, Estimate& estimate) {
-    bool again = false;
-    for (int k = 0; k < kMostTrials; ++k) {
+    int trials = 0;
+    while (trials < kMostTrials) {
       const std::vector<Hypothesis> loop = open_loop();
       if (loop.empty()) break;
       State without;
       without.left_out = state_.left_out;
       without.undecided = state_.undecided;
       bool changes = false;
-      const std::vector<Hypothesis> suspects = suspects_of(loop, start);
+      const std::vector<Hypothesis> suspects = suspects_of(candidates_, loop, unaided_, start);
       for (const Hypothesis& suspect : suspects) {
         changes = changes || share_taken(suspect) > 0.0;
         for (const std::size_t c : whole(suspect, start)) {
@@ -373,10 +325,12 @@ class Selector {
         }
       }
       if (!changes) {
+        if (without.left_out == state_.left_out) break;
         state_.left_out = std::move(without.left_out);
         state_.undecided = std::move(without.undecided);
         continue;
       }
+      ++trials;
       const State before = std::exchange(state_, std::move(without));
       Estimate trial = start;
       rounds(trial);
@@ -384,28 +338,27 @@ class Selector {
         state_ = before;
         break;
       }
-      again = true;
       estimate = std::move(trial);
     }
-    return again;
+    return trials > 0;
   }
 
   /// Its members, with what was not looked at.
   std::vector<std::size_t> whole(const Hypothesis& hypothesis, const Estimate& start) const {
     const std::set<std::size_t> own(hypothesis.members.begin(), hypothesis.members.end());
     std::vector<Hypothesis> hypotheses{hypothesis};
-    const Evaluation& pair = alone_.at(hypothesis.frames);
+    const Evaluation& pair = alone_.hypotheses.at(hypothesis.frames);
     for (const auto* some : {&pair.hypotheses, &pair.rejected}) {
       std::ranges::copy_if(*some, std::back_inserter(hypotheses), [&](const Hypothesis& other) {
         return std::ranges::none_of(other.members, [&](std::size_t c) { return own.contains(c); });
       });
     }
-    return agreeing(candidates_, hypotheses, groups_.at(hypothesis.frames), unaided_, start).front();
+    return agreeing(candidates_, hypotheses, alone_.groups.at(hypothesis.frames), unaided_, start).front();
   }
 
   /// The hypotheses around a loop that does not close, at least one of which is false. Empty if all close.
   std::vector<Hypothesis> open_loop() const {
-    for (const auto& [frames, evaluation] : alone_) {
+    for (const auto& [frames, evaluation] : alone_.hypotheses) {
       const std::optional<Hypothesis> best = clear_best(evaluation);
       if (!best || frames.first == frames.second || share_taken(*best) >= kClosed) continue;
       std::vector<Hypothesis> loop{*best};
@@ -415,29 +368,13 @@ class Selector {
     return {};
   }
 
-  /// Which of a loop's hypotheses may be the false one.
-  std::vector<Hypothesis> suspects_of(const std::vector<Hypothesis>& loop, const Estimate& start) const {
-    std::vector<double> likelihood;  // log, that the others are right
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      std::vector<Hypothesis> others = loop;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-      double& l = likelihood.emplace_back(-0.5 * joint_shift(candidates_, others, unaided_, start));
-      for (const Hypothesis& other : others) l += std::min(other.support, kMostSupport);
-    }
-    const double most = std::ranges::max(likelihood);
-    std::vector<Hypothesis> suspects;
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      if (likelihood[k] > most - kMargin) suspects.push_back(loop[k]);
-    return suspects;
-  }
-
   Selection conclude(const Estimate& estimate) const {
     Selection selection;
     selection.taken = state_.taken;
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
-    for (const std::size_t c : against_gps_) ++against[candidates_[c].alignment].first;
+    for (const std::size_t c : alone_.against_gps) ++against[candidates_[c].alignment].first;
     for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
-    for (const std::size_t c : hopeless_) ++against[candidates_[c].alignment].second;
+    for (const std::size_t c : alone_.hopeless) ++against[candidates_[c].alignment].second;
     std::map<std::size_t, std::size_t> modes;
     for (const Candidate& candidate : candidates_) ++modes[candidate.alignment];
     std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;
@@ -479,13 +416,8 @@ class Selector {
   std::span<const AgentId> computed_by_;
   GraphSolver unaided_;              ///< by GPS and odometry
   std::optional<GraphSolver> tied_;  ///< by what is taken as well
-  std::map<FramePair, std::vector<std::size_t>> groups_;
-  std::vector<int> ends_;                  ///< pillars of the candidates
-  std::map<FramePair, Evaluation> alone_;  ///< as unaided_ sees it
-  std::set<std::size_t> against_gps_;      ///< candidates, likewise
-  std::set<std::size_t> together_;         ///< of these, what GPS contradicts as a whole
-  std::set<std::size_t> outvoted_;         ///< candidates that their neighbours contradict
-  std::set<std::size_t> hopeless_;         ///< of these, those that are not in groups_
+  std::vector<int> ends_;            ///< pillars of the candidates
+  JudgedAlone alone_;                ///< as unaided_ sees it
   State state_;
 };
 

@@ -1,3 +1,5 @@
+#include "hypotheses.hpp"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <optional>
 #include <set>
 
-#include "alignment_selection.hpp"
 #include "expectation.hpp"
 
 namespace fleetmap::graph {
@@ -19,6 +20,8 @@ constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis again
 /// Log odds that a lone accepted registration is right rather than a repetition of the scene. Registrations
 /// of one place go wrong together, so n that agree are worth log2(1 + n) of one.
 constexpr double kTrust = 6.0;
+/// Of a hypothesis as a whole, against another one's: what many have in common makes them all go wrong.
+constexpr double kMostSupport = 24.0;
 constexpr std::size_t kMostLookedAt = 16;
 /// On each side, of which it is asked whether they agree.
 constexpr std::size_t kNeighbours = 2;
@@ -160,6 +163,23 @@ double shift_of(const std::vector<const Seen*>& members, const std::vector<Eigen
   return right.dot(information.llt().solve(right));
 }
 
+/// What it costs GPS and odometry that the hypotheses, each of another frame pair, are right together:
+/// squared Mahalanobis distance, three degrees of freedom each.
+double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
+                   const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<Seen> seen;
+  std::vector<Eigen::Index> of_pair;
+  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+    for (const std::size_t c : some_of(hypotheses[k].members, kMostJoint)) {
+      seen.push_back(look(all, c, solver, estimate));
+      of_pair.push_back(static_cast<Eigen::Index>(k));
+    }
+  }
+  std::vector<const Seen*> members;
+  for (const Seen& one : seen) members.push_back(&one);
+  return shift_of(members, of_pair);
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
@@ -213,19 +233,20 @@ std::vector<Vote> neighbours_votes(std::span<const Candidate> all, std::span<con
   return votes;
 }
 
-double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
-                   const GraphSolver& solver, const Estimate& estimate) {
-  std::vector<Seen> seen;
-  std::vector<Eigen::Index> of_pair;
-  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-    for (const std::size_t c : some_of(hypotheses[k].members, kMostJoint)) {
-      seen.push_back(look(all, c, solver, estimate));
-      of_pair.push_back(static_cast<Eigen::Index>(k));
-    }
+std::vector<Hypothesis> suspects_of(std::span<const Candidate> all, std::span<const Hypothesis> loop,
+                                    const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<double> likelihood;  // log, that the others are right
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    std::vector<Hypothesis> others(loop.begin(), loop.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    double& l = likelihood.emplace_back(-0.5 * joint_shift(all, others, solver, estimate));
+    for (const Hypothesis& other : others) l += std::min(other.support, kMostSupport);
   }
-  std::vector<const Seen*> members;
-  for (const Seen& one : seen) members.push_back(&one);
-  return shift_of(members, of_pair);
+  const double most = std::ranges::max(likelihood);
+  std::vector<Hypothesis> suspects;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    if (likelihood[k] > most - kMargin) suspects.push_back(loop[k]);
+  return suspects;
 }
 
 Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t> candidates,
