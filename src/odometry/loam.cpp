@@ -1,6 +1,7 @@
 #include "fleetmap/odometry/loam.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "fleetmap/odometry/deskew.hpp"
@@ -209,14 +210,15 @@ double Loam::Pipeline::half_sweep() const {
 }
 
 MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
-  MotionPrior prior(config_, state_, uncertainty_.twist_variance(), dt);
+  std::optional<MotionPrior::SeenRotation> gyro;
+  if (const auto R = gyro_.rotation(reference_, reference, gyro_bias_, kHold)) {
+    gyro = {*R, config_.gyro_noise * dt};
+  }
+  MotionPrior prior(config_, state_, uncertainty_.covariance(), dt, gyro);
   const double half = half_sweep();
   const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
   if (const auto rate = gyro_.mean(from, to, kHold)) {
     prior.set_gyro_rate(*rate - gyro_bias_, config_.gyro_noise);
-  }
-  if (const auto R = gyro_.rotation(reference_, reference, gyro_bias_, kHold)) {
-    prior.set_gyro_rotation(*R, config_.gyro_noise * dt);
   }
   if (const auto trend = gyro_.trend(from, to)) prior.set_turn_acceleration(trend->slope);
   if (const auto wheel = wheels_.mean(from, to, kHold)) {
@@ -237,7 +239,7 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
     if (counters_.updates == 1) first.T_odom_base = se3_exp(first_reference_offset_ * first.twist);
     map_.clear();
     insert(first_planes_, first_edges_, first);
-    const MotionPrior again(config_, first, uncertainty_.twist_variance(), dt);
+    const MotionPrior again(config_, first, uncertainty_.covariance(), dt);
     const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist,
                             Eigen::Vector3d::Zero()};
     result = matcher_.align(match_planes_, match_edges_, map_, again, start, kUsualError);
@@ -290,6 +292,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
     ++counters_.map_restarts;
     lost_in_a_row_ = 0;
     map_.clear();
+    uncertainty_.map_restarted();
     insertions_ = 0;
   }
   const Pose moved = keyframe_.inverse() * now.T_odom_base;

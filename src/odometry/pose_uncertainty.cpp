@@ -1,6 +1,7 @@
 #include "fleetmap/odometry/pose_uncertainty.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -25,8 +26,16 @@ double PriorMisfit::variance() const { return (squares_ + kAssumed) / (dimension
 PoseUncertainty::PoseUncertainty(LoamConfig config) : config_(std::move(config)) {}
 
 void PoseUncertainty::start() {
-  twist_variance_.head<3>().setConstant(square(config_.initial_speed));
-  twist_variance_.tail<3>().setConstant(square(config_.initial_turn_rate));
+  covariance_.setZero();
+  covariance_.diagonal().segment<3>(6).setConstant(square(config_.initial_speed));
+  covariance_.diagonal().tail<3>().setConstant(square(config_.initial_turn_rate));
+  stated_noise_.setZero();
+}
+
+void PoseUncertainty::map_restarted() {
+  covariance_.topRows<6>().setZero();
+  covariance_.leftCols<6>().setZero();
+  stated_noise_.setZero();
 }
 
 void PoseUncertainty::turn_changed(const Eigen::Vector3d& change) {
@@ -65,11 +74,7 @@ Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
   Matrix12d information = match.prior_information;
   if (!scan.lost) information += match.lidar_information;
   const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
-  // What stays unknown of the velocity is unknown at the next scan, too.
-  Vector6d cap;
-  cap.head<3>().setConstant(square(config_.initial_speed));
-  cap.tail<3>().setConstant(square(config_.initial_turn_rate));
-  twist_variance_ = at_reference.diagonal().tail<6>().cwiseMax(0.0).cwiseMin(cap);
+  remember(at_reference);
 
   Eigen::Matrix<double, 6, 12> M;
   M << adjoint(scan.T_reference_stamp.inverse()), -scan.reference_offset * Matrix6d::Identity();
@@ -89,21 +94,35 @@ Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
   return 0.5 * (noise + noise.transpose());
 }
 
+/// What stays unknown is unknown at the next scan, too; but no velocity is known less than at the start.
+void PoseUncertainty::remember(const Matrix12d& at_reference) {
+  Vector12d scale = Vector12d::Ones();
+  for (int i = 6; i < 12; ++i) {
+    const double most = square(i < 9 ? config_.initial_speed : config_.initial_turn_rate);
+    if (at_reference(i, i) > most) scale[i] = std::sqrt(most / at_reference(i, i));
+  }
+  const Matrix12d capped = scale.asDiagonal() * at_reference * scale.asDiagonal();
+  covariance_ = 0.5 * (capped + capped.transpose());
+}
+
 /// New ground enters the map at poses that err as pose_noise says, so the map drifts with the way. Along
-/// degenerate directions, and when lost, each motion is a guess: there the errors of successive motions are
-/// one and the same wrong velocity: n of them sum to n, not to sqrt(n), so the n-th counts 2n - 1 times.
+/// degenerate directions, and when lost, the map does not hold the motion at all, and what a scan adds to
+/// their error stays in the map.
 Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& pose_noise) {
   const MatchResult& match = scan.match;
   const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
-  Matrix6d drift = way * config_.drift_share * pose_noise;
-  drift.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
-  drift.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
-  const bool blind = scan.lost || match.degenerate_count > 0;
-  degenerate_in_a_row_ = blind ? degenerate_in_a_row_ + 1 : 0;
-  if (!blind) return drift;
-  const auto V = match.degenerate_directions.leftCols(scan.lost ? 0 : match.degenerate_count);
-  const Matrix6d guessed = scan.lost ? Matrix6d(Matrix6d::Identity()) : Matrix6d(V * V.transpose());
-  return drift + (2.0 * degenerate_in_a_row_ - 1.0) * guessed * pose_noise * guessed;
+  Matrix6d growth = way * config_.drift_share * pose_noise;
+  growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
+  growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
+  const Matrix6d A = adjoint(scan.T_before_now.inverse());
+  const Matrix6d added = pose_noise - A * stated_noise_ * A.transpose();
+  stated_noise_ = pose_noise;
+  const Matrix6d axes = scan.lost ? Matrix6d(Matrix6d::Identity()) : match.degenerate_directions;
+  for (int i = 0; i < (scan.lost ? 6 : match.degenerate_count); ++i) {
+    const Vector6d axis = axes.col(i);
+    growth += std::max(0.0, axis.dot(added * axis)) * axis * axis.transpose();
+  }
+  return growth;
 }
 
 }  // namespace fleetmap::odometry

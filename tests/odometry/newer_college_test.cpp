@@ -104,7 +104,8 @@ TEST_F(NewerCollege, EdgesAndPlanesRecoverTheGraph) {
     ASSERT_GT(planes.back().size(), 1000u);
   }
   const LoamConfig config;
-  const Vector6d unknown_twist = Vector6d::Constant(100.0);
+  Matrix12d unknown_twist = Matrix12d::Zero();
+  unknown_twist.bottomRightCorner<6, 6>().diagonal().setConstant(100.0);
   for (std::size_t k = 0; k < truth.size(); ++k) {
     LocalMap map(config);
     for (std::size_t other = 0; other < truth.size(); ++other) {

@@ -33,20 +33,23 @@ struct NormalEquations {
   Vector12d g = Vector12d::Zero();
 };
 
-/// What is known of a sweep's motion before its points are looked at: the last state, and that velocity
-/// changes as white noise on acceleration (Barfoot, State Estimation for Robotics, 11.2); optionally gyro and
-/// wheels.
+/// What is known of a sweep's motion before its points are looked at: the last state as well as that was
+/// known, and that velocity changes as white noise on acceleration (Barfoot, State Estimation for Robotics,
+/// 11.2); optionally gyro and wheels.
 class MotionPrior {
  public:
-  /// `dt` s since `previous`, > 0; `twist_variance` of the components of previous.twist, (m/s)^2 and
-  /// (rad/s)^2.
-  MotionPrior(const LoamConfig& config, const MotionState& previous, const Vector6d& twist_variance,
-              double dt);
+  /// Rotation of base_link from the last reference instant to this one, as a gyro saw it.
+  struct SeenRotation {
+    Eigen::Matrix3d R_previous_now;
+    double sigma;  ///< rad
+  };
+
+  /// `covariance` of `previous`, [d_pose, d_twist]; `dt` s since then, > 0.
+  MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance, double dt,
+              const std::optional<SeenRotation>& gyro = std::nullopt);
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
-  /// Rotation of base_link from the last reference instant to this one; sigma in rad.
-  void set_gyro_rotation(const Eigen::Matrix3d& R_previous_now, double sigma);
   /// During the sweep, as the gyro saw it, rad/s^2.
   void set_turn_acceleration(const Eigen::Vector3d& acceleration) { turn_acceleration_ = acceleration; }
   void set_forward_speed(double speed, double sigma);
@@ -60,17 +63,15 @@ class MotionPrior {
   NormalEquations linearised(const MotionState& state) const;
 
  private:
-  void replace_rate(int axis, double value, double sigma);
-  Vector6d mean_twist(const Vector6d& now) const;
+  void measure_rate(int axis, double value, double sigma);
 
-  MotionState previous_;
   double dt_;
-  Vector6d twist_mean_, twist_information_;
-  Vector6d smoothing_;         ///< share of a correction of the velocity now that holds for the one before
-  Vector6d pose_information_;  ///< of the pose, given the velocity now
-  std::optional<Eigen::Matrix3d> R_previous_now_;
+  Vector6d previous_twist_;
+  Eigen::Vector3d turn_known_before_;  ///< share of a change of the turn rates that is no error of the last
+  Pose T_odom_base_;
+  Vector6d twist_;
+  Matrix12d covariance_;  ///< of the two above
   std::optional<Eigen::Vector3d> turn_acceleration_;
-  double rotation_information_ = 0.0;
 };
 
 }  // namespace fleetmap::odometry

@@ -26,6 +26,8 @@ class PoseUncertainty {
 
   /// The velocity is not known.
   void start();
+  /// The last pose is where the new map begins, so known in it.
+  void map_restarted();
   /// From one scan to the next the turn rates changed by so much a second [rad/s^2].
   void turn_changed(const Eigen::Vector3d& change);
 
@@ -47,20 +49,21 @@ class PoseUncertainty {
   };
   Stated state(const Matched& scan);
 
-  /// Of the last scan's velocity [m/s, rad/s].
-  const Vector6d& twist_variance() const { return twist_variance_; }
+  /// Of the last scan's pose in the local map and of its velocity, as the next scan's prior takes them.
+  const Matrix12d& covariance() const { return covariance_; }
 
  private:
+  void remember(const Matrix12d& at_reference);
   void judge_prior(const MatchResult& match, const Matrix12d& covariance);
   Matrix6d pose_noise(const Matched& scan);
   Matrix6d growth(const Matched& scan, const Matrix6d& pose_noise);
 
   LoamConfig config_;
-  Vector6d twist_variance_ = Vector6d::Zero();
+  Matrix12d covariance_ = Matrix12d::Zero();
+  Matrix6d stated_noise_ = Matrix6d::Zero();  ///< of the last scan
   /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
   Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
   PriorMisfit translation_misfit_;
-  int degenerate_in_a_row_ = 0;
 };
 
 }  // namespace fleetmap::odometry
