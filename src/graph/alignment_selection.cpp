@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "expectation.hpp"
@@ -44,10 +45,10 @@ struct Components {
 
 /// What is taken, and how it came.
 struct State {
-  std::set<std::size_t> left_out;            ///< alignments: hypotheses that fit no loop
+  std::set<std::size_t> left_out;            ///< candidates: hypotheses that fit no loop
   std::set<std::size_t> undecided;           ///< of these, where it could be others as well
+  std::set<FramePair> not_to_connect;        ///< whose hypotheses are undecided
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
-  std::vector<Hypothesis> tree;              ///< what connected frames first
   std::set<std::size_t> contradicting;       ///< candidates: what is taken rules them out
   bool solved = false;
 };
@@ -110,7 +111,7 @@ class Selector {
       if (ties() != judged_by) tied_->set_ties(ties());
       if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
     }
-    if (drop_outvoted(estimate)) {
+    if (drop_contradicted(estimate)) {
       tied_->set_ties(ties());
       if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
     }
@@ -129,13 +130,13 @@ class Selector {
       std::map<std::size_t, std::vector<Seen>> modes;  // by alignment
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
-        if (state_.taken.contains(alignment) || state_.left_out.contains(alignment)) continue;
+        if (state_.taken.contains(alignment) || state_.left_out.contains(c)) continue;
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
-          if (first && alone_.outvoted.contains(c)) continue;
-          open[frames].push_back(c);
+          const bool waits = first && alone_.outvoted.contains(c);
+          if (!waits) open[frames].push_back(c);
           // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
-          if (!alone_.together.contains(c)) modes[alignment].push_back({seen, c});
+          modes[alignment].push_back({seen, c, !waits && !alone_.together.contains(c)});
         } else {
           state_.contradicting.insert(c);
         }
@@ -174,14 +175,11 @@ class Selector {
     components = Components(graph_.frames.size());
     for (const auto& [alignment, c] : state_.taken)
       components.join(candidates_[c].frames.first, candidates_[c].frames.second);
-    std::erase_if(state_.tree, [&](const Hypothesis& edge) {
-      return std::ranges::none_of(edge.members, [&](std::size_t c) { return is_taken(c); });
-    });
   }
 
   /// What was taken last, nothing has judged since: takes back what the solution contradicts, though it
   /// pulled there. True if there was any.
-  bool drop_outvoted(const Estimate& estimate) {
+  bool drop_contradicted(const Estimate& estimate) {
     return std::erase_if(state_.taken, [&](const auto& one) {
              const Between& tie = candidates_[one.second].between;
              const Vector6d e = relative_residual(estimate, tie.a, tie.b, tie.T_a_b).e;
@@ -209,13 +207,15 @@ class Selector {
   struct Seen {
     Expectation by_graph;
     std::size_t candidate = 0;
+    bool may_be_taken = false;
   };
   /// Of the modes of one alignment that nothing contradicts, the one that is where the graph knows it must
   /// be.
   static std::optional<std::size_t> the_expected_one(const std::vector<Seen>& modes) {
     const auto best =
         std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.cost; });
-    if (!(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected) return std::nullopt;
+    if (!best->may_be_taken || !(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected)
+      return std::nullopt;
     const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
       return mode.candidate == best->candidate || mode.by_graph.cost - best->by_graph.cost > 2.0 * kMargin;
     });
@@ -229,9 +229,8 @@ class Selector {
   }
 
   bool is_left_out(const Hypothesis& hypothesis) const {
-    return std::ranges::any_of(hypothesis.members, [&](std::size_t c) {
-      return state_.left_out.contains(candidates_[c].alignment);
-    });
+    return std::ranges::any_of(hypothesis.members,
+                               [&](std::size_t c) { return state_.left_out.contains(c); });
   }
 
   /// The best hypothesis of a pair, if it is clearly the best.
@@ -262,7 +261,7 @@ class Selector {
       if (!best) continue;
       if (components.root(frames.first) == components.root(frames.second)) {
         if (best->shift < kTiedShiftGate) take(*best);
-      } else {
+      } else if (!state_.not_to_connect.contains(frames)) {
         connecting.push_back(*best);
       }
     }
@@ -271,7 +270,6 @@ class Selector {
       // What would close a loop now is looked at again when the loop is known.
       if (!components.join(hypothesis.frames.first, hypothesis.frames.second)) continue;
       take(hypothesis);
-      state_.tree.push_back(hypothesis);
       connects = true;
     }
     return connects;
@@ -282,26 +280,44 @@ class Selector {
     return static_cast<double>(taken) / static_cast<double>(hypothesis.members.size());
   }
 
-  /// Edges of the tree between two frames.
-  std::vector<std::size_t> path(std::size_t from, std::size_t to) const {
-    std::vector<std::optional<std::size_t>> arrived_by(graph_.frames.size());
+  /// What ties each pair of frames, as a hypothesis.
+  std::vector<Hypothesis> ties_as_hypotheses() const {
+    std::map<FramePair, Hypothesis> by_frames;
+    for (const auto& [alignment, c] : state_.taken) by_frames[candidates_[c].frames].members.push_back(c);
+    std::vector<Hypothesis> ties;
+    for (auto& [frames, tie] : by_frames) {
+      if (frames.first == frames.second) continue;
+      tie.frames = frames;
+      tie.support = support_of(static_cast<double>(tie.members.size()));
+      ties.push_back(std::move(tie));
+    }
+    return ties;
+  }
+
+  /// The shortest way of ties from one of the frames to the other that is not what ties the two themselves.
+  static std::vector<Hypothesis> way_round(const std::vector<Hypothesis>& ties, const FramePair& frames,
+                                           std::size_t frame_count) {
+    const auto [from, to] = frames;
+    std::vector<std::optional<std::size_t>> arrived_by(frame_count);
     std::vector<std::size_t> queue{from};
     for (std::size_t at = 0; at < queue.size() && queue[at] != to; ++at) {
-      for (std::size_t k = 0; k < state_.tree.size(); ++k) {
-        const auto [a, b] = state_.tree[k].frames;
+      for (std::size_t k = 0; k < ties.size(); ++k) {
+        const auto [a, b] = ties[k].frames;
         const std::size_t next = a == queue[at] ? b : a;
-        if ((a != queue[at] && b != queue[at]) || next == from || arrived_by[next]) continue;
+        if ((a != queue[at] && b != queue[at]) || next == from || arrived_by[next] ||
+            ties[k].frames == frames)
+          continue;
         arrived_by[next] = k;
         queue.push_back(next);
       }
     }
-    std::vector<std::size_t> edges;
+    std::vector<Hypothesis> way;
     for (std::size_t at = to; at != from && arrived_by[at];) {
-      edges.push_back(*arrived_by[at]);
-      const auto [a, b] = state_.tree[*arrived_by[at]].frames;
+      way.push_back(ties[*arrived_by[at]]);
+      const auto [a, b] = way.back().frames;
       at = a == at ? b : a;
     }
-    return edges;
+    return way;
   }
 
   /// Where hypotheses contradict each other around a loop one of them is false: leaves out the one without
@@ -315,19 +331,22 @@ class Selector {
       State without;
       without.left_out = state_.left_out;
       without.undecided = state_.undecided;
+      without.not_to_connect = state_.not_to_connect;
       bool changes = false;
       const std::vector<Hypothesis> suspects = suspects_of(candidates_, loop, unaided_, start);
       for (const Hypothesis& suspect : suspects) {
-        changes = changes || share_taken(suspect) > 0.0;
+        if (suspects.size() > 1) without.not_to_connect.insert(suspect.frames);
         for (const std::size_t c : whole(suspect, start)) {
-          without.left_out.insert(candidates_[c].alignment);
-          if (suspects.size() > 1) without.undecided.insert(candidates_[c].alignment);
+          changes = changes || is_taken(c);
+          without.left_out.insert(c);
+          if (suspects.size() > 1) without.undecided.insert(c);
         }
       }
       if (!changes) {
         if (without.left_out == state_.left_out) break;
         state_.left_out = std::move(without.left_out);
         state_.undecided = std::move(without.undecided);
+        state_.not_to_connect = std::move(without.not_to_connect);
         continue;
       }
       ++trials;
@@ -358,11 +377,12 @@ class Selector {
 
   /// The hypotheses around a loop that does not close, at least one of which is false. Empty if all close.
   std::vector<Hypothesis> open_loop() const {
+    const std::vector<Hypothesis> ties = ties_as_hypotheses();
     for (const auto& [frames, evaluation] : alone_.hypotheses) {
       const std::optional<Hypothesis> best = clear_best(evaluation);
       if (!best || frames.first == frames.second || share_taken(*best) >= kClosed) continue;
-      std::vector<Hypothesis> loop{*best};
-      for (const std::size_t k : path(frames.first, frames.second)) loop.push_back(state_.tree[k]);
+      std::vector<Hypothesis> loop = way_round(ties, frames, graph_.frames.size());
+      loop.push_back(*best);
       if (loop.size() > 2) return loop;
     }
     return {};
@@ -371,10 +391,14 @@ class Selector {
   Selection conclude(const Estimate& estimate) const {
     Selection selection;
     selection.taken = state_.taken;
+    std::set<std::size_t> ruled_out = state_.contradicting;
+    ruled_out.insert(alone_.hopeless.begin(), alone_.hopeless.end());
+    ruled_out.insert(state_.left_out.begin(), state_.left_out.end());
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
     for (const std::size_t c : alone_.against_gps) ++against[candidates_[c].alignment].first;
-    for (const std::size_t c : state_.contradicting) ++against[candidates_[c].alignment].second;
-    for (const std::size_t c : alone_.hopeless) ++against[candidates_[c].alignment].second;
+    for (const std::size_t c : ruled_out) ++against[candidates_[c].alignment].second;
+    std::set<std::size_t> undecided;  // alignments
+    for (const std::size_t c : state_.undecided) undecided.insert(candidates_[c].alignment);
     std::map<std::size_t, std::size_t> modes;
     for (const Candidate& candidate : candidates_) ++modes[candidate.alignment];
     std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;
@@ -383,12 +407,10 @@ class Selector {
         continue;
       const auto [alone, end] = against[candidate.alignment];
       const std::size_t all = modes[candidate.alignment];
-      const bool left_out = state_.left_out.contains(candidate.alignment);
-      const bool undecided = state_.undecided.contains(candidate.alignment);
-      const Judgement judgement = alone == all             ? Judgement::against_gps
-                                  : undecided              ? Judgement::undecided
-                                  : left_out || end == all ? Judgement::against_others
-                                                           : Judgement::undecided;
+      const Judgement judgement = alone == all                              ? Judgement::against_gps
+                                  : undecided.contains(candidate.alignment) ? Judgement::undecided
+                                  : end == all                              ? Judgement::against_others
+                                                                            : Judgement::undecided;
       selection.judged[candidate.alignment] = judgement;
       // Of one that is ambiguous by its first mode: that none of them is right is one mistake.
       if (judgement != Judgement::undecided)

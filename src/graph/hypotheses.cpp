@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -74,10 +75,13 @@ Given given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
   return {distance, distance + log_det(llt), std::sqrt(S.diagonal().head<3>().maxCoeff())};
 }
 
+/// Where on the way of the first frame: whoever computed it, the end there is the lower pillar.
+std::size_t along(const Candidate& candidate) { return std::min(candidate.between.a, candidate.between.b); }
+
 /// `seen` if the member is right that was made nearest to it, and says most of where it must be.
 Given given_nearest(std::span<const Candidate> all, const std::vector<Seen>& members, const Seen& seen) {
   const auto apart = [&](const Seen& member) {
-    const std::size_t a = all[member.candidate].between.a, b = all[seen.candidate].between.a;
+    const std::size_t a = along(all[member.candidate]), b = along(all[seen.candidate]);
     return std::max(a, b) - std::min(a, b);
   };
   const Seen& nearest = *std::ranges::min_element(members, {}, apart);
@@ -180,7 +184,35 @@ double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> h
   return shift_of(members, of_pair);
 }
 
+/// One vote of an alignment on each mode of the other: for it if any of its own agrees, against it if none
+/// does, none if it would agree with anything.
+void vote_on_each_other(const std::vector<std::pair<std::size_t, Seen>>& some,
+                        const std::vector<std::pair<std::size_t, Seen>>& others, std::vector<Vote>& votes) {
+  enum class Opinion { against, open, agrees };
+  std::vector<Opinion> of_some(some.size(), Opinion::against), of_others(others.size(), Opinion::against);
+  for (std::size_t a = 0; a < some.size(); ++a) {
+    for (std::size_t b = 0; b < others.size(); ++b) {
+      const Seen &x = some[a].second, &y = others[b].second;
+      const Given one = given(x, y, BlockCholesky::inner(y.z, x.z));
+      if (!(one.distance < kPairGate)) continue;
+      const Opinion opinion = one.sigma_m > kKnownM ? Opinion::open : Opinion::agrees;
+      of_some[a] = std::max(of_some[a], opinion);
+      of_others[b] = std::max(of_others[b], opinion);
+    }
+  }
+  const auto count = [&](const auto& modes, const std::vector<Opinion>& opinions) {
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      votes[modes[k].first].agree += opinions[k] == Opinion::agrees;
+      votes[modes[k].first].disagree += opinions[k] == Opinion::against;
+    }
+  };
+  count(some, of_some);
+  count(others, of_others);
+}
+
 }  // namespace
+
+double support_of(double agreeing) { return kTrust * std::log2(1.0 + agreeing); }
 
 std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
                                                std::span<const Hypothesis> hypotheses,
@@ -213,21 +245,22 @@ std::vector<std::vector<std::size_t>> agreeing(std::span<const Candidate> all,
 
 std::vector<Vote> neighbours_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                                    const GraphSolver& solver, const Estimate& estimate) {
-  std::vector<std::size_t> along(candidates.size());
-  std::iota(along.begin(), along.end(), 0u);
-  std::ranges::stable_sort(along, {}, [&](std::size_t k) { return all[candidates[k]].between.a; });
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) {
+    return std::pair(along(all[candidates[k]]), all[candidates[k]].alignment);
+  });
+  using Modes = std::vector<std::pair<std::size_t, Seen>>;  // of one alignment
   std::vector<Vote> votes(candidates.size());
-  std::deque<std::pair<std::size_t, Seen>> before;
-  for (const std::size_t k : along) {
-    Seen seen = look(all, candidates[k], solver, estimate);
-    for (const auto& [other, seen_before] : before) {
-      if (seen_before.alignment == seen.alignment) continue;
-      const Given one = given(seen_before, seen, BlockCholesky::inner(seen.z, seen_before.z));
-      const bool agrees = one.distance < kPairGate;
-      if (agrees && one.sigma_m > kKnownM) continue;  // it would agree with anything
-      for (Vote* vote : {&votes[k], &votes[other]}) ++(agrees ? vote->agree : vote->disagree);
+  std::deque<Modes> before;
+  for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+    Modes modes;
+    for (; end < order.size(); ++end) {
+      if (all[candidates[order[end]]].alignment != all[candidates[order[first]]].alignment) break;
+      modes.emplace_back(order[end], look(all, candidates[order[end]], solver, estimate));
     }
-    before.emplace_back(k, std::move(seen));
+    for (const Modes& others : before) vote_on_each_other(others, modes, votes);
+    before.push_back(std::move(modes));
     if (before.size() > kNeighbours) before.pop_front();
   }
   return votes;
@@ -279,7 +312,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
     std::vector<const Seen*> some;
     for (const std::size_t a : some_of(members, kMostJoint)) some.push_back(&seen[a]);
     hypothesis.shift = shift_of(some, std::vector<Eigen::Index>(some.size(), 0));
-    hypothesis.support = kTrust * std::log2(1.0 + weight);
+    hypothesis.support = support_of(weight);
     hypothesis.evidence = hypothesis.support - 0.5 * hypothesis.shift;
     auto& where = hypothesis.shift < kShiftGate ? evaluation.hypotheses : evaluation.rejected;
     where.push_back(std::move(hypothesis));

@@ -36,6 +36,9 @@ struct Hypothesis {
   double evidence = 0.0;  ///< and less what the shift costs
 };
 
+/// Log odds that so many alignments that agree are right, rather than a repetition of the scene.
+double support_of(double agreeing);
+
 struct Evaluation {
   std::vector<Hypothesis> hypotheses;  ///< best evidence first
   std::vector<Hypothesis> rejected;    ///< whose members fit the estimate alone, but not together

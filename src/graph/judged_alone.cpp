@@ -35,7 +35,7 @@ std::vector<std::size_t> open_ones(std::span<const Candidate> candidates, const 
 
 /// Hypotheses that contradict as a whole, with what was not looked at of them.
 void reject(std::span<const Candidate> candidates, const Evaluation& pair,
-            const std::vector<std::size_t>& open, const GraphSolver& solver, const Estimate& estimate,
+            const std::vector<std::size_t>& group, const GraphSolver& solver, const Estimate& estimate,
             JudgedAlone& judged) {
   const auto is_one_of_many = [](const Hypothesis& one) { return one.members.size() > 1; };
   for (const Hypothesis& one : pair.rejected)
@@ -43,7 +43,7 @@ void reject(std::span<const Candidate> candidates, const Evaluation& pair,
   if (std::ranges::none_of(pair.rejected, is_one_of_many)) return;
   std::vector<Hypothesis> hypotheses = pair.rejected;
   hypotheses.insert(hypotheses.end(), pair.hypotheses.begin(), pair.hypotheses.end());
-  const auto members = agreeing(candidates, hypotheses, open, solver, estimate);
+  const auto members = agreeing(candidates, hypotheses, group, solver, estimate);
   for (std::size_t k = 0; k < pair.rejected.size(); ++k) {
     if (!is_one_of_many(pair.rejected[k])) continue;
     judged.against_gps.insert(members[k].begin(), members[k].end());
@@ -60,13 +60,19 @@ JudgedAlone judge_alone(std::span<const Candidate> candidates, const GraphSolver
   for (auto& [frames, group] : judged.groups) {
     std::vector<std::size_t> open = open_ones(candidates, solver, estimate, group, judged);
     const std::vector<Vote> votes = neighbours_votes(candidates, group, solver, estimate);
+    std::set<std::size_t> outvoted;
     for (std::size_t k = 0; k < group.size(); ++k) {
       if (votes[k].disagree >= kLeastToOutvote && votes[k].disagree > votes[k].agree)
-        judged.outvoted.insert(group[k]);
+        outvoted.insert(group[k]);
     }
-    std::erase_if(open, [&](std::size_t c) { return judged.outvoted.contains(c); });
+    const auto is_outvoted = [&](std::size_t c) { return outvoted.contains(c); };
+    // Where all are, the votes decide nothing.
+    if (!std::ranges::all_of(open, is_outvoted)) {
+      std::erase_if(open, is_outvoted);
+      judged.outvoted.merge(outvoted);
+    }
     Evaluation& pair = judged.hypotheses[frames] = evaluate(candidates, open, solver, estimate);
-    reject(candidates, pair, open, solver, estimate, judged);
+    reject(candidates, pair, group, solver, estimate, judged);
   }
   return judged;
 }

@@ -109,16 +109,18 @@ double heading_variance(const Window& window, const FleetPlacementConfig& config
 }
 
 /// Of the place in a window, by a heading of G that is false for longer than it: each window's track is
-/// turned by the same error, which so counts as often as windows share it.
-Eigen::Vector3d variance_by_heading(const Window& window, const Eigen::Vector3d& moved_enu, double seconds) {
-  const double shared = std::max(1.0, window.variance(5) / kReckoningTurn / std::max(1.0, seconds));
+/// turned by the same error, which so counts as often as windows share it; of the frame's `windows` at most.
+Eigen::Vector3d variance_by_heading(const Window& window, const Eigen::Vector3d& moved_enu, double seconds,
+                                    std::size_t windows) {
+  const double lasts = window.variance(5) / kReckoningTurn;  // s
+  const double shared = std::clamp(lasts / std::max(1.0, seconds), 1.0, static_cast<double>(windows));
   const Eigen::Vector3d across(moved_enu.y(), moved_enu.x(), 0.0);
   return shared * window.variance(5) * across.cwiseAbs2();
 }
 
 /// The fixes of a window as one of the pillar at its first node.
-void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window, const LocalFrame& site,
-                 const FleetPlacementConfig& config) {
+void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window, std::size_t windows,
+                 const LocalFrame& site, const FleetPlacementConfig& config) {
   const Node& anchor = *graph.nodes[pillar.node];
   const Pose T_base_odom = anchor.T_odom_base.inverse();
   const double count = static_cast<double>(window.end - window.first);
@@ -138,7 +140,8 @@ void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window
       pillar.R_enu_base * (T_base_odom * Eigen::Vector3d(last.T_odom_base.translation()));
   const Eigen::Vector3d drift = config.gps_drift_share * window.best;
   pillar.drift_sigma = drift.cwiseSqrt();
-  pillar.rest_variance = window.variance.head<3>() - drift + variance_by_heading(window, moved, seconds);
+  pillar.rest_variance =
+      window.variance.head<3>() - drift + variance_by_heading(window, moved, seconds, windows);
   pillar.rest_variance.array() += kLeastRestVariance;
   // The level's error drifts as well: what is closer in time than its correlation shares one.
   const double shared = std::max(1.0, config.gps_correlation_time / std::max(1.0, seconds));
@@ -164,7 +167,7 @@ void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is
     Pillar pillar;
     pillar.node = k;
     pillar.frame = graph.frames.size();
-    if (starts_window) fill_window(pillar, graph, windows[window++], site, config);
+    if (starts_window) fill_window(pillar, graph, windows[window++], windows.size(), site, config);
     if (k > frame.first) {
       const std::size_t a = graph.pillars.size() - 1;
       const Node& before = *graph.nodes[graph.pillars[a].node];

@@ -238,6 +238,7 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
     first.T_odom_base = state_.T_odom_base;
     if (counters_.updates == 1) first.T_odom_base = se3_exp(first_reference_offset_ * first.twist);
     map_.clear();
+    uncertainty_.map_restarted();
     insert(first_planes_, first_edges_, first);
     const MotionPrior again(config_, first, uncertainty_.covariance(), dt);
     const MotionState start{first.T_odom_base * se3_exp(dt * first.twist), first.twist,

@@ -63,7 +63,8 @@ void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& cov
   const Vector12d told =
       Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
   const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
-  translation_misfit_.add(misfit.head<3>().sum() + misfit.segment<3>(6).sum(),
+  // What it shares with rotation can make a part of a square negative.
+  translation_misfit_.add(std::max(0.0, misfit.head<3>().sum() + misfit.segment<3>(6).sum()),
                           told.head<3>().sum() + told.segment<3>(6).sum());
 }
 

@@ -190,19 +190,48 @@ TEST(FleetPlacement, WhenAllBetweenTwoRobotsAreFalseAThirdTiesThem) {
   EXPECT_LE(apart, 3u);  // GPS may not tell which pair it is
 }
 
-/// GPS cannot tell which side of the triangle is false: none of what it may be is taken, none of it counts
-/// against who computed it.
+/// GPS cannot tell which side of the triangle is false: none of what it may be is taken, nor what fewer say
+/// of the same robots, and none of it counts against who computed it.
 TEST(FleetPlacement, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
   std::size_t apart = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
     SimulatedFleet fleet(seed, triangle(80.0, 5.0));
     const auto false_ones = make_one_pair_false(fleet);
+    const std::size_t known = fleet.alignments.size();
+    const auto pairs = fleet.near_pairs(kR2, kR3, 7);
+    for (std::size_t k = 0; k < 2; ++k) fleet.align(pairs[k].first, pairs[k].second, kR2, -kOneRow);
     const Placement placement = place(fleet);
     expect_none_used(placement, false_ones, of(seed));
-    apart += placement.components.size() > 1;
+    expect_none_used(placement, names_from(fleet, known), of(seed));
     for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined) << agent.str();
+    if (placement.components.size() != 3) continue;
+    ++apart;
+    const auto judged = judgements(placement);
+    for (const auto& name : false_ones) EXPECT_EQ(judged.at(name), Judgement::undecided) << of(seed);
   }
   EXPECT_GT(apart, 5u);
+}
+
+/// Of five along the way two are right and agree; each has more neighbours against it than for it.
+TEST(FleetPlacement, WhereNeighboursOutvoteAllTheyDecideNothing) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    SimulatedFleetConfig config;
+    config.robots = 2;
+    config.reach = 0.0;
+    SimulatedFleet fleet(seed, config);
+    SimulatedFleetConfig near = config;
+    near.reach = 14.0;
+    const auto pairs = SimulatedFleet(seed, near).near_pairs(kR1, kR2, 2);
+    ASSERT_GE(pairs.size(), 5u);
+    const std::array<Eigen::Vector3d, 5> shifts{Eigen::Vector3d(3.0, 2.0, 0.0), Eigen::Vector3d::Zero(),
+                                                Eigen::Vector3d(-2.0, -4.0, 0.0), Eigen::Vector3d::Zero(),
+                                                Eigen::Vector3d(0.0, 5.0, 0.0)};
+    for (std::size_t k = 0; k < shifts.size(); ++k)
+      fleet.align(pairs[k].first, pairs[k].second, kR1, shifts[k]);
+    const Placement placement = place(fleet);
+    EXPECT_EQ(placement.used.size(), 2u) << of(seed);
+    EXPECT_EQ(placement.components.size(), 1u) << of(seed);
+  }
 }
 
 /// With one mode an alignment, and with two.

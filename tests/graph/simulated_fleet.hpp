@@ -116,7 +116,11 @@ class SimulatedFleet {
           shift = Eigen::Vector3d(gauss(8.0), gauss(8.0), gauss(1.0));
           shift *= (shift.norm() + 3.0) / shift.norm();
         }
-        const Alignment& a = align({agent(r), seq}, {agent(r + 1), seq}, agent(r), shift);
+        // Each computes every other one, from its own node.
+        const NodeId one{agent(r), seq}, other{agent(r + 1), seq};
+        const bool swapped = seq / static_cast<std::uint32_t>(every) % 2 == 1;
+        const Alignment& a =
+            swapped ? align(other, one, other.agent, -shift) : align(one, other, one.agent, shift);
         if (is_false) false_ones.emplace(a.computed_by, a.seq);
       }
     }
