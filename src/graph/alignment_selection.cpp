@@ -43,11 +43,16 @@ struct Components {
   }
 };
 
+/// What loops that do not close rule out.
+struct Doubts {
+  std::set<std::size_t> left_out;      ///< candidates: hypotheses that fit no loop
+  std::set<std::size_t> undecided;     ///< of these, where it could be others as well
+  std::set<FramePair> not_to_connect;  ///< whose hypotheses are undecided
+};
+
 /// What is taken, and how it came.
 struct State {
-  std::set<std::size_t> left_out;            ///< candidates: hypotheses that fit no loop
-  std::set<std::size_t> undecided;           ///< of these, where it could be others as well
-  std::set<FramePair> not_to_connect;        ///< whose hypotheses are undecided
+  Doubts doubts;
   std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
   std::set<std::size_t> contradicting;       ///< candidates: what is taken rules them out
   bool solved = false;
@@ -118,7 +123,7 @@ class Selector {
     state_.solved = true;
   }
 
-  /// Judges everything by the tied graph. True if what is taken changed.
+  /// Judges everything by the tied graph. True if what changed is worth another look.
   bool look_again(const Estimate& estimate, Components& components, bool first) {
     tied_->invert(ends_);
     const std::set<std::size_t> doubtful = contradicted_by_rest(estimate);
@@ -130,7 +135,7 @@ class Selector {
       std::map<std::size_t, std::vector<Seen>> modes;  // by alignment
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
-        if (state_.taken.contains(alignment) || state_.left_out.contains(c)) continue;
+        if (state_.taken.contains(alignment) || state_.doubts.left_out.contains(c)) continue;
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
           const bool waits = first && alone_.outvoted.contains(c);
@@ -183,9 +188,9 @@ class Selector {
     return std::erase_if(state_.taken, [&](const auto& one) {
              const Between& tie = candidates_[one.second].between;
              const Vector6d e = relative_residual(estimate, tie.a, tie.b, tie.T_a_b).e;
-             const bool outvoted = !(e.dot(judged_covariance(tie).llt().solve(e)) < kContradicts);
-             if (outvoted) state_.contradicting.insert(one.second);
-             return outvoted;
+             const bool contradicted = !(e.dot(judged_covariance(tie).llt().solve(e)) < kContradicts);
+             if (contradicted) state_.contradicting.insert(one.second);
+             return contradicted;
            }) > 0;
   }
 
@@ -230,7 +235,7 @@ class Selector {
 
   bool is_left_out(const Hypothesis& hypothesis) const {
     return std::ranges::any_of(hypothesis.members,
-                               [&](std::size_t c) { return state_.left_out.contains(c); });
+                               [&](std::size_t c) { return state_.doubts.left_out.contains(c); });
   }
 
   /// The best hypothesis of a pair, if it is clearly the best.
@@ -261,7 +266,7 @@ class Selector {
       if (!best) continue;
       if (components.root(frames.first) == components.root(frames.second)) {
         if (best->shift < kTiedShiftGate) take(*best);
-      } else if (!state_.not_to_connect.contains(frames)) {
+      } else if (!state_.doubts.not_to_connect.contains(frames)) {
         connecting.push_back(*best);
       }
     }
@@ -328,29 +333,26 @@ class Selector {
     while (trials < kMostTrials) {
       const std::vector<Hypothesis> loop = open_loop();
       if (loop.empty()) break;
-      State without;
-      without.left_out = state_.left_out;
-      without.undecided = state_.undecided;
-      without.not_to_connect = state_.not_to_connect;
+      Doubts doubts = state_.doubts;
       bool changes = false;
       const std::vector<Hypothesis> suspects = suspects_of(candidates_, loop, unaided_, start);
+      const bool decided = suspects.size() == 1;
       for (const Hypothesis& suspect : suspects) {
-        if (suspects.size() > 1) without.not_to_connect.insert(suspect.frames);
+        if (!decided) doubts.not_to_connect.insert(suspect.frames);
         for (const std::size_t c : whole(suspect, start)) {
           changes = changes || is_taken(c);
-          without.left_out.insert(c);
-          if (suspects.size() > 1) without.undecided.insert(c);
+          doubts.left_out.insert(c);
+          if (!decided) doubts.undecided.insert(c);
         }
       }
       if (!changes) {
-        if (without.left_out == state_.left_out) break;
-        state_.left_out = std::move(without.left_out);
-        state_.undecided = std::move(without.undecided);
-        state_.not_to_connect = std::move(without.not_to_connect);
+        if (doubts.left_out == state_.doubts.left_out) break;
+        state_.doubts = std::move(doubts);
         continue;
       }
       ++trials;
-      const State before = std::exchange(state_, std::move(without));
+      const State before = std::exchange(state_, {});
+      state_.doubts = std::move(doubts);
       Estimate trial = start;
       rounds(trial);
       if (!state_.solved && before.solved) {
@@ -393,12 +395,12 @@ class Selector {
     selection.taken = state_.taken;
     std::set<std::size_t> ruled_out = state_.contradicting;
     ruled_out.insert(alone_.hopeless.begin(), alone_.hopeless.end());
-    ruled_out.insert(state_.left_out.begin(), state_.left_out.end());
+    ruled_out.insert(state_.doubts.left_out.begin(), state_.doubts.left_out.end());
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> against;  // modes: alone, at the end
     for (const std::size_t c : alone_.against_gps) ++against[candidates_[c].alignment].first;
     for (const std::size_t c : ruled_out) ++against[candidates_[c].alignment].second;
     std::set<std::size_t> undecided;  // alignments
-    for (const std::size_t c : state_.undecided) undecided.insert(candidates_[c].alignment);
+    for (const std::size_t c : state_.doubts.undecided) undecided.insert(candidates_[c].alignment);
     std::map<std::size_t, std::size_t> modes;
     for (const Candidate& candidate : candidates_) ++modes[candidate.alignment];
     std::map<FramePair, std::vector<std::pair<Eigen::Vector3d, AgentId>>> clusters;

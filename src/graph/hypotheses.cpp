@@ -88,14 +88,32 @@ Given given_nearest(std::span<const Candidate> all, const std::vector<Seen>& mem
   return given(nearest, seen, BlockCholesky::inner(seen.z, nearest.z));
 }
 
+/// Up to `most` of them, spread.
+std::vector<std::size_t> some_of(std::span<const std::size_t> all, std::size_t most) {
+  std::vector<std::size_t> some;
+  const std::size_t count = std::min(all.size(), most);
+  for (std::size_t k = 0; k < count; ++k) some.push_back(all[k * all.size() / count]);
+  return some;
+}
+
+/// What errors of two seen candidates have in common: [a][b] for b < a.
+using Common = std::vector<std::vector<Matrix6d>>;
+
+Common common_errors(const std::vector<Seen>& seen) {
+  Common common(seen.size());
+  for (std::size_t a = 0; a < seen.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) common[a].push_back(BlockCholesky::inner(seen[a].z, seen[b].z));
+  }
+  return common;
+}
+
 /// Symmetric: who may be right together with whom.
-std::vector<std::vector<bool>> consistency(const std::vector<Seen>& seen,
-                                           const std::vector<std::vector<Matrix6d>>& S) {
+std::vector<std::vector<bool>> consistency(const std::vector<Seen>& seen, const Common& common) {
   std::vector<std::vector<bool>> consistent(seen.size(), std::vector<bool>(seen.size(), false));
   for (std::size_t a = 0; a < seen.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       if (seen[a].alignment == seen[b].alignment) continue;
-      consistent[a][b] = consistent[b][a] = given(seen[b], seen[a], S[a][b]).distance < kPairGate;
+      consistent[a][b] = consistent[b][a] = given(seen[b], seen[a], common[a][b]).distance < kPairGate;
     }
   }
   return consistent;
@@ -134,29 +152,31 @@ std::vector<std::size_t> clique(const std::vector<std::vector<bool>>& consistent
   return taken;
 }
 
-/// Up to `most` of them, spread.
-std::vector<std::size_t> some_of(const std::vector<std::size_t>& members, std::size_t most) {
-  std::vector<std::size_t> some;
-  const std::size_t count = std::min(members.size(), most);
-  for (std::size_t k = 0; k < count; ++k) some.push_back(members[k * members.size() / count]);
-  return some;
-}
-
-/// Squared distance that the estimate must be shifted by, each pair of frames as a whole, for all members to
-/// fit. `of_pair` gives the pair of each, counted from zero.
-double shift_of(const std::vector<const Seen*>& members, const std::vector<Eigen::Index>& of_pair) {
+/// Squared distance that the estimate must be shifted by, each pair of frames as a whole, for all members of
+/// all pairs (indices in `seen`) to fit: three degrees of freedom a pair.
+double shift_of(const std::vector<std::vector<std::size_t>>& pairs, const std::vector<Seen>& seen,
+                const Common& common) {
+  std::vector<std::size_t> members;
+  std::vector<std::size_t> pair_of;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    members.insert(members.end(), pairs[k].begin(), pairs[k].end());
+    pair_of.resize(members.size(), k);
+  }
   const auto rows = static_cast<Eigen::Index>(6 * members.size());
   Eigen::MatrixXd joint(rows, rows);
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(rows, 3 * (of_pair.back() + 1));
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(3 * pairs.size()));
   Eigen::VectorXd e(rows);
   for (std::size_t a = 0; a < members.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    e.segment<6>(at) = members[a]->e;
-    B.block<6, 3>(at, 3 * of_pair[a]) = members[a]->B;
-    joint.block<6, 6>(at, at) = members[a]->S;
+    const Seen& one = seen[members[a]];
+    e.segment<6>(at) = one.e;
+    B.block<6, 3>(at, static_cast<Eigen::Index>(3 * pair_of[a])) = one.B;
+    joint.block<6, 6>(at, at) = one.S;
     for (std::size_t b = 0; b < a; ++b) {
       const auto bt = static_cast<Eigen::Index>(6 * b);
-      joint.block<6, 6>(at, bt) = BlockCholesky::inner(members[a]->z, members[b]->z);
+      const std::size_t later = std::max(members[a], members[b]), earlier = std::min(members[a], members[b]);
+      const Matrix6d& S = common[later][earlier];
+      joint.block<6, 6>(at, bt) = later == members[a] ? S : Matrix6d(S.transpose());
       joint.block<6, 6>(bt, at) = joint.block<6, 6>(at, bt).transpose();
     }
   }
@@ -165,23 +185,6 @@ double shift_of(const std::vector<const Seen*>& members, const std::vector<Eigen
   const Eigen::VectorXd right = B.transpose() * llt.solve(e);
   const Eigen::MatrixXd information = B.transpose() * llt.solve(B);
   return right.dot(information.llt().solve(right));
-}
-
-/// What it costs GPS and odometry that the hypotheses, each of another frame pair, are right together:
-/// squared Mahalanobis distance, three degrees of freedom each.
-double joint_shift(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
-                   const GraphSolver& solver, const Estimate& estimate) {
-  std::vector<Seen> seen;
-  std::vector<Eigen::Index> of_pair;
-  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-    for (const std::size_t c : some_of(hypotheses[k].members, kMostJoint)) {
-      seen.push_back(look(all, c, solver, estimate));
-      of_pair.push_back(static_cast<Eigen::Index>(k));
-    }
-  }
-  std::vector<const Seen*> members;
-  for (const Seen& one : seen) members.push_back(&one);
-  return shift_of(members, of_pair);
 }
 
 /// One vote of an alignment on each mode of the other: for it if any of its own agrees, against it if none
@@ -268,12 +271,23 @@ std::vector<Vote> neighbours_votes(std::span<const Candidate> all, std::span<con
 
 std::vector<Hypothesis> suspects_of(std::span<const Candidate> all, std::span<const Hypothesis> loop,
                                     const GraphSolver& solver, const Estimate& estimate) {
+  std::vector<Seen> seen;
+  std::vector<std::vector<std::size_t>> members;  // of each hypothesis, in `seen`
+  for (const Hypothesis& hypothesis : loop) {
+    members.emplace_back();
+    for (const std::size_t c : some_of(hypothesis.members, kMostJoint)) {
+      members.back().push_back(seen.size());
+      seen.push_back(look(all, c, solver, estimate));
+    }
+  }
+  const Common common = common_errors(seen);
   std::vector<double> likelihood;  // log, that the others are right
   for (std::size_t k = 0; k < loop.size(); ++k) {
-    std::vector<Hypothesis> others(loop.begin(), loop.end());
+    std::vector<std::vector<std::size_t>> others = members;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    double& l = likelihood.emplace_back(-0.5 * joint_shift(all, others, solver, estimate));
-    for (const Hypothesis& other : others) l += std::min(other.support, kMostSupport);
+    double& l = likelihood.emplace_back(-0.5 * shift_of(others, seen, common));
+    for (std::size_t other = 0; other < loop.size(); ++other)
+      if (other != k) l += std::min(loop[other].support, kMostSupport);
   }
   const double most = std::ranges::max(likelihood);
   std::vector<Hypothesis> suspects;
@@ -286,18 +300,14 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
                     const GraphSolver& solver, const Estimate& estimate) {
   Evaluation evaluation;
   std::vector<Seen> seen;
-  const std::size_t looked_at = std::min(candidates.size(), kMostLookedAt);
-  for (std::size_t k = 0; k < looked_at; ++k)
-    seen.push_back(look(all, candidates[k * candidates.size() / looked_at], solver, estimate));
-  std::vector<std::vector<Matrix6d>> S(seen.size());
-  for (std::size_t a = 0; a < seen.size(); ++a) {
-    for (std::size_t b = 0; b < a; ++b) S[a].push_back(BlockCholesky::inner(seen[a].z, seen[b].z));
-  }
-  const auto consistent = consistency(seen, S);
+  for (const std::size_t c : some_of(candidates, kMostLookedAt))
+    seen.push_back(look(all, c, solver, estimate));
+  const Common common = common_errors(seen);
+  const auto consistent = consistency(seen, common);
   std::vector<bool> free(seen.size(), true);
   // What was not looked at is taken to be like what was.
   const double share =
-      static_cast<double>(candidates.size()) / static_cast<double>(std::max<std::size_t>(1, looked_at));
+      static_cast<double>(candidates.size()) / static_cast<double>(std::max<std::size_t>(1, seen.size()));
   while (std::ranges::find(free, true) != free.end()) {
     const std::vector<std::size_t> members = clique(consistent, seen, free);
     Hypothesis hypothesis;
@@ -309,9 +319,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
     }
     std::ranges::sort(hypothesis.members);
     hypothesis.frames = all[hypothesis.members.front()].frames;
-    std::vector<const Seen*> some;
-    for (const std::size_t a : some_of(members, kMostJoint)) some.push_back(&seen[a]);
-    hypothesis.shift = shift_of(some, std::vector<Eigen::Index>(some.size(), 0));
+    hypothesis.shift = shift_of({some_of(members, kMostJoint)}, seen, common);
     hypothesis.support = support_of(weight);
     hypothesis.evidence = hypothesis.support - 0.5 * hypothesis.shift;
     auto& where = hypothesis.shift < kShiftGate ? evaluation.hypotheses : evaluation.rejected;
