@@ -14,7 +14,6 @@
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/place/ball_tree.hpp"
 #include "fleetmap/wire/messages.hpp"
 
 namespace fleetmap::agent {
@@ -72,7 +71,10 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::
       own_clouds_(config.spherize),
       submap_(config.submap),
       node_generator_(config.nodes),
-      loop_closures_(config.loop_closures) {}
+      loop_closures_(config.loop_closures),
+      session_ties_(config.exchange.encounters) {
+  session_ties_.begin(store_.nodes_from({config_.id, 0, store_.next_node_seq()}));
+}
 
 Agent::~Agent() = default;
 
@@ -191,7 +193,7 @@ void Agent::begin_session() {
   motion_ = {};
   level_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
-  joined_sessions_.clear();
+  session_ties_.begin(store_.nodes_from({config_.id, 0, store_.next_node_seq()}));
   spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
 }
 
@@ -234,7 +236,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   submap_.clear();
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
-  align_with_earlier_session(node);
+  if (const auto tie = session_ties_.on_own_node(node)) register_own(*tie->earlier, node, tie->prior);
   if (config_.placement.mode == graph::PlacementMode::fleet) {
     if (const auto closure = loop_closures_.on_own_node(node))
       register_own(closure->earlier, closure->later, prior_of(*closure));
@@ -245,21 +247,6 @@ void Agent::freeze_node(const Perceived& perceived) {
 void Agent::freeze_rest() {
   if (submap_.points() == 0 || !last_perceived_) return;
   freeze_node(*last_perceived_);
-}
-
-void Agent::align_with_earlier_session(const graph::Node& node) {
-  if (session_ == 0 || !node.G) return;
-  const graph::Node* nearest = nullptr;
-  double distance = config_.exchange.encounters.proximity.max_radius;
-  for (const graph::Node* other : store_.nodes_from({config_.id, 0, node.id.seq})) {
-    if (!other->G) continue;
-    const double d = haversine_distance(other->G->position, node.G->position);
-    if (other->session != session_ && !joined_sessions_.contains(other->session) && d < distance) {
-      nearest = other;
-      distance = d;
-    }
-  }
-  if (nearest != nullptr) register_own(*nearest, node, prior_of(*nearest->G, *node.G));
 }
 
 void Agent::register_own(const graph::Node& target, const graph::Node& source,
@@ -400,7 +387,9 @@ void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registere
     const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
                                            : Result<store::Put>(tl::unexpected(rounded.error()));
     if (put && *put == store::Put::kAdded) {
-      if (accepted && i.id.agent == j.id.agent) joined_sessions_.insert(i.session);
+      // What was under way when a session began says nothing of it.
+      if (accepted && i.id.agent == j.id.agent && i.session != session_ && j.session == session_)
+        session_ties_.on_accepted(i, j);
       return on_events();
     }
     spdlog::error("{}: alignment with {} not stored: {}", to_string(i.id), to_string(j.id),

@@ -45,10 +45,8 @@ registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source)
 
 std::optional<registration::Prior> prior_of(const graph::Node& target, const graph::Node& source,
                                             double max_sigma) {
-  const auto located = [&](const graph::Node& node) {
-    return node.G && place::horizontal_sigma(node.G->covariance) <= max_sigma;
-  };
-  if (located(target) && located(source)) return prior_of(*target.G, *source.G);
+  if (place::tells_place(target.G, max_sigma) && place::tells_place(source.G, max_sigma))
+    return prior_of(*target.G, *source.G);
   const auto looks = place::Descriptor::decode(target.descriptor);
   const auto other = place::Descriptor::decode(source.descriptor);
   if (!looks || !other) return std::nullopt;

@@ -28,8 +28,7 @@ Encounters::Encounters(const AgentId& self, const EncounterConfig& config)
     : self_(self), config_(config), lookalikes_(config.lookalikes) {}
 
 bool Encounters::located(const graph::Node& node) const {
-  return node.G && is_valid(node.G->position) &&
-         place::horizontal_sigma(node.G->covariance) <= config_.max_sigma_m;
+  return place::tells_place(node.G, config_.max_sigma_m);
 }
 
 void Encounters::on_node(const graph::Node& node, Stamp now) {
@@ -52,9 +51,10 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
 }
 
 void Encounters::find_alike(const graph::Node& node, Stamp now) {
-  for (const Lookalikes::Pair& alike : lookalikes_.add(node, located(node), self_)) {
+  const bool is_ours = node.id.agent == self_;
+  const auto side = is_ours ? Lookalikes::Side::kOurs : Lookalikes::Side::kTheirs;
+  for (const Lookalikes::Pair& alike : lookalikes_.add(node, located(node), side)) {
     ++stats_.alike;
-    const bool is_ours = node.id.agent == self_;
     const NodePair pair = is_ours ? NodePair{alike.fresh, alike.other} : NodePair{alike.other, alike.fresh};
     if (encounters_.contains(pair)) continue;
     const double likeness = alike.similarity + alike.support;

@@ -27,10 +27,10 @@ Status LookalikeConfig::validate() const {
   return {};
 }
 
-std::vector<Lookalikes::Pair> Lookalikes::add(const graph::Node& node, bool located, const AgentId& self) {
+std::vector<Lookalikes::Pair> Lookalikes::add(const graph::Node& node, bool located, Side side) {
   const Result<place::Descriptor> descriptor = place::Descriptor::decode(node.descriptor);
   if (!descriptor) return {};
-  std::vector<Place>& track = places_[node.id.agent];
+  std::vector<Place>& track = places_[{side, node.id.agent}];
   const auto last = std::find_if(track.rbegin(), track.rend(),
                                  [&](const Place& place) { return place.frame == node.frame(); });
   if (last != track.rend() &&
@@ -39,12 +39,11 @@ std::vector<Lookalikes::Pair> Lookalikes::add(const graph::Node& node, bool loca
   }
   const Place fresh{node.id, node.frame(), located, node.T_odom_base, node.up_in_base, *descriptor};
   track.push_back(fresh);
-  const bool ours = node.id.agent == self;
   std::vector<Pair> worth;
   for (const auto& [other, places] : places_) {
-    if (other == node.id.agent || (!ours && other != self)) continue;
+    if (other.first == side) continue;
     Pair best;
-    for (auto& [frames, sighting] : compare(fresh, other, ours)) {
+    for (auto& [frames, sighting] : compare(fresh, other)) {
       sighting.pair.support = support_of(frames, sighting);
       const bool enough =
           sighting.pair.similarity >= config_.sure_similarity || sighting.pair.support >= config_.min_support;
@@ -60,7 +59,7 @@ std::vector<Lookalikes::Pair> Lookalikes::add(const graph::Node& node, bool loca
   return worth;
 }
 
-std::vector<const Lookalikes::Place*> Lookalikes::candidates(const Place& fresh, const AgentId& other) const {
+std::vector<const Lookalikes::Place*> Lookalikes::candidates(const Place& fresh, const Track& other) const {
   std::vector<std::pair<int, const Place*>> ranked;
   for (const Place& place : places_.at(other)) {
     if (fresh.located && place.located) continue;
@@ -78,7 +77,8 @@ std::vector<const Lookalikes::Place*> Lookalikes::candidates(const Place& fresh,
 }
 
 std::vector<std::pair<Lookalikes::FramePair, Lookalikes::Sighting>> Lookalikes::compare(
-    const Place& fresh, const AgentId& other, bool fresh_is_ours) const {
+    const Place& fresh, const Track& other) const {
+  const bool fresh_is_ours = other.first == Side::kTheirs;
   const std::vector<const Place*> places = candidates(fresh, other);
   if (places.empty()) return {};
   std::vector<std::pair<FramePair, Sighting>> sightings;

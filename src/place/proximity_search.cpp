@@ -32,6 +32,10 @@ double horizontal_sigma(const Matrix6d& C_ekf) {
   return std::sqrt(std::max(0.0, mean + spread));
 }
 
+bool tells_place(const std::optional<GlobalPose>& G, double max_sigma_m) {
+  return G && is_valid(G->position) && horizontal_sigma(G->covariance) <= max_sigma_m;
+}
+
 double search_radius(double horizontal_sigma_m, const ProximityConfig& config) {
   if (!(horizontal_sigma_m >= 0.0)) return config.max_radius;
   return std::clamp(horizontal_sigma_m * config.radius_per_sigma, config.min_radius, config.max_radius);

@@ -2,58 +2,22 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "fleetmap/exchange/encounters.hpp"
 #include "store/items.hpp"
+#include "support/walled_site.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
 using testing::agent;
+using testing::node_at_walls;
 
 const AgentId kA = agent("a");
 const AgentId kB = agent("b");
 const Stamp kStart = stamp_from_ns(1'000'000'000);
 
-/// A site of walls, none like another, in ENU.
-const std::vector<Eigen::Vector3f>& site() {
-  static const std::vector<Eigen::Vector3f> points = [] {
-    std::mt19937_64 random(5);
-    std::uniform_real_distribution<double> place(-130.0, 130.0), length(2.0, 9.0), angle(0.0, 3.1);
-    std::vector<Eigen::Vector3f> made;
-    for (float x = -130; x < 130; x += 1.2f) {
-      for (float y = -130; y < 130; y += 1.2f) made.emplace_back(x, y, 0.0f);
-    }
-    for (int k = 0; k < 500; ++k) {
-      const Eigen::Vector2d from(place(random), place(random));
-      const double a = angle(random);
-      const float height = k % 2 == 0 ? 1.0f : 4.0f;
-      for (double s = 0.0, end = length(random); s < end; s += 0.5) {
-        const Eigen::Vector2d p = from + s * Eigen::Vector2d(std::cos(a), std::sin(a));
-        for (float z = 0.2f; z <= height; z += 0.4f)
-          made.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), z);
-      }
-    }
-    return made;
-  }();
-  return points;
-}
-
-/// A node without G at a place in ENU, with an odometry frame that is anywhere.
-graph::Node node_at(const AgentId& agent, std::uint32_t seq, const Pose& T_enu_odom, const Pose& T_enu_base) {
-  graph::Node node = testing::make_node(agent, seq, Bytes{});
-  node.G.reset();
-  node.T_odom_base = T_enu_odom.inverse() * T_enu_base;
-  node.up_in_base = Eigen::Vector3d::UnitZ();
-  std::vector<Eigen::Vector3f> seen;
-  const Eigen::Isometry3f T = T_enu_base.inverse().cast<float>();
-  for (const Eigen::Vector3f& p : site()) {
-    const Eigen::Vector3f q = T * p;
-    if (q.head<2>().norm() < 50.0f) seen.push_back(q);
-  }
-  node.descriptor = place::Descriptor::of(seen, node.up_in_base).encode();
-  return node;
+Lookalikes::Side side_of(const graph::Node& node) {
+  return node.id.agent == kA ? Lookalikes::Side::kOurs : Lookalikes::Side::kTheirs;
 }
 
 Pose pose(double x, double y, double yaw) { return make_pose(rotation_from_rpy(0, 0, yaw), {x, y, 0.0}); }
@@ -62,15 +26,19 @@ const Pose kOdomA = pose(30.0, 70.0, 1.0);
 const Pose kOdomB = pose(-300.0, 20.0, -2.0);
 
 /// a drives east along y = 0, b comes towards it 3 m beside, then leaves to the north.
-graph::Node of_a(std::uint32_t seq) { return node_at(kA, seq, kOdomA, pose(-60.0 + 10.0 * seq, 0.0, 0.0)); }
-graph::Node of_b(std::uint32_t seq) { return node_at(kB, seq, kOdomB, pose(60.0 - 10.0 * seq, 3.0, 3.1)); }
+graph::Node of_a(std::uint32_t seq) {
+  return node_at_walls(kA, seq, kOdomA, pose(-60.0 + 10.0 * seq, 0.0, 0.0));
+}
+graph::Node of_b(std::uint32_t seq) {
+  return node_at_walls(kB, seq, kOdomB, pose(60.0 - 10.0 * seq, 3.0, 3.1));
+}
 
 TEST(Lookalikes, places_of_two_agents_without_gps_are_found_and_near_each_other) {
   Lookalikes lookalikes({});
   std::size_t found = 0;
   for (std::uint32_t seq = 0; seq < 12; ++seq) {
     for (const auto& node : {of_a(seq), of_b(seq)}) {
-      for (const Lookalikes::Pair& pair : lookalikes.add(node, false, kA)) {
+      for (const Lookalikes::Pair& pair : lookalikes.add(node, false, side_of(node))) {
         const auto& [ours, theirs] = pair.fresh.agent == kA ? std::pair(pair.fresh.seq, pair.other.seq)
                                                             : std::pair(pair.other.seq, pair.fresh.seq);
         EXPECT_LE(std::abs(-60.0 + 10.0 * ours - (60.0 - 10.0 * theirs)), 10.0);
@@ -84,8 +52,8 @@ TEST(Lookalikes, places_of_two_agents_without_gps_are_found_and_near_each_other)
 TEST(Lookalikes, places_that_gps_tells_apart_are_not_compared) {
   Lookalikes lookalikes({});
   for (std::uint32_t seq = 0; seq < 12; ++seq) {
-    EXPECT_TRUE(lookalikes.add(of_a(seq), true, kA).empty());
-    EXPECT_TRUE(lookalikes.add(of_b(seq), true, kA).empty());
+    EXPECT_TRUE(lookalikes.add(of_a(seq), true, Lookalikes::Side::kOurs).empty());
+    EXPECT_TRUE(lookalikes.add(of_b(seq), true, Lookalikes::Side::kTheirs).empty());
   }
   // One of the two without is enough.
   std::size_t found = 0;
@@ -93,19 +61,19 @@ TEST(Lookalikes, places_that_gps_tells_apart_are_not_compared) {
     auto node = of_b(seq);
     node.id.seq = 100 - seq;
     node.session = 7;
-    found += lookalikes.add(node, false, kA).size();
+    found += lookalikes.add(node, false, side_of(node)).size();
   }
   EXPECT_GE(found, 3u);
 }
 
 TEST(Lookalikes, nodes_without_or_with_broken_descriptors_are_left_out) {
   Lookalikes lookalikes({});
-  lookalikes.add(of_a(0), false, kA);
-  auto node = node_at(kB, 0, kOdomB, pose(-60.0, 0.0, 0.0));
+  lookalikes.add(of_a(0), false, Lookalikes::Side::kOurs);
+  auto node = node_at_walls(kB, 0, kOdomB, pose(-60.0, 0.0, 0.0));
   node.descriptor.clear();
-  EXPECT_TRUE(lookalikes.add(node, false, kA).empty());
+  EXPECT_TRUE(lookalikes.add(node, false, side_of(node)).empty());
   node.descriptor = Bytes(17, 0xff);
-  EXPECT_TRUE(lookalikes.add(node, false, kA).empty());
+  EXPECT_TRUE(lookalikes.add(node, false, side_of(node)).empty());
 }
 
 TEST(Lookalikes, configuration_that_breaks_a_rule_is_named) {

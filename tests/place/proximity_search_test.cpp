@@ -34,6 +34,20 @@ TEST(HorizontalSigma, UnknownWhereTheCovarianceSaysNothing) {
   EXPECT_EQ(horizontal_sigma(Matrix6d::Zero()), 0.0);
 }
 
+TEST(TellsPlace, OnlyAPlaceOnEarthThatIsKnownWellEnough) {
+  EXPECT_FALSE(tells_place(std::nullopt, 15.0));
+  GlobalPose G;
+  G.position = geo_point_from_degrees(39.0, -3.0, 600.0);
+  G.covariance = with_horizontal_sigmas(14.0, 1.0, 0.3);
+  EXPECT_TRUE(tells_place(G, 15.0));
+  EXPECT_FALSE(tells_place(G, 13.0));
+  GlobalPose nowhere = G;
+  nowhere.position.latitude = kNaN;
+  EXPECT_FALSE(tells_place(nowhere, 15.0));
+  G.covariance(0, 0) = kNaN;
+  EXPECT_FALSE(tells_place(G, 15.0));
+}
+
 TEST(SearchRadius, IsEquationOne) {
   const ProximityConfig config;
   EXPECT_EQ(search_radius(0.1, config), 20.0);

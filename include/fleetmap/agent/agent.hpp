@@ -16,6 +16,7 @@
 #include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/recent_surroundings.hpp"
+#include "fleetmap/agent/session_ties.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
@@ -86,7 +87,6 @@ class Agent {
   void navigate();
   /// GPS may take a while to begin with; nodes without G are made only when it does not come.
   bool worth_waiting_for_gps();
-  void align_with_earlier_session(const graph::Node& node);
   /// Two own nodes, off this thread.
   void register_own(const graph::Node& target, const graph::Node& source, const registration::Prior& prior);
 
@@ -129,10 +129,10 @@ class Agent {
   LevelTrack level_;
   odometry::MotionCovariance motion_;  ///< since the last node
   LoopClosures loop_closures_;
+  SessionTies session_ties_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
   std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
-  std::set<std::uint8_t> joined_sessions_;   ///< earlier sessions that this one has an alignment with
   std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
@@ -23,7 +24,7 @@ struct LookalikeConfig {
   Status validate() const;
 };
 
-/// Which places of two agents look alike, for where no GPS tells which are near each other: by descriptor,
+/// Which places of two tracks look alike, for where no GPS tells which are near each other: by descriptor,
 /// and by how many of them agree on how the two odometry frames lie. In rows that repeat a single pair is
 /// often one row off, several in a row are less often. What it finds is worth a registration, no more.
 class Lookalikes {
@@ -37,10 +38,11 @@ class Lookalikes {
     double support = 0.0;
     double distance = 0.0;  ///< m, between the two, as the descriptors tell
   };
-  /// Remembers the node and compares it with places of every other agent (if it is of `self`) or with those
-  /// of `self`. `located`: G is good enough to find encounters by; two such places are not compared. Returns
-  /// the best pair with each other agent that is worth registering.
-  std::vector<Pair> add(const graph::Node& node, bool located, const AgentId& self);
+  enum class Side : std::uint8_t { kOurs, kTheirs };
+  /// Remembers the node and compares it with the places of the other side. `located`: G is good enough to
+  /// find encounters by; two such places are not compared. Returns the best pair with each agent of the other
+  /// side that is worth registering.
+  std::vector<Pair> add(const graph::Node& node, bool located, Side side);
 
  private:
   struct Place {
@@ -58,13 +60,14 @@ class Lookalikes {
   };
   using FramePair = std::pair<graph::FrameId, graph::FrameId>;  ///< ours, theirs
 
-  std::vector<const Place*> candidates(const Place& fresh, const AgentId& other) const;
-  std::vector<std::pair<FramePair, Sighting>> compare(const Place& fresh, const AgentId& other,
-                                                      bool fresh_is_ours) const;
+  using Track = std::pair<Side, AgentId>;
+
+  std::vector<const Place*> candidates(const Place& fresh, const Track& other) const;
+  std::vector<std::pair<FramePair, Sighting>> compare(const Place& fresh, const Track& other) const;
   double support_of(const FramePair& frames, const Sighting& sighting) const;
 
   LookalikeConfig config_;
-  std::map<AgentId, std::vector<Place>> places_;
+  std::map<Track, std::vector<Place>> places_;
   std::map<FramePair, std::vector<Sighting>> sightings_;
 };
 

@@ -22,6 +22,9 @@ struct ProximityConfig {
 /// that block is not finite or has a negative eigenvalue: nothing is known then.
 double horizontal_sigma(const Matrix6d& C_ekf);
 
+/// G is there and tells a place on Earth, to `max_sigma_m` (horizontal_sigma) or better.
+bool tells_place(const std::optional<GlobalPose>& G, double max_sigma_m);
+
 /// r^i in metres. An unknown uncertainty gives max_radius.
 double search_radius(double horizontal_sigma_m, const ProximityConfig& config);
 double search_radius(const Matrix6d& C_ekf, const ProximityConfig& config);
