@@ -13,6 +13,9 @@
 namespace fleetmap::agent {
 namespace {
 
+/// Who leads a robot and falls silent no longer does: it is on its own G again, or stands.
+constexpr Duration kGuidePatience = std::chrono::seconds(1);
+
 exchange::MissionReport to_wire(const planning::MissionReport& report) {
   return {report.agent,
           report.stamp,
@@ -82,6 +85,13 @@ Navigator::Navigator(const NavigatorConfig& config, planning::MissionExecutive e
   handles_.push_back(bus_.subscribe(wire::topics::battery(), [this](const Bytes& cdr) {
     if (const auto battery = wire::decode<sensor::Battery>(cdr)) battery_ = battery->share;
   }));
+  handles_.push_back(bus_.subscribe(wire::topics::guide_pose(), [this](const Bytes& cdr) {
+    const auto told = wire::decode<GlobalPose>(cdr);
+    const auto pose = told ? pose_of(*told) : std::nullopt;
+    if (!pose) return;
+    guide_ = pose;
+    guided_at_ = bus_.now();
+  }));
 }
 
 std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
@@ -92,6 +102,11 @@ std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
   return planning::Pose2{p.head<2>(), yaw};
 }
 
+bool Navigator::guided() const {
+  const Duration age = bus_.now() - guided_at_;
+  return guide_ && age >= Duration::zero() && age <= kGuidePatience;  // a clock may be set back
+}
+
 void Navigator::drive(const planning::Command& command) {
   bus_.publish(wire::topics::cmd_vel(),
                wire::encode(wire::VelocityCommand{command.forward_speed, command.yaw_rate}));
@@ -99,9 +114,15 @@ void Navigator::drive(const planning::Command& command) {
 
 void Navigator::on_perceived(const Perceived& perceived) {
   if (stopped_) return;
-  if (perceived.G) pose_ = pose_of(*perceived.G);
+  const bool led = guided();
+  if (led) {
+    pose_ = guide_;
+  } else if (perceived.G) {
+    pose_ = pose_of(*perceived.G);
+  }
   // Without a pose there is no telling where to; the robot waits.
-  if (!perceived.G || !pose_ || action_.kind != planning::MissionAction::Kind::kFollow) return drive({});
+  if (!(led || perceived.G) || !pose_ || action_.kind != planning::MissionAction::Kind::kFollow)
+    return drive({});
   const double speed = perceived.odometry.twist.x();
   drive(follower_.update(*pose_, speed, obstacles_among(perceived.odometry.points.points, config_.obstacles),
                          bus_.now()));

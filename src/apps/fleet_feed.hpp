@@ -9,6 +9,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/geometry/global_pose.hpp"
 #include "fleetmap/recording/reader.hpp"
 
 namespace fleetmap::apps {
@@ -44,6 +45,11 @@ class FleetFeed {
   virtual recording::Counters counters(std::size_t member) const = 0;
   /// Where the member really is, if the feed knows (ENU).
   virtual std::optional<bus::EnuPosition> position(std::size_t member) const = 0;
+  /// Where the member is, as who leads it is told; empty if nobody does.
+  virtual std::optional<GlobalPose> guide(std::size_t member) const {
+    static_cast<void>(member);
+    return std::nullopt;
+  }
   /// Share of the battery that is left, if the feed knows.
   virtual std::optional<double> battery(std::size_t member) const {
     static_cast<void>(member);

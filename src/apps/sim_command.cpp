@@ -48,7 +48,7 @@ class LiveRobot {
     auto twin = sim::RobotTwin::create(setup.world, setup.origin, member.robot, (*bus)->now());
     if (!twin) return failure("agent " + member.agent.id.str() + ": " + twin.error().message);
     return std::unique_ptr<LiveRobot>(
-        new LiveRobot(member, std::move(*bus), std::move(*twin), std::move(scene)));
+        new LiveRobot(member, setup.origin, std::move(*bus), std::move(*twin), std::move(scene)));
   }
   ~LiveRobot() { stop(); }
 
@@ -65,10 +65,11 @@ class LiveRobot {
   double odometer() const { return twin_.odometer(); }
 
  private:
-  LiveRobot(const config::FleetConfig::Member& member, std::unique_ptr<bus::DdsBus> bus, sim::RobotTwin twin,
-            std::shared_ptr<const sim::Scene> scene)
+  LiveRobot(const config::FleetConfig::Member& member, const GeoPoint& origin,
+            std::unique_ptr<bus::DdsBus> bus, sim::RobotTwin twin, std::shared_ptr<const sim::Scene> scene)
       : name_(member.agent.id.str()),
         names_(member.agent.perception.topics),
+        site_(origin),
         bus_(std::move(bus)),
         twin_(std::move(twin)),
         scene_(std::move(scene)) {
@@ -78,10 +79,19 @@ class LiveRobot {
       if (const auto command = wire::decode<wire::VelocityCommand>(cdr))
         twin_.command(command->forward_speed, command->yaw_rate);
     }));
+    if (twin_.config().guided) lead();
     handles_.push_back(bus_->every(kTick, [this] { tick(); }));
     handles_.push_back(bus_->every(kBatteryPeriod, [this] {
       bus_->publish(wire::topics::battery(),
                     wire::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));
+    }));
+  }
+
+  /// Tells the robot where it is.
+  void lead() {
+    bus_->advertise(wire::topics::guide_pose());
+    handles_.push_back(bus_->every(kGuidePeriod, [this] {
+      bus_->publish(wire::topics::guide_pose(), wire::encode(true_pose(twin_, site_)));
     }));
   }
 
@@ -120,6 +130,7 @@ class LiveRobot {
 
   std::string name_;
   agent::SensorTopics names_;
+  LocalFrame site_;
   std::unique_ptr<bus::DdsBus> bus_;
   sim::RobotTwin twin_;
   std::shared_ptr<const sim::Scene> scene_;

@@ -46,6 +46,12 @@ std::optional<bus::EnuPosition> TwinFeed::position(std::size_t member) const {
   return bus::EnuPosition{p.x(), p.y(), p.z()};
 }
 
+std::optional<GlobalPose> TwinFeed::guide(std::size_t member) const {
+  const sim::RobotTwin& twin = robots_[member].twin;
+  if (!twin.config().guided) return std::nullopt;
+  return true_pose(twin, LocalFrame(origin_));
+}
+
 std::optional<double> TwinFeed::battery(std::size_t member) const {
   return battery_share(robots_[member].twin);
 }

@@ -35,6 +35,7 @@ class TwinFeed final : public FleetFeed {
   std::string problem(std::size_t) const override { return {}; }
   recording::Counters counters(std::size_t) const override { return {}; }
   std::optional<bus::EnuPosition> position(std::size_t member) const override;
+  std::optional<GlobalPose> guide(std::size_t member) const override;
   std::optional<double> battery(std::size_t member) const override;
 
   /// Where the member really was, at every 0.1 s, base_link in ENU.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/geometry/global_pose.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 
 namespace fleetmap::apps {
@@ -17,6 +18,12 @@ class TruthTrack {
  private:
   std::vector<agent::StampedPose> poses_;
 };
+
+/// How often who leads a robot is told where it is.
+constexpr Duration kGuidePeriod = std::chrono::milliseconds(100);
+
+/// Where the robot of the twin truly is; `site`: the twin's ENU. Of no covariance.
+GlobalPose true_pose(const sim::RobotTwin& twin, const LocalFrame& site);
 
 /// What is left of the battery, [0, 1].
 double battery_share(const sim::RobotTwin& twin);

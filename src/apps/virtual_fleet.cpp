@@ -10,6 +10,7 @@
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "sample_player.hpp"
+#include "twin_truth.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -76,16 +77,21 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
   if (!written) error_ = written.error().message;
 }
 
-void VirtualFleet::obey_commands(std::size_t member) {
-  members_[member].commands =
-      members_[member].bus->subscribe(wire::topics::cmd_vel(), [this, member](const Bytes& cdr) {
-        const auto command = wire::decode<wire::VelocityCommand>(cdr);
-        if (command) feed_->command(member, command->forward_speed, command->yaw_rate);
-      });
+void VirtualFleet::connect_base(std::size_t member) {
+  Member& self = members_[member];
+  self.base.push_back(self.bus->subscribe(wire::topics::cmd_vel(), [this, member](const Bytes& cdr) {
+    const auto command = wire::decode<wire::VelocityCommand>(cdr);
+    if (command) feed_->command(member, command->forward_speed, command->yaw_rate);
+  }));
+  if (!feed_->guide(member)) return;
+  self.base.push_back(self.bus->every(kGuidePeriod, [this, member] {
+    const auto pose = feed_->guide(member);
+    if (pose) members_[member].bus->publish(wire::topics::guide_pose(), wire::encode(*pose));
+  }));
 }
 
 Status VirtualFleet::begin() {
-  for (std::size_t k = 0; k < members_.size(); ++k) obey_commands(k);
+  for (std::size_t k = 0; k < members_.size(); ++k) connect_base(k);
   schedule_power();
   if (has_mission()) completion_.emplace();
   return feed_->begin(*network_, [this](std::size_t member, const recording::Sample& sample, Stamp stamp) {
@@ -154,16 +160,26 @@ void VirtualFleet::update_states() {
       members_[k].bus->publish(wire::topics::battery(),
                                wire::encode(sensor::Battery{network_->now(), *share}));
     }
-    if (const auto truth = feed_->position(k)) {
-      network_->set_position(id, *truth);
-      continue;
+    if (const auto position = position_of(k)) {
+      members_[k].position = *position;
+      network_->set_position(id, *position);
+    } else if (feed_->ended(k) && !members_[k].position) {
+      // Nobody knows where it drove: once its recording has ended it is with the others, so that maps can
+      // flow.
+      const auto known =
+          std::ranges::find_if(members_, [](const Member& m) { return m.position.has_value(); });
+      network_->set_position(id, known == members_.end() ? bus::EnuPosition{} : *known->position);
     }
-    if (!members_[k].agent) continue;
-    const auto G = members_[k].agent->perception().global_pose();
-    if (!G || !origin_) continue;
-    const Eigen::Vector3d p = LocalFrame(*origin_).to_enu(G->position);
-    network_->set_position(id, {p.x(), p.y(), p.z()});
   }
+}
+
+std::optional<bus::EnuPosition> VirtualFleet::position_of(std::size_t member) const {
+  if (const auto truth = feed_->position(member)) return truth;
+  const Member& self = members_[member];
+  const auto G = self.agent ? self.agent->perception().global_pose() : std::nullopt;
+  if (!G || !origin_) return std::nullopt;
+  const Eigen::Vector3d p = LocalFrame(*origin_).to_enu(G->position);
+  return bus::EnuPosition{p.x(), p.y(), p.z()};
 }
 
 bool VirtualFleet::playing() const {

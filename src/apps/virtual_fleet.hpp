@@ -64,7 +64,8 @@ class VirtualFleet {
     bus::Bus* bus = nullptr;              ///< null while it is switched off
     std::unique_ptr<agent::Agent> agent;  ///< null while it is switched off
     std::optional<recording::BagWriter> bag;
-    bus::Handle commands;
+    std::vector<bus::Handle> base;             ///< what it says to its base, and is told by who leads it
+    std::optional<bus::EnuPosition> position;  ///< the last that was known
     bool rest_frozen = false;
     bool lost = false;  ///< switched off, and stays so
   };
@@ -73,7 +74,8 @@ class VirtualFleet {
   Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
   /// Puts the member's agent onto a bus of its own; what the agent's store holds, it goes on from.
   Status start_agent(std::size_t member);
-  void obey_commands(std::size_t member);
+  /// The member's commands move it, and who leads it tells it where it is.
+  void connect_base(std::size_t member);
   void schedule_power();
   void schedule_blackouts();
   /// As when a process is killed: nothing is frozen, nothing is said.
@@ -83,6 +85,8 @@ class VirtualFleet {
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
   /// What the network and the agents learn of the robots once a second: where they are, their batteries.
   void update_states();
+  /// By the feed, else by its own G.
+  std::optional<bus::EnuPosition> position_of(std::size_t member) const;
   bool playing() const;
   bool has_mission() const;
   /// Tells the feed when nobody has anything left to drive, or time is up.

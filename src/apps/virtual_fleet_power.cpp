@@ -26,7 +26,7 @@ void VirtualFleet::switch_off(std::size_t member, bool for_ever) {
   Member& self = members_[member];
   self.lost = for_ever;
   feed_->switch_power(member, false);
-  self.commands.reset();
+  self.base.clear();
   // Work under way uses the agent and its store.
   network_->finish_work(self.id);
   self.agent.reset();
@@ -42,7 +42,7 @@ void VirtualFleet::switch_on(std::size_t member) {
     error_ = started.error().message;
     return;
   }
-  obey_commands(member);
+  connect_base(member);
   feed_->switch_power(member, true);
 }
 

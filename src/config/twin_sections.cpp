@@ -52,6 +52,7 @@ void read_twin_imu(Section& robot, sim::ImuSpec& spec) {
 
 void read_twin_gps(Section& robot, sim::GpsSpec& spec) {
   Section gps = robot.section("gps");
+  gps.read("fitted", spec.fitted);
   gps.read("rate", spec.rate);
   gps.read("white_sigma", spec.white_sigma);
   gps.read("drift_sigma", spec.drift_sigma);
@@ -166,6 +167,9 @@ void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config,
   read_twin_gps(robot, config.gps);
   read_twin_wheels(robot, config.wheels);
   read_twin_vehicle(robot, config.vehicle);
+  robot.read("guided", config.guided);
+  if (!config.gps.fitted && !config.guided)
+    robot.problem("guided", "a robot whose gps is not fitted cannot tell where to drive; expected true");
   config.seed = seed_of(agent_section);
   robot.read("seed", config.seed);
   read_switched_off(robot, switched_off);

@@ -70,7 +70,7 @@ GpsModel::GpsModel(GpsModel&&) noexcept = default;
 
 std::optional<sensor::Fix> GpsModel::measure(Stamp stamp, double seconds, const Eigen::Vector3d& p_enu) {
   const Eigen::Vector3d error = state_->error(seconds);
-  if (state_->out(seconds)) return std::nullopt;
+  if (!state_->spec.fitted || state_->out(seconds)) return std::nullopt;
   const GpsSpec& spec = state_->spec;
   sensor::Fix fix;
   fix.stamp = stamp;

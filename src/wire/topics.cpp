@@ -23,6 +23,7 @@ bus::Topic global_pose() { return {Link::kOnboard, "fleetmap/global_pose", type_
 bus::Topic corrected_pose() {
   return {Link::kOnboard, "fleetmap/corrected_pose", type_name::kGlobalPose, "state"};
 }
+bus::Topic guide_pose() { return {Link::kOnboard, "fleetmap/guide_pose", type_name::kGlobalPose, "state"}; }
 bus::Topic cmd_vel() { return {Link::kOnboard, "rt/cmd_vel", type_name::kTwist, "state"}; }
 
 bus::Topic battery() { return {Link::kOnboard, "rt/battery_state", type_name::kBatteryState, "sensor"}; }

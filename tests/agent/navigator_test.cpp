@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
 
@@ -152,6 +153,41 @@ TEST_F(NavigatorTest, StandsStillWithoutAPose) {
     EXPECT_EQ(command.forward_speed, 0.0) << "the pose was lost on the way";
     EXPECT_EQ(command.yaw_rate, 0.0);
   }
+}
+
+TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
+  const auto led_at = [&](const Eigen::Vector2d& p) {
+    GlobalPose pose = *at(p, 0.0).G;
+    pose.stamp = network_->now();
+    bus_->publish(wire::topics::guide_pose(), wire::encode(pose));
+    stand({}, 1);
+  };
+  for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
+  EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
+  ASSERT_FALSE(told_.empty());
+  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
+
+  stand(at({30.0, 30.0}, 0.0), 1);
+  bus_->publish(wire::topics::guide_pose(), Bytes(7, 0xff));
+  GlobalPose nowhere = *at({0.0, 0.0}, 0.0).G;
+  nowhere.position.latitude = std::numeric_limits<double>::quiet_NaN();
+  bus_->publish(wire::topics::guide_pose(), wire::encode(nowhere));
+  stand({}, 1);
+  commands_.clear();
+  stand({}, 2);
+  ASSERT_FALSE(commands_.empty());
+  for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0) << "who led it fell silent";
+}
+
+TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
+  for (int k = 0; k < 8; ++k) {
+    bus_->publish(wire::topics::guide_pose(), wire::encode(*at({1.0, 0.0}, 0.0).G));
+    stand(at({9.0, 4.0}, 0.0), 1);
+  }
+  ASSERT_FALSE(told_.empty());
+  EXPECT_NEAR(told_.back().east, 1.0, 0.01);
+  stand(at({9.0, 4.0}, 0.0), 8);
+  EXPECT_NEAR(told_.back().east, 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {

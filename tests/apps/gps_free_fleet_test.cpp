@@ -31,7 +31,7 @@ class GpsFreeFleet : public ::testing::Test {
                                     "  - id: r2\n    recording: {path: bags/r2}\n");
     testing::Process process({kFleetmap, "run", "-c", file.string(), "--out", out_.string()},
                              folder_.path() / "log");
-    process.wait();  // without GPS the Wi-Fi's reach is unknown here: the submaps stay where they are
+    EXPECT_EQ(process.wait(), 0) << process.output();
     std::ifstream report(out_ / "report.json");
     return nlohmann::json::parse(report, nullptr, false);
   }
@@ -56,6 +56,8 @@ TEST_F(GpsFreeFleet, TwoRobotsThatMeetMakeOneMapThatLiesNowhere) {
   const auto& r1 = report["agents"]["r1"];
   EXPECT_EQ(r1["aligned_groups"].size(), 1u) << r1.dump();
   EXPECT_EQ(r1["not_georeferenced"], nlohmann::json({"r1", "r2"}));
+  EXPECT_EQ(r1["map_hash"], report["agents"]["r2"]["map_hash"]) << "both hold all submaps in the end";
+  EXPECT_EQ(r1["missing_submaps"], 0);
   EXPECT_LT(relative_error().translation().norm(), 0.5);
   EXPECT_LT(so3_log(relative_error().linear()).norm() * 180.0 / std::numbers::pi, 1.5);
 }
@@ -65,6 +67,7 @@ TEST_F(GpsFreeFleet, AFixOfOneRobotGeoreferencesBoth) {
   ASSERT_TRUE(report.is_object());
   EXPECT_EQ(report["agents"]["r2"]["aligned_groups"].size(), 1u);
   EXPECT_TRUE(report["agents"]["r2"]["not_georeferenced"].empty());
+  EXPECT_EQ(report["agents"]["r1"]["map_hash"], report["agents"]["r2"]["map_hash"]);
   EXPECT_LT(relative_error().translation().norm(), 0.5);
   // GPS of the recording is off by 1.5 m for a minute at a time.
   const LocalFrame truth(fleet_.origin);

@@ -77,6 +77,16 @@ TEST(TwinSections, EverythingOfTheRobotCanBeSet) {
   EXPECT_EQ(r.robot.vehicle.battery_wh, 50.0);
 }
 
+TEST(TwinSections, ARobotWithoutGpsMustBeLed) {
+  const Read led = read("robot: {guided: true, gps: {fitted: false}}");
+  EXPECT_EQ(led.problems, "");
+  EXPECT_TRUE(led.robot.guided);
+  EXPECT_FALSE(led.robot.gps.fitted);
+  EXPECT_FALSE(read("robot: {}").robot.guided);
+  EXPECT_THAT(read("robot:\n  gps: {fitted: false}\n").problems,
+              HasSubstr("robot.guided: a robot whose gps is not fitted cannot tell where to drive"));
+}
+
 TEST(TwinSections, RobotsErrDifferently) {
   EXPECT_NE(read("id: r1").robot.seed, read("id: r2").robot.seed);
   EXPECT_EQ(read("id: r1").robot.seed, read("id: r1").robot.seed);

@@ -155,6 +155,8 @@ TEST(Gps, OutagesHaveNoFixesAndChangeNoOthers) {
     EXPECT_FALSE((t >= 10.0 && t < 20.0) || (t >= 40.0 && t < 41.0)) << t;
   }
   EXPECT_EQ(run.errors.back(), whole.errors.back());
+  spec.fitted = false;
+  EXPECT_TRUE(gps_errors(spec, 3, 60.0).fixes.empty());
 }
 
 TEST(Gps, JumpsComeAtTheirRateLastAndGo) {

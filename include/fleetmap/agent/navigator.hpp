@@ -39,8 +39,8 @@ struct NavigatorConfig {
 };
 
 /// Drives one robot through its part of the mission: pose and scan in, cmd_vel out; tells the others how far
-/// it is and takes over what they cannot do. Uses the EKF's pose for where to go and the scan for where it is
-/// free.
+/// it is and takes over what they cannot do. Uses the EKF's pose for where to go, or while one is told that
+/// of wire::topics::guide_pose() (so a robot without GPS can be led), and the scan for where it is free.
 class Navigator {
  public:
   using Tell = std::function<void(exchange::MissionReport)>;
@@ -70,6 +70,7 @@ class Navigator {
             bus::Bus& bus, Tell tell);
   void drive(const planning::Command& command);
   std::optional<planning::Pose2> pose_of(const GlobalPose& G) const;
+  bool guided() const;
 
   NavigatorConfig config_;
   LocalFrame site_;
@@ -79,6 +80,8 @@ class Navigator {
   planning::PathFollower follower_;
   planning::MissionAction action_;
   std::optional<planning::Pose2> pose_;
+  std::optional<planning::Pose2> guide_;  ///< the last that was told
+  Stamp guided_at_{};
   bool stopped_ = false;
   std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;

@@ -20,6 +20,7 @@ struct GpsOutage {
 };
 
 struct GpsSpec {
+  bool fitted = true;              ///< the robot has a receiver
   double rate = 5.0;               ///< Hz
   double white_sigma = 0.3;        ///< m, per horizontal axis, independent from fix to fix
   double drift_sigma = 1.0;        ///< m, per horizontal axis, Gauss-Markov
@@ -42,7 +43,7 @@ class GpsModel {
   ~GpsModel();
   GpsModel(GpsModel&&) noexcept;
   /// The fix at `stamp`, `seconds` since the start of the run, with the antenna at `p_enu`; empty in an
-  /// outage. Call at every period, in order.
+  /// outage and without a receiver. Call at every period, in order.
   std::optional<sensor::Fix> measure(Stamp stamp, double seconds, const Eigen::Vector3d& p_enu);
 
  private:

@@ -35,7 +35,8 @@ struct RobotTwinConfig {
   bool start_given = false;                         ///< else who sets the team up chooses start and start_yaw
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< ENU, m
   double start_yaw = 0.0;                           ///< rad, from east, counter-clockwise
-  std::uint64_t seed = 1;                           ///< of all this robot's randomness
+  bool guided = false;  ///< who steers it is told where it truly is, as a person who walks beside it would be
+  std::uint64_t seed = 1;  ///< of all this robot's randomness
   /// Fails with the section, the field and the rule that it breaks.
   Status validate() const;
 };

@@ -17,8 +17,10 @@ bus::Topic wheel_odometry();  ///< sensor::Wheel
 bus::Topic odometry();        ///< wire::OdometryMsg
 bus::Topic global_pose();     ///< GlobalPose
 bus::Topic corrected_pose();  ///< GlobalPose: T_enu_odom of the fleet's graph, applied to the odometry
-bus::Topic cmd_vel();         ///< wire::VelocityCommand
-bus::Topic battery();         ///< sensor::Battery
+/// GlobalPose, from whoever else knows where the robot is: the mission is driven by it instead of by G.
+bus::Topic guide_pose();
+bus::Topic cmd_vel();  ///< wire::VelocityCommand
+bus::Topic battery();  ///< sensor::Battery
 
 // ---- long range: to all
 bus::Topic node();

@@ -1,0 +1,99 @@
+// A mission of robots without GPS, led by someone who knows where they are: they find each other by what
+// places look like, from starts that nobody told them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/store/store.hpp"
+#include "small_twin.hpp"
+
+namespace fleetmap {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+constexpr const char* kLed = "robot: {guided: true, gps: {fitted: false}}";
+
+nlohmann::json evaluation_of(const testing::SmallTwin& twin, const std::filesystem::path& out) {
+  testing::Process judge(
+      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"},
+      twin.path("eval.log"));
+  EXPECT_EQ(judge.wait(), 0) << judge.output();
+  std::ifstream file(out / "evaluation.json");
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
+int ties_between_sessions(const std::filesystem::path& directory) {
+  const auto store = store::Store::open_read_only(directory / "store.db");
+  if (!store) return -1;
+  int ties = 0;
+  for (const auto& [id, alignment] : store->alignments()) {
+    const graph::Node *i = store->node(alignment.i), *j = store->node(alignment.j);
+    ties += i != nullptr && j != nullptr && i->session != j->session;
+  }
+  return ties;
+}
+
+TEST(TwinWithoutGps, RobotsThatKnowNoPlaceMakeOneMapThatLiesNowhere) {
+  const testing::SmallTwin twin;
+  twin.write_fleet("", {kLed, kLed});
+  const auto run = twin.run("out", {"--threads", "2", "--agents", "2"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto& r1 = run.report["agents"]["r1"];
+  EXPECT_TRUE(run.report["completion"]["completed_s"].is_number()) << run.report["completion"].dump();
+  EXPECT_THAT(r1["aligned_groups"], SizeIs(1)) << run.output;
+  EXPECT_EQ(r1["not_georeferenced"], nlohmann::json({"r1", "r2"}));
+  EXPECT_EQ(r1["map_hash"], run.report["agents"]["r2"]["map_hash"])
+      << "submaps flow where robots are in reach";
+
+  const auto evaluation = evaluation_of(twin, run.out);
+  ASSERT_TRUE(evaluation.is_object());
+  EXPECT_GE(evaluation["alignments"]["used"].get<int>(), 1);
+  EXPECT_EQ(evaluation["alignments"]["wrong_used"], 0);
+  EXPECT_EQ(evaluation["fleet"]["wrong_merges"], 0);
+  EXPECT_LT(evaluation["fleet"]["ate_joint"].get<double>(), 0.25);
+}
+
+TEST(TwinWithoutGps, TheFixOfOneRobotPutsAllOnTheMap) {
+  const testing::SmallTwin twin;
+  twin.write_fleet("", {"", kLed});
+  const auto run = twin.run("out", {"--threads", "2", "--agents", "2"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto& r2 = run.report["agents"]["r2"];
+  EXPECT_THAT(r2["aligned_groups"], SizeIs(1)) << run.output;
+  EXPECT_THAT(r2["not_georeferenced"], SizeIs(0));
+  const auto truth = eval::read_tum(run.out / "r2" / "truth.tum");
+  const auto placed = eval::read_tum(run.out / "r2" / "trajectory.tum");
+  ASSERT_TRUE(truth && placed);
+  const auto errors = eval::compare(*placed, *truth);
+  ASSERT_TRUE(errors) << errors.error().message;
+  EXPECT_LT(errors->ate_rmse, 5.0) << "as far off as the GPS and the heading of the other one are";
+  EXPECT_LT(errors->ate_rmse_aligned, 0.25);
+}
+
+/// Its second start has an odometry frame that nothing but what it sees ties to the first.
+TEST(TwinWithoutGps, ARobotThatWasRestartedGoesOnWithItsMap) {
+  const testing::SmallTwin twin;
+  twin.write_fleet("",
+                   {"robot: {guided: true, gps: {fitted: false}, switched_off: [{from: 20, until: 30}]}"});
+  const auto run = twin.run("out", {"--threads", "2", "--agents", "1"});
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("session 1, going on from"));
+  const auto evaluation = evaluation_of(twin, run.out);
+  ASSERT_TRUE(evaluation.is_object());
+  EXPECT_GE(ties_between_sessions(run.out / "r1"), 1) << run.output;
+  EXPECT_EQ(evaluation["alignments"]["wrong_used"], 0);
+  EXPECT_LT(evaluation["agents"]["r1"]["ate_rmse_aligned"].get<double>(), 0.25);
+}
+
+TEST(TwinWithoutGps, WhoIsNotLedWouldNeverDriveAndIsRefused) {
+  const testing::SmallTwin twin;
+  twin.write_fleet("", {"", "robot: {gps: {fitted: false}}"});
+  const auto run = twin.run("out", {"--agents", "2"});
+  EXPECT_EQ(run.exit_code, 78);
+  EXPECT_THAT(run.output, HasSubstr("guided: a robot whose gps is not fitted cannot tell where to drive"));
+}
+
+}  // namespace
+}  // namespace fleetmap
