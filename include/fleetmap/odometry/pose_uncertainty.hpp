@@ -41,7 +41,7 @@ class PoseUncertainty {
     double half_sweep = 0.0;                    ///< s from the reference instant to the sweep's end
     /// (rad/s^2)^2, as the gyro's own scatter says; without a gyro it is as much as it has changed of late,
     /// for within a sweep it may change as much again.
-    std::optional<Eigen::Vector3d> turn_acceleration_variance;
+    std::optional<Eigen::Vector3d> turn_acceleration_variance = std::nullopt;
   };
   struct Stated {
     Matrix6d pose_noise;  ///< of the scan in the local map, at its stamp

@@ -1,0 +1,164 @@
+#include "fleetmap/odometry/pose_uncertainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace fleetmap::odometry {
+namespace {
+
+/// A scan that knows its pose to `pose_sigma` by its points, and its motion as well as `prior_sigma` says.
+MatchResult match(double pose_sigma, double prior_sigma) {
+  MatchResult result;
+  result.lidar_information.diagonal().head<6>().setConstant(1.0 / (pose_sigma * pose_sigma));
+  result.prior_information.diagonal().setConstant(1.0 / (prior_sigma * prior_sigma));
+  return result;
+}
+
+/// As if the points had moved the translation by `d` m from where the prior had it.
+MatchResult moved(MatchResult result, const Eigen::Vector3d& d) {
+  result.prior_gradient.head<3>() = result.prior_information.topLeftCorner<3, 3>() * d;
+  return result;
+}
+
+PoseUncertainty started() {
+  PoseUncertainty uncertainty{LoamConfig{}};
+  uncertainty.start();
+  return uncertainty;
+}
+
+Vector6d noise_of(PoseUncertainty& uncertainty, const PoseUncertainty::Matched& scan) {
+  return uncertainty.state(scan).pose_noise.diagonal();
+}
+
+TEST(PoseUncertainty, AtTheStartThePoseIsGivenAndTheVelocityUnknown) {
+  const LoamConfig config;
+  const PoseUncertainty uncertainty = started();
+  EXPECT_EQ(uncertainty.covariance().diagonal().head<6>().norm(), 0.0);
+  EXPECT_DOUBLE_EQ(uncertainty.covariance()(7, 7), config.initial_speed * config.initial_speed);
+  EXPECT_DOUBLE_EQ(uncertainty.covariance()(11, 11), config.initial_turn_rate * config.initial_turn_rate);
+}
+
+TEST(PoseUncertainty, PointsTellThePoseAsWellAsTheyFitTheirSurfaces) {
+  PoseUncertainty uncertainty = started();
+  MatchResult scan = match(0.01, 1.0);
+  EXPECT_NEAR(noise_of(uncertainty, {scan})[0], 1e-4, 1e-7);
+  scan.residual_variance = 4.0;
+  EXPECT_NEAR(noise_of(uncertainty, {scan})[0], 4e-4, 1e-6);
+}
+
+TEST(PoseUncertainty, OfALostScanOnlyThePriorIsKnown) {
+  PoseUncertainty uncertainty = started();
+  const MatchResult scan = match(0.01, 0.5);
+  EXPECT_NEAR(noise_of(uncertainty, {.match = scan, .lost = true})[2], 0.25, 1e-12);
+}
+
+/// d_stamp = d_pose + s d_twist.
+TEST(PoseUncertainty, BetweenStampAndReferenceTheVelocityCounts) {
+  PoseUncertainty uncertainty = started();
+  const MatchResult scan = match(0.01, 0.2);
+  const double at_reference = noise_of(uncertainty, {scan})[4];
+  const double at_stamp = noise_of(uncertainty, {.match = scan, .reference_offset = 0.1})[4];
+  EXPECT_NEAR(at_stamp - at_reference, 0.01 * 0.04, 1e-6);
+}
+
+TEST(PoseUncertainty, ATurnThatChangesWithinTheSweepBendsIt) {
+  PoseUncertainty uncertainty = started();
+  const MatchResult scan = match(0.001, 1.0);
+  PoseUncertainty::Matched swept{.match = scan, .half_sweep = 0.06};
+  swept.turn_acceleration_variance = Eigen::Vector3d(0.0, 0.0, 4.0);
+  const double steady = noise_of(uncertainty, {scan})[5];
+  EXPECT_NEAR(noise_of(uncertainty, swept)[5] - steady, 4.0 * std::pow(0.06 * 0.06 / 6.0, 2), 1e-12);
+  EXPECT_NEAR(noise_of(uncertainty, swept)[4] - steady, 0.0, 1e-12);
+}
+
+TEST(PoseUncertainty, WithoutAGyroATurnMayChangeAsMuchAsItHas) {
+  PoseUncertainty uncertainty = started();
+  const MatchResult scan = match(0.001, 1.0);
+  const PoseUncertainty::Matched swept{.match = scan, .half_sweep = 0.06};
+  const double before = noise_of(uncertainty, swept)[5];
+  for (int k = 0; k < 100; ++k) uncertainty.turn_changed({0.0, 0.0, 2.0});
+  EXPECT_NEAR(noise_of(uncertainty, swept)[5] - before, 4.0 * std::pow(0.06 * 0.06 / 6.0, 2), 1e-10);
+}
+
+/// Points and prior know the translation equally well; where points keep moving it by more than both say, the
+/// prior is worse than it says, and where they never move it, better.
+TEST(PoseUncertainty, APriorIsJudgedByHowFarPointsMoveItsTranslation) {
+  const MatchResult scan = match(0.1, 0.1);
+  PoseUncertainty shaken = started(), smooth = started();
+  const double as_stated = noise_of(shaken, {scan})[0];
+  for (int k = 0; k < 200; ++k) {
+    const double side = k % 2 == 0 ? 1.0 : -1.0;
+    shaken.state({moved(scan, side * Eigen::Vector3d(0.3, 0.3, 0.3))});
+    smooth.state({scan});
+  }
+  EXPECT_GT(noise_of(shaken, {moved(scan, {0.3, 0.3, 0.3})})[0], 2.0 * as_stated);
+  EXPECT_LT(noise_of(smooth, {scan})[0], 0.8 * as_stated);
+  EXPECT_NEAR(noise_of(smooth, {scan})[4], noise_of(shaken, {scan})[4], 1e-12) << "rotation is not judged";
+}
+
+TEST(PoseUncertainty, TheNextPriorTakesTheLastPoseAsItWasKnown) {
+  const LoamConfig config;
+  PoseUncertainty uncertainty = started();
+  MatchResult scan = match(0.01, 1.0);
+  scan.prior_information.diagonal().tail<6>().setConstant(1e-6);  // the velocity is as good as unknown
+  uncertainty.state({scan});
+  const Matrix12d& covariance = uncertainty.covariance();
+  EXPECT_NEAR(covariance(0, 0), 1e-4, 1e-7);
+  EXPECT_NEAR(covariance(6, 6), config.initial_speed * config.initial_speed, 1e-9) << "never less known";
+  EXPECT_EQ(covariance, covariance.transpose());
+
+  uncertainty.map_restarted();
+  EXPECT_EQ(uncertainty.covariance().topRows<6>().norm(), 0.0);
+  EXPECT_EQ(uncertainty.covariance().leftCols<6>().norm(), 0.0);
+  EXPECT_GT(uncertainty.covariance()(6, 6), 0.0);
+}
+
+TEST(PoseUncertainty, TheMapDriftsWithTheWay) {
+  const LoamConfig config;
+  const MatchResult scan = match(0.01, 1.0);
+  PoseUncertainty standing = started(), driving = started();
+  EXPECT_EQ(standing.state({scan}).growth.norm(), 0.0);
+  PoseUncertainty::Matched metre{scan};
+  metre.T_before_now.translation().x() = 1.0;
+  const auto [noise, growth] = driving.state(metre);
+  EXPECT_NEAR(growth(0, 0),
+              config.drift_share * noise(0, 0) + config.drift_translation * config.drift_translation, 1e-12);
+  EXPECT_NEAR(growth(5, 5), config.drift_share * noise(5, 5) + config.drift_rotation * config.drift_rotation,
+              1e-12);
+}
+
+/// Where the scene does not hold the motion, what a scan adds to its error stays in the map, once.
+TEST(PoseUncertainty, AlongAnAisleTheErrorStays) {
+  PoseUncertainty uncertainty = started();
+  MatchResult aisle = match(0.01, 0.3);
+  aisle.lidar_information(0, 0) = 0.0;
+  aisle.degenerate_count = 1;
+  aisle.degenerate_directions(0, 0) = 1.0;
+  const auto [noise, growth] = uncertainty.state({aisle});
+  EXPECT_NEAR(growth(0, 0), noise(0, 0), 1e-12);
+  EXPECT_EQ(growth(1, 1), 0.0);
+  const auto again = uncertainty.state({aisle});
+  EXPECT_LT(again.growth(0, 0), 0.2 * noise(0, 0)) << "only what has been added since";
+}
+
+TEST(PoseUncertainty, WhatCannotBeSolvedIsNotLearnedFrom) {
+  PoseUncertainty uncertainty = started(), untouched = started();
+  MatchResult broken = match(0.1, 0.1);
+  broken.prior_gradient.setConstant(std::nan(""));
+  for (int k = 0; k < 50; ++k) uncertainty.state({broken});
+  const MatchResult scan = match(0.1, 0.1);
+  EXPECT_EQ(noise_of(uncertainty, {scan}), noise_of(untouched, {scan}));
+}
+
+TEST(PriorMisfit, IsNearOneUntilMuchIsKnown) {
+  PriorMisfit misfit;
+  EXPECT_EQ(misfit.variance(), 1.0);
+  misfit.add(12.0, 3.0);
+  EXPECT_NEAR(misfit.variance(), 22.0 / 13.0, 1e-12);
+  for (int k = 0; k < 500; ++k) misfit.add(12.0, 3.0);
+  EXPECT_NEAR(misfit.variance(), 250.0 / 70.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace fleetmap::odometry
