@@ -15,14 +15,13 @@ class CommandLine : public ::testing::Test {
  protected:
   void run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
-    testing::Process process(arguments, folder_.path() / ("log" + std::to_string(++runs_)));
+    testing::Process process(arguments);
     exit_code_ = process.wait();
     output_ = process.output();
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   testing::TemporaryFolder folder_;
-  int runs_ = 0;
   int exit_code_ = -1;
   std::string output_;
 };

@@ -65,13 +65,11 @@ class DdsFleet : public ::testing::Test {
   std::string config(const std::string& id) const { return (folder_.path() / (id + ".yaml")).string(); }
   std::unique_ptr<testing::Process> agent(const std::string& id) {
     return std::make_unique<testing::Process>(
-        std::vector<std::string>{kFleetmap, "agent", "-c", config(id), "--exit-after-idle", "5"},
-        folder_.path() / (id + ".log"));
+        std::vector<std::string>{kFleetmap, "agent", "-c", config(id), "--exit-after-idle", "5"});
   }
   std::unique_ptr<testing::Process> replay(const std::string& id, const std::string& rate = "1") {
     return std::make_unique<testing::Process>(
-        std::vector<std::string>{kFleetmap, "replay", "-c", config(id), "--wait", "60", "--rate", rate},
-        folder_.path() / (id + "_replay.log"));
+        std::vector<std::string>{kFleetmap, "replay", "-c", config(id), "--wait", "60", "--rate", rate});
   }
   std::size_t own_nodes(const std::string& id) const {
     const auto store = store::Store::open_read_only(folder_.path() / id / "store.db");

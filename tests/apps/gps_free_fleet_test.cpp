@@ -29,8 +29,7 @@ class GpsFreeFleet : public ::testing::Test {
                                     "defaults:\n  lidar: {translation: [0, 0, 0.8]}\n  nodes: {spacing: 4}\n"
                                     "agents:\n  - id: r1\n    recording: {path: bags/r1}\n"
                                     "  - id: r2\n    recording: {path: bags/r2}\n");
-    testing::Process process({kFleetmap, "run", "-c", file.string(), "--out", out_.string()},
-                             folder_.path() / "log");
+    testing::Process process({kFleetmap, "run", "-c", file.string(), "--out", out_.string()});
     EXPECT_EQ(process.wait(), 0) << process.output();
     std::ifstream report(out_ / "report.json");
     return nlohmann::json::parse(report, nullptr, false);

@@ -40,7 +40,7 @@ class KittiFleet : public ::testing::Test {
   /// Runs the program to its end and returns what it printed.
   std::string run(std::vector<std::string> arguments, int expected_exit_code = 0) {
     arguments.insert(arguments.begin(), kFleetmap);
-    testing::Process process(arguments, folder_.path() / "log");
+    testing::Process process(arguments);
     EXPECT_EQ(process.wait(), expected_exit_code) << process.output();
     return process.output();
   }

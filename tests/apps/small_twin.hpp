@@ -64,7 +64,7 @@ class SmallTwin {
                                        "--out",
                                        path(name).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    Process process(arguments, path(name + ".log"));
+    Process process(arguments);
     Run run;
     run.exit_code = process.wait();
     run.output = process.output();

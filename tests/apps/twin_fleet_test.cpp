@@ -83,8 +83,7 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
   }
 
   testing::Process judge(
-      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", two.out.string(), "--no-pictures"},
-      twin.path("eval.log"));
+      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", two.out.string(), "--no-pictures"});
   ASSERT_EQ(judge.wait(), 0) << judge.output();
   std::ifstream file(two.out / "evaluation.json");
   const auto evaluation = nlohmann::json::parse(file, nullptr, false);
@@ -124,11 +123,9 @@ TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
                    ", qos: " + FLEETMAP_SOURCE_DIR + "/qos}\n");
   const std::string fleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
   const std::string config = twin.path("fleet.yaml").string();
-  testing::Process sim({fleetmap, "sim", "-c", config, "--out", twin.path("truth").string()},
-                       twin.path("sim.log"));
+  testing::Process sim({fleetmap, "sim", "-c", config, "--out", twin.path("truth").string()});
   testing::Process agent(
-      {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()},
-      twin.path("agent.log"));
+      {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()});
   const bool drove = eventually([&] {
     const auto poses = agent::read_trajectory(twin.path("agents/r1/odometry.tum"));
     return poses && !poses->empty() && poses->back().T_w_base.translation().norm() > 1.5;

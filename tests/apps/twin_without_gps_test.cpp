@@ -17,8 +17,7 @@ constexpr const char* kLed = "robot: {guided: true, gps: {fitted: false}}";
 
 nlohmann::json evaluation_of(const testing::SmallTwin& twin, const std::filesystem::path& out) {
   testing::Process judge(
-      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"},
-      twin.path("eval.log"));
+      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
   EXPECT_EQ(judge.wait(), 0) << judge.output();
   std::ifstream file(out / "evaluation.json");
   return nlohmann::json::parse(file, nullptr, false);

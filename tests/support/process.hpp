@@ -1,34 +1,30 @@
 #pragma once
 
-#include <fcntl.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace fleetmap::testing {
 
-/// A child process whose output goes to a file. Killed when destroyed.
+/// A child process. Its output is kept in memory, so that it tells of a full disk too. Killed when destroyed.
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, std::filesystem::path log) : log_(std::move(log)) {
+  explicit Process(const std::vector<std::string>& arguments) : output_(memfd_create("output", MFD_CLOEXEC)) {
     std::vector<char*> argv;
     for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     pid_ = fork();
     if (pid_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is cut off leaves no agents behind
-      const int out = open(log_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-      dup2(out, STDOUT_FILENO);
-      dup2(out, STDERR_FILENO);
+      dup2(output_, STDOUT_FILENO);
+      dup2(output_, STDERR_FILENO);
       execv(argv[0], argv.data());
       _exit(127);
     }
@@ -40,6 +36,7 @@ class Process {
       signal(SIGKILL);
       wait();
     }
+    close(output_);
   }
 
   void signal(int number) const { ::kill(pid_, number); }
@@ -59,12 +56,14 @@ class Process {
     return !exit_code_;
   }
   std::string output() const {
-    std::ifstream in(log_);
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string text(static_cast<std::size_t>(std::max<off_t>(0, lseek(output_, 0, SEEK_CUR))), '\0');
+    const ssize_t size = pread(output_, text.data(), text.size(), 0);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, size)));
+    return text;
   }
 
  private:
-  std::filesystem::path log_;
+  int output_;  ///< both write at the child's place in it
   pid_t pid_ = -1;
   std::optional<int> exit_code_;
 };
