@@ -98,7 +98,9 @@ Status Agent::start() {
     navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
   }
   if (config_.placement.mode == graph::PlacementMode::fleet) {
-    live_placement_ = std::make_unique<LivePlacement>(config_, bus_, store_);
+    live_placement_ = std::make_unique<LivePlacement>(
+        config_, bus_, store_,
+        [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used, bus_.now()); });
     live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(); });
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
@@ -326,17 +328,22 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
     std::shared_ptr<OwnCloud> target;
     graph::Node source;
     Bytes encoded;
+    std::optional<registration::Prior> prior;
     registration::Drifts drifts;
     Registered registered;
   };
+  const auto prior = arrived.T_ours_theirs
+                         ? prior_of(*arrived.T_ours_theirs, ours->up_in_base)
+                         : prior_of(*ours, *theirs, config_.exchange.encounters.max_sigma_m);
   auto job = std::make_shared<Job>(
-      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, drifts_around(*ours, *theirs), {}});
+      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, prior, drifts_around(*ours, *theirs), {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        job->registered.result = register_encoded(*job->target, job->source, job->encoded, job->drifts);
+        job->registered.result =
+            register_encoded(*job->target, job->source, job->encoded, job->prior, job->drifts);
         job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job, pair = arrived.pair] {
@@ -350,9 +357,9 @@ registration::Drifts Agent::drifts_around(const graph::Node& target, const graph
           drift_around(store_, source, config_.spherize.radius_m)};
 }
 
-Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
-                                                                 const Bytes& encoded,
-                                                                 const registration::Drifts& drifts) const {
+Result<registration::RegistrationResult> Agent::register_encoded(
+    OwnCloud& target, const graph::Node& source, const Bytes& encoded,
+    const std::optional<registration::Prior>& prior, const registration::Drifts& drifts) const {
   const auto message = wire::decode<wire::SpherizedCloud>(encoded);
   if (!message) return tl::unexpected(message.error());
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
@@ -362,7 +369,7 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
   if (!target_cloud) return tl::unexpected(target_cloud.error());
   return registration::register_clouds(
       *target_cloud, registration::PreparedCloud(*source_cloud, source.up_in_base, config_.registration),
-      config_.registration, prior_of(target.node(), source, config_.exchange.encounters.max_sigma_m), drifts);
+      config_.registration, prior, drifts);
 }
 
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,

@@ -12,6 +12,7 @@ namespace {
 /// A start is not better than ICP needs it to be.
 constexpr double kLeastPriorSigma = 0.1;   // m
 constexpr double kLeastPriorAngle = 0.01;  // rad
+constexpr double kTiedPriorSigma = 1.5;    // m
 
 /// Where the descriptors alone tell how two nodes lie: cells and turns are tried in coarse steps, and what
 /// looks most alike may be a few cells off.
@@ -23,6 +24,19 @@ constexpr double kAlikeTiltSigma = 0.02;   // rad
 /// Modes of an ambiguous registration of at least this weight are alternatives to the best: what is less
 /// likely than one in a thousand does not keep a registration from being accepted either.
 constexpr double kAlternativeWeight = 1e-3;
+
+registration::Prior prior_of(const UncertainPose& T_target_source, const Eigen::Vector3d& up_in_target,
+                             double least_sigma) {
+  registration::Prior prior;
+  prior.T_target_source = T_target_source.T_a_b;
+  const Vector6d variance = T_target_source.covariance.diagonal();
+  prior.sigma_translation_m = std::sqrt(variance.head<3>().maxCoeff()) + least_sigma;
+  prior.sigma_yaw_rad = std::sqrt(variance(5)) + kLeastPriorAngle;
+  prior.sigma_tilt_rad = std::sqrt(variance.segment<2>(3).maxCoeff()) + kLeastPriorAngle;
+  prior.sigma_height_m = std::sqrt(variance.head<3>().maxCoeff()) + kLeastPriorSigma;
+  prior.up_target = up_in_target;
+  return prior;
+}
 
 }  // namespace
 
@@ -63,15 +77,12 @@ std::optional<registration::Prior> prior_of(const graph::Node& target, const gra
 }
 
 registration::Prior prior_of(const LoopClosure& closure) {
-  registration::Prior prior;
-  prior.T_target_source = closure.earlier.T_odom_base.inverse() * closure.later.T_odom_base;
-  const Vector6d variance = closure.covariance.diagonal();
-  prior.sigma_translation_m = std::sqrt(variance.head<3>().maxCoeff()) + kLeastPriorSigma;
-  prior.sigma_yaw_rad = std::sqrt(variance(5)) + kLeastPriorAngle;
-  prior.sigma_tilt_rad = std::sqrt(variance.segment<2>(3).maxCoeff()) + kLeastPriorAngle;
-  prior.sigma_height_m = prior.sigma_translation_m;
-  prior.up_target = closure.earlier.up_in_base;
-  return prior;
+  const Pose T_target_source = closure.earlier.T_odom_base.inverse() * closure.later.T_odom_base;
+  return prior_of({T_target_source, closure.covariance}, closure.earlier.up_in_base, kLeastPriorSigma);
+}
+
+registration::Prior prior_of(const UncertainPose& T_target_source, const Eigen::Vector3d& up_in_target) {
+  return prior_of(T_target_source, up_in_target, kTiedPriorSigma);
 }
 
 graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& computed_by,

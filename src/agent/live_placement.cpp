@@ -1,6 +1,10 @@
 #include "fleetmap/agent/live_placement.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "fleetmap/agent/results.hpp"
+#include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 
@@ -12,11 +16,13 @@ struct LivePlacement::Job {
   NodeId newest;  ///< own
   std::vector<graph::Node> nodes;
   std::vector<graph::Alignment> alignments;
+  std::vector<graph::Alignment> used;
   std::optional<Solution> solution;
 };
 
-LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store)
-    : config_(config), bus_(bus), store_(store) {}
+LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store,
+                             OnUsed on_used)
+    : config_(config), bus_(bus), store_(store), on_used_(std::move(on_used)) {}
 
 void LivePlacement::refresh() {
   const std::size_t items = store_.nodes().size() + store_.alignments().size();
@@ -32,28 +38,32 @@ void LivePlacement::refresh() {
   job->nodes = nodes_of(store_);
   job->alignments = alignments_of(store_);
   bus_.offload(
-      bus::Lane::kBackground, [job] { job->solution = solve(*job); },
+      bus::Lane::kBackground, [job] { solve(*job); },
       [this, job] {
         under_way_ = false;
         if (job->solution) solution_ = job->solution;
+        on_used_(job->used);
       });
 }
 
-std::optional<LivePlacement::Solution> LivePlacement::solve(const Job& job) {
-  const graph::Placement placement =
+void LivePlacement::solve(Job& job) {
+  graph::Placement placement =
       graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, {&job.newest, 1});
+  job.used = std::move(placement.used);
+  const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {
     const auto T_enu_odom = placement.T_enu_odom.find(node.frame());
     if (node.id != job.newest || T_enu_odom == placement.T_enu_odom.end()) continue;
+    if (std::ranges::count(nowhere, node.frame()) > 0) return;
     Solution solution{job.origin, node.frame(), T_enu_odom->second, Matrix6d::Zero()};
     if (const auto C = placement.covariance.find(node.id); C != placement.covariance.end()) {
       Matrix6d R = Matrix6d::Zero();
       R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = placement.T_enu_node.at(node.id).linear();
       solution.covariance = R * C->second * R.transpose();
     }
-    return solution;
+    job.solution = solution;
+    return;
   }
-  return std::nullopt;
 }
 
 void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odometry) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "fleetmap/geometry/uncertain_pose.hpp"
+
 namespace fleetmap::agent {
 
 Status LoopClosureConfig::validate() const {
@@ -51,13 +53,12 @@ std::optional<std::size_t> LoopClosures::nearest_earlier(std::size_t later) cons
 }
 
 Matrix6d LoopClosures::covariance_between(std::size_t earlier, std::size_t later) const {
-  Matrix6d covariance = Matrix6d::Zero();
+  UncertainPose T_earlier_here;
   for (std::size_t k = earlier + 1; k <= later; ++k) {
-    // What was uncertain before is seen from the new node's base_link.
-    const Matrix6d Ad = adjoint(nodes_[k].T_odom_base.inverse() * nodes_[k - 1].T_odom_base);
-    covariance = Ad * covariance * Ad.transpose() + nodes_[k].odom_covariance;
+    T_earlier_here = compose(T_earlier_here, {nodes_[k - 1].T_odom_base.inverse() * nodes_[k].T_odom_base,
+                                              nodes_[k].odom_covariance});
   }
-  return covariance;
+  return T_earlier_here.covariance;
 }
 
 }  // namespace fleetmap::agent

@@ -41,6 +41,8 @@ json links_json(const std::vector<bus::LinkUse>& links) {
 json exchange_json(const exchange::ExchangeStats& stats) {
   return {{"long_range_wire_bytes", stats.long_range.wire_bytes},
           {"encounters_found", stats.encounters.found},
+          {"encounters_alike", stats.encounters.alike},
+          {"encounters_tied", stats.encounters.tied},
           {"encounters_begun", stats.encounters.begun},
           {"clouds_received", stats.cloud_receiver.received},
           {"clouds_given_up", stats.cloud_receiver.given_up},

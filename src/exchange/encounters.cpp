@@ -4,6 +4,12 @@
 #include <tuple>
 
 namespace fleetmap::exchange {
+namespace {
+
+/// So many pairs in a row, found by alignments of before and turned down, say that these are wrong.
+constexpr int kDoubtAfter = 5;
+
+}  // namespace
 
 Status EncounterConfig::validate() const {
   if (auto status = proximity.validate(); !status) return status;
@@ -38,6 +44,14 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   if (!places_.emplace(node.id, spot).second) return;
   Track& track = tracks_[node.id.agent];
   track.newest = std::max(track.newest, node.id.seq);
+  ties_.add(node);
+  if (node.id.agent != self_) {
+    find_tied(node.id, self_, now);
+  } else {
+    for (const auto& [agent, peer_track] : tracks_) {
+      if (agent != self_) find_tied(node.id, agent, now);
+    }
+  }
   find_alike(node, now);
   if (!is_located || track.tree.insert(node.G->position) == place::BallTree::kRefused) return;
   track.ids.push_back(node.id);
@@ -56,7 +70,7 @@ void Encounters::find_alike(const graph::Node& node, Stamp now) {
   for (const Lookalikes::Pair& alike : lookalikes_.add(node, located(node), side)) {
     ++stats_.alike;
     const NodePair pair = is_ours ? NodePair{alike.fresh, alike.other} : NodePair{alike.other, alike.fresh};
-    if (encounters_.contains(pair)) continue;
+    if (encounters_.contains(pair) || found_by_tie(pair)) continue;
     const double likeness = alike.similarity + alike.support;
     replace_less_alike(pair, likeness);
     if (redundant(pair)) {
@@ -87,14 +101,73 @@ void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) 
   if (!nearest) return;
   ++stats_.found;
   const NodeId partner = track->second.ids[nearest->index];
-  const NodePair pair = other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner};
-  if (encounters_.contains(pair)) return;
-  const Stamp since = replace_farther(pair, nearest->distance, now);
+  offer(other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner}, nearest->distance, radius,
+        now);
+}
+
+bool Encounters::offer(const NodePair& pair, double distance, double radius, Stamp now) {
+  if (encounters_.contains(pair)) return false;
+  const Stamp since = replace_farther(pair, distance, now);
   if (redundant(pair)) {
     ++stats_.redundant;
-    return;
+    return false;
   }
-  begin(pair, nearest->distance, radius, since, false);
+  begin(pair, distance, radius, since, false);
+  return encounters_.contains(pair);
+}
+
+// ---- by alignments of before
+// ------------------------------------------------------------------------------------------------
+
+bool Encounters::found_by_tie(const NodePair& pair) const {
+  const auto ours = places_.find(pair.ours);
+  const auto theirs = places_.find(pair.theirs);
+  if (ours == places_.end() || theirs == places_.end()) return false;
+  if (ours->second.position && theirs->second.position) return false;  // G tells
+  const auto failures = tied_failures_.find(pair.theirs.agent);
+  const bool doubted = failures != tied_failures_.end() && failures->second >= kDoubtAfter;
+  return !doubted && ties_.tied(ours->second.frame, theirs->second.frame);
+}
+
+std::optional<UncertainPose> Encounters::tied(const NodePair& pair) const {
+  return found_by_tie(pair) ? ties_.between(pair.ours, pair.theirs) : std::nullopt;
+}
+
+void Encounters::find_tied(const NodeId& node, const AgentId& other, Stamp now) {
+  const auto partner = ties_.nearest(node, other);
+  if (!partner) return;
+  const NodePair pair = other == self_ ? NodePair{*partner, node} : NodePair{node, *partner};
+  const auto T_ours_theirs = tied(pair);
+  if (!T_ours_theirs) return;
+  const double distance = T_ours_theirs->T_a_b.translation().norm();
+  const double radius = place::search_radius(T_ours_theirs->covariance, config_.proximity);
+  if (distance > radius) return;
+  ++stats_.tied;
+  if (offer(pair, distance, radius, now)) encounters_.at(pair).by_tie = true;
+}
+
+void Encounters::on_used_alignments(std::span<const graph::Alignment> used, Stamp now) {
+  ties_.use(used);
+  std::set<graph::FrameTies::FramePair> fresh;
+  for (const auto& frames : ties_.tied()) {
+    if (frames.first.agent == self_ && frames.second.agent != self_) fresh.insert(frames);
+  }
+  std::swap(fresh, tied_);
+  // What looks alike and waits is found again, if it is near.
+  std::erase_if(encounters_, [&](const auto& entry) {
+    const auto& [pair, encounter] = entry;
+    const bool obsolete = encounter.phase == Phase::kWaiting && encounter.likeness &&
+                          !encounter.known_to_peer && found_by_tie(pair);
+    stats_.redundant += obsolete;
+    return obsolete;
+  });
+  for (const auto& frames : tied_) {
+    if (fresh.contains(frames)) continue;  // tied before
+    for (auto place = places_.lower_bound({self_, 0}); place != places_.end() && place->first.agent == self_;
+         ++place) {
+      if (place->second.frame == frames.first) find_tied(place->first, frames.second.agent, now);
+    }
+  }
 }
 
 Stamp Encounters::replace_farther(const NodePair& pair, double distance, Stamp now) {
@@ -209,6 +282,7 @@ void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
   if (good && !alignment.ambiguous()) aligned_.insert(pair.theirs.agent);
   const bool by_us = alignment.computed_by == self_;
   if (!by_us && !(good && config_.stop_when_peer_aligned)) return;
+  if (by_us) tied_failures_.erase(pair.theirs.agent);
   Encounter& encounter = encounters_[pair];  // one from before a restart, or one that the peer alone had
   if (encounter.phase == Phase::kDone) return;
   if (by_us) {
@@ -249,6 +323,7 @@ void Encounters::on_rejected(const NodePair& pair, Stamp now) {
   const auto it = encounters_.find(pair);
   if (it == encounters_.end() || it->second.phase != Phase::kRegistering) return;
   ++stats_.rejected;
+  if (it->second.by_tie) ++tied_failures_[pair.theirs.agent];
   fail(it->second, now);
 }
 
@@ -266,7 +341,9 @@ void Encounters::crowd_out() {
 }
 
 bool Encounters::retryable(const NodePair& pair, const Encounter& encounter) const {
-  return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !redundant(pair);
+  const bool obsolete = encounter.likeness && found_by_tie(pair);
+  return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !obsolete &&
+         !redundant(pair);
 }
 
 std::uint32_t Encounters::nodes_since(const NodeId& id) const {

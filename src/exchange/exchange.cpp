@@ -81,6 +81,10 @@ Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp 
 
 void Exchange::on_rejected(const NodePair& pair, Stamp now) { encounters_.on_rejected(pair, now); }
 
+void Exchange::on_used_alignments(std::span<const graph::Alignment> used, Stamp now) {
+  encounters_.on_used_alignments(used, now);
+}
+
 Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {
   const auto needed = needed_.find(node);
   const std::set<AgentId> recipients = needed == needed_.end() ? std::set<AgentId>() : needed->second.by;
@@ -169,7 +173,7 @@ void Exchange::handle(const CloudFragment& fragment, Stamp now) {
   auto cloud = cloud_receiver_.add(fragment, now);
   if (!cloud) return;
   for (const NodePair& pair : encounters_.on_cloud(fragment.node))
-    events_.push_back(CloudArrived{pair, *cloud});
+    events_.push_back(CloudArrived{pair, *cloud, encounters_.tied(pair)});
 }
 
 void Exchange::handle(const CloudRequest& request, Stamp now) {

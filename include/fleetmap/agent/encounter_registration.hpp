@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fleetmap/agent/loop_closures.hpp"
+#include "fleetmap/geometry/uncertain_pose.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
@@ -19,6 +20,11 @@ std::optional<registration::Prior> prior_of(const graph::Node& target, const gra
 
 /// The relative pose of two own nodes according to the odometry between them.
 registration::Prior prior_of(const LoopClosure& closure);
+
+/// That of two nodes whose frames are tied by alignments. Taken for no better than a good GPS, so that the
+/// window holds the neighbouring rows and posts too: were the ties one off, the right place would be among
+/// the rivals.
+registration::Prior prior_of(const UncertainPose& T_target_source, const Eigen::Vector3d& up_in_target);
 
 /// An alignment for the fleet, from a registration of node j (source) onto node i (target): one mode if it
 /// was accepted, the modes that are good enough to be right if it is ambiguous.

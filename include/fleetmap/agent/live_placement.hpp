@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
@@ -13,13 +16,15 @@ namespace fleetmap::agent {
 /// is new, and carries the odometry on from the newest node. The odometry itself never jumps.
 class LivePlacement {
  public:
+  /// Hears the alignments that the graph uses, after every solution.
+  using OnUsed = std::function<void(std::span<const graph::Alignment>)>;
   /// All outlive it, and the work under way.
-  LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store);
+  LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store, OnUsed on_used);
 
   /// Begins a solution unless one is under way or nothing is new.
   void refresh();
   bool idle() const { return !under_way_; }
-  /// Publishes the corrected pose for a pose of the odometry, once its frame is placed.
+  /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const StampedPose& odometry);
 
  private:
@@ -30,11 +35,12 @@ class LivePlacement {
     Matrix6d covariance = Matrix6d::Zero();  ///< of the newest own node, axes of ENU: [m, rad]
   };
   struct Job;
-  static std::optional<Solution> solve(const Job& job);
+  static void solve(Job& job);
 
   const AgentConfig& config_;
   bus::Bus& bus_;
   const store::Store& store_;
+  OnUsed on_used_;
   std::size_t items_ = 0;  ///< in the store at the last solution
   bool under_way_ = false;
   std::optional<Solution> solution_;

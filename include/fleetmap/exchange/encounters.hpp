@@ -4,12 +4,14 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/lookalikes.hpp"
 #include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/graph/frame_ties.hpp"
 #include "fleetmap/place/ball_tree.hpp"
 #include "fleetmap/place/proximity_search.hpp"
 
@@ -51,6 +53,7 @@ struct NodePair {
 struct EncounterStats {
   std::uint64_t found = 0;      ///< pairs within r^i
   std::uint64_t alike = 0;      ///< pairs of places that look alike, where GPS does not tell
+  std::uint64_t tied = 0;       ///< pairs within r^i by alignments found before, where GPS does not tell
   std::uint64_t redundant = 0;  ///< of these, too near to another encounter to be worth its bytes
   std::uint64_t begun = 0;      ///< clouds asked for
   std::uint64_t accepted = 0;
@@ -70,7 +73,8 @@ struct EncounterStats {
 /// spacing to one that is under way or done are left out. Should the two ends still begin different pairs at
 /// one place (a node was lost on the way), the match messages show it and the smaller pair wins on both
 /// sides. Where one of the two has no G that tells where it is, the pair is found by what the places look
-/// like (Lookalikes), and the rest goes the same way.
+/// like (Lookalikes), and the rest goes the same way; once the fleet's graph has tied their odometry frames
+/// (graph::FrameTies), by where they lie to each other, as with G.
 class Encounters {
  public:
   Encounters(const AgentId& self, const EncounterConfig& config);
@@ -79,6 +83,8 @@ class Encounters {
   void on_node(const graph::Node& node, Stamp now);
   /// An alignment became known, whoever computed it.
   void on_alignment(const graph::Alignment& alignment, Stamp now);
+  /// What the fleet's graph uses now (graph::Placement::used).
+  void on_used_alignments(std::span<const graph::Alignment> used, Stamp now);
   void on_match(const ProximityMatch& match, Stamp now);
   /// Any message came from `peer`.
   void on_heard(const AgentId& peer, Stamp now);
@@ -99,6 +105,9 @@ class Encounters {
 
   /// An encounter waits for the cloud of `theirs`.
   bool wants(const NodeId& theirs) const;
+  /// T_ours_theirs by alignments found before; none where G tells, where nothing ties the two frames, and
+  /// where what was found this way has failed again and again.
+  std::optional<UncertainPose> tied(const NodePair& pair) const;
   /// Nothing is under way or about to be, but for what is with the agents in `without`.
   bool idle(Stamp now, const std::set<AgentId>& without = {}) const;
   bool has_good_alignment(const AgentId& peer) const { return aligned_.contains(peer); }
@@ -114,6 +123,7 @@ class Encounters {
     double distance = 0.0;           ///< m
     double radius = 0.0;             ///< m
     std::optional<double> likeness;  ///< of one found by what the places look like: similarity + support
+    bool by_tie = false;
     int matches_sent = 0;
     Stamp next_match;
     bool known_to_peer = false;
@@ -134,6 +144,11 @@ class Encounters {
   static bool near(const Spot& a, const Spot& b, double limit);
   void find(const graph::Node& node, const AgentId& other, Stamp now);
   void find_alike(const graph::Node& node, Stamp now);
+  void find_tied(const NodeId& node, const AgentId& other, Stamp now);
+  /// Pairs of the two are found by how their frames are tied, not by what they look like.
+  bool found_by_tie(const NodePair& pair) const;
+  /// A pair within `radius` (m); how it was found does not matter from here on. Returns whether it begins.
+  bool offer(const NodePair& pair, double distance, double radius, Stamp now);
   /// While nothing has been asked for, a pair that is more alike takes over at the same place.
   void replace_less_alike(const NodePair& pair, double likeness);
   /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
@@ -159,6 +174,9 @@ class Encounters {
   Lookalikes lookalikes_;
   std::map<NodeId, Spot> places_;
   std::map<NodePair, Encounter> encounters_;
+  graph::FrameTies ties_;
+  std::set<graph::FrameTies::FramePair> tied_;  ///< ours, theirs
+  std::map<AgentId, int> tied_failures_;        ///< since the last that was accepted
   std::set<AgentId> aligned_;
   std::map<AgentId, Stamp> heard_;
   std::vector<NodePair> withdrawn_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -56,6 +57,7 @@ struct CloudNeeded {
 struct CloudArrived {
   NodePair pair;
   Bytes cloud;
+  std::optional<UncertainPose> T_ours_theirs;  ///< by alignments found before, where G does not tell
 };
 struct PeerStatus {
   AgentStatus status;
@@ -105,6 +107,9 @@ class Exchange {
   Result<store::Put> on_own_node(const graph::Node& node, ByteView submap, Stamp now);
   /// An accepted registration of ours; the same rule as for nodes.
   Result<store::Put> on_own_alignment(const graph::Alignment& alignment, Stamp now);
+  /// What the fleet's graph uses now (graph::Placement::used): where no GPS tells, encounters are found by
+  /// it.
+  void on_used_alignments(std::span<const graph::Alignment> used, Stamp now);
   /// A registration of ours that was turned down.
   void on_rejected(const NodePair& pair, Stamp now);
   /// Answers CloudNeeded. Fails when the cloud is larger than the budget.

@@ -1,0 +1,187 @@
+// Encounters without GPS, once alignments tie the odometry frames of two robots.
+#include <gtest/gtest.h>
+
+#include "fleetmap/exchange/encounters.hpp"
+#include "store/items.hpp"
+#include "support/walled_site.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+using testing::agent;
+using testing::node_at_walls;
+
+const AgentId kA = agent("a");
+const AgentId kB = agent("b");
+const Stamp kStart = stamp_from_ns(1'000'000'000);
+
+Pose pose(double x, double y, double yaw) { return make_pose(rotation_from_rpy(0, 0, yaw), {x, y, 0.0}); }
+
+/// a drives east from 0 along y = 0, b beside it at y = 5 m; a node every 5 m. Odometry frames lie anywhere.
+Pose T_site_node(const NodeId& id) { return pose(5.0 * id.seq, id.agent == kA ? 0.0 : 5.0, 0.3); }
+Pose T_site_odom(const AgentId& agent) {
+  return agent == kA ? pose(30.0, 70.0, 1.0) : pose(-300.0, 20.0, -2.0);
+}
+/// Without G, and with nothing around to be known again by.
+graph::Node node(const AgentId& agent, std::uint32_t seq) {
+  graph::Node node = testing::make_node(agent, seq, Bytes{});
+  node.G.reset();
+  node.descriptor.clear();
+  node.T_odom_base = T_site_odom(agent).inverse() * T_site_node(node.id);
+  node.odom_covariance = 1e-5 * Matrix6d::Identity();
+  return node;
+}
+graph::Alignment alignment(const NodeId& i, const NodeId& j, const Pose& T_i_j) {
+  graph::Alignment alignment = testing::make_alignment(i, j, kA, i.seq);
+  alignment.modes.front().T_i_j = T_i_j;
+  return alignment;
+}
+std::vector<graph::Alignment> ties(std::uint32_t first, const Pose& T_site_other = Pose::Identity()) {
+  std::vector<graph::Alignment> used;
+  for (std::uint32_t seq = first; seq < first + 3; ++seq) {
+    used.push_back(alignment({kA, seq}, {kB, seq},
+                             T_site_node({kA, seq}).inverse() * T_site_other * T_site_node({kB, seq})));
+  }
+  return used;
+}
+
+EncounterConfig at_once() {
+  EncounterConfig config;
+  config.ripe_nodes = 0;
+  config.ripe_after = Duration::zero();
+  config.max_active = 100;
+  return config;
+}
+
+void add_nodes(Encounters& a, std::uint32_t first, std::uint32_t end) {
+  for (std::uint32_t seq = first; seq < end; ++seq) {
+    a.on_node(node(kA, seq), kStart);
+    a.on_node(node(kB, seq), kStart);
+  }
+}
+
+TEST(TiedEncounters, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
+  Encounters a(kA, at_once());
+  a.on_heard(kB, kStart);
+  add_nodes(a, 0, 12);
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  EXPECT_FALSE(a.tied({{kA, 1}, {kB, 1}}));
+  a.on_used_alignments(ties(0), kStart);
+  const auto before = a.tick(kStart).wanted;
+  EXPECT_GE(before.size(), 4u);  // 60 m, 10 m apart
+  for (const NodeId& id : before) {
+    const auto pairs = a.on_cloud(id);
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0].ours.seq, pairs[0].theirs.seq);
+    const auto T = a.tied(pairs[0]);
+    ASSERT_TRUE(T);
+    const Pose truth = T_site_node(pairs[0].ours).inverse() * T_site_node(pairs[0].theirs);
+    EXPECT_LT(se3_log(truth.inverse() * T->T_a_b).norm(), 1e-9);
+  }
+  add_nodes(a, 12, 20);
+  const auto after = a.tick(kStart).wanted;
+  EXPECT_GE(after.size(), 2u);
+  for (const NodeId& id : after) EXPECT_GE(id.seq, 12u);
+  EXPECT_EQ(a.stats().alike, 0u);
+  EXPECT_EQ(a.stats().found, 0u);
+  EXPECT_GE(a.stats().tied, 6u);
+  // Nothing new: the same ties again begin nothing.
+  a.on_used_alignments(ties(0), kStart);
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+}
+
+TEST(TiedEncounters, BothEndsChooseTheSamePairs) {
+  Encounters a(kA, at_once());
+  Encounters b(kB, at_once());
+  a.on_heard(kB, kStart);
+  b.on_heard(kA, kStart);
+  std::set<NodePair> of_a, of_b;  // as a sees them
+  for (std::uint32_t seq = 0; seq < 20; ++seq) {
+    for (Encounters* end : {&a, &b}) {
+      if (seq == 4) end->on_used_alignments(ties(0), kStart);
+      end->on_node(node(kA, seq), kStart);
+      end->on_node(node(kB, seq), kStart);
+    }
+    for (const NodeId& id : a.tick(kStart).wanted) {
+      for (const NodePair& pair : a.on_cloud(id)) of_a.insert(pair);
+    }
+    for (const NodeId& id : b.tick(kStart).wanted) {
+      for (const NodePair& pair : b.on_cloud(id)) of_b.insert({pair.theirs, pair.ours});
+    }
+  }
+  EXPECT_GE(of_a.size(), 5u);
+  EXPECT_EQ(of_a, of_b);
+}
+
+TEST(TiedEncounters, WhereGTellsItIsG) {
+  Encounters a(kA, at_once());
+  a.on_heard(kB, kStart);
+  for (std::uint32_t seq = 0; seq < 4; ++seq) {
+    for (const AgentId& agent : {kA, kB}) {
+      graph::Node located = node(agent, seq);
+      located.G = testing::make_node(agent, seq, Bytes{}, 5.0 * seq).G;
+      located.G->covariance = 0.01 * Matrix6d::Identity();
+      a.on_node(located, kStart);
+    }
+  }
+  a.on_used_alignments(ties(0), kStart);
+  EXPECT_FALSE(a.tied({{kA, 1}, {kB, 1}}));
+  EXPECT_EQ(a.stats().tied, 0u);
+  EXPECT_GT(a.stats().found, 0u);
+  // One of the two without is enough.
+  a.on_node(node(kA, 4), kStart);
+  EXPECT_TRUE(a.tied({{kA, 4}, {kB, 3}}));
+  EXPECT_EQ(a.stats().tied, 1u);
+}
+
+TEST(TiedEncounters, TiesThatFailAgainAndAgainAreDoubtedUntilOneIsRight) {
+  EncounterConfig config = at_once();
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  add_nodes(a, 0, 60);
+  a.on_used_alignments(ties(0), kStart);
+  std::size_t rejected = 0;
+  NodePair last;
+  for (const NodeId& id : a.tick(kStart).wanted) {
+    for (const NodePair& pair : a.on_cloud(id)) {
+      ++rejected;
+      EXPECT_EQ(a.tied(pair).has_value(), rejected <= 5);
+      a.on_rejected(pair, kStart);
+      last = pair;
+    }
+  }
+  ASSERT_GE(rejected, 6u);
+  EXPECT_FALSE(a.tied(last));
+  add_nodes(a, 60, 70);
+  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  a.on_alignment(testing::make_alignment(last.ours, last.theirs, kA, 0), kStart);
+  EXPECT_TRUE(a.tied(last));
+}
+
+TEST(TiedEncounters, WhatLooksAlikeButIsElsewhereIsNotTried) {
+  EncounterConfig config = at_once();
+  config.ripe_nodes = 1000;
+  config.ripe_after = std::chrono::hours(1);
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  const auto add = [&](std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t seq = first; seq < end; ++seq) {
+      for (const AgentId& agent : {kA, kB})
+        a.on_node(node_at_walls(agent, seq, T_site_odom(agent), pose(-60.0 + 10.0 * seq, 0.0, 0.0)), kStart);
+    }
+  };
+  add(0, 8);
+  ASSERT_GT(a.stats().alike, 0u);
+  ASSERT_FALSE(a.idle(kStart));
+  // The two looked the same, but they are half a kilometre apart.
+  std::vector<graph::Alignment> apart;
+  for (std::uint32_t seq = 0; seq < 3; ++seq)
+    apart.push_back(alignment({kA, seq}, {kB, seq}, pose(500.0, 0.0, 0.0)));
+  a.on_used_alignments(apart, kStart);
+  EXPECT_TRUE(a.idle(kStart));
+  add(8, 12);
+  EXPECT_TRUE(a.idle(kStart));
+}
+
+}  // namespace
+}  // namespace fleetmap::exchange

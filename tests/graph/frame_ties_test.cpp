@@ -1,0 +1,142 @@
+#include "fleetmap/graph/frame_ties.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace fleetmap::graph {
+namespace {
+
+const AgentId kA = AgentId::parse("a").value();
+const AgentId kB = AgentId::parse("b").value();
+
+/// Two robots that drive side by side, 8 m apart, a node every 4 m; b's odometry frame lies anywhere.
+class FrameTiesTest : public ::testing::Test {
+ protected:
+  static constexpr std::uint32_t kNodes = 60;
+
+  static Pose T_enu_node(const AgentId& agent, std::uint32_t seq) {
+    return make_pose(rotation_from_rpy(0.01, -0.02, agent == kA ? 0.1 : 0.1 + 0.02 * seq),
+                     Eigen::Vector3d(4.0 * seq, agent == kA ? 0.0 : 8.0, 0.1 * seq));
+  }
+  static Pose T_enu_odom(const AgentId& agent) {
+    if (agent == kA) return Pose::Identity();
+    return make_pose(rotation_from_rpy(0.0, 0.0, 2.0), Eigen::Vector3d(100.0, -40.0, 3.0));
+  }
+  static Node node(const AgentId& agent, std::uint32_t seq, std::uint8_t session = 0) {
+    Node node;
+    node.id = {agent, seq};
+    node.session = session;
+    node.T_odom_base = T_enu_odom(agent).inverse() * T_enu_node(agent, seq);
+    node.odom_covariance = 1e-4 * Matrix6d::Identity();
+    return node;
+  }
+  static Pose T_i_j(const NodeId& i, const NodeId& j) {
+    return T_enu_node(i.agent, i.seq).inverse() * T_enu_node(j.agent, j.seq);
+  }
+  static Alignment alignment(const NodeId& i, const NodeId& j) {
+    Alignment alignment;
+    alignment.i = i;
+    alignment.j = j;
+    alignment.modes.front().T_i_j = T_i_j(i, j);
+    alignment.modes.front().covariance = 1e-4 * Matrix6d::Identity();
+    return alignment;
+  }
+  void add_all() {
+    for (std::uint32_t seq = 0; seq < kNodes; ++seq) {
+      ties_.add(node(kA, seq));
+      ties_.add(node(kB, seq));
+    }
+  }
+  static std::vector<Alignment> three() {
+    return {alignment({kA, 3}, {kB, 4}), alignment({kB, 20}, {kA, 21}), alignment({kA, 40}, {kB, 38})};
+  }
+
+  FrameTies ties_;
+};
+
+TEST_F(FrameTiesTest, TellsHowAnyTwoNodesOfTiedFramesLie) {
+  add_all();
+  ties_.use(three());
+  EXPECT_TRUE(ties_.tied({kA, 0}, {kB, 0}));
+  EXPECT_TRUE(ties_.tied({kB, 0}, {kA, 0}));
+  EXPECT_EQ(ties_.tied().size(), 2u);
+  for (const auto& [i, j] :
+       {std::pair{NodeId{kA, 55}, NodeId{kB, 50}}, {{kA, 0}, {kB, 59}}, {{kB, 19}, {kA, 20}}}) {
+    const auto told = ties_.between(i, j);
+    ASSERT_TRUE(told);
+    EXPECT_LT(se3_log(T_i_j(i, j).inverse() * told->T_a_b).norm(), 1e-9);
+  }
+}
+
+TEST_F(FrameTiesTest, TwoAlignmentsDoNotTieNorThoseThatAreNoLongerUsed) {
+  add_all();
+  auto used = three();
+  used.pop_back();
+  // Of one frame, or of a node that is not known.
+  used.push_back(alignment({kA, 1}, {kA, 30}));
+  used.push_back(alignment({kA, 1}, {kB, kNodes}));
+  ties_.use(used);
+  EXPECT_TRUE(ties_.tied().empty());
+  EXPECT_FALSE(ties_.between({kA, 3}, {kB, 4}));
+  EXPECT_FALSE(ties_.nearest({kA, 3}, kB));
+  ties_.use(three());
+  EXPECT_TRUE(ties_.between({kA, 3}, {kB, 4}));
+  ties_.use({});
+  EXPECT_FALSE(ties_.between({kA, 3}, {kB, 4}));
+}
+
+TEST_F(FrameTiesTest, IsAsUncertainAsTheOdometryOnTheWayMakesIt) {
+  add_all();
+  ties_.use(three());
+  const auto at_the_tie = ties_.between({kA, 40}, {kB, 38});
+  const auto far = ties_.between({kA, 59}, {kB, 59});
+  ASSERT_TRUE(at_the_tie && far);
+  EXPECT_LT((at_the_tie->covariance - 1e-4 * Matrix6d::Identity()).norm(), 1e-12);
+
+  // By drawing every step's error: along a from 59 back to 40, the alignment, along b from 38 on to 59.
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, 1e-2);
+  const auto erring = [&](const Pose& T) {
+    Vector6d xi;
+    for (double& x : xi) x = normal(random);
+    return Pose(T * se3_exp(xi));
+  };
+  constexpr int kDraws = 4000;
+  Matrix6d sampled = Matrix6d::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Pose T_40_59 = Pose::Identity();
+    for (std::uint32_t seq = 40; seq < 59; ++seq) T_40_59 = T_40_59 * erring(T_i_j({kA, seq}, {kA, seq + 1}));
+    Pose T = T_40_59.inverse() * erring(T_i_j({kA, 40}, {kB, 38}));
+    for (std::uint32_t seq = 38; seq < 59; ++seq) T = T * erring(T_i_j({kB, seq}, {kB, seq + 1}));
+    const Vector6d error = se3_log(T_i_j({kA, 59}, {kB, 59}).inverse() * T);
+    sampled += error * error.transpose() / kDraws;
+  }
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(sampled(k, k) / far->covariance(k, k), 1.0, 0.15) << k;
+}
+
+TEST_F(FrameTiesTest, FindsTheNearestNodeOfTheOther) {
+  add_all();
+  ties_.use(three());
+  EXPECT_EQ(ties_.nearest({kA, 50}, kB), (NodeId{kB, 50}));
+  EXPECT_EQ(ties_.nearest({kB, 10}, kA), (NodeId{kA, 10}));
+  EXPECT_FALSE(ties_.nearest({kA, 50}, kA));
+  EXPECT_FALSE(ties_.nearest({kA, kNodes}, kB));
+}
+
+TEST_F(FrameTiesTest, FollowsNoOdometryOverAGapOrIntoAnotherSession) {
+  for (std::uint32_t seq = 0; seq < kNodes; ++seq) {
+    ties_.add(node(kA, seq, seq < 50 ? 0 : 1));
+    if (seq != 45) ties_.add(node(kB, seq));
+  }
+  ties_.use(three());
+  EXPECT_TRUE(ties_.between({kA, 44}, {kB, 44}));
+  EXPECT_FALSE(ties_.between({kA, 44}, {kB, 46}));
+  EXPECT_FALSE(ties_.between({kA, 50}, {kB, 44}));
+  EXPECT_FALSE(ties_.tied({kA, 1}, {kB, 0}));
+  ties_.add(node(kB, 45));
+  EXPECT_TRUE(ties_.between({kA, 44}, {kB, 46}));
+}
+
+}  // namespace
+}  // namespace fleetmap::graph
