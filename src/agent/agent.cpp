@@ -12,6 +12,7 @@
 #include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
+#include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/wire/messages.hpp"
@@ -79,6 +80,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::
 Agent::~Agent() = default;
 
 Status Agent::start() {
+  if (const Status kept = keep_recipe(store_, config_); !kept) return kept;
   config_.exchange.payload_size = [](const exchange::Message& message) {
     return wire::encode(message).size();
   };
@@ -100,7 +102,7 @@ Status Agent::start() {
   if (config_.placement.mode == graph::PlacementMode::fleet) {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
-        [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used, bus_.now()); });
+        [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
     live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(); });
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
@@ -328,15 +330,20 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
     std::shared_ptr<OwnCloud> target;
     graph::Node source;
     Bytes encoded;
-    std::optional<registration::Prior> prior;
+    registration::Prior prior;
     registration::Drifts drifts;
     Registered registered;
   };
-  const auto prior = arrived.T_ours_theirs
-                         ? prior_of(*arrived.T_ours_theirs, ours->up_in_base)
-                         : prior_of(*ours, *theirs, config_.exchange.encounters.max_sigma_m);
+  const auto prior = arrived.T_ours_theirs ? prior_of(*arrived.T_ours_theirs, ours->up_in_base)
+                                           : prior_of(*ours, *theirs, config_.exchange.encounters);
+  if (!prior) {
+    // Only the peer knows how the two lie to each other; it registers them too.
+    spdlog::info("{}: nothing tells how {} lies to {}", config_.id.str(), to_string(theirs->id),
+                 to_string(ours->id));
+    return exchange_->on_rejected(arrived.pair, bus_.now());
+  }
   auto job = std::make_shared<Job>(
-      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, prior, drifts_around(*ours, *theirs), {}});
+      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, *prior, drifts_around(*ours, *theirs), {}});
   ++jobs_;
   bus_.offload(
       bus::Lane::kBackground,
@@ -357,9 +364,10 @@ registration::Drifts Agent::drifts_around(const graph::Node& target, const graph
           drift_around(store_, source, config_.spherize.radius_m)};
 }
 
-Result<registration::RegistrationResult> Agent::register_encoded(
-    OwnCloud& target, const graph::Node& source, const Bytes& encoded,
-    const std::optional<registration::Prior>& prior, const registration::Drifts& drifts) const {
+Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
+                                                                 const Bytes& encoded,
+                                                                 const registration::Prior& prior,
+                                                                 const registration::Drifts& drifts) const {
   const auto message = wire::decode<wire::SpherizedCloud>(encoded);
   if (!message) return tl::unexpected(message.error());
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));

@@ -58,14 +58,15 @@ registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source)
 }
 
 std::optional<registration::Prior> prior_of(const graph::Node& target, const graph::Node& source,
-                                            double max_sigma) {
-  if (place::tells_place(target.G, max_sigma) && place::tells_place(source.G, max_sigma))
+                                            const exchange::EncounterConfig& config) {
+  if (place::tells_place(target.G, config.max_sigma_m) && place::tells_place(source.G, config.max_sigma_m))
     return prior_of(*target.G, *source.G);
   const auto looks = place::Descriptor::decode(target.descriptor);
   const auto other = place::Descriptor::decode(source.descriptor);
   if (!looks || !other) return std::nullopt;
   const place::Likeness likeness = place::compare(*looks, *other);
-  if (likeness.similarity <= 0.0) return std::nullopt;
+  if (!(likeness.similarity >= config.lookalikes.min_similarity && likeness.similarity > 0.0))
+    return std::nullopt;
   registration::Prior prior;
   prior.T_target_source = place::relative_pose(likeness, target.up_in_base, source.up_in_base);
   prior.sigma_translation_m = kAlikeSigma;

@@ -24,24 +24,27 @@ LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const sto
                              OnUsed on_used)
     : config_(config), bus_(bus), store_(store), on_used_(std::move(on_used)) {}
 
+bool LivePlacement::due() const {
+  return store_.next_node_seq() > 0 && store_.nodes().size() + store_.alignments().size() != items_;
+}
+
 void LivePlacement::refresh() {
-  const std::size_t items = store_.nodes().size() + store_.alignments().size();
-  const std::uint32_t own = store_.next_node_seq();
+  if (under_way_ || !due()) return;
   const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
-  if (under_way_ || items == items_ || own == 0 || !origin) return;
-  items_ = items;
+  if (!origin) return;
+  items_ = store_.nodes().size() + store_.alignments().size();
   under_way_ = true;
   auto job = std::make_shared<Job>();
   job->origin = *origin;
   job->config = config_.placement;
-  job->newest = {config_.id, own - 1};
+  job->newest = {config_.id, store_.next_node_seq() - 1};
   job->nodes = nodes_of(store_);
   job->alignments = alignments_of(store_);
   bus_.offload(
       bus::Lane::kBackground, [job] { solve(*job); },
       [this, job] {
         under_way_ = false;
-        if (job->solution) solution_ = job->solution;
+        solution_ = job->solution;
         on_used_(job->used);
       });
 }

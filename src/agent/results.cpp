@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -23,25 +24,6 @@ namespace {
 
 constexpr const char* kRecipeKey = "map_recipe";
 using StoredRecipe = std::array<double, 13>;
-
-Status keep_recipe(store::Store& store, const MapRecipe& recipe) {
-  const StoredRecipe values{recipe.origin.latitude,
-                            recipe.origin.longitude,
-                            recipe.origin.altitude,
-                            recipe.merge.voxel_m,
-                            recipe.merge.centroids ? 1.0 : 0.0,
-                            recipe.placement.mode == graph::PlacementMode::fleet ? 1.0 : 0.0,
-                            recipe.placement.paper.max_rmse,
-                            recipe.placement.paper.gps_correlation_time,
-                            recipe.placement.fleet.gps_correlation_time,
-                            recipe.placement.fleet.gps_drift_share,
-                            recipe.placement.fleet.window_m,
-                            recipe.placement.fleet.alignment_floor_m,
-                            recipe.placement.fleet.alignment_floor_rad};
-  Bytes bytes(sizeof(values));
-  std::memcpy(bytes.data(), values.data(), sizeof(values));
-  return store.set_meta(kRecipeKey, bytes);
-}
 
 /// Own nodes of one odometry frame that are placed, by time.
 std::vector<CorrectedNode> corrected_nodes(const store::Store& store, const graph::Placement& placement,
@@ -241,13 +223,38 @@ Result<MapFiles> write_map(store::Store& store, const graph::Placement& placemen
 
 }  // namespace
 
+Status keep_recipe(store::Store& store, const AgentConfig& config) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const GeoPoint origin = config.site_origin.value_or(GeoPoint{kUnknown, kUnknown, kUnknown});
+  const graph::PlacementConfig& placement = config.placement;
+  const StoredRecipe values{origin.latitude,
+                            origin.longitude,
+                            origin.altitude,
+                            config.map.voxel_m,
+                            config.map.centroids ? 1.0 : 0.0,
+                            placement.mode == graph::PlacementMode::fleet ? 1.0 : 0.0,
+                            placement.paper.max_rmse,
+                            placement.paper.gps_correlation_time,
+                            placement.fleet.gps_correlation_time,
+                            placement.fleet.gps_drift_share,
+                            placement.fleet.window_m,
+                            placement.fleet.alignment_floor_m,
+                            placement.fleet.alignment_floor_rad};
+  Bytes bytes(sizeof(values));
+  std::memcpy(bytes.data(), values.data(), sizeof(values));
+  return store.set_meta(kRecipeKey, bytes);
+}
+
 std::optional<MapRecipe> map_recipe(const store::Store& store) {
   const auto stored = store.meta(kRecipeKey);
   StoredRecipe values{};
   if (!stored || !*stored || (*stored)->size() != sizeof(values)) return std::nullopt;
   std::memcpy(values.data(), (*stored)->data(), sizeof(values));
   MapRecipe recipe;
-  recipe.origin = {values[0], values[1], values[2]};
+  const GeoPoint configured{values[0], values[1], values[2]};
+  const auto origin = site_origin(store, std::isnan(values[0]) ? std::nullopt : std::optional(configured));
+  if (!origin) return std::nullopt;
+  recipe.origin = *origin;
   recipe.merge = {.voxel_m = values[3], .centroids = values[4] != 0.0};
   recipe.placement.mode = values[5] != 0.0 ? graph::PlacementMode::fleet : graph::PlacementMode::paper;
   recipe.placement.paper = {.max_rmse = values[6], .gps_correlation_time = values[7]};
@@ -317,9 +324,7 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
   }
   Results results;
   results.origin = *origin;
-  if (const Status kept = keep_recipe(store, {*origin, config.placement, config.map}); !kept) {
-    return tl::unexpected(kept.error());
-  }
+  if (const Status kept = keep_recipe(store, config); !kept) return tl::unexpected(kept.error());
   results.placement = place(store, *origin, config.placement);
   results.not_georeferenced = graph::not_georeferenced(nodes_of(store), results.placement.components);
   auto map = write_map(store, results.placement, config, others);

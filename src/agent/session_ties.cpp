@@ -25,7 +25,7 @@ std::optional<SessionTies::Tie> SessionTies::on_own_node(const graph::Node& node
   const graph::Node* alike = most_alike(node);  // in any case: it remembers the places
   if (earlier == nullptr) earlier = alike;
   if (earlier == nullptr) return std::nullopt;
-  const auto prior = prior_of(*earlier, node, config_.max_sigma_m);
+  const auto prior = prior_of(*earlier, node, config_);
   if (!prior) return std::nullopt;
   return Tie{earlier, *prior};
 }

@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace fleetmap::exchange {
 namespace {
 
 /// So many pairs in a row, found by alignments of before and turned down, say that these are wrong.
 constexpr int kDoubtAfter = 5;
+/// Odometry frames that lie so far from where they lay are tied by other alignments than before.
+constexpr double kOtherPlace = 2.0;  // m
+constexpr double kOtherTurn = 0.1;   // rad
+/// A search goes through all nodes of a robot, and thousands wait once two long tracks are tied.
+constexpr std::size_t kSearchesATick = 20;
+
+bool differ(const Pose& T_before, const Pose& T_now) {
+  const Pose T = T_before.inverse() * T_now;
+  return T.translation().norm() > kOtherPlace || so3_log(T.linear()).norm() > kOtherTurn;
+}
 
 }  // namespace
 
@@ -45,13 +56,9 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   Track& track = tracks_[node.id.agent];
   track.newest = std::max(track.newest, node.id.seq);
   ties_.add(node);
-  if (node.id.agent != self_) {
-    find_tied(node.id, self_, now);
-  } else {
-    for (const auto& [agent, peer_track] : tracks_) {
-      if (agent != self_) find_tied(node.id, agent, now);
-    }
-  }
+  unlocated_ += !is_located;
+  find_tied(node.id, now);
+  if (node.id.seq < track.newest) search_later(node.id);
   find_alike(node, now);
   if (!is_located || track.tree.insert(node.G->position) == place::BallTree::kRefused) return;
   track.ids.push_back(node.id);
@@ -70,7 +77,7 @@ void Encounters::find_alike(const graph::Node& node, Stamp now) {
   for (const Lookalikes::Pair& alike : lookalikes_.add(node, located(node), side)) {
     ++stats_.alike;
     const NodePair pair = is_ours ? NodePair{alike.fresh, alike.other} : NodePair{alike.other, alike.fresh};
-    if (encounters_.contains(pair) || found_by_tie(pair)) continue;
+    if (encounters_.contains(pair) || tied(pair)) continue;
     const double likeness = alike.similarity + alike.support;
     replace_less_alike(pair, likeness);
     if (redundant(pair)) {
@@ -105,68 +112,131 @@ void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) 
         now);
 }
 
-bool Encounters::offer(const NodePair& pair, double distance, double radius, Stamp now) {
-  if (encounters_.contains(pair)) return false;
+void Encounters::offer(const NodePair& pair, double distance, double radius, Stamp now) {
+  if (encounters_.contains(pair)) return;
   const Stamp since = replace_farther(pair, distance, now);
   if (redundant(pair)) {
     ++stats_.redundant;
-    return false;
+    return;
   }
   begin(pair, distance, radius, since, false);
-  return encounters_.contains(pair);
 }
 
 // ---- by alignments of before
 // ------------------------------------------------------------------------------------------------
 
-bool Encounters::found_by_tie(const NodePair& pair) const {
+bool Encounters::between_unlocated(const NodePair& pair) const {
   const auto ours = places_.find(pair.ours);
   const auto theirs = places_.find(pair.theirs);
-  if (ours == places_.end() || theirs == places_.end()) return false;
-  if (ours->second.position && theirs->second.position) return false;  // G tells
-  const auto failures = tied_failures_.find(pair.theirs.agent);
-  const bool doubted = failures != tied_failures_.end() && failures->second >= kDoubtAfter;
-  return !doubted && ties_.tied(ours->second.frame, theirs->second.frame);
+  return ours != places_.end() && theirs != places_.end() &&
+         !(ours->second.position && theirs->second.position);
+}
+
+bool Encounters::doubted(const AgentId& peer) const {
+  const auto failures = tied_failures_.find(peer);
+  return failures != tied_failures_.end() && failures->second >= kDoubtAfter;
+}
+
+void Encounters::doubt(const AgentId& peer) {
+  if (++tied_failures_[peer] != kDoubtAfter) return;
+  for (auto& [frames, tied] : tied_) {
+    if (frames.second.agent == peer) tied.searched = false;
+  }
+  std::erase_if(encounters_, [&](const auto& entry) {
+    return entry.second.phase == Phase::kWaiting && entry.second.by_tie && entry.first.theirs.agent == peer;
+  });
 }
 
 std::optional<UncertainPose> Encounters::tied(const NodePair& pair) const {
-  return found_by_tie(pair) ? ties_.between(pair.ours, pair.theirs) : std::nullopt;
+  if (!between_unlocated(pair) || doubted(pair.theirs.agent)) return std::nullopt;
+  return ties_.between(pair.ours, pair.theirs);
+}
+
+void Encounters::find_tied(const NodeId& node, Stamp now) {
+  if (node.agent != self_) return find_tied(node, self_, now);
+  for (const auto& [agent, track] : tracks_) {
+    if (agent != self_) find_tied(node, agent, now);
+  }
 }
 
 void Encounters::find_tied(const NodeId& node, const AgentId& other, Stamp now) {
-  const auto partner = ties_.nearest(node, other);
-  if (!partner) return;
-  const NodePair pair = other == self_ ? NodePair{*partner, node} : NodePair{node, *partner};
-  const auto T_ours_theirs = tied(pair);
-  if (!T_ours_theirs) return;
-  const double distance = T_ours_theirs->T_a_b.translation().norm();
-  const double radius = place::search_radius(T_ours_theirs->covariance, config_.proximity);
+  if (unlocated_ == 0) return;
+  const auto nearest = ties_.nearest(node, other);
+  if (!nearest || nearest->distance > config_.proximity.max_radius) return;
+  const NodePair pair = other == self_ ? NodePair{nearest->id, node} : NodePair{node, nearest->id};
+  if (!between_unlocated(pair) || doubted(pair.theirs.agent)) return;
+  // The same way round at both ends, so that both come to the same radius.
+  const auto T = ties_.between(std::min(pair.ours, pair.theirs), std::max(pair.ours, pair.theirs));
+  if (!T) return;
+  const double distance = T->T_a_b.translation().head<2>().norm();
+  const double radius = place::search_radius(T->covariance, config_.proximity);
   if (distance > radius) return;
   ++stats_.tied;
-  if (offer(pair, distance, radius, now)) encounters_.at(pair).by_tie = true;
+  offer(pair, distance, radius, now);
+  if (const auto begun = encounters_.find(pair); begun != encounters_.end()) begun->second.by_tie = true;
 }
 
-void Encounters::on_used_alignments(std::span<const graph::Alignment> used, Stamp now) {
-  ties_.use(used);
-  std::set<graph::FrameTies::FramePair> fresh;
-  for (const auto& frames : ties_.tied()) {
-    if (frames.first.agent == self_ && frames.second.agent != self_) fresh.insert(frames);
+void Encounters::search_later(const NodeId& node) {
+  if (tied_.empty()) return;
+  for (auto place = places_.upper_bound(node); place != places_.end() && place->first.agent == node.agent;
+       ++place) {
+    if (node.agent != self_) {
+      to_search_.emplace(place->first, self_);
+      continue;
+    }
+    for (const auto& [agent, track] : tracks_) {
+      if (agent != self_) to_search_.emplace(place->first, agent);
+    }
   }
-  std::swap(fresh, tied_);
-  // What looks alike and waits is found again, if it is near.
+}
+
+void Encounters::search_anew(const graph::FrameTies::FramePair& frames) {
+  // What waits is found again, if it is near; what looked alike and failed had another prior.
   std::erase_if(encounters_, [&](const auto& entry) {
     const auto& [pair, encounter] = entry;
-    const bool obsolete = encounter.phase == Phase::kWaiting && encounter.likeness &&
-                          !encounter.known_to_peer && found_by_tie(pair);
+    if (encounter.known_to_peer || !between_unlocated(pair)) return false;
+    if (places_.at(pair.ours).frame != frames.first || places_.at(pair.theirs).frame != frames.second)
+      return false;
+    const bool obsolete = (encounter.phase == Phase::kWaiting && (encounter.likeness || encounter.by_tie)) ||
+                          (encounter.phase == Phase::kFailed && encounter.likeness && !encounter.by_tie);
     stats_.redundant += obsolete;
     return obsolete;
   });
-  for (const auto& frames : tied_) {
-    if (fresh.contains(frames)) continue;  // tied before
-    for (auto place = places_.lower_bound({self_, 0}); place != places_.end() && place->first.agent == self_;
-         ++place) {
-      if (place->second.frame == frames.first) find_tied(place->first, frames.second.agent, now);
-    }
+  for (const auto& [id, spot] : places_) {
+    if (spot.frame == frames.first) to_search_.emplace(id, frames.second.agent);
+    if (spot.frame == frames.second) to_search_.emplace(id, self_);
+  }
+}
+
+void Encounters::on_used_alignments(std::span<const graph::Alignment> used) {
+  ties_.use(used);
+  if (unlocated_ == 0) return;
+  const auto before = std::exchange(tied_, {});
+  for (const auto& [frames, T_ours_theirs] : ties_.tied()) {
+    const AgentId& peer = frames.second.agent;
+    if (frames.first.agent != self_ || peer == self_) continue;
+    const auto known = before.find(frames);
+    const bool same = known != before.end() && !differ(known->second.T_ours_theirs, T_ours_theirs);
+    if (known != before.end() && !same) tied_failures_.erase(peer);
+    const bool searched = same && known->second.searched;
+    tied_.emplace(frames, TiedFrames{T_ours_theirs, !doubted(peer)});
+    if (!searched && !doubted(peer)) search_anew(frames);
+  }
+}
+
+std::size_t Encounters::room() const {
+  const auto waiting = static_cast<std::size_t>(std::ranges::count_if(
+      encounters_, [](const auto& entry) { return entry.second.phase == Phase::kWaiting; }));
+  return config_.max_waiting > waiting ? config_.max_waiting - waiting : 0;
+}
+
+void Encounters::search_waiting(Stamp now) {
+  if (to_search_.empty()) return;
+  const std::size_t searches = std::min({kSearchesATick, room(), to_search_.size()});
+  for (std::size_t k = 0; k < searches; ++k) {
+    const auto [node, other] = *to_search_.begin();
+    to_search_.erase(to_search_.begin());
+    find_tied(node, other, now);
   }
 }
 
@@ -221,10 +291,11 @@ bool Encounters::redundant(const NodePair& pair, const NodePair* waiver) const {
 
 std::vector<NodePair> Encounters::rivals(const NodePair& pair) const {
   std::vector<NodePair> rivals;
+  if (!redundant(pair)) return rivals;
   for (const auto& [other, encounter] : encounters_) {
     const bool under_way = encounter.phase == Phase::kWaiting || encounter.phase == Phase::kAsked;
     if (!under_way || encounter.known_to_peer || other.theirs.agent != pair.theirs.agent) continue;
-    if (redundant(pair) && !redundant(pair, &other)) rivals.push_back(other);
+    if (!redundant(pair, &other)) rivals.push_back(other);
   }
   return rivals;
 }
@@ -282,7 +353,7 @@ void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
   if (good && !alignment.ambiguous()) aligned_.insert(pair.theirs.agent);
   const bool by_us = alignment.computed_by == self_;
   if (!by_us && !(good && config_.stop_when_peer_aligned)) return;
-  if (by_us) tied_failures_.erase(pair.theirs.agent);
+  if (by_us && !alignment.ambiguous()) tied_failures_.erase(pair.theirs.agent);
   Encounter& encounter = encounters_[pair];  // one from before a restart, or one that the peer alone had
   if (encounter.phase == Phase::kDone) return;
   if (by_us) {
@@ -301,6 +372,7 @@ std::vector<NodePair> Encounters::on_cloud(const NodeId& theirs) {
   for (auto& [pair, encounter] : encounters_) {
     if (pair.theirs != theirs || encounter.phase != Phase::kAsked) continue;
     encounter.phase = Phase::kRegistering;
+    encounter.by_tie = tied(pair).has_value();
     pairs.push_back(pair);
   }
   return pairs;
@@ -323,7 +395,7 @@ void Encounters::on_rejected(const NodePair& pair, Stamp now) {
   const auto it = encounters_.find(pair);
   if (it == encounters_.end() || it->second.phase != Phase::kRegistering) return;
   ++stats_.rejected;
-  if (it->second.by_tie) ++tied_failures_[pair.theirs.agent];
+  if (it->second.by_tie) doubt(pair.theirs.agent);
   fail(it->second, now);
 }
 
@@ -341,9 +413,7 @@ void Encounters::crowd_out() {
 }
 
 bool Encounters::retryable(const NodePair& pair, const Encounter& encounter) const {
-  const bool obsolete = encounter.likeness && found_by_tie(pair);
-  return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !obsolete &&
-         !redundant(pair);
+  return encounter.phase == Phase::kFailed && encounter.attempts < config_.max_attempts && !redundant(pair);
 }
 
 std::uint32_t Encounters::nodes_since(const NodeId& id) const {
@@ -401,6 +471,7 @@ void Encounters::announce(Due& due, Stamp now) {
 
 Encounters::Due Encounters::tick(Stamp now) {
   Due due;
+  search_waiting(now);
   ask(due, now);
   announce(due, now);
   std::swap(due.withdrawn, withdrawn_);
@@ -414,6 +485,7 @@ bool Encounters::wants(const NodeId& theirs) const {
 }
 
 bool Encounters::idle(Stamp now, const std::set<AgentId>& without) const {
+  if (!to_search_.empty() && room() > 0) return false;
   return std::ranges::none_of(encounters_, [&](const auto& entry) {
     const auto& [pair, encounter] = entry;
     if (without.contains(pair.theirs.agent)) return false;

@@ -81,8 +81,8 @@ Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp 
 
 void Exchange::on_rejected(const NodePair& pair, Stamp now) { encounters_.on_rejected(pair, now); }
 
-void Exchange::on_used_alignments(std::span<const graph::Alignment> used, Stamp now) {
-  encounters_.on_used_alignments(used, now);
+void Exchange::on_used_alignments(std::span<const graph::Alignment> used) {
+  encounters_.on_used_alignments(used);
 }
 
 Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {

@@ -29,9 +29,13 @@ void FrameTies::use(std::span<const Alignment> used) {
   std::erase_if(ties_, [](const auto& entry) { return entry.second.size() < kLeast; });
 }
 
-std::vector<FrameTies::FramePair> FrameTies::tied() const {
-  std::vector<FramePair> frames;
-  for (const auto& [pair, ties] : ties_) frames.push_back(pair);
+Pose FrameTies::T_odom_odom(const Tie& tie) const {
+  return places_.at(tie.i).T_odom_base * tie.T_i_j.T_a_b * places_.at(tie.j).T_odom_base.inverse();
+}
+
+std::map<FrameTies::FramePair, Pose> FrameTies::tied() const {
+  std::map<FramePair, Pose> frames;
+  for (const auto& [pair, ties] : ties_) frames.emplace(pair, T_odom_odom(ties.front()));
   return frames;
 }
 
@@ -58,31 +62,31 @@ std::optional<UncertainPose> FrameTies::between(const NodeId& i, const NodeId& j
   if (place_i == places_.end() || place_j == places_.end()) return std::nullopt;
   const auto ties = ties_.find({place_i->second.frame, place_j->second.frame});
   if (ties == ties_.end()) return std::nullopt;
-  const Tie& tie = *std::ranges::min_element(
-      ties->second, {}, [&](const Tie& tie) { return apart(i, tie.i) + apart(tie.j, j); });
-  const auto there = odometry(i, tie.i);
-  const auto on = odometry(tie.j, j);
-  if (!there || !on) return std::nullopt;
-  return compose(compose(*there, tie.T_i_j), *on);
+  std::vector<std::pair<std::int64_t, const Tie*>> nearest;
+  for (const Tie& tie : ties->second) nearest.emplace_back(apart(i, tie.i) + apart(tie.j, j), &tie);
+  std::ranges::stable_sort(nearest, {}, &std::pair<std::int64_t, const Tie*>::first);
+  for (const auto& [steps, tie] : nearest) {
+    const auto there = odometry(i, tie->i);
+    const auto on = odometry(tie->j, j);
+    if (there && on) return compose(compose(*there, tie->T_i_j), *on);
+  }
+  return std::nullopt;
 }
 
-std::optional<NodeId> FrameTies::nearest(const NodeId& node, const AgentId& agent) const {
+std::optional<FrameTies::Neighbour> FrameTies::nearest(const NodeId& node, const AgentId& agent) const {
   const auto self = places_.find(node);
   if (self == places_.end()) return std::nullopt;
-  std::optional<NodeId> nearest;
-  double least = 0.0;
+  std::optional<Neighbour> nearest;
   for (const auto& [frames, ties] : ties_) {
     if (frames.first != self->second.frame || frames.second.agent != agent) continue;
     const Tie& tie = *std::ranges::min_element(ties, {}, [&](const Tie& tie) { return apart(node, tie.i); });
-    const Pose T_node_odom = self->second.T_odom_base.inverse() * places_.at(tie.i).T_odom_base *
-                             tie.T_i_j.T_a_b * places_.at(tie.j).T_odom_base.inverse();
+    const Pose T_node_odom = self->second.T_odom_base.inverse() * T_odom_odom(tie);
     for (auto place = places_.lower_bound({agent, 0}); place != places_.end() && place->first.agent == agent;
          ++place) {
       if (place->second.frame != frames.second) continue;
-      const double distance = (T_node_odom * place->second.T_odom_base.translation()).norm();
-      if (nearest && distance >= least) continue;
-      nearest = place->first;
-      least = distance;
+      const Eigen::Vector3d p = T_node_odom * place->second.T_odom_base.translation();
+      const double distance = p.head<2>().norm();
+      if (!nearest || distance < nearest->distance) nearest = Neighbour{place->first, distance};
     }
   }
   return nearest;

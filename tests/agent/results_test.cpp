@@ -10,6 +10,7 @@
 #include "fleetmap/agent/pass_around.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "graph/simulated_fleet.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
@@ -75,6 +76,71 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   EXPECT_EQ(recipe->origin, *config.site_origin);
   const auto again = merged_map(store, place(store, recipe->origin, recipe->placement), recipe->merge);
   EXPECT_EQ(again.cloud.size(), results->map.points);
+}
+
+TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {
+  AgentConfig config = this->config();
+  config.map.voxel_m = 0.25;
+  config.placement.mode = graph::PlacementMode::paper;
+  config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
+  store::Store store = open();
+  ASSERT_TRUE(keep_recipe(store, config));  // as an agent does when it starts
+  for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
+  const auto recipe = map_recipe(store);
+  ASSERT_TRUE(recipe);
+  EXPECT_EQ(recipe->origin, *config.site_origin);
+  EXPECT_EQ(recipe->merge.voxel_m, 0.25);
+  EXPECT_EQ(recipe->placement.mode, graph::PlacementMode::paper);
+
+  config.site_origin.reset();
+  ASSERT_TRUE(keep_recipe(store, config));
+  ASSERT_TRUE(map_recipe(store));
+  EXPECT_EQ(map_recipe(store)->origin, *site_origin(store, std::nullopt));
+}
+
+TEST_F(ResultsTest, ARobotInQuarantineIsShown) {
+  using graph::testing::SimulatedFleet;
+  graph::testing::SimulatedFleetConfig simulated;
+  simulated.robots = 4;
+  simulated.reach = 40.0;
+  SimulatedFleet fleet(3, simulated);
+  const AgentId faulty = SimulatedFleet::agent(3);
+  for (graph::Alignment& a : fleet.alignments) {
+    if (a.i.agent != faulty && a.j.agent != faulty) continue;
+    a.computed_by = faulty;
+    a.seq += 1000 * (1 + a.i.agent.str()[1] + a.j.agent.str()[1]);  // names of its own
+    Vector6d garbage;
+    for (int k = 0; k < 6; ++k) garbage(k) = fleet.gauss(k < 3 ? 8.0 : 0.5);
+    a.modes.front().T_i_j = a.modes.front().T_i_j * se3_exp(garbage);
+  }
+  store::Store store = open();
+  for (graph::Node& node : fleet.nodes) {
+    node.submap_bytes = 1;  // still to come
+    ASSERT_EQ(store.put_node(node).value(), store::Put::kAdded);
+  }
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  std::size_t of_faulty = 0;
+  for (const graph::Alignment& a : fleet.alignments) {
+    ASSERT_EQ(store.put_alignment(a).value(), store::Put::kAdded);
+    of_faulty += a.computed_by == faulty;
+  }
+  ASSERT_GT(of_faulty, 3u);
+  AgentConfig config = this->config();
+  config.placement.mode = graph::PlacementMode::fleet;
+  const auto results = write_results(store, config);
+  ASSERT_TRUE(results) << results.error().message;
+  for (const auto& [agent, credit] : results->placement.credits)
+    EXPECT_EQ(credit.quarantined, agent == faulty) << agent.str();
+
+  std::ifstream file(folder_.path() / "alignments.csv");
+  std::size_t shown = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.find(",quarantined,") == std::string::npos) continue;
+    EXPECT_NE(line.find("," + faulty.str() + ","), std::string::npos) << line;
+    EXPECT_NE(line.find(",0,quarantined,"), std::string::npos) << "not used: " << line;
+    ++shown;
+  }
+  EXPECT_EQ(shown, of_faulty);
 }
 
 TEST_F(ResultsTest, AMapOfTheSameSetIsCopiedAndOneOfAnotherSetIsMade) {

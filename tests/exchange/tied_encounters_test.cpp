@@ -1,6 +1,8 @@
 // Encounters without GPS, once alignments tie the odometry frames of two robots.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fleetmap/exchange/encounters.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
@@ -53,6 +55,15 @@ EncounterConfig at_once() {
   return config;
 }
 
+/// What is asked for once all that is to be searched has been.
+std::vector<NodeId> wanted(Encounters& a) {
+  std::vector<NodeId> all;
+  for (int tick = 0; tick < 20; ++tick) {
+    for (const NodeId& id : a.tick(kStart).wanted) all.push_back(id);
+  }
+  return all;
+}
+
 void add_nodes(Encounters& a, std::uint32_t first, std::uint32_t end) {
   for (std::uint32_t seq = first; seq < end; ++seq) {
     a.on_node(node(kA, seq), kStart);
@@ -66,8 +77,9 @@ TEST(TiedEncounters, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
   add_nodes(a, 0, 12);
   EXPECT_TRUE(a.tick(kStart).wanted.empty());
   EXPECT_FALSE(a.tied({{kA, 1}, {kB, 1}}));
-  a.on_used_alignments(ties(0), kStart);
-  const auto before = a.tick(kStart).wanted;
+  a.on_used_alignments(ties(0));
+  EXPECT_FALSE(a.idle(kStart)) << "all places of before are to be searched";
+  const auto before = wanted(a);
   EXPECT_GE(before.size(), 4u);  // 60 m, 10 m apart
   for (const NodeId& id : before) {
     const auto pairs = a.on_cloud(id);
@@ -79,15 +91,15 @@ TEST(TiedEncounters, AreFoundByWhereTheFramesLieAlsoAtPlacesOfBefore) {
     EXPECT_LT(se3_log(truth.inverse() * T->T_a_b).norm(), 1e-9);
   }
   add_nodes(a, 12, 20);
-  const auto after = a.tick(kStart).wanted;
+  const auto after = wanted(a);
   EXPECT_GE(after.size(), 2u);
   for (const NodeId& id : after) EXPECT_GE(id.seq, 12u);
   EXPECT_EQ(a.stats().alike, 0u);
   EXPECT_EQ(a.stats().found, 0u);
   EXPECT_GE(a.stats().tied, 6u);
   // Nothing new: the same ties again begin nothing.
-  a.on_used_alignments(ties(0), kStart);
-  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  a.on_used_alignments(ties(0));
+  EXPECT_TRUE(wanted(a).empty());
 }
 
 TEST(TiedEncounters, BothEndsChooseTheSamePairs) {
@@ -98,16 +110,23 @@ TEST(TiedEncounters, BothEndsChooseTheSamePairs) {
   std::set<NodePair> of_a, of_b;  // as a sees them
   for (std::uint32_t seq = 0; seq < 20; ++seq) {
     for (Encounters* end : {&a, &b}) {
-      if (seq == 4) end->on_used_alignments(ties(0), kStart);
+      if (seq == (end == &a ? 4u : 6u)) end->on_used_alignments(ties(0));
       end->on_node(node(kA, seq), kStart);
       end->on_node(node(kB, seq), kStart);
     }
-    for (const NodeId& id : a.tick(kStart).wanted) {
-      for (const NodePair& pair : a.on_cloud(id)) of_a.insert(pair);
-    }
-    for (const NodeId& id : b.tick(kStart).wanted) {
-      for (const NodePair& pair : b.on_cloud(id)) of_b.insert({pair.theirs, pair.ours});
-    }
+    // Each hears what the other asks for.
+    const auto from_a = a.tick(kStart), from_b = b.tick(kStart);
+    for (const auto& match : from_a.matches) b.on_match(match, kStart);
+    for (const auto& match : from_b.matches) a.on_match(match, kStart);
+  }
+  for (int tick = 0; tick < 10; ++tick) {
+    const auto from_a = a.tick(kStart), from_b = b.tick(kStart);
+    for (const auto& match : from_a.matches) b.on_match(match, kStart);
+    for (const auto& match : from_b.matches) a.on_match(match, kStart);
+  }
+  for (std::uint32_t seq = 0; seq < 20; ++seq) {
+    for (const NodePair& pair : a.on_cloud({kB, seq})) of_a.insert(pair);
+    for (const NodePair& pair : b.on_cloud({kA, seq})) of_b.insert({pair.theirs, pair.ours});
   }
   EXPECT_GE(of_a.size(), 5u);
   EXPECT_EQ(of_a, of_b);
@@ -124,7 +143,7 @@ TEST(TiedEncounters, WhereGTellsItIsG) {
       a.on_node(located, kStart);
     }
   }
-  a.on_used_alignments(ties(0), kStart);
+  a.on_used_alignments(ties(0));
   EXPECT_FALSE(a.tied({{kA, 1}, {kB, 1}}));
   EXPECT_EQ(a.stats().tied, 0u);
   EXPECT_GT(a.stats().found, 0u);
@@ -139,23 +158,65 @@ TEST(TiedEncounters, TiesThatFailAgainAndAgainAreDoubtedUntilOneIsRight) {
   Encounters a(kA, config);
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 60);
-  a.on_used_alignments(ties(0), kStart);
+  a.on_used_alignments(ties(0));
   std::size_t rejected = 0;
   NodePair last;
-  for (const NodeId& id : a.tick(kStart).wanted) {
+  const auto begun = wanted(a);
+  for (const NodeId& id : begun) {
     for (const NodePair& pair : a.on_cloud(id)) {
+      EXPECT_EQ(a.tied(pair).has_value(), rejected < 5);
       ++rejected;
-      EXPECT_EQ(a.tied(pair).has_value(), rejected <= 5);
       a.on_rejected(pair, kStart);
       last = pair;
     }
   }
   ASSERT_GE(rejected, 6u);
-  EXPECT_FALSE(a.tied(last));
   add_nodes(a, 60, 70);
-  EXPECT_TRUE(a.tick(kStart).wanted.empty());
+  a.on_used_alignments(ties(0));
+  EXPECT_TRUE(wanted(a).empty());
+  // One that was found otherwise and accepted: what was made in the meantime is searched.
   a.on_alignment(testing::make_alignment(last.ours, last.theirs, kA, 0), kStart);
   EXPECT_TRUE(a.tied(last));
+  a.on_used_alignments(ties(0));
+  const auto again = wanted(a);
+  EXPECT_TRUE(std::ranges::any_of(again, [](const NodeId& id) { return id.seq >= 62; }));
+}
+
+TEST(TiedEncounters, OtherTiesThanBeforeAreBelievedAnew) {
+  Encounters a(kA, at_once());
+  a.on_heard(kB, kStart);
+  add_nodes(a, 0, 60);
+  // As if b were 40 m farther: what is paired is not what is abreast.
+  a.on_used_alignments(ties(0, pose(40.0, 0.0, 0.0)));
+  for (const NodeId& id : wanted(a)) {
+    for (const NodePair& pair : a.on_cloud(id)) {
+      EXPECT_NE(pair.ours.seq, pair.theirs.seq);
+      a.on_rejected(pair, kStart);
+    }
+  }
+  EXPECT_FALSE(a.tied({{kA, 50}, {kB, 50}})) << "doubted by now";
+  a.on_used_alignments(ties(0));
+  std::size_t abreast = 0;
+  for (const NodeId& id : wanted(a)) {
+    for (const NodePair& pair : a.on_cloud(id)) abreast += pair.ours.seq == pair.theirs.seq;
+  }
+  EXPECT_GE(abreast, 5u);
+}
+
+TEST(TiedEncounters, BehindAGapAreFoundWhenTheMissingNodeComes) {
+  Encounters a(kA, at_once());
+  a.on_heard(kB, kStart);
+  add_nodes(a, 0, 3);
+  a.on_used_alignments(ties(0));
+  EXPECT_FALSE(wanted(a).empty());
+  for (std::uint32_t seq = 3; seq < 40; ++seq) {
+    a.on_node(node(kA, seq), kStart);
+    if (seq != 12) a.on_node(node(kB, seq), kStart);
+  }
+  const auto beyond = [](const NodeId& id) { return id.seq > 12; };
+  EXPECT_TRUE(std::ranges::none_of(wanted(a), beyond));
+  a.on_node(node(kB, 12), kStart);
+  EXPECT_TRUE(std::ranges::any_of(wanted(a), beyond));
 }
 
 TEST(TiedEncounters, WhatLooksAlikeButIsElsewhereIsNotTried) {
@@ -177,9 +238,12 @@ TEST(TiedEncounters, WhatLooksAlikeButIsElsewhereIsNotTried) {
   std::vector<graph::Alignment> apart;
   for (std::uint32_t seq = 0; seq < 3; ++seq)
     apart.push_back(alignment({kA, seq}, {kB, seq}, pose(500.0, 0.0, 0.0)));
-  a.on_used_alignments(apart, kStart);
+  a.on_used_alignments(apart);
+  EXPECT_TRUE(wanted(a).empty());
   EXPECT_TRUE(a.idle(kStart));
-  add(8, 12);
+  const auto alike = a.stats().alike;
+  add(8, 14);
+  EXPECT_GT(a.stats().alike, alike);
   EXPECT_TRUE(a.idle(kStart));
 }
 

@@ -64,6 +64,7 @@ TEST(SyntheticOdometry, HalfOfTheRaysMissing) {
   options.keep = 0.5;
   const DriveResult run = drive(testing::yard_world(), SyntheticDrive(kErrands), vlp16(), vlp16(), options);
   EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
+  EXPECT_EQ(run.counters.lost, 0u);
 }
 
 TEST(SyntheticOdometry, NonRepeatingPatternWithoutRings) {

@@ -109,7 +109,7 @@ class Agent {
   /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
   Result<registration::RegistrationResult> register_encoded(OwnCloud& target, const graph::Node& source,
                                                             const Bytes& encoded,
-                                                            const std::optional<registration::Prior>& prior,
+                                                            const registration::Prior& prior,
                                                             const registration::Drifts& drifts) const;
   registration::Drifts drifts_around(const graph::Node& target, const graph::Node& source) const;
   void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "fleetmap/agent/loop_closures.hpp"
+#include "fleetmap/exchange/encounters.hpp"
 #include "fleetmap/geometry/uncertain_pose.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
@@ -14,9 +15,10 @@ namespace fleetmap::agent {
 registration::Prior prior_of(const GlobalPose& target, const GlobalPose& source);
 
 /// What is known of two nodes of different odometry frames: that of both G, if neither's horizontal sigma
-/// exceeds `max_sigma` (m); else what their descriptors tell, if they have anything in common.
+/// exceeds EncounterConfig::max_sigma_m; else what their descriptors tell, if they are so much alike that
+/// this may be an encounter (LookalikeConfig::min_similarity).
 std::optional<registration::Prior> prior_of(const graph::Node& target, const graph::Node& source,
-                                            double max_sigma);
+                                            const exchange::EncounterConfig& config);
 
 /// The relative pose of two own nodes according to the odometry between them.
 registration::Prior prior_of(const LoopClosure& closure);

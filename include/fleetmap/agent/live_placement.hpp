@@ -23,7 +23,8 @@ class LivePlacement {
 
   /// Begins a solution unless one is under way or nothing is new.
   void refresh();
-  bool idle() const { return !under_way_; }
+  /// Nothing is under way, and the last solution holds all that there is.
+  bool idle() const { return !under_way_ && !due(); }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const StampedPose& odometry);
 
@@ -36,6 +37,7 @@ class LivePlacement {
   };
   struct Job;
   static void solve(Job& job);
+  bool due() const;
 
   const AgentConfig& config_;
   bus::Bus& bus_;

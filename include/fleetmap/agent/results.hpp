@@ -43,7 +43,11 @@ struct MapRecipe {
   graph::PlacementConfig placement;
   store::MergeConfig merge;
 };
-/// The recipe of the last write_results(); empty if there was none.
+/// Remembers in the store how the agent's maps are made, so that what is made of it later, whatever became of
+/// the agent, is the same.
+Status keep_recipe(store::Store& store, const AgentConfig& config);
+/// By the last keep_recipe(); where no origin was configured, with that of what the store holds now. Empty if
+/// there was none, or there is no origin yet.
 std::optional<MapRecipe> map_recipe(const store::Store& store);
 
 /// The files of one merged map.

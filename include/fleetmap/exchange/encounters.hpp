@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
@@ -84,7 +85,7 @@ class Encounters {
   /// An alignment became known, whoever computed it.
   void on_alignment(const graph::Alignment& alignment, Stamp now);
   /// What the fleet's graph uses now (graph::Placement::used).
-  void on_used_alignments(std::span<const graph::Alignment> used, Stamp now);
+  void on_used_alignments(std::span<const graph::Alignment> used);
   void on_match(const ProximityMatch& match, Stamp now);
   /// Any message came from `peer`.
   void on_heard(const AgentId& peer, Stamp now);
@@ -123,7 +124,7 @@ class Encounters {
     double distance = 0.0;           ///< m
     double radius = 0.0;             ///< m
     std::optional<double> likeness;  ///< of one found by what the places look like: similarity + support
-    bool by_tie = false;
+    bool by_tie = false;             ///< found, or registered, by what ties the two frames
     int matches_sent = 0;
     Stamp next_match;
     bool known_to_peer = false;
@@ -139,16 +140,31 @@ class Encounters {
     graph::FrameId frame;
     Eigen::Vector3d p_odom = Eigen::Vector3d::Zero();
   };
+  struct TiedFrames {
+    Pose T_ours_theirs = Pose::Identity();  ///< odometry frames
+    bool searched = false;                  ///< or being searched: also the nodes of before
+  };
   bool located(const graph::Node& node) const;
   /// The two lie within `limit` (m) of each other; false where nobody can tell.
   static bool near(const Spot& a, const Spot& b, double limit);
   void find(const graph::Node& node, const AgentId& other, Stamp now);
   void find_alike(const graph::Node& node, Stamp now);
+  void find_tied(const NodeId& node, Stamp now);
   void find_tied(const NodeId& node, const AgentId& other, Stamp now);
-  /// Pairs of the two are found by how their frames are tied, not by what they look like.
-  bool found_by_tie(const NodePair& pair) const;
-  /// A pair within `radius` (m); how it was found does not matter from here on. Returns whether it begins.
-  bool offer(const NodePair& pair, double distance, double radius, Stamp now);
+  /// Both nodes are at hand, and G does not tell where both are.
+  bool between_unlocated(const NodePair& pair) const;
+  /// What was found by ties was turned down.
+  void doubt(const AgentId& peer);
+  bool doubted(const AgentId& peer) const;
+  /// Partners of all nodes of two frames (ours, theirs), some nodes a tick.
+  void search_anew(const graph::FrameTies::FramePair& frames);
+  /// Of the nodes made after `node` that came before it: odometry may reach them now.
+  void search_later(const NodeId& node);
+  void search_waiting(Stamp now);
+  /// Encounters that may wait besides those that do.
+  std::size_t room() const;
+  /// A pair within `radius` (m); how it was found does not matter from here on.
+  void offer(const NodePair& pair, double distance, double radius, Stamp now);
   /// While nothing has been asked for, a pair that is more alike takes over at the same place.
   void replace_less_alike(const NodePair& pair, double likeness);
   /// While nothing has been asked for, a nearer pair at the same place takes over, and the waiting time with
@@ -175,8 +191,10 @@ class Encounters {
   std::map<NodeId, Spot> places_;
   std::map<NodePair, Encounter> encounters_;
   graph::FrameTies ties_;
-  std::set<graph::FrameTies::FramePair> tied_;  ///< ours, theirs
-  std::map<AgentId, int> tied_failures_;        ///< since the last that was accepted
+  std::map<graph::FrameTies::FramePair, TiedFrames> tied_;  ///< ours, theirs
+  std::map<AgentId, int> tied_failures_;                    ///< since the last that was accepted
+  std::size_t unlocated_ = 0;                               ///< nodes
+  std::set<std::pair<NodeId, AgentId>> to_search_;  ///< by ties: a node, and of whom its partner would be
   std::set<AgentId> aligned_;
   std::map<AgentId, Stamp> heard_;
   std::vector<NodePair> withdrawn_;

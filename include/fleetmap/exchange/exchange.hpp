@@ -109,7 +109,7 @@ class Exchange {
   Result<store::Put> on_own_alignment(const graph::Alignment& alignment, Stamp now);
   /// What the fleet's graph uses now (graph::Placement::used): where no GPS tells, encounters are found by
   /// it.
-  void on_used_alignments(std::span<const graph::Alignment> used, Stamp now);
+  void on_used_alignments(std::span<const graph::Alignment> used);
   /// A registration of ours that was turned down.
   void on_rejected(const NodePair& pair, Stamp now);
   /// Answers CloudNeeded. Fails when the cloud is larger than the budget.

@@ -28,14 +28,17 @@ class FrameTies {
   /// been added; those of one frame, and those whose nodes are unknown, do not count.
   void use(std::span<const Alignment> used);
 
-  /// The frames that are tied, each pair both ways round.
-  std::vector<FramePair> tied() const;
-  bool tied(const FrameId& a, const FrameId& b) const { return ties_.contains({a, b}); }
+  /// The frames that are tied, each pair both ways round, and T_a_b of the two by the first alignment.
+  std::map<FramePair, Pose> tied() const;
   /// T_i_j and what it is worth, along the alignment that is nearest on the two paths; none where the frames
-  /// are not tied.
+  /// are not tied, or nodes are missing on the way to each of the alignments.
   std::optional<UncertainPose> between(const NodeId& i, const NodeId& j) const;
-  /// Of the nodes of `agent` in frames that are tied to that of `node`, the nearest.
-  std::optional<NodeId> nearest(const NodeId& node, const AgentId& agent) const;
+  struct Neighbour {
+    NodeId id;
+    double distance = 0.0;  ///< m, in the plane that `node` stands on, by one alignment
+  };
+  /// Of the nodes of `agent` in frames that are tied to that of `node`, the nearest. Linear in their number.
+  std::optional<Neighbour> nearest(const NodeId& node, const AgentId& agent) const;
 
  private:
   struct Place {
@@ -47,6 +50,7 @@ class FrameTies {
     NodeId i, j;
     UncertainPose T_i_j;
   };
+  Pose T_odom_odom(const Tie& tie) const;
   std::optional<UncertainPose> odometry(const NodeId& from, const NodeId& to) const;
 
   std::map<NodeId, Place> places_;
