@@ -15,7 +15,7 @@ using ::testing::SizeIs;
 
 constexpr const char* kLed = "robot: {guided: true, gps: {fitted: false}}";
 
-nlohmann::json evaluation_of(const testing::SmallTwin& twin, const std::filesystem::path& out) {
+nlohmann::json evaluation_of(const std::filesystem::path& out) {
   testing::Process judge(
       {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
   EXPECT_EQ(judge.wait(), 0) << judge.output();
@@ -46,7 +46,7 @@ TEST(TwinWithoutGps, RobotsThatKnowNoPlaceMakeOneMapThatLiesNowhere) {
   EXPECT_EQ(r1["map_hash"], run.report["agents"]["r2"]["map_hash"])
       << "submaps flow where robots are in reach";
 
-  const auto evaluation = evaluation_of(twin, run.out);
+  const auto evaluation = evaluation_of(run.out);
   ASSERT_TRUE(evaluation.is_object());
   EXPECT_GE(evaluation["alignments"]["used"].get<int>(), 1);
   EXPECT_EQ(evaluation["alignments"]["wrong_used"], 0);
@@ -79,7 +79,7 @@ TEST(TwinWithoutGps, ARobotThatWasRestartedGoesOnWithItsMap) {
   const auto run = twin.run("out", {"--threads", "2", "--agents", "1"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("session 1, going on from"));
-  const auto evaluation = evaluation_of(twin, run.out);
+  const auto evaluation = evaluation_of(run.out);
   ASSERT_TRUE(evaluation.is_object());
   EXPECT_GE(ties_between_sessions(run.out / "r1"), 1) << run.output;
   EXPECT_EQ(evaluation["alignments"]["wrong_used"], 0);
