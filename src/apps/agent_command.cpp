@@ -103,6 +103,11 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
   if (agent.navigator() != nullptr && agent.navigator()->done()) {
+    // While the others are still here to take it: at the end they would have gone.
+    if (!std::exchange(rest_frozen, true)) {
+      agent.freeze_rest();
+      return false;
+    }
     // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
     const Duration silence = bus.now() - agent.link_counters().last_submap;
     const bool all_told = agent.complete() && agent.fleet_caught_up();
@@ -134,7 +139,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idl
     });
   }
   bus.run_until(stop);
-  agent.freeze_rest();
+  if (!rest_frozen) agent.freeze_rest();  // told to end
 }
 
 /// `directory`, or with a number behind it if it holds a bag of an earlier start.
