@@ -27,10 +27,14 @@ constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// How long a start waits for the first global pose before it makes nodes without.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
 
+std::vector<const graph::Node*> own_nodes(const store::Store& store) {
+  return store.nodes_from({store.self(), 0, store.next_node_seq()});
+}
+
 /// Every start of the program has an odometry frame of its own; the first that no own node uses.
 Result<std::uint8_t> next_session(const store::Store& store, const AgentId& self) {
   int session = 0;
-  for (const graph::Node* node : store.nodes_from({self, 0, store.next_node_seq()})) {
+  for (const graph::Node* node : own_nodes(store)) {
     session = std::max(session, node->session + 1);
   }
   if (session > std::numeric_limits<std::uint8_t>::max()) {
@@ -74,7 +78,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::
       node_generator_(config.nodes),
       loop_closures_(config.loop_closures),
       session_ties_(config.exchange.encounters) {
-  session_ties_.begin(store_.nodes_from({config_.id, 0, store_.next_node_seq()}));
+  session_ties_.begin(own_nodes(store_));
 }
 
 Agent::~Agent() = default;
@@ -197,7 +201,7 @@ void Agent::begin_session() {
   motion_ = {};
   level_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
-  session_ties_.begin(store_.nodes_from({config_.id, 0, store_.next_node_seq()}));
+  session_ties_.begin(own_nodes(store_));
   spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
 }
 

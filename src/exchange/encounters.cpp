@@ -57,18 +57,21 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   track.newest = std::max(track.newest, node.id.seq);
   ties_.add(node);
   unlocated_ += !is_located;
-  find_tied(node.id, now);
+  for (const AgentId& other : partners_of(node.id.agent)) find_tied(node.id, other, now);
   if (node.id.seq < track.newest) search_later(node.id);
   find_alike(node, now);
   if (!is_located || track.tree.insert(node.G->position) == place::BallTree::kRefused) return;
   track.ids.push_back(node.id);
-  if (node.id.agent != self_) {
-    find(node, self_, now);
-    return;
+  for (const AgentId& other : partners_of(node.id.agent)) find(node, other, now);
+}
+
+std::vector<AgentId> Encounters::partners_of(const AgentId& agent) const {
+  if (agent != self_) return {self_};
+  std::vector<AgentId> peers;
+  for (const auto& [peer, track] : tracks_) {
+    if (peer != self_) peers.push_back(peer);
   }
-  for (const auto& [agent, peer_track] : tracks_) {
-    if (agent != self_) find(node, agent, now);
-  }
+  return peers;
 }
 
 void Encounters::find_alike(const graph::Node& node, Stamp now) {
@@ -125,6 +128,10 @@ void Encounters::offer(const NodePair& pair, double distance, double radius, Sta
 // ---- by alignments of before
 // ------------------------------------------------------------------------------------------------
 
+bool Encounters::goes_by_ties(const NodePair& pair) const {
+  return between_unlocated(pair) && !doubted(pair.theirs.agent);
+}
+
 bool Encounters::between_unlocated(const NodePair& pair) const {
   const auto ours = places_.find(pair.ours);
   const auto theirs = places_.find(pair.theirs);
@@ -148,15 +155,7 @@ void Encounters::doubt(const AgentId& peer) {
 }
 
 std::optional<UncertainPose> Encounters::tied(const NodePair& pair) const {
-  if (!between_unlocated(pair) || doubted(pair.theirs.agent)) return std::nullopt;
-  return ties_.between(pair.ours, pair.theirs);
-}
-
-void Encounters::find_tied(const NodeId& node, Stamp now) {
-  if (node.agent != self_) return find_tied(node, self_, now);
-  for (const auto& [agent, track] : tracks_) {
-    if (agent != self_) find_tied(node, agent, now);
-  }
+  return goes_by_ties(pair) ? ties_.between(pair.ours, pair.theirs) : std::nullopt;
 }
 
 void Encounters::find_tied(const NodeId& node, const AgentId& other, Stamp now) {
@@ -164,7 +163,7 @@ void Encounters::find_tied(const NodeId& node, const AgentId& other, Stamp now) 
   const auto nearest = ties_.nearest(node, other);
   if (!nearest || nearest->distance > config_.proximity.max_radius) return;
   const NodePair pair = other == self_ ? NodePair{nearest->id, node} : NodePair{node, nearest->id};
-  if (!between_unlocated(pair) || doubted(pair.theirs.agent)) return;
+  if (!goes_by_ties(pair)) return;
   // The same way round at both ends, so that both come to the same radius.
   const auto T = ties_.between(std::min(pair.ours, pair.theirs), std::max(pair.ours, pair.theirs));
   if (!T) return;
@@ -178,15 +177,10 @@ void Encounters::find_tied(const NodeId& node, const AgentId& other, Stamp now) 
 
 void Encounters::search_later(const NodeId& node) {
   if (tied_.empty()) return;
+  const std::vector<AgentId> partners = partners_of(node.agent);
   for (auto place = places_.upper_bound(node); place != places_.end() && place->first.agent == node.agent;
        ++place) {
-    if (node.agent != self_) {
-      to_search_.emplace(place->first, self_);
-      continue;
-    }
-    for (const auto& [agent, track] : tracks_) {
-      if (agent != self_) to_search_.emplace(place->first, agent);
-    }
+    for (const AgentId& other : partners) to_search_.emplace(place->first, other);
   }
 }
 
@@ -218,9 +212,9 @@ void Encounters::on_used_alignments(std::span<const graph::Alignment> used) {
     const auto known = before.find(frames);
     const bool same = known != before.end() && !differ(known->second.T_ours_theirs, T_ours_theirs);
     if (known != before.end() && !same) tied_failures_.erase(peer);
-    const bool searched = same && known->second.searched;
-    tied_.emplace(frames, TiedFrames{T_ours_theirs, !doubted(peer)});
-    if (!searched && !doubted(peer)) search_anew(frames);
+    const bool believed = !doubted(peer);
+    tied_.emplace(frames, TiedFrames{T_ours_theirs, believed});
+    if (believed && !(same && known->second.searched)) search_anew(frames);
   }
 }
 

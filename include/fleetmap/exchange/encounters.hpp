@@ -149,8 +149,11 @@ class Encounters {
   static bool near(const Spot& a, const Spot& b, double limit);
   void find(const graph::Node& node, const AgentId& other, Stamp now);
   void find_alike(const graph::Node& node, Stamp now);
-  void find_tied(const NodeId& node, Stamp now);
+  /// Of whom a node of `agent` may find its partner: all others if it is ours, else us.
+  std::vector<AgentId> partners_of(const AgentId& agent) const;
   void find_tied(const NodeId& node, const AgentId& other, Stamp now);
+  /// Alignments found before say how the two lie, if they tie their frames, and are believed.
+  bool goes_by_ties(const NodePair& pair) const;
   /// Both nodes are at hand, and G does not tell where both are.
   bool between_unlocated(const NodePair& pair) const;
   /// What was found by ties was turned down.
