@@ -33,7 +33,7 @@ Eigen::Vector3d LevelTrack::up_in_base(const Pose& T_odom_base) const {
 GlobalPose levelled(const GlobalPose& G, const Eigen::Vector3d& up_in_base) {
   const Eigen::Vector3d up = G.q_enu_base.conjugate() * Eigen::Vector3d::UnitZ();
   GlobalPose turned = G;
-  turned.q_enu_base = (G.q_enu_base * Eigen::Quaterniond::FromTwoVectors(up_in_base, up)).normalized();
+  turned.q_enu_base = (G.q_enu_base * least_rotation(up_in_base, up)).normalized();
   return turned;
 }
 

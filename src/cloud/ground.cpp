@@ -1,6 +1,6 @@
 #include "fleetmap/cloud/ground.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -123,7 +123,9 @@ class Grid {
       const Eigen::Vector2d mean = A.block<2, 1>(1, 0) / weights;
       const Eigen::Matrix2d spread = A.bottomRightCorner<2, 2>() / weights - mean * mean.transpose();
       const double cell_m = static_cast<double>(config_.cell_m);
-      if (weights < 3.0 || spread.selfadjointView<Eigen::Lower>().eigenvalues()[0] < 0.1 * cell_m * cell_m) {
+      const double least_spread =
+          0.5 * spread.trace() - std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
+      if (weights < 3.0 || least_spread < 0.1 * cell_m * cell_m) {
         return std::nullopt;
       }
       plane = A.ldlt().solve(b);
@@ -253,8 +255,7 @@ Status GroundConfig::validate() const {
 }
 
 GroundSplit split_ground(const PointCloud& cloud, const GroundConfig& config) {
-  const Eigen::Matrix3f R_level_cloud =
-      Eigen::Quaternionf::FromTwoVectors(config.up.normalized(), Eigen::Vector3f::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3f R_level_cloud = levelling(config.up.cast<double>()).cast<float>();
   GroundSplit split;
   std::vector<Eigen::Vector3f> levelled;
   std::vector<std::size_t> indices;

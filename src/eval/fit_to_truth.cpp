@@ -1,8 +1,9 @@
 #include "fit_to_truth.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::eval {
 namespace {
@@ -51,13 +52,13 @@ Vector6d step_of(const System& system, const Vector6d& metres) {
   const Vector6d inverse = metres.cwiseInverse();
   const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
   const Vector6d g = inverse.cwiseProduct(system.g);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
-  const double floor = kDegenerateShare * eigen.eigenvalues()[5];
+  const SymmetricEigen eigen = eigen_of_symmetric(H);
+  const double floor = kDegenerateShare * eigen.values[5];
   Vector6d step = Vector6d::Zero();
   if (!(floor > 0.0)) return step;
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] < floor) continue;
-    step -= eigen.eigenvectors().col(k).dot(g) / eigen.eigenvalues()[k] * eigen.eigenvectors().col(k);
+    if (eigen.values[k] < floor) continue;
+    step -= eigen.vectors.col(k).dot(g) / eigen.values[k] * eigen.vectors.col(k);
   }
   return step;
 }

@@ -92,6 +92,16 @@ Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
           std::atan2(R(1, 0), R(0, 0))};
 }
 
+Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const auto has_direction = [](const Eigen::Vector3d& v) { return v.allFinite() && v.norm() >= 1e-9; };
+  if (!has_direction(from) || !has_direction(to)) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
+Eigen::Matrix3d levelling(const Eigen::Vector3d& up) {
+  return least_rotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+}
+
 double wrap_angle(double radians) {
   const double wrapped = std::remainder(radians, 2.0 * std::numbers::pi);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;

@@ -1,6 +1,5 @@
 #include "alignment_selection.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "expectation.hpp"
+#include "fleetmap/geometry/symmetric.hpp"
 #include "judged_alone.hpp"
 
 namespace fleetmap::graph {
@@ -188,7 +188,8 @@ class Selector {
     return std::erase_if(state_.taken, [&](const auto& one) {
              const Between& tie = candidates_[one.second].between;
              const Vector6d e = relative_residual(estimate, tie.a, tie.b, tie.T_a_b).e;
-             const bool contradicted = !(e.dot(judged_covariance(tie).llt().solve(e)) < kContradicts);
+             const bool contradicted =
+                 !(CholeskyOf(judged_covariance(tie)).squared_distance(e) < kContradicts);
              if (contradicted) state_.contradicting.insert(one.second);
              return contradicted;
            }) > 0;

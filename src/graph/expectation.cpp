@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "fleetmap/geometry/symmetric.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -12,16 +14,12 @@ constexpr double kFloorRad = 0.01;
 
 Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& between) {
   const Matrix6d S = known + judged_covariance(between);
-  const Eigen::LLT<Matrix6d> llt(S);
-  const double distance = e.dot(llt.solve(e));
-  return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + log_det(llt)};
+  const CholeskyOf cholesky(S);
+  const double distance = cholesky.squared_distance(e);
+  return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + cholesky.log_det()};
 }
 
 }  // namespace
-
-double log_det(const Eigen::LLT<Matrix6d>& llt) {
-  return 2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
-}
 
 Matrix6d judged_covariance(const Between& between) {
   Matrix6d C = kInflation * between.covariance;
@@ -38,11 +36,10 @@ Expectation expectation(const Between& between, const GraphSolver& solver, const
 Expectation expectation_of_rest(const Between& between, const GraphSolver& solver, const Estimate& estimate) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   // Information adds up: what the graph knows is what the rest knows and what the tie says.
-  const Matrix6d all =
-      solver.relative_covariance(between.a, between.b, r.H_a).llt().solve(Matrix6d::Identity());
-  const Eigen::LLT<Matrix6d> rest(all - between.information);
-  if (rest.info() != Eigen::Success) return {};
-  const Matrix6d known = rest.solve(Matrix6d::Identity());
+  const Matrix6d all = CholeskyOf(solver.relative_covariance(between.a, between.b, r.H_a)).inverse();
+  const CholeskyOf rest(all - between.information);
+  if (!rest.positive_definite()) return {};
+  const Matrix6d known = rest.inverse();
   if (!known.allFinite()) return {};
   // What the rest expects: where the solution lies, its pull and the tie's are in balance.
   const Vector6d pull = huber_weight(between, r.e) * (between.information * r.e);

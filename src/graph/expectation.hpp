@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 #include "graph_solver.hpp"
@@ -22,9 +21,6 @@ struct Expectation {
   /// it is judged by. What says little fits anywhere, and is no likelier for it.
   double cost = 0.0;
 };
-
-/// Of the matrix that was factored.
-double log_det(const Eigen::LLT<Matrix6d>& llt);
 
 /// Covariance of a registration's error as candidates are judged by it.
 Matrix6d judged_covariance(const Between& between);

@@ -10,6 +10,7 @@
 
 #include "alignment_selection.hpp"
 #include "expectation.hpp"
+#include "fleetmap/geometry/symmetric.hpp"
 #include "graph_solver.hpp"
 #include "reduced_graph.hpp"
 
@@ -177,7 +178,7 @@ std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, s
     nodes.push_back({first.T_odom_base.inverse() * node.T_odom_base, P, Matrix6d::Zero()});
   }
   const Pose T_a_b = nodes.back().T_a_node;
-  const Matrix6d P_b_inverse = nodes.back().P.llt().solve(Matrix6d::Identity());
+  const Matrix6d P_b_inverse = CholeskyOf(nodes.back().P).inverse();
   nodes.pop_back();
   for (InBetween& node : nodes) {
     const Matrix6d carry = adjoint(T_a_b.inverse() * node.T_a_node);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "expectation.hpp"
+#include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -51,9 +52,9 @@ Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& 
   seen.e = r.e;
   seen.z = solver.sensitivity(between.a, between.b, r.H_a, Matrix6d::Identity());
   seen.S = BlockCholesky::inner(seen.z, seen.z) + judged_covariance(between);
-  const Eigen::LLT<Matrix6d> llt(seen.S);
-  seen.S_inverse = llt.solve(Matrix6d::Identity());
-  seen.cost = seen.e.dot(seen.S_inverse * seen.e) + log_det(llt);
+  const CholeskyOf cholesky(seen.S);
+  seen.S_inverse = cholesky.inverse();
+  seen.cost = seen.e.dot(seen.S_inverse * seen.e) + cholesky.log_det();
   seen.B.topRows<3>() = candidate.sign * estimate.T_enu[between.b].linear().transpose();
   seen.B.bottomRows<3>().setZero();
   return seen;
@@ -70,9 +71,9 @@ Given given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
   const Matrix6d gain = S_ba * a.S_inverse;
   const Vector6d e = b.e - gain * a.e;
   const Matrix6d S = b.S - gain * S_ba.transpose();
-  const Eigen::LLT<Matrix6d> llt(S);
-  const double distance = e.dot(llt.solve(e));
-  return {distance, distance + log_det(llt), std::sqrt(S.diagonal().head<3>().maxCoeff())};
+  const CholeskyOf cholesky(S);
+  const double distance = cholesky.squared_distance(e);
+  return {distance, distance + cholesky.log_det(), std::sqrt(S.diagonal().head<3>().maxCoeff())};
 }
 
 /// Where on the way of the first frame: whoever computed it, the end there is the lower pillar.

@@ -79,8 +79,7 @@ Pose level(const std::vector<const Node*>& nodes) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const Node* node : nodes) up += node->T_odom_base.linear() * node->up_in_base;
   Pose T = Pose::Identity();
-  if (up.allFinite() && up.norm() > 1e-9)
-    T.linear() = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.linear() = levelling(up);
   return T;
 }
 

@@ -1,10 +1,11 @@
 #include "reduced_graph.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <tuple>
+
+#include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -213,7 +214,7 @@ void link_drifts(ReducedGraph& graph, const FleetPlacementConfig& config) {
 }  // namespace
 
 Between::Between(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C)
-    : a(from), b(to), T_a_b(T_from_to), covariance(C), information(C.llt().solve(Matrix6d::Identity())) {}
+    : a(from), b(to), T_a_b(T_from_to), covariance(C), information(CholeskyOf(C).inverse()) {}
 
 Matrix6d odometry_step(const ReducedGraph& graph, std::size_t k) {
   const Node& node = *graph.nodes[k];

@@ -1,9 +1,10 @@
 #include "fleetmap/odometry/scan_matching.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::odometry {
 namespace {
@@ -180,10 +181,10 @@ void ScanMatcher::find_degeneracy(const Matrix12d& H, MatchResult& result) const
   Vector6d scale;
   scale << 1, 1, 1, 1 / range, 1 / range, 1 / range;
   const Matrix6d share = scale.asDiagonal() * H.topLeftCorner<6, 6>() * scale.asDiagonal() / weight;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(share);
+  const SymmetricEigen eigen = eigen_of_symmetric(share);
   const double limit = kMinShare + kSpuriousFactor * sums_.spurious / weight;
-  result.degenerate_count = static_cast<int>((solver.eigenvalues().array() < limit).count());
-  result.degenerate_directions = solver.eigenvectors();
+  result.degenerate_count = static_cast<int>((eigen.values.array() < limit).count());
+  result.degenerate_directions = eigen.vectors;
 }
 
 }  // namespace fleetmap::odometry

@@ -94,11 +94,6 @@ Counts count(const Planes& a, const Planes& b, int words, int dx) {
 
 }  // namespace
 
-Eigen::Matrix3d levelling(const Eigen::Vector3d& up) {
-  if (!up.allFinite() || up.norm() < 1e-9) return Eigen::Matrix3d::Identity();
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
 Descriptor Descriptor::of(std::span<const Eigen::Vector3f> points_in_base,
                           const Eigen::Vector3d& up_in_base) {
   const Eigen::Matrix3f R = levelling(up_in_base).cast<float>();

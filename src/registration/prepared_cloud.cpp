@@ -67,7 +67,7 @@ MovingPoints picked(const MovingPoints& all, std::size_t count) {
 PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector3d& up,
                              const RegistrationConfig& config) {
   auto data = std::make_shared<Data>();
-  data->R_level_cloud = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  data->R_level_cloud = levelling(up);
   const std::vector<Eigen::Vector3f> points = levelled(cloud, data->R_level_cloud, config);
   SurfelConfig surfels;
   surfels.voxel_m = config.surfel_m;

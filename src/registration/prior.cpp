@@ -16,8 +16,7 @@ Status Prior::validate() const {
 }
 
 bool agrees(const Prior& prior, const Pose& T_target_source, double sigmas) {
-  const Eigen::Matrix3d R_level_target =
-      Eigen::Quaterniond::FromTwoVectors(prior.up_target, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R_level_target = levelling(prior.up_target);
   const Eigen::Vector3d dt =
       R_level_target * (T_target_source.translation() - prior.T_target_source.translation());
   const Eigen::Matrix3d dR = R_level_target * T_target_source.linear() *

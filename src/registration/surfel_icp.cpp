@@ -1,9 +1,10 @@
 #include "surfel_icp.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::registration {
 namespace {
@@ -157,16 +158,15 @@ struct Step {
 Step solve(const System& system, double lever, double degenerate_share) {
   const Vector6d inverse = scale_of(lever).cwiseInverse();
   const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
-  const double floor = degenerate_share * eigen.eigenvalues()[5];
+  const SymmetricEigen eigen = eigen_of_symmetric(H);
+  const double floor = degenerate_share * eigen.values[5];
   Step step;
   if (!(floor > 0.0)) return step;
   Vector6d y = Vector6d::Zero();
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] < floor) continue;
+    if (eigen.values[k] < floor) continue;
     --step.unconstrained;
-    y -= eigen.eigenvectors().col(k).dot(inverse.cwiseProduct(system.g)) / eigen.eigenvalues()[k] *
-         eigen.eigenvectors().col(k);
+    y -= eigen.vectors.col(k).dot(inverse.cwiseProduct(system.g)) / eigen.values[k] * eigen.vectors.col(k);
   }
   step.xi = inverse.cwiseProduct(y);
   return step;
@@ -231,19 +231,18 @@ Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever
   spread *= used / (used - 6.0);
   const Matrix6d H = inverse.asDiagonal() * system.H * inverse.asDiagonal();
   const Matrix6d B = inverse.asDiagonal() * Matrix6d(spread + drift) * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(H);
-  const double floor = std::max(1e-12, kSpuriousShare * eigen.eigenvalues()[5]);
+  const SymmetricEigen eigen = eigen_of_symmetric(H);
+  const double floor = std::max(1e-12, kSpuriousShare * eigen.values[5]);
   Vector6d inverse_values = Vector6d::Zero();
   Matrix6d C = Matrix6d::Zero();
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] > floor) {
-      inverse_values[k] = 1.0 / eigen.eigenvalues()[k];
+    if (eigen.values[k] > floor) {
+      inverse_values[k] = 1.0 / eigen.values[k];
     } else {
-      C += most * eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
+      C += most * eigen.vectors.col(k) * eigen.vectors.col(k).transpose();
     }
   }
-  const Matrix6d pseudo =
-      eigen.eigenvectors() * inverse_values.asDiagonal() * eigen.eigenvectors().transpose();
+  const Matrix6d pseudo = eigen.vectors * inverse_values.asDiagonal() * eigen.vectors.transpose();
   C += pseudo * B * pseudo;
   C.diagonal().head<3>().array() += config.min_stddev_m * config.min_stddev_m;
   C.diagonal().tail<3>().array() += std::pow(lever * config.min_stddev_rad, 2);

@@ -28,7 +28,7 @@ inline tl::unexpected<Error> failure_at_byte(std::size_t byte, const std::string
 }
 
 /// What a file holds, for a message: in quotes, at most 40 characters.
-inline std::string quoted(std::string_view text) {
+inline std::string in_quotes(std::string_view text) {
   std::string result = "'";
   return result.append(text.substr(0, 40)).append("'");
 }

@@ -21,7 +21,7 @@ Status read_vertex(std::string_view line, std::size_t number, Mesh& mesh) {
     const std::string_view word = next_word(line);
     const auto value = number_from<double>(word);
     if (!value)
-      return failure_at_line(number, "expected three numbers behind 'v', found " + quoted(word) +
+      return failure_at_line(number, "expected three numbers behind 'v', found " + in_quotes(word) +
                                          "; repair the line or export the mesh again");
     if (!is_coordinate(*value)) return failure_at_line(number, kCoordinateRule);
     p[axis] = *value;
@@ -35,7 +35,7 @@ Result<std::uint32_t> corner_of(std::string_view word, std::size_t number, std::
   const auto index = number_from<std::int64_t>(word.substr(0, word.find('/')));
   const auto count = static_cast<std::int64_t>(vertices);
   if (!index || *index == 0 || *index > count || *index < -count)
-    return failure_at_line(number, quoted(word) + " names none of the " + std::to_string(count) +
+    return failure_at_line(number, in_quotes(word) + " names none of the " + std::to_string(count) +
                                        " vertices above; repair the line or export the mesh again");
   return static_cast<std::uint32_t>(*index > 0 ? *index - 1 : count + *index);
 }

@@ -64,7 +64,8 @@ Status read_format(std::string_view line, std::size_t number, Header& header) {
   header.ascii = format == "ascii";
   if (header.ascii || format == "binary_little_endian") return {};
   return failure_at_line(
-      number, quoted(format) + " is no format that is read; save the mesh as ascii or binary_little_endian");
+      number,
+      in_quotes(format) + " is no format that is read; save the mesh as ascii or binary_little_endian");
 }
 
 Status read_element(std::string_view line, std::size_t number, Header& header) {
@@ -75,7 +76,7 @@ Status read_element(std::string_view line, std::size_t number, Header& header) {
   const auto count = number_from<std::uint64_t>(word);
   if (!count)
     return failure_at_line(number,
-                           quoted(word) + " is no count of " + element.name + "; export the mesh again");
+                           in_quotes(word) + " is no count of " + element.name + "; export the mesh again");
   element.count = *count;
   header.elements.push_back(std::move(element));
   return {};
@@ -124,7 +125,8 @@ Result<Header> read_header(std::string_view content) {
       header.lines = lines.number();
       return header;
     } else if (key != "comment" && key != "obj_info" && !key.empty()) {
-      return failure_at_line(lines.number(), quoted(key) + " is no word of a header; export the mesh again");
+      return failure_at_line(lines.number(),
+                             in_quotes(key) + " is no word of a header; export the mesh again");
     }
     if (!status) return tl::unexpected(status.error());
   }
@@ -301,7 +303,7 @@ Status plausible(const Element& element, const Header& header) {
   for (const Property& property : element.properties)
     smallest += header.ascii ? 2 : size_of(property.list_size.value_or(property.type));
   if (element.count == 0 || (smallest > 0 && element.count <= (header.body.size() + 1) / smallest)) return {};
-  return failure_at_line(element.line, std::to_string(element.count) + " of " + quoted(element.name) +
+  return failure_at_line(element.line, std::to_string(element.count) + " of " + in_quotes(element.name) +
                                            " do not fit into this file; it is cut off or damaged, copy or "
                                            "export it again");
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -80,6 +83,22 @@ TEST(Se3, RollPitchYawRoundTrip) {
     const Eigen::Vector3d rpy = random.tangent(1.4).head<3>();
     EXPECT_LT((rpy_from_rotation(rotation_from_rpy(rpy.x(), rpy.y(), rpy.z())) - rpy).norm(), 1e-9);
   }
+}
+
+TEST(Se3, LeastRotationTurnsOneDirectionIntoTheOtherAndNoFurther) {
+  Random random(6);
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Vector3d from = random.tangent(3.0).head<3>(), to = random.tangent(3.0).head<3>();
+    const Eigen::Quaterniond q = least_rotation(from, to);
+    EXPECT_LT((q * from.normalized() - to.normalized()).norm(), 1e-9);
+    const double between = std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0));
+    EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()), between, 1e-6);
+    EXPECT_LT((levelling(from) * from.normalized() - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  }
+  EXPECT_LT((levelling({0.0, 0.0, -2.0}) * Eigen::Vector3d(0.0, 0.0, -1.0) - Eigen::Vector3d::UnitZ()).norm(),
+            1e-9);
+  EXPECT_TRUE(levelling(Eigen::Vector3d::Zero()).isIdentity());
+  EXPECT_TRUE(levelling({0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}).isIdentity());
 }
 
 TEST(Se3, WrapAngleLandsInTheHalfOpenTurn) {

@@ -85,8 +85,4 @@ Likeness compare(const Descriptor& a, const Descriptor& b);
 /// the heights are taken to be equal.
 Pose relative_pose(const Likeness& likeness, const Eigen::Vector3d& up_in_a, const Eigen::Vector3d& up_in_b);
 
-/// The least rotation that turns `up` (any length) to z: base_link to its level frame. Identity where `up` is
-/// zero or not finite.
-Eigen::Matrix3d levelling(const Eigen::Vector3d& up);
-
 }  // namespace fleetmap::place
