@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <string>
 
 #include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/global_track.hpp"

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <regex>
 
 #include "fleetmap/config/world_config.hpp"
 #include "small_twin.hpp"
+#include "support/process.hpp"
 
 namespace fleetmap {
 namespace {

@@ -1,6 +1,8 @@
 // Experiment files: what they say, and what is said of bad ones.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/experiment_fixture.hpp"
 #include "experiment/run_case.hpp"
 

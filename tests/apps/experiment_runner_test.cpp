@@ -1,6 +1,9 @@
 // An experiment's cases: each run once, whatever happens in between.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "apps/experiment_fixture.hpp"
 
 namespace fleetmap::apps::experiment {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <fstream>
 #include <functional>
 #include <mutex>
 
@@ -12,6 +13,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "small_twin.hpp"
+#include "support/process.hpp"
 
 namespace fleetmap {
 namespace {

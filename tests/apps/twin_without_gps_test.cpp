@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/store/store.hpp"
 #include "small_twin.hpp"
+#include "support/process.hpp"
 
 namespace fleetmap {
 namespace {

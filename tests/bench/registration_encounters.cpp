@@ -4,12 +4,15 @@
 //   bench_encounters clouds DIR SET      spherized clouds of these
 //   bench_encounters register DIR SET    the table
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <map>
+#include <numbers>
+#include <random>
 
 #include "bench/distinctive_structure.hpp"
 #include "fleetmap/core/cpu_time.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "fleetmap/exchange/encounters.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"

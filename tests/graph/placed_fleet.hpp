@@ -1,16 +1,13 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "fleetmap/graph/fleet_placement.hpp"
 #include "simulated_fleet.hpp"
@@ -23,55 +20,22 @@ inline const Eigen::Vector3d kOneRow(kPitch, 0.0, 0.0);
 inline const AgentId kR1 = SimulatedFleet::agent(0), kR2 = SimulatedFleet::agent(1),
                      kR3 = SimulatedFleet::agent(2);
 
-inline std::string of(unsigned seed) { return std::string("seed ").append(std::to_string(seed)); }
+std::string of(unsigned seed);
 
-inline Placement place(const SimulatedFleet& fleet, std::span<const NodeId> covariance_of = {}) {
-  return place_by_fleet_graph(fleet.nodes, fleet.alignments, fleet.site, {}, covariance_of);
-}
+Placement place(const SimulatedFleet& fleet, std::span<const NodeId> covariance_of = {});
 
 /// RMS error of the positions of all nodes of `agents` (all, if empty), as one rigid body: what of the map is
 /// bent.
-inline double joint_error(const SimulatedFleet& fleet, const Placement& placement,
-                          const std::set<AgentId>& agents = {}) {
-  std::vector<Eigen::Vector3d> placed, true_place;
-  for (const auto& [id, T] : fleet.truth) {
-    if (!agents.empty() && !agents.contains(id.agent)) continue;
-    placed.push_back(placement.T_enu_node.at(id).translation());
-    true_place.push_back(T.translation());
-  }
-  const auto n = static_cast<Eigen::Index>(placed.size());
-  const Eigen::Map<const Eigen::Matrix3Xd> A(placed.front().data(), 3, n), B(true_place.front().data(), 3, n);
-  const Eigen::Matrix4d T = Eigen::umeyama(A, B, false);
-  const Eigen::Matrix3Xd moved = (T.topLeftCorner<3, 3>() * A).colwise() + T.topRightCorner<3, 1>();
-  return std::sqrt((moved - B).squaredNorm() / static_cast<double>(n));
-}
+double joint_error(const SimulatedFleet& fleet, const Placement& placement,
+                   const std::set<AgentId>& agents = {});
 
-inline std::map<AlignmentName, Judgement> judgements(const Placement& placement) {
-  std::map<AlignmentName, Judgement> result;
-  for (const JudgedAlignment& one : placement.judged) result[{one.computed_by, one.seq}] = one.judgement;
-  return result;
-}
-
-inline std::size_t count(const Placement& placement, Judgement judgement) {
-  return static_cast<std::size_t>(
-      std::ranges::count(placement.judged, judgement, &JudgedAlignment::judgement));
-}
+std::map<AlignmentName, Judgement> judgements(const Placement& placement);
+std::size_t count(const Placement& placement, Judgement judgement);
 
 /// Names of the alignments from the k-th on.
-inline std::set<AlignmentName> names_from(const SimulatedFleet& fleet, std::size_t first) {
-  std::set<AlignmentName> names;
-  for (std::size_t k = first; k < fleet.alignments.size(); ++k)
-    names.emplace(fleet.alignments[k].computed_by, fleet.alignments[k].seq);
-  return names;
-}
+std::set<AlignmentName> names_from(const SimulatedFleet& fleet, std::size_t first);
 
-inline void expect_none_used(const Placement& placement, const std::set<AlignmentName>& names,
-                             const std::string& what) {
-  for (const auto& [name, judgement] : judgements(placement)) {
-    if (names.contains(name)) {
-      EXPECT_NE(judgement, Judgement::used) << what << ": " << name.first.str() << '/' << name.second;
-    }
-  }
-}
+void expect_none_used(const Placement& placement, const std::set<AlignmentName>& names,
+                      const std::string& what);
 
 }  // namespace fleetmap::graph::testing

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "localization/synthetic_drive.hpp"
 
 namespace fleetmap::localization {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <random>
 
 #include "localization/synthetic_drive.hpp"
 #include "support/shared_data.hpp"

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "fleetmap/planning/fleet_plan.hpp"
 #include "planning/sites.hpp"
 

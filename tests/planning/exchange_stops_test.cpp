@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "planning/sites.hpp"
 #include "planning/virtual_fleet.hpp"
 
 namespace fleetmap::planning {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planning/sites.hpp"
 #include "planning/virtual_fleet.hpp"
 
 namespace fleetmap::planning {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fleetmap/planning/fleet_plan.hpp"
 #include "fleetmap/planning/mission_complete.hpp"
 #include "planning/sites.hpp"

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,59 +27,13 @@ struct SiteSpec {
   std::uint64_t seed = 1;
 };
 
-inline double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }
+double uniform(std::mt19937_64& random);
 
-inline Mission site(const SiteSpec& spec) {
-  std::mt19937_64 random(spec.seed);
-  const Eigen::Rotation2Dd turned(spec.turned);
-  std::vector<KeepOut> tables;
-  std::vector<Lane> lanes;
-  const int rows = static_cast<int>(spec.depth / spec.pitch);
-  double left = 0.0;
-  double right = spec.width;
-  for (int k = 0; k < rows; ++k) {
-    const double y = k * spec.pitch;
-    const double cut = spec.taper * spec.width * k / rows;
-    left = std::round(0.3 * cut + spec.ragged * spec.width * uniform(random));
-    right = std::round(spec.width - 0.7 * cut - spec.ragged * spec.width * uniform(random));
-    if (right - left < spec.piece) right = left + spec.piece;
-    const int pieces = std::max(1, static_cast<int>((right - left) / spec.piece));
-    const double piece = (right - left) / pieces;
-    // Tables side by side are one obstacle; a missing one is a gate.
-    for (int first = 0; first < pieces;) {
-      int end = first;
-      while (end < pieces && uniform(random) >= spec.missing) ++end;
-      if (end > first) {
-        const Eigen::Vector2d low(left + first * piece, y - 0.5 * spec.table);
-        const Eigen::Vector2d high(left + end * piece, y + 0.5 * spec.table);
-        KeepOut polygon;
-        for (const Eigen::Vector2d& p :
-             {low, Eigen::Vector2d(high.x(), low.y()), high, Eigen::Vector2d(low.x(), high.y())}) {
-          polygon.push_back(turned * p);
-        }
-        tables.push_back(polygon);
-      }
-      first = end + 1;
-    }
-    const double lane = y + 0.5 * spec.pitch;
-    lanes.push_back({turned * Eigen::Vector2d(left, lane), turned * Eigen::Vector2d(right, lane)});
-  }
-  return mission_of_aisles(lanes, {spec.every, spec.max_row_length}, std::move(tables));
-}
+Mission site(const SiteSpec& spec);
 
-inline AgentId name(int k) { return *AgentId::parse(std::string("r").append(std::to_string(k + 1))); }
+AgentId name(int k);
 
 /// Robots side by side at the south-west corner.
-inline std::vector<RobotAbility> fleet(int count, bool mixed_speeds = false) {
-  std::vector<RobotAbility> robots;
-  for (int k = 0; k < count; ++k) {
-    RobotAbility robot;
-    robot.id = name(k);
-    robot.start = {{-8.0, 3.0 * k - 8.0}, 0.0};
-    if (mixed_speeds) robot.speed = 1.0 + 0.5 * (k % 3);
-    robots.push_back(robot);
-  }
-  return robots;
-}
+std::vector<RobotAbility> fleet(int count, bool mixed_speeds = false);
 
 }  // namespace fleetmap::planning::testing

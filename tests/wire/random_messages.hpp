@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -9,133 +11,40 @@
 
 namespace fleetmap::wire::testing {
 
-inline AgentId id(const char* name) { return *AgentId::parse(name); }
-inline NodeId node_id(const char* agent, std::uint32_t seq) { return {id(agent), seq}; }
+AgentId id(const char* name);
+NodeId node_id(const char* agent, std::uint32_t seq);
 
-inline exchange::CloudFragment cloud_fragment(std::uint32_t total_bytes, std::uint16_t index,
-                                              std::uint16_t count, std::size_t payload) {
-  exchange::CloudFragment fragment{id("robot-01"), id("robot-02"), node_id("robot-01", 1), {}, 0, 0, 0, {}};
-  fragment.total_bytes = total_bytes;
-  fragment.index = index;
-  fragment.count = count;
-  fragment.payload.resize(payload);
-  return fragment;
-}
-
-inline exchange::SubmapChunk submap_chunk(std::uint32_t offset, std::uint32_t total_bytes,
-                                          std::size_t payload) {
-  exchange::SubmapChunk chunk{id("r1"), id("r2"), node_id("r1", 1), offset, total_bytes, {}};
-  chunk.payload.resize(payload);
-  return chunk;
-}
+exchange::CloudFragment cloud_fragment(std::uint32_t total_bytes, std::uint16_t index, std::uint16_t count,
+                                       std::size_t payload);
+exchange::SubmapChunk submap_chunk(std::uint32_t offset, std::uint32_t total_bytes, std::size_t payload);
 
 /// Messages within the rules of the wire, from a fixed seed.
 class RandomMessages {
  public:
   explicit RandomMessages(unsigned seed) : engine_(seed) {}
 
-  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
-  std::uint32_t integer(std::uint32_t low, std::uint32_t high) {
-    return std::uniform_int_distribution<std::uint32_t>(low, high)(engine_);
-  }
-  AgentId agent() {
-    const std::vector<const char*> names{"r1", "r2", "a", "robot-08", "x_9"};
-    return *AgentId::parse(names[integer(0, 4)]);
-  }
-  NodeId node_id() { return {agent(), integer(0, kMaxSeq)}; }
-  Stamp stamp() { return stamp_from_ns(static_cast<std::int64_t>(real(0.0, 2e18))); }
-  Bytes bytes(std::size_t size) {
-    Bytes bytes(size);
-    for (auto& byte : bytes) byte = static_cast<std::uint8_t>(integer(0, 255));
-    return bytes;
-  }
-  ContentHash hash() { return content_hash(bytes(8)); }
-  GeoPoint position() { return {real(-1.57, 1.57), real(-3.14, 3.14), real(-400.0, 9000.0)}; }
+  double real(double low, double high);
+  std::uint32_t integer(std::uint32_t low, std::uint32_t high);
+  AgentId agent();
+  NodeId node_id();
+  Stamp stamp();
+  Bytes bytes(std::size_t size);
+  ContentHash hash();
+  GeoPoint position();
   /// Half of them within a hundredth of a degree of half a turn, where rotation vectors are least tame.
-  Eigen::Matrix3d rotation() {
-    const Eigen::Vector3d axis = Eigen::Vector3d(real(-1, 1), real(-1, 1), real(-1, 1)).normalized();
-    return so3_exp(axis * (integer(0, 1) == 0 ? real(0.0, 3.14159) : real(3.1414, 3.14159265)));
-  }
-  Pose pose() {
-    return make_pose(rotation(), Eigen::Vector3d(real(-2000, 2000), real(-2000, 2000), real(-50, 50)));
-  }
-  Matrix6d covariance() {
-    Matrix6d A;
-    for (int k = 0; k < 36; ++k) A.data()[k] = real(-1.0, 1.0);
-    return A * A.transpose() + 1e-3 * Matrix6d::Identity();
-  }
-  std::vector<exchange::Range> ranges(std::uint32_t most) {
-    std::vector<exchange::Range> out(integer(0, most));
-    for (auto& range : out) {
-      const std::uint32_t first = integer(0, 1000);
-      range = {agent(), first, first + integer(0, 1000)};
-    }
-    return out;
-  }
+  Eigen::Matrix3d rotation();
+  Pose pose();
+  Matrix6d covariance();
+  std::vector<exchange::Range> ranges(std::uint32_t most);
 
-  graph::Node node() {
-    graph::Node node;
-    node.id = node_id();
-    node.session = static_cast<std::uint8_t>(integer(0, 255));
-    node.stamp = stamp();
-    if (integer(0, 3) > 0) node.G = global_pose();
-    if (node.G) node.G->stamp = node.stamp;
-    node.up_in_base = rotation().col(2);
-    node.descriptor = bytes(integer(0, 1) * integer(1, graph::Node::kMaxDescriptorBytes));
-    node.T_odom_base = pose();
-    node.odom_covariance = covariance();
-    node.submap_hash = hash();
-    node.submap_bytes = integer(0, kMaxSubmapBytes);
-    return node;
-  }
-  graph::Alignment alignment() {
-    graph::Alignment alignment;
-    alignment.i = node_id();
-    alignment.j = node_id();
-    alignment.computed_by = agent();
-    alignment.seq = integer(0, kMaxSeq);
-    alignment.modes.resize(integer(1, graph::Alignment::kMaxModes));
-    for (graph::AlignmentMode& mode : alignment.modes)
-      mode = {pose(), real(0.0, 2.0), real(0.0, 1.0), real(0.0, 1.0), covariance()};
-    return alignment;
-  }
-  GlobalPose global_pose() {
-    return {stamp(), position(), Eigen::Quaterniond(rotation()).normalized(), covariance()};
-  }
-  SpherizedCloud cloud() {
-    return {node_id(), real(5, 40), real(0.05, 1), integer(0, 400), bytes(integer(100, 999))};
-  }
-  exchange::CloudFragment fragment() {
-    exchange::CloudFragment f{agent(), agent(), node_id(), hash(), integer(1, kMaxCloudPayload), 0, 0, {}};
-    constexpr auto kPiece = static_cast<std::uint32_t>(exchange::CloudFragment::kMaxPayload);
-    f.count = static_cast<std::uint16_t>((f.total_bytes + kPiece - 1) / kPiece);
-    f.index = static_cast<std::uint16_t>(integer(0, f.count - 1u));
-    f.payload = bytes(std::min(kPiece, f.total_bytes - f.index * kPiece));
-    return f;
-  }
-  exchange::SubmapChunk chunk() {
-    exchange::SubmapChunk c{agent(), agent(), node_id(), integer(0, 100000), 0, bytes(integer(1, 8192))};
-    c.total_bytes = c.offset + static_cast<std::uint32_t>(c.payload.size()) + integer(0, 1000);
-    return c;
-  }
+  graph::Node node();
+  graph::Alignment alignment();
+  GlobalPose global_pose();
+  SpherizedCloud cloud();
+  exchange::CloudFragment fragment();
+  exchange::SubmapChunk chunk();
   /// One of every kind.
-  std::vector<exchange::Message> one_of_each() {
-    exchange::CloudRequest request{agent(), agent(), node_id(), {}};
-    for (std::uint32_t k = integer(0, 23); k > 0; --k)
-      request.missing.push_back(static_cast<std::uint16_t>(k));
-    return {node(),
-            alignment(),
-            exchange::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
-            fragment(),
-            request,
-            exchange::Digest{agent(), ranges(20), ranges(20)},
-            exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
-            exchange::AgentStatus{agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1},
-            exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
-            exchange::SubmapDigest{agent(), ranges(200)},
-            exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
-            chunk()};
-  }
+  std::vector<exchange::Message> one_of_each();
 
  private:
   std::mt19937 engine_;
