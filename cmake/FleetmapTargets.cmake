@@ -20,17 +20,17 @@ set(FLEETMAP_READS_BYTES core cloud store exchange wire recording bus bus_dds)
 # Reading Eigen, gtest and the standard library is most of the work of compiling a small file, so it is done once for
 # all libraries and once for all programs (GCC compiles those with other flags). Configure with
 # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON to see whether every file names what it includes.
-file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "int main() {}\n")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "int main() {}\n")  # written once only
 set(FLEETMAP_PRECOMPILED <algorithm> <array> <cmath> <cstdint> <deque> <filesystem> <fstream> <functional> <limits> <map>
                          <memory> <optional> <random> <set> <sstream> <string> <unordered_map> <variant> <vector>
-                         <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry>)
+                         <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry> <tl/expected.hpp>)
 add_library(fleetmap_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(fleetmap_precompiled PRIVATE fleetmap_flags Eigen3::Eigen)
-target_precompile_headers(fleetmap_precompiled PRIVATE ${FLEETMAP_PRECOMPILED} <tl/expected.hpp>)
+target_precompile_headers(fleetmap_precompiled PRIVATE ${FLEETMAP_PRECOMPILED})
 if(FLEETMAP_TESTS)
   add_executable(fleetmap_precompiled_tests ${PROJECT_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(fleetmap_precompiled_tests PRIVATE fleetmap_flags Eigen3::Eigen GTest::gmock)
-  target_precompile_headers(fleetmap_precompiled_tests PRIVATE ${FLEETMAP_PRECOMPILED} <tl/expected.hpp> <gmock/gmock.h> <gtest/gtest.h>)
+  target_precompile_headers(fleetmap_precompiled_tests PRIVATE ${FLEETMAP_PRECOMPILED} <gmock/gmock.h> <gtest/gtest.h>)
 endif()
 
 # fleetmap_library(place SOURCES a.cpp b.cpp PUBLIC fleetmap::geometry PRIVATE Draco)
