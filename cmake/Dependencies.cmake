@@ -28,24 +28,26 @@ add_library(Draco INTERFACE IMPORTED)
 target_include_directories(Draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIR})
 target_link_libraries(Draco INTERFACE ${DRACO_LIBRARY})
 
+# PCL's own package file pulls in VTK and Qt, which cost minutes and are of no use here, so only the components that are
+# needed are looked up.
+find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13 REQUIRED)
+function(fleetmap_find_pcl component)
+  find_library(PCL_${component}_LIBRARY pcl_${component} REQUIRED)
+  add_library(Pcl::${component} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(Pcl::${component} SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
+  target_link_libraries(Pcl::${component} INTERFACE ${PCL_${component}_LIBRARY} Eigen3::Eigen ${ARGN})
+endfunction()
+fleetmap_find_pcl(common)
+fleetmap_find_pcl(kdtree Pcl::common)
+fleetmap_find_pcl(search Pcl::kdtree)
+fleetmap_find_pcl(features Pcl::search)
+fleetmap_find_pcl(sample_consensus Pcl::search)
+fleetmap_find_pcl(registration Pcl::features Pcl::sample_consensus)
+
 if(FLEETMAP_TESTS)
   find_package(GTest REQUIRED)
   find_package(benchmark REQUIRED)
-
-  # PCL is the yardstick of the tests and benchmarks; its own package file pulls in VTK and Qt, which cost minutes and
-  # are of no use here, so only these components are looked up.
-  find_path(PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.13 REQUIRED)
-  function(fleetmap_find_pcl component)
-    find_library(PCL_${component}_LIBRARY pcl_${component} REQUIRED)
-    add_library(Pcl::${component} INTERFACE IMPORTED GLOBAL)
-    target_include_directories(Pcl::${component} SYSTEM INTERFACE ${PCL_INCLUDE_DIR})
-    target_link_libraries(Pcl::${component} INTERFACE ${PCL_${component}_LIBRARY} Eigen3::Eigen ${ARGN})
-  endfunction()
-  fleetmap_find_pcl(common)
+  # The yardstick of the tests and benchmarks.
   fleetmap_find_pcl(io Pcl::common)
-  fleetmap_find_pcl(kdtree Pcl::common)
-  fleetmap_find_pcl(search Pcl::kdtree)
   fleetmap_find_pcl(filters Pcl::search)
-  fleetmap_find_pcl(features Pcl::search)
-  fleetmap_find_pcl(registration Pcl::features)
 endif()

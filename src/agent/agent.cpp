@@ -31,6 +31,17 @@ std::vector<const graph::Node*> own_nodes(const store::Store& store) {
   return store.nodes_from({store.self(), 0, store.next_node_seq()});
 }
 
+store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, const Bytes& source_cloud,
+                                   const registration::Prior& prior, registration::Method method) {
+  return {target.node().id,
+          source.id,
+          registration::to_string(method),
+          target.spherized()->bytes,
+          source_cloud,
+          {prior.T_target_source, prior.sigma_translation_m, prior.sigma_yaw_rad, prior.sigma_tilt_rad,
+           prior.sigma_height_m, prior.up_target}};
+}
+
 /// Every start of the program has an odometry frame of its own; the first that no own node uses.
 Result<std::uint8_t> next_session(const store::Store& store, const AgentId& self) {
   int session = 0;
@@ -59,8 +70,12 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (!odometry) return tl::unexpected(odometry.error());
   Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
   if (!track) return tl::unexpected(track.error());
+  Result<store::RegistrationLog> log =
+      store::RegistrationLog::open(config.directory / store::kRegistrationLogFile);
+  if (!log) spdlog::warn("{}; registrations of this run cannot be repeated", log.error().message);
   std::unique_ptr<Agent> agent(
       new Agent(config, bus, std::move(*store), *session, std::move(*odometry), std::move(*track)));
+  if (log) agent->registration_log_.emplace(std::move(*log));
   if (const Status started = agent->start(); !started) return tl::unexpected(started.error());
   return agent;
 }
@@ -103,7 +118,7 @@ Status Agent::start() {
     navigator_ = std::move(*navigator);
     navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
   }
-  if (config_.placement.mode == graph::PlacementMode::fleet) {
+  if (config_.placement.method == graph::PlacementMethod::graph) {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
@@ -245,7 +260,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   if (const auto tie = session_ties_.on_own_node(node)) register_own(*tie->earlier, node, tie->prior);
-  if (config_.placement.mode == graph::PlacementMode::fleet) {
+  if (config_.placement.method == graph::PlacementMethod::graph) {
     if (const auto closure = loop_closures_.on_own_node(node))
       register_own(closure->earlier, closure->later, prior_of(*closure));
   }
@@ -278,6 +293,8 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
         const auto target = job->target->prepared(config_.registration);
         const auto source = job->source->prepared(config_.registration);
         if (target && source) {
+          job->registered.input = input_of(*job->target, job->source->node(), job->source->spherized()->bytes,
+                                           job->prior, config_.registration.method);
           job->registered.result =
               registration::register_clouds(*target, *source, config_.registration, job->prior, job->drifts);
         } else {
@@ -353,8 +370,8 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
       bus::Lane::kBackground,
       [this, job] {
         const double start = thread_cpu_seconds();
-        job->registered.result =
-            register_encoded(*job->target, job->source, job->encoded, job->prior, job->drifts);
+        job->registered.result = register_encoded(*job->target, job->source, job->encoded, job->prior,
+                                                  job->drifts, job->registered.input);
         job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job, pair = arrived.pair] {
@@ -371,7 +388,8 @@ registration::Drifts Agent::drifts_around(const graph::Node& target, const graph
 Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
                                                                  const Bytes& encoded,
                                                                  const registration::Prior& prior,
-                                                                 const registration::Drifts& drifts) const {
+                                                                 const registration::Drifts& drifts,
+                                                                 store::LoggedRegistration& input) const {
   const auto message = wire::decode<wire::SpherizedCloud>(encoded);
   if (!message) return tl::unexpected(message.error());
   if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
@@ -379,6 +397,7 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
   if (!source_cloud) return tl::unexpected(source_cloud.error());
   const auto target_cloud = target.prepared(config_.registration);
   if (!target_cloud) return tl::unexpected(target_cloud.error());
+  input = input_of(target, source, message->payload, prior, config_.registration.method);
   return registration::register_clouds(
       *target_cloud, registration::PreparedCloud(*source_cloud, source.up_in_base, config_.registration),
       config_.registration, prior, drifts);
@@ -387,6 +406,7 @@ Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& targe
 void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
                      const std::optional<exchange::NodePair>& pair) {
   log_registration(i.id, j.id, registered);
+  if (registered.result) keep_input(registered.input);
   const auto is = [&](registration::Verdict verdict) {
     return registered.result && registered.result->verdict == verdict;
   };
@@ -436,6 +456,14 @@ void Agent::log_registration(const NodeId& i, const NodeId& j, const Registered&
     spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), to_string(j),
                  registered.result.error().message);
   }
+}
+
+void Agent::keep_input(const store::LoggedRegistration& input) {
+  if (!registration_log_) return;
+  const Status kept = registration_log_->add(input);
+  if (kept) return;
+  spdlog::warn("{}; registrations cannot be repeated from here on", kept.error().message);
+  registration_log_.reset();
 }
 
 void Agent::handle(const exchange::MissionHeard& heard) {

@@ -232,7 +232,7 @@ Status keep_recipe(store::Store& store, const AgentConfig& config) {
                             origin.altitude,
                             config.map.voxel_m,
                             config.map.centroids ? 1.0 : 0.0,
-                            placement.mode == graph::PlacementMode::fleet ? 1.0 : 0.0,
+                            placement.method == graph::PlacementMethod::graph ? 1.0 : 0.0,
                             placement.paper.max_rmse,
                             placement.paper.gps_correlation_time,
                             placement.fleet.gps_correlation_time,
@@ -256,7 +256,7 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
   if (!origin) return std::nullopt;
   recipe.origin = *origin;
   recipe.merge = {.voxel_m = values[3], .centroids = values[4] != 0.0};
-  recipe.placement.mode = values[5] != 0.0 ? graph::PlacementMode::fleet : graph::PlacementMode::paper;
+  recipe.placement.method = values[5] != 0.0 ? graph::PlacementMethod::graph : graph::PlacementMethod::paper;
   recipe.placement.paper = {.max_rmse = values[6], .gps_correlation_time = values[7]};
   recipe.placement.fleet = {.gps_correlation_time = values[8],
                             .gps_drift_share = values[9],

@@ -50,9 +50,11 @@ void print_fleet(const nlohmann::json& evaluation) {
 void print_modes(const nlohmann::json& modes) {
   for (const auto& [mode, one] : modes.items()) {
     if (!one.contains("fleet")) continue;
-    std::cout << "mode " << mode << ": joint ATE " << one["fleet"]["ate_joint"].get<double>() << " m, "
-              << one["fleet"]["wrong_merges"] << " wrong merges, " << one["alignments"]["wrong_used"]
-              << " wrong alignments used\n";
+    std::cout << one["registration"].get<std::string>() << " registration, "
+              << one["placement"].get<std::string>() << " placement: joint ATE "
+              << one["fleet"]["ate_joint"].get<double>() << " m, " << one["alignments"]["wrong"] << " of "
+              << one["alignments"]["count"] << " alignments wrong, " << one["alignments"]["wrong_used"]
+              << " of them used, " << one["fleet"]["wrong_merges"] << " wrong merges\n";
   }
 }
 
@@ -121,7 +123,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--no-pictures", options->no_pictures, "numbers only");
   command->add_flag("--no-modes", options->no_modes,
-                    "not the map as either mode places it: half of the time");
+                    "not the map as the other registration and placement make it: most of the time");
   command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

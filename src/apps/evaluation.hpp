@@ -19,7 +19,7 @@ struct EvaluationInputs {
   double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
   bool pictures = true;
   bool page = true;     ///< evaluation.html
-  bool modes = true;    ///< also place and merge as the other mode would
+  bool modes = true;    ///< also register and place by the methods that the run did not use
   bool overlap = true;  ///< also measure what two robots saw
 };
 
@@ -28,8 +28,7 @@ struct EvaluationInputs {
 /// report.json under "evaluation". What a missing truth does not allow is left out and said in "notes".
 ///
 /// Keys: map (of the map that most robots hold), maps (when they differ), agents.ID, pairs, fleet,
-/// alignments, calibration, modes (paper and fleet: the same
-/// nodes and alignments as each places them), cpu, links, notes.
+/// alignments, calibration, modes (modes_json()), cpu, links, notes.
 Result<nlohmann::json> evaluate_run(const std::filesystem::path& directory, const EvaluationInputs& inputs);
 
 }  // namespace fleetmap::apps

@@ -127,7 +127,7 @@ eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
 }
 
 json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
-  const auto judged = eval::judge(agent::alignments_of(held.store), held.placement, truth);
+  const auto judged = eval::judge(held.alignments, held.placement, truth);
   std::vector<eval::JudgedAlignment> right, used;
   std::vector<eval::StatedError> stated;
   std::size_t wrong = 0, wrong_used = 0, ambiguous = 0, hold_right = 0, loops = 0;
@@ -146,7 +146,7 @@ json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::Tr
     wrong += one.ambiguous ? 0u : 1u;
     if ((one.used || !one.ambiguous) && list.size() < kMostListed) list.push_back(listed(one));
   }
-  json result = {{"held", held.store.alignments().size()},
+  json result = {{"held", held.alignments.size()},
                  {"count", judged.size()},
                  {"of_one_robot", loops},
                  {"wrong", wrong},
@@ -192,7 +192,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
     fleet["inter_robot_rotation_deg"] = kDegrees * std::sqrt(turns / static_cast<double>(meetings));
   }
   if (held == nullptr || truth.empty()) return fleet;
-  const auto pairs = eval::joined_pairs(agent::alignments_of(held->store), held->placement, truth);
+  const auto pairs = eval::joined_pairs(held->alignments, held->placement, truth);
   fleet["joined"] = joined_json(pairs);
   fleet["joined_pairs"] = pairs.size();
   fleet["wrong_merges"] = std::ranges::count(pairs, false, &eval::JoinedPair::right);

@@ -1,6 +1,7 @@
 #include "mode_evaluation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/graph/place.hpp"
+#include "registration_replay.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -16,12 +18,13 @@ using nlohmann::json;
 
 constexpr std::size_t kCovariances = 60;  ///< of as many nodes, evenly chosen
 
-/// The same set, as `mode` places it.
-graph::Placement placed(const HeldFleet& held, graph::PlacementMode mode,
+/// The nodes and alignments held, as `method` places them.
+graph::Placement placed(const HeldFleet& held, graph::PlacementMethod method,
                         std::span<const NodeId> covariance_of) {
   graph::PlacementConfig config = held.recipe.placement;
-  config.mode = mode;
-  return agent::place(held.store, held.recipe.origin, config, covariance_of);
+  config.method = method;
+  return graph::place(agent::nodes_of(held.store), held.alignments, LocalFrame(held.recipe.origin), config,
+                      covariance_of);
 }
 
 std::vector<NodeId> some_of(const eval::TruePoses& nodes) {
@@ -61,8 +64,8 @@ void append_session(const std::vector<agent::StampedPose>& odometry, const std::
   }
 }
 
-std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held,
-                                              const graph::Placement& placement) {
+std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held) {
+  const graph::Placement& placement = held.placement;
   std::map<unsigned, std::vector<Anchor>> sessions;
   for (const auto& [id, node] : held.store.nodes()) {
     const auto placed = placement.T_enu_node.find(id);
@@ -106,37 +109,78 @@ std::vector<eval::StatedError> placement_errors(const graph::Placement& placemen
   return errors;
 }
 
-json mode_json(const RunFolder& run, HeldFleet& held, graph::Placement placement,
-               const eval::TruePoses& nodes, MapEvaluation& maps, const json& evaluation) {
-  json result = json::object();
-  if (same_places(placement, held.placement)) {
-    for (const char* part : {"fleet", "alignments", "map"}) {
-      if (evaluation.contains(part)) result[part] = evaluation[part];
-    }
-    return result;
-  }
+/// One way to make a map of the run: whose alignments, placed how.
+struct Combination {
+  const char* name;
+  registration::Method registration;
+  graph::PlacementMethod placement;
+};
+constexpr std::array kCombinations{
+    Combination{"paper", registration::Method::paper, graph::PlacementMethod::paper},
+    Combination{"correlation_paper", registration::Method::correlation, graph::PlacementMethod::paper},
+    Combination{"paper_graph", registration::Method::paper, graph::PlacementMethod::graph},
+    Combination{"fleet", registration::Method::correlation, graph::PlacementMethod::graph},
+};
+
+/// Evaluates `held` as its alignments and placement are now.
+json combination_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes,
+                      MapEvaluation& maps) {
   RunFolder placed = run;
-  for (AgentFolder& agent : placed.agents) agent.trajectory = trajectory_of(agent, held, placement);
-  std::swap(held.placement, placement);
-  result["alignments"] = alignments_json(placed, held, nodes);
-  result["map"] = maps.of_held(held);
+  for (AgentFolder& agent : placed.agents) agent.trajectory = trajectory_of(agent, held);
+  json result = {{"alignments", alignments_json(placed, held, nodes)}, {"map", maps.of_held(held)}};
+  result["alignments"].erase("attempts");  // those of the run itself
   if (json fleet = fleet_json(placed, &held, nodes); !fleet.is_null()) result["fleet"] = std::move(fleet);
-  std::swap(held.placement, placement);
   return result;
+}
+
+/// The evaluation of the run itself, where a combination places the run's alignments as the run did.
+json own_json(const json& evaluation) {
+  json result = json::object();
+  for (const char* part : {"fleet", "alignments", "map"}) {
+    if (evaluation.contains(part)) result[part] = evaluation[part];
+  }
+  return result;
+}
+
+json replay_json(const ReplayedRegistrations& replayed) {
+  const std::size_t count = replayed.accepted + replayed.ambiguous + replayed.rejected;
+  return {{"accepted", replayed.accepted},
+          {"ambiguous", replayed.ambiguous},
+          {"rejected", replayed.rejected},
+          {"cpu_ms", 1e3 * replayed.cpu_seconds / static_cast<double>(std::max<std::size_t>(1, count))}};
 }
 
 }  // namespace
 
-json modes_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
+json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
                 const json& evaluation) {
   if (nodes.empty()) return nullptr;
+  const registration::Method own = method_of(run);
+  const auto other =
+      own == registration::Method::paper ? registration::Method::correlation : registration::Method::paper;
+  ReplayedRegistrations replayed = register_again(run, held, other);
+  run.notes.insert(run.notes.end(), replayed.notes.begin(), replayed.notes.end());
+  const graph::Placement run_placement = held.placement;
   json modes = json::object();
-  modes["paper"] =
-      mode_json(run, held, placed(held, graph::PlacementMode::paper, {}), nodes, maps, evaluation);
-  const graph::Placement fleet = placed(held, graph::PlacementMode::fleet, some_of(nodes));
-  modes["fleet"] = mode_json(run, held, fleet, nodes, maps, evaluation);
-  modes["fleet"]["judgements"] = judgements_json(fleet, agent::alignments_of(held.store), nodes);
-  modes["fleet"]["calibration"] = consistency_json(placement_errors(fleet, nodes));
+  for (const Combination& combination : kCombinations) {
+    const bool again = combination.registration != own;
+    if (again && replayed.accepted + replayed.ambiguous + replayed.rejected == 0) continue;
+    if (again) std::swap(held.alignments, replayed.alignments);
+    const bool graph = combination.placement == graph::PlacementMethod::graph;
+    held.placement = placed(held, combination.placement, graph ? some_of(nodes) : std::vector<NodeId>{});
+    json& mode = modes[combination.name];
+    mode = !again && same_places(held.placement, run_placement) ? own_json(evaluation)
+                                                                : combination_json(run, held, nodes, maps);
+    mode["registration"] = registration::to_string(combination.registration);
+    mode["placement"] = graph::to_string(combination.placement);
+    if (again) mode["registrations"] = replay_json(replayed);
+    if (graph) {
+      mode["judgements"] = judgements_json(held.placement, held.alignments, nodes);
+      mode["calibration"] = consistency_json(placement_errors(held.placement, nodes));
+    }
+    if (again) std::swap(held.alignments, replayed.alignments);
+  }
+  held.placement = run_placement;
   return modes;
 }
 

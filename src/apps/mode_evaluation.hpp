@@ -6,11 +6,17 @@
 
 namespace fleetmap::apps {
 
-/// "paper" and "fleet": the same nodes and alignments as each mode places them, so that one run tells both.
-/// Of each: fleet, alignments and map as in the evaluation itself; of mode fleet also what became of the
-/// alignments, and how its covariances keep to the truth. Where that is how the run placed them already,
-/// `evaluation` gives what it has. Null without truth.
-nlohmann::json modes_json(const RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes,
-                          MapEvaluation& maps, const nlohmann::json& evaluation);
+/// The map that each registration method and each placement make of one run's nodes and encounters, so that
+/// their difference shows what each is worth:
+///   paper              the paper's registration and its placement (mode `paper`)
+///   correlation_paper  the correlative registration, the paper's placement
+///   paper_graph        the paper's registration, the fleet's graph
+///   fleet              the correlative registration, the fleet's graph (mode `fleet`)
+/// The method that the run did not use registers the same pairs of the same clouds again (RegistrationLog).
+/// Each has "fleet", "alignments" and "map" as in the evaluation itself; those of the graph also the
+/// judgement of the alignments and the NEES of placed nodes. Where that is how the run was made, `evaluation`
+/// is copied. Combinations whose registrations were not logged are left out, with a note. Null without truth.
+nlohmann::json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
+                          const nlohmann::json& evaluation);
 
 }  // namespace fleetmap::apps

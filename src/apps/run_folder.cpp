@@ -182,7 +182,8 @@ Result<HeldFleet> open_held(const std::filesystem::path& store_file) {
   const auto recipe = agent::map_recipe(*store);
   if (!recipe) return failure(store_file.string() + ": no map was made of it yet");
   auto placement = agent::place(*store, recipe->origin, recipe->placement);
-  return HeldFleet{std::move(*store), *recipe, std::move(placement)};
+  auto alignments = agent::alignments_of(*store);
+  return HeldFleet{std::move(*store), *recipe, std::move(alignments), std::move(placement)};
 }
 
 store::MergedMap map_with_sources(HeldFleet& held) {

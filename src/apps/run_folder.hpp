@@ -55,6 +55,7 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run);
 struct HeldFleet {
   store::Store store;
   agent::MapRecipe recipe;
+  std::vector<graph::Alignment> alignments;  ///< those of the store
   graph::Placement placement;
 };
 /// Fails when no map was made of the store yet.

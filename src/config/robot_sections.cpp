@@ -149,6 +149,20 @@ void read_map_making(Section& top, agent::AgentConfig& agent) {
   map.check(agent.map.validate());
 }
 
+void read_paper_registration(Section& section, registration::PaperConfig& paper) {
+  section.read("voxel", paper.voxel_m);
+  section.read("feature_voxel", paper.feature_voxel_m);
+  section.read("normal_neighbours", paper.normal_neighbours);
+  section.read("feature_radius", paper.feature_radius_m);
+  section.read("ransac_iterations", paper.ransac_iterations);
+  section.read("ransac_inlier", paper.ransac_inlier_m);
+  section.read("icp_iterations", paper.icp_iterations);
+  section.read("inlier_distance", paper.inlier_m);
+  section.read("max_rmse", paper.max_rmse_m);
+  section.read("min_inlier_fraction", paper.min_inlier_fraction);
+  section.finish();
+}
+
 void read_registration(Section& top, agent::AgentConfig& agent) {
   registration::SpherizeConfig& spherize = agent.spherize;
   Section sphere = top.section("spherize");
@@ -176,16 +190,36 @@ void read_registration(Section& top, agent::AgentConfig& agent) {
   section.read("min_inlier_fraction", registration.min_inlier_fraction);
   section.read("min_agreement", registration.min_agreement);
   section.read("min_weight", registration.min_weight);
+  std::string method = registration::to_string(registration.method);
+  section.read("method", method);
+  if (method != "paper" && method != "correlation")
+    section.problem("method", "expected 'paper' or 'correlation', found '" + method + "'");
+  registration.method = method == "paper" ? registration::Method::paper : registration::Method::correlation;
+  Section paper = section.section("paper");
+  read_paper_registration(paper, registration.paper);
   section.finish();
   section.check(registration.validate());
-  agent.placement.paper.max_rmse = registration.max_rmse_m;
+
+  Section placement = top.section("placement");
+  std::string placed = graph::to_string(agent.placement.method);
+  placement.read("method", placed);
+  if (placed != "paper" && placed != "graph")
+    placement.problem("method", "expected 'paper' or 'graph', found '" + placed + "'");
+  agent.placement.method = placed == "paper" ? graph::PlacementMethod::paper : graph::PlacementMethod::graph;
+  placement.finish();
   agent.placement.paper.gps_correlation_time = agent.placement.fleet.gps_correlation_time =
       std::max(1.0, agent.perception.localization.gps.correlation_time);
 }
 
 void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
   Section proximity = top.section("proximity");
-  proximity.read("radius_per_sigma", encounters.proximity.radius_per_sigma);
+  std::string uncertainty = place::to_string(encounters.proximity.uncertainty);
+  proximity.read("uncertainty", uncertainty);
+  if (uncertainty != "sigma" && uncertainty != "variance")
+    proximity.problem("uncertainty", "expected 'sigma' or 'variance', found '" + uncertainty + "'");
+  encounters.proximity.uncertainty =
+      uncertainty == "variance" ? place::Uncertainty::variance : place::Uncertainty::sigma;
+  proximity.read("radius_scale", encounters.proximity.radius_scale);
   proximity.read("min_radius", encounters.proximity.min_radius);
   proximity.read("max_radius", encounters.proximity.max_radius);
   proximity.finish();
@@ -304,6 +338,16 @@ void read_blackouts(Section& network, std::vector<RadioBlackout>& blackouts) {
   }
 }
 
+/// Mode `paper`: the sections that follow may still set each part alone.
+void use_paper_defaults(agent::AgentConfig& agent) {
+  agent.registration.method = registration::Method::paper;
+  agent.placement.method = graph::PlacementMethod::paper;
+  place::ProximityConfig& proximity = agent.exchange.encounters.proximity;
+  proximity.uncertainty = place::Uncertainty::variance;
+  proximity.min_radius = 20.0;
+  proximity.max_radius = 30.0;
+}
+
 }  // namespace
 
 void read_agent(Section& top, agent::AgentConfig& agent) {
@@ -312,7 +356,7 @@ void read_agent(Section& top, agent::AgentConfig& agent) {
   top.read("mode", mode);
   if (mode != "paper" && mode != "fleet")
     top.problem("mode", "expected 'paper' or 'fleet', found '" + mode + "'");
-  agent.placement.mode = mode == "fleet" ? graph::PlacementMode::fleet : graph::PlacementMode::paper;
+  if (mode == "paper") use_paper_defaults(agent);
   top.read_path("directory", agent.directory);
   read_site(top, agent);
   read_perception(top, agent.perception);

@@ -106,13 +106,12 @@ void Encounters::replace_less_alike(const NodePair& pair, double likeness) {
 void Encounters::find(const graph::Node& node, const AgentId& other, Stamp now) {
   const auto track = tracks_.find(other);
   if (track == tracks_.end()) return;
-  const double radius = place::search_radius(node.G->covariance, config_.proximity);
-  const auto nearest = place::nearest_within(track->second.tree, node.G->position, radius);
-  if (!nearest) return;
+  const auto found = place::find_proximity(track->second.tree, *node.G, config_.proximity);
+  if (!found) return;
   ++stats_.found;
-  const NodeId partner = track->second.ids[nearest->index];
-  offer(other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner}, nearest->distance, radius,
-        now);
+  const NodeId partner = track->second.ids[found->nearest.index];
+  offer(other == self_ ? NodePair{partner, node.id} : NodePair{node.id, partner}, found->nearest.distance,
+        found->radius, now);
 }
 
 void Encounters::offer(const NodePair& pair, double distance, double radius, Stamp now) {

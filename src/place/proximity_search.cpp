@@ -6,9 +6,13 @@
 
 namespace fleetmap::place {
 
+const char* to_string(Uncertainty uncertainty) {
+  return uncertainty == Uncertainty::variance ? "variance" : "sigma";
+}
+
 Status ProximityConfig::validate() const {
-  if (!(radius_per_sigma > 0.0) || !std::isfinite(radius_per_sigma)) {
-    return failure("radius_per_sigma: must be a finite number > 0");
+  if (!(radius_scale > 0.0) || !std::isfinite(radius_scale)) {
+    return failure("radius_scale: must be a finite number > 0");
   }
   if (!(min_radius >= 0.0) || !std::isfinite(min_radius)) {
     return failure("min_radius: must be a finite number of metres >= 0");
@@ -38,22 +42,21 @@ bool tells_place(const std::optional<GlobalPose>& G, double max_sigma_m) {
 
 double search_radius(double horizontal_sigma_m, const ProximityConfig& config) {
   if (!(horizontal_sigma_m >= 0.0)) return config.max_radius;
-  return std::clamp(horizontal_sigma_m * config.radius_per_sigma, config.min_radius, config.max_radius);
+  const double C = config.uncertainty == Uncertainty::variance ? horizontal_sigma_m * horizontal_sigma_m
+                                                               : horizontal_sigma_m;
+  return std::clamp(C * config.radius_scale, config.min_radius, config.max_radius);
 }
 
 double search_radius(const Matrix6d& C_ekf, const ProximityConfig& config) {
   return search_radius(horizontal_sigma(C_ekf), config);
 }
 
-std::optional<Neighbor> nearest_within(const BallTree& tree, const GeoPoint& point, double radius_m) {
-  const auto nearest = tree.nearest(point);
-  if (!nearest || !(nearest->distance <= radius_m)) return std::nullopt;
-  return nearest;
-}
-
-std::optional<Neighbor> find_proximity(const BallTree& own_nodes, const GlobalPose& G_i,
-                                       const ProximityConfig& config) {
-  return nearest_within(own_nodes, G_i.position, search_radius(G_i.covariance, config));
+std::optional<Proximity> find_proximity(const BallTree& own_nodes, const GlobalPose& G_i,
+                                        const ProximityConfig& config) {
+  const double radius = search_radius(G_i.covariance, config);
+  const auto nearest = own_nodes.nearest(G_i.position);
+  if (!nearest || !(nearest->distance <= radius)) return std::nullopt;
+  return Proximity{*nearest, radius};
 }
 
 }  // namespace fleetmap::place

@@ -67,6 +67,11 @@ MovingPoints picked(const MovingPoints& all, std::size_t count) {
 PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector3d& up,
                              const RegistrationConfig& config) {
   auto data = std::make_shared<Data>();
+  if (config.method == Method::paper) {
+    data->features = FeatureCloud(cloud, config.paper);
+    data_ = std::move(data);
+    return;
+  }
   data->R_level_cloud = levelling(up);
   const std::vector<Eigen::Vector3f> points = levelled(cloud, data->R_level_cloud, config);
   SurfelConfig surfels;
@@ -83,6 +88,8 @@ PreparedCloud::PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector
   data_ = std::move(data);
 }
 
-std::size_t PreparedCloud::size() const { return data_ ? data_->all.points.size() : 0; }
+std::size_t PreparedCloud::size() const {
+  return data_ ? std::max(data_->all.points.size(), data_->features.size()) : 0;
+}
 
 }  // namespace fleetmap::registration

@@ -2,13 +2,16 @@
 
 #include "flat_map.hpp"
 #include "fleetmap/registration/prepared_cloud.hpp"
+#include "paper_registration.hpp"
 #include "surfel_icp.hpp"
 #include "surfels.hpp"
 
 namespace fleetmap::registration {
 
-/// Everything is in the levelled frame: the cloud's origin, z against gravity.
+/// All but `features` is of the correlative search, and in the levelled frame: the cloud's origin, z against
+/// gravity.
 struct PreparedCloud::Data {
+  FeatureCloud features;  ///< of method `paper`, in the cloud's own frame
   Eigen::Matrix3d R_level_cloud = Eigen::Matrix3d::Identity();
   SurfelMap surfels;
   FlatMap flat;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "modes.hpp"
+#include "prepared_data.hpp"
 
 namespace fleetmap::registration {
 namespace {
@@ -106,6 +107,9 @@ RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCl
   for (const MapDrift* drift : {&drifts.target, &drifts.source}) {
     if (auto valid = drift->validate(); !valid) return rejected(valid.error().message);
   }
+  if (target.data() == nullptr || source.data() == nullptr) return rejected("a cloud was not prepared");
+  if (config.method == Method::paper)
+    return register_by_features(target.data()->features, source.data()->features, config.paper);
   const std::size_t fewest = std::min(target.size(), source.size());
   if (fewest < config.min_points) {
     return rejected(text("a cloud has only %zu points after thinning, at least %zu are needed", fewest,

@@ -29,7 +29,7 @@ class LivePlacementTest : public ::testing::Test {
     });
     config_.id = kSelf;
     config_.site_origin = origin_;
-    config_.placement.mode = graph::PlacementMode::fleet;
+    config_.placement.method = graph::PlacementMethod::graph;
     live_ = std::make_unique<LivePlacement>(
         config_, *bus_, store_,
         [this](std::span<const graph::Alignment> used) { used_.push_back(used.size()); });

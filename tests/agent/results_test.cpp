@@ -83,7 +83,7 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
 TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {
   AgentConfig config = this->config();
   config.map.voxel_m = 0.25;
-  config.placement.mode = graph::PlacementMode::paper;
+  config.placement.method = graph::PlacementMethod::paper;
   config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
   store::Store store = open();
   ASSERT_TRUE(keep_recipe(store, config));  // as an agent does when it starts
@@ -92,7 +92,7 @@ TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, *config.site_origin);
   EXPECT_EQ(recipe->merge.voxel_m, 0.25);
-  EXPECT_EQ(recipe->placement.mode, graph::PlacementMode::paper);
+  EXPECT_EQ(recipe->placement.method, graph::PlacementMethod::paper);
 
   config.site_origin.reset();
   ASSERT_TRUE(keep_recipe(store, config));
@@ -128,7 +128,7 @@ TEST_F(ResultsTest, ARobotInQuarantineIsShown) {
   }
   ASSERT_GT(of_faulty, 3u);
   AgentConfig config = this->config();
-  config.placement.mode = graph::PlacementMode::fleet;
+  config.placement.method = graph::PlacementMethod::graph;
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
   for (const auto& [agent, credit] : results->placement.credits)
@@ -184,7 +184,7 @@ TEST_F(ResultsTest, ACorrectionOfTheFleetsGraphMovesSubmapsAndSendsNone) {
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
   AgentConfig config = this->config();
   config.site_origin = origin_;
-  config.placement.mode = graph::PlacementMode::fleet;
+  config.placement.method = graph::PlacementMethod::graph;
   const auto before = write_results(store, config);
   ASSERT_TRUE(before) << before.error().message;
   EXPECT_EQ(before->placement.components.size(), 2u);
@@ -213,7 +213,7 @@ TEST_F(ResultsTest, ACorrectionOfTheFleetsGraphMovesSubmapsAndSendsNone) {
   EXPECT_TRUE(store.partial_submaps().empty());
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
-  EXPECT_EQ(recipe->placement.mode, graph::PlacementMode::fleet);
+  EXPECT_EQ(recipe->placement.method, graph::PlacementMethod::graph);
   const graph::Placement again = place(store, recipe->origin, recipe->placement);
   for (const auto& [id, T] : after->placement.T_enu_node)
     EXPECT_TRUE(again.T_enu_node.at(id).matrix() == T.matrix());

@@ -32,7 +32,7 @@ void measure(int robots, int nodes_each, int every, double false_share) {
   SimulatedFleet fleet(1, mission);
   const auto false_ones = fleet.align_neighbours(every, false_share);
   graph::PlacementConfig fleet_mode;
-  fleet_mode.mode = graph::PlacementMode::fleet;
+  fleet_mode.method = graph::PlacementMethod::graph;
   const NodeId newest = fleet.nodes.back().id;
   graph::Placement placement;
   const double fleet_s = best_of(3, [&] {

@@ -107,6 +107,47 @@ TEST_F(FleetConfigTest, UnknownModeIsRefused) {
   EXPECT_THAT(robot_error(kRobot + "mode: papper\n"), HasSubstr("config.yaml:4: mode: expected 'paper'"));
 }
 
+TEST_F(FleetConfigTest, ModePaperSelectsMethodPlacementAndSearchOfWhichEachCanBeSetAlone) {
+  const auto robot = [&](const std::string& lines) {
+    const auto loaded = load_robot(write(kRobot + lines), {});
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return loaded->agent;
+  };
+  const auto fleet = robot("");
+  EXPECT_EQ(fleet.registration.method, registration::Method::correlation);
+  EXPECT_EQ(fleet.placement.method, graph::PlacementMethod::graph);
+  EXPECT_EQ(fleet.exchange.encounters.proximity.uncertainty, place::Uncertainty::sigma);
+
+  const auto paper = robot("mode: paper\n");
+  EXPECT_EQ(paper.registration.method, registration::Method::paper);
+  EXPECT_EQ(paper.placement.method, graph::PlacementMethod::paper);
+  EXPECT_EQ(paper.exchange.encounters.proximity.uncertainty, place::Uncertainty::variance);
+  EXPECT_EQ(paper.exchange.encounters.proximity.min_radius, 20.0);
+  EXPECT_EQ(paper.exchange.encounters.proximity.max_radius, 30.0);
+
+  const auto mixed = robot("mode: paper\nregistration: {method: correlation}\nproximity: {max_radius: 25}\n");
+  EXPECT_EQ(mixed.registration.method, registration::Method::correlation);
+  EXPECT_EQ(mixed.placement.method, graph::PlacementMethod::paper);
+  EXPECT_EQ(mixed.exchange.encounters.proximity.max_radius, 25.0);
+
+  const auto other =
+      robot("registration: {method: paper, paper: {max_rmse: 0.3}}\nplacement: {method: paper}\n");
+  EXPECT_EQ(other.registration.method, registration::Method::paper);
+  EXPECT_EQ(other.registration.paper.max_rmse_m, 0.3);
+  EXPECT_EQ(other.placement.method, graph::PlacementMethod::paper);
+}
+
+TEST_F(FleetConfigTest, UnknownMethodsAreRefusedWhereTheyStand) {
+  EXPECT_THAT(robot_error(kRobot + "registration: {method: fpfh}\n"),
+              HasSubstr("config.yaml:4: registration.method: expected 'paper' or 'correlation'"));
+  EXPECT_THAT(robot_error(kRobot + "placement: {method: fleet}\n"),
+              HasSubstr("config.yaml:4: placement.method: expected 'paper' or 'graph'"));
+  EXPECT_THAT(robot_error(kRobot + "proximity: {uncertainty: covariance}\n"),
+              HasSubstr("config.yaml:4: proximity.uncertainty: expected 'sigma' or 'variance'"));
+  EXPECT_THAT(robot_error(kRobot + "registration: {paper: {feature_radius: 0.1}}\n"),
+              HasSubstr("paper.feature_radius"));
+}
+
 TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
   const auto robot = load_robot(
       write(kRobot + "nodes: {spacing: 5}\n"),

@@ -56,8 +56,15 @@ TEST(SearchRadius, IsEquationOne) {
   EXPECT_EQ(search_radius(with_horizontal_sigmas(2.5, 1.0, 0.0), config), 25.0);
 }
 
+TEST(SearchRadius, AsPrintedMultipliesTheVariance) {
+  const ProximityConfig config{.uncertainty = Uncertainty::variance};
+  EXPECT_EQ(search_radius(with_horizontal_sigmas(1.0, 0.5, 0.3), config), 20.0);
+  EXPECT_DOUBLE_EQ(search_radius(with_horizontal_sigmas(1.6, 1.0, 0.0), config), 25.6);
+  EXPECT_EQ(search_radius(with_horizontal_sigmas(1.8, 1.0, 0.0), config), 30.0);
+}
+
 TEST(SearchRadius, IsMonotonousAndNeverLeavesItsBounds) {
-  const ProximityConfig config{.radius_per_sigma = 7.0, .min_radius = 5.0, .max_radius = 60.0};
+  const ProximityConfig config{.radius_scale = 7.0, .min_radius = 5.0, .max_radius = 60.0};
   double last = 0.0;
   for (double sigma = 0.0; sigma < 20.0; sigma += 0.01) {
     const double r = search_radius(sigma, config);
@@ -86,8 +93,9 @@ TEST(FindProximity, ReturnsTheNearestNodeIfItLiesWithinTheRadius) {
   G.covariance = with_horizontal_sigmas(2.3, 1.0, 0.0);  // r = 23 m
   const auto match = find_proximity(tree, G, {});
   ASSERT_TRUE(match);
-  EXPECT_EQ(match->index, 1u);
-  EXPECT_NEAR(match->distance, 22.0, 1e-6);
+  EXPECT_EQ(match->nearest.index, 1u);
+  EXPECT_NEAR(match->nearest.distance, 22.0, 1e-6);
+  EXPECT_DOUBLE_EQ(match->radius, 23.0);
 }
 
 TEST(FindProximity, NothingInAnEmptyTreeOrForAnInvalidPosition) {
@@ -99,14 +107,18 @@ TEST(FindProximity, NothingInAnEmptyTreeOrForAnInvalidPosition) {
   EXPECT_FALSE(find_proximity(tree, G, {}));
 }
 
-TEST(NearestWithin, TheRadiusIsInclusive) {
+TEST(FindProximity, TheRadiusIsInclusive) {
   BallTree tree;
   tree.insert({0.7, 0.2, 0.0});
-  const GeoPoint query{0.7001, 0.2001, 0.0};
-  const double d = haversine_distance(query, {0.7, 0.2, 0.0});
-  EXPECT_TRUE(nearest_within(tree, query, d));
-  EXPECT_FALSE(nearest_within(tree, query, std::nextafter(d, 0.0)));
-  EXPECT_FALSE(nearest_within(tree, query, kNaN));
+  GlobalPose G;
+  G.position = {0.7001, 0.2001, 0.0};
+  G.covariance = with_horizontal_sigmas(1.0, 1.0, 0.0);
+  const double d = haversine_distance(G.position, {0.7, 0.2, 0.0});
+  const auto within = [&](double r) {
+    return find_proximity(tree, G, {.min_radius = r, .max_radius = r}).has_value();
+  };
+  EXPECT_TRUE(within(d));
+  EXPECT_FALSE(within(std::nextafter(d, 0.0)));
 }
 
 TEST(ProximityConfig, NamesTheFieldThatBreaksItsRule) {
@@ -115,7 +127,7 @@ TEST(ProximityConfig, NamesTheFieldThatBreaksItsRule) {
     const auto status = config.validate();
     return status ? std::string() : status.error().message.substr(0, status.error().message.find(':'));
   };
-  EXPECT_EQ(field_of({.radius_per_sigma = 0.0}), "radius_per_sigma");
+  EXPECT_EQ(field_of({.radius_scale = 0.0}), "radius_scale");
   EXPECT_EQ(field_of({.min_radius = -1.0}), "min_radius");
   EXPECT_EQ(field_of({.min_radius = 30.0, .max_radius = 20.0}), "max_radius");
   EXPECT_EQ(field_of({.max_radius = kNaN}), "max_radius");

@@ -40,6 +40,16 @@ TEST_F(SmallGicpPair, IsRegisteredWithoutAPrior) {
   EXPECT_LT(error.rotation_rad, 0.5 * kDegree);
 }
 
+TEST_F(SmallGicpPair, IsRegisteredByThePapersMethodWithoutAPrior) {
+  RegistrationConfig config;
+  config.method = Method::paper;
+  const auto result = register_clouds(target, source, config);
+  EXPECT_EQ(result.verdict, Verdict::accepted) << result.reason;
+  const auto error = error_between(T_target_source, result.T_target_source);
+  EXPECT_LT(error.translation_m, 0.15);
+  EXPECT_LT(error.rotation_rad, 0.5 * kDegree);
+}
+
 TEST_F(SmallGicpPair, IsRecoveredFromFiveMetresAndFortyDegreesWithoutAPrior) {
   for (int k = 0; k < 6; ++k) {
     const double bearing = k * 60.0 * kDegree;

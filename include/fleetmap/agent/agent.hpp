@@ -20,6 +20,7 @@
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
+#include "fleetmap/store/registration_log.hpp"
 
 namespace fleetmap::agent {
 
@@ -105,16 +106,20 @@ class Agent {
   struct Registered {
     Result<registration::RegistrationResult> result = failure("not run");
     double cpu_seconds = 0.0;
+    store::LoggedRegistration input;
   };
   /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
   Result<registration::RegistrationResult> register_encoded(OwnCloud& target, const graph::Node& source,
                                                             const Bytes& encoded,
                                                             const registration::Prior& prior,
-                                                            const registration::Drifts& drifts) const;
+                                                            const registration::Drifts& drifts,
+                                                            store::LoggedRegistration& input) const;
   registration::Drifts drifts_around(const graph::Node& target, const graph::Node& source) const;
   void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
                 const std::optional<exchange::NodePair>& pair);
   void log_registration(const NodeId& i, const NodeId& j, const Registered& registered);
+  /// Keeps both clouds, so that the pair can be registered again by another method.
+  void keep_input(const store::LoggedRegistration& input);
   void update_status();
 
   AgentConfig config_;
@@ -123,6 +128,7 @@ class Agent {
   std::uint8_t session_;
   TrajectoryFile odometry_file_;
   GlobalTrackFile global_file_;
+  std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
   OwnClouds own_clouds_;
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
@@ -142,7 +148,7 @@ class Agent {
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
   std::unique_ptr<Navigator> navigator_;
-  std::unique_ptr<LivePlacement> live_placement_;  ///< with mode `fleet`
+  std::unique_ptr<LivePlacement> live_placement_;  ///< with placement.method `graph`
   bus::Handle live_timer_;
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;

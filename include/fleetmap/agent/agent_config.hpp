@@ -28,7 +28,8 @@ struct AgentConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
-  LoopClosureConfig loop_closures;  ///< of mode fleet: the paper's scheme has no use for them
+  LoopClosureConfig
+      loop_closures;  ///< with placement.method graph: the paper's placement has no use for them
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;

@@ -7,20 +7,22 @@
 
 namespace fleetmap::graph {
 
-enum class PlacementMode {
+enum class PlacementMethod {
   paper,  ///< one rigid transform a pair of agents, that of least E_ij
-  fleet,  ///< the fleet's robust pose graph
+  graph,  ///< the fleet's robust pose graph
 };
 
+const char* to_string(PlacementMethod method);
+
 struct PlacementConfig {
-  PlacementMode mode = PlacementMode::fleet;
+  PlacementMethod method = PlacementMethod::graph;
   PaperPlacementConfig paper;
   FleetPlacementConfig fleet;
   Status validate() const;
 };
 
-/// Where every node lies, by the mode that is set; nodes without a G as with_global_poses() says.
-/// Covariances come with mode `fleet` alone.
+/// Where every node lies, by the method that is set; nodes without a G as with_global_poses() says.
+/// Covariances come with method `graph` alone.
 Placement place(std::span<const Node> nodes, std::span<const Alignment> alignments, const LocalFrame& site,
                 const PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 

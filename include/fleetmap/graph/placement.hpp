@@ -52,7 +52,7 @@ struct Placement {
   /// The alignments that tie them, each with the one mode that was taken.
   std::vector<Alignment> used;
 
-  // Of mode `fleet` alone.
+  // Only of method `graph`.
   std::vector<JudgedAlignment> judged;     ///< every alignment, by (computed_by, seq)
   std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
   std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
@@ -63,9 +63,9 @@ struct PaperPlacementConfig {
   double gps_correlation_time = 60.0;  ///< s, fixes closer in time than this share their error
 };
 
-/// The paper's scheme (mode `paper`): one rigid transform per pair of agents, that of the alignment with the
-/// least E_ij, of those with one mode; each connected group of agents is then laid on its nodes' global poses
-/// G by least squares.
+/// The paper's scheme (method `paper`): one rigid transform per pair of agents, that of the alignment with
+/// the least E_ij, of those with one mode; each connected group of agents is then laid on its nodes' global
+/// poses G by least squares.
 Placement place_by_least_rmse(std::span<const Node> nodes, std::span<const Alignment> alignments,
                               const LocalFrame& site, const PaperPlacementConfig& config = {});
 

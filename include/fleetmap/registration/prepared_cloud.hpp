@@ -13,8 +13,9 @@ namespace fleetmap::registration {
 class PreparedCloud {
  public:
   PreparedCloud() = default;
-  /// `up` points against gravity in the cloud's frame. Non-finite points, and points farther than
-  /// config.max_range_m, are left out. `config` must be valid.
+  /// Computes what config.method needs. `up` points against gravity in the cloud's frame. Non-finite points
+  /// are left out, and by the correlative search points farther than config.max_range_m. `config` must be
+  /// valid.
   PreparedCloud(const cloud::PointCloud& cloud, const Eigen::Vector3d& up, const RegistrationConfig& config);
 
   /// Points left after thinning.

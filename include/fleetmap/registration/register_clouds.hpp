@@ -51,10 +51,14 @@ struct RegistrationResult {
   std::vector<Mode> modes;  ///< most weight first; those of next to no weight are left out
 };
 
-/// All poses T_target_source that fit, and whether one of them is certain. A correlation of both clouds' maps
-/// over every pose of the prior's window (over all poses in reach without one) gives candidates,
-/// point-to-surfel ICP refines them, and what each patch of ground says for one and against another, with the
-/// prior, weighs them (paper, spherized registration). `drifts` go into the covariances. Deterministic.
+/// Spherized registration (paper, Alg. 3) by config.method:
+/// - `correlation` returns all poses T_target_source that fit, and whether one of them is certain. A
+///   correlation of both clouds' maps over every pose of the prior's window (over all poses in reach without
+///   one) gives candidates, point-to-surfel ICP refines them, and what each patch of ground says for one and
+///   against another, with the prior, weighs them. `drifts` go into the covariances.
+/// - `paper` returns the one pose that RANSAC over FPFH correspondences and point-to-plane ICP give. It uses
+///   neither prior nor drifts.
+/// Deterministic.
 ///
 /// Both clouds must be level within some 0.15 rad, after the prior's tilt if there is one. Non-finite points
 /// are left out; clouds too small to tell are rejected.

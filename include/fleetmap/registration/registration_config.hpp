@@ -4,10 +4,20 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/registration/icp.hpp"
+#include "fleetmap/registration/paper_config.hpp"
 
 namespace fleetmap::registration {
 
+enum class Method {
+  correlation,  ///< correlative search over the prior's window, all modes, point-to-surfel ICP
+  paper,        ///< FPFH, RANSAC, point-to-plane ICP; no prior
+};
+const char* to_string(Method method);
+
+/// Everything but `method` and `paper` is of the correlative search.
 struct RegistrationConfig {
+  Method method = Method::correlation;
+  PaperConfig paper;
   float max_range_m = 60.0f;  ///< m, points farther from their cloud's origin are left out
   float voxel_m = 0.1f;       ///< m, both clouds are thinned to it first
   float surfel_m = 0.35f;     ///< m, voxels of the surfels that points are compared with
