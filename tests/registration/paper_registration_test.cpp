@@ -33,13 +33,13 @@ Pair pair_in(const MadeWorld& world, double apart_m, double yaw) {
   const Pose T_world_target = make_pose(rotation_from_rpy(0.02, -0.01, 0.4), Eigen::Vector3d(2, 1, 1.2));
   const Pose T_target_source =
       make_pose(rotation_from_rpy(-0.03, 0.02, yaw), Eigen::Vector3d(0.8 * apart_m, -0.6 * apart_m, 0.1));
-  return {world.scan(T_world_target, 12'000, 0.03, 1001),
-          world.scan(T_world_target * T_target_source, 12'000, 0.03, 2001), T_target_source};
+  return {world.scan(T_world_target, 12'000, 0.03, 1001, 25.0),
+          world.scan(T_world_target * T_target_source, 12'000, 0.03, 2001, 25.0), T_target_source};
 }
 
 TEST(PaperRegistration, FindsThePoseWithoutAPrior) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    const Pair pair = pair_in(MadeWorld(seed), 3.0 * seed, 1.1 * seed - 2.0);
+    const Pair pair = pair_in(MadeWorld(seed), 2.0 * seed, 1.1 * seed - 2.0);
     const auto result = register_clouds(pair.target, pair.source, paper());
     EXPECT_EQ(result.verdict, Verdict::accepted) << "seed " << seed << ": " << result.reason;
     const auto error = error_between(pair.T_target_source, result.T_target_source);
