@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <array>
 #include <charconv>
 #include <iostream>
@@ -37,7 +39,7 @@ nlohmann::json rows_of(const Matrix& matrix) {
   return rows;
 }
 
-nlohmann::json to_json(const registration::RegistrationResult& result) {
+nlohmann::json to_json(const registration::RegistrationResult& result, registration::Method method) {
   nlohmann::json modes = nlohmann::json::array();
   for (const registration::Mode& mode : result.modes) {
     modes.push_back({{"T_target_source", rows_of(mode.T_target_source.matrix())},
@@ -47,7 +49,8 @@ nlohmann::json to_json(const registration::RegistrationResult& result) {
                      {"overlap", mode.overlap},
                      {"weight", mode.weight}});
   }
-  return {{"verdict", registration::to_string(result.verdict)},
+  return {{"method", registration::to_string(method)},
+          {"verdict", registration::to_string(result.verdict)},
           {"reason", result.reason},
           {"T_target_source", rows_of(result.T_target_source.matrix())},
           {"rmse", result.rmse},
@@ -90,8 +93,11 @@ int run(const RegisterOptions& options) {
        {std::pair(&options.source, &*source), std::pair(&options.target, &*target)}) {
     if (cloud->empty()) return report({*name + ": holds no point; there is nothing to register"}, kFailed);
   }
-  const auto result = registration::register_clouds(*target, *source, config->agent.registration, prior);
-  std::cout << to_json(result).dump(2) << '\n';
+  const registration::RegistrationConfig& settings = config->agent.registration;
+  if (prior && settings.method == registration::Method::paper)
+    spdlog::warn("--prior is not used: the paper's registration has no prior (registration.method)");
+  const auto result = registration::register_clouds(*target, *source, settings, prior);
+  std::cout << to_json(result, settings.method).dump(2) << '\n';
   return kDone;
 }
 
