@@ -16,6 +16,7 @@
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -108,7 +109,10 @@ Status Agent::start() {
   exchange_.emplace(std::move(*made));
   link_ = std::make_unique<FleetLink>(config_.id, bus_, *exchange_, [this] { on_events(); });
   perception_ = std::make_unique<Perception>(
-      config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); });
+      config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); },
+      [this] {
+        if (navigator_) navigator_->on_scan();
+      });
   if (config_.navigator) {
     if (!config_.site_origin) return failure(config_.id.str() + ": a mission needs site.origin");
     auto navigator =
@@ -117,8 +121,16 @@ Status Agent::start() {
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
     navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
+    exchange_->set_drives(true);
+    if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
   }
+<<<<<<< HEAD
   if (config_.placement.method == graph::PlacementMethod::graph) {
+=======
+  local_hold_ =
+      bus_.subscribe(wire::topics::hold_onboard(), [this](const Bytes& cdr) { on_local_hold(cdr); });
+  if (config_.placement.mode == graph::PlacementMode::fleet) {
+>>>>>>> safety
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
@@ -147,13 +159,18 @@ bool Agent::idle() const {
 // ---- own map
 // ----------------------------------------------------------------------------------------------------
 
+void Agent::halt() {
+  if (navigator_) navigator_->stop();
+}
+
 void Agent::stop() {
+  halt();
   perception_->stop();
   link_->stop();
   status_timer_.reset();
   live_timer_.reset();
   navigator_timer_.reset();
-  if (navigator_) navigator_->stop();
+  local_hold_.reset();
 }
 
 void Agent::on_perceived(Perceived&& perceived) {
@@ -468,6 +485,17 @@ void Agent::keep_input(const store::LoggedRegistration& input) {
 
 void Agent::handle(const exchange::MissionHeard& heard) {
   if (navigator_) navigator_->on_report(heard.report);
+}
+
+void Agent::on_local_hold(const Bytes& cdr) {
+  const auto hold = wire::decode<exchange::Hold>(cdr);
+  if (!hold) return spdlog::warn("{}: refused: {}", wire::topics::hold_onboard().name, hold.error().message);
+  for (const exchange::HoldOrder& order : hold->orders) exchange_->on_local_order(order, bus_.now());
+  on_events();
+}
+
+void Agent::handle(const exchange::HoldChanged& changed) {
+  if (navigator_) navigator_->obey(changed.order);
 }
 
 void Agent::handle(const exchange::PeerStatus& status) {

@@ -13,9 +13,10 @@ namespace {
 /// Often enough to keep a 15 Mbit/s window moving.
 constexpr Duration kTickPeriod = std::chrono::milliseconds(20);
 
-/// Digests and status messages go on for ever; everything else moves items.
+/// Digests, status messages and orders go on for ever; everything else moves items.
 bool moves_items(const exchange::Message& message) {
   return !std::holds_alternative<exchange::Digest>(message) &&
+         !std::holds_alternative<exchange::Hold>(message) &&
          !std::holds_alternative<exchange::AgentStatus>(message) &&
          !std::holds_alternative<exchange::SubmapDigest>(message);
 }

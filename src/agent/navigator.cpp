@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fleetmap/place/proximity_search.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
@@ -70,17 +71,20 @@ Result<std::unique_ptr<Navigator>> Navigator::create(const NavigatorConfig& conf
                                                      const GeoPoint& site, bus::Bus& bus, Tell tell) {
   auto executive = planning::MissionExecutive::create(config.plan, self);
   if (!executive) return tl::unexpected(executive.error());
-  return std::unique_ptr<Navigator>(new Navigator(config, std::move(*executive), site, bus, std::move(tell)));
+  return std::unique_ptr<Navigator>(
+      new Navigator(config, self, std::move(*executive), site, bus, std::move(tell)));
 }
 
-Navigator::Navigator(const NavigatorConfig& config, planning::MissionExecutive executive,
+Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, planning::MissionExecutive executive,
                      const GeoPoint& site, bus::Bus& bus, Tell tell)
     : config_(config),
       site_(site),
+      self_(self),
       bus_(bus),
       tell_(std::move(tell)),
       executive_(std::move(executive)),
-      follower_(config.follower) {
+      follower_(config.follower),
+      guard_(config.guard) {
   bus_.advertise(wire::topics::cmd_vel());
   handles_.push_back(bus_.subscribe(wire::topics::battery(), [this](const Bytes& cdr) {
     if (const auto battery = wire::decode<sensor::Battery>(cdr)) battery_ = battery->share;
@@ -91,7 +95,14 @@ Navigator::Navigator(const NavigatorConfig& config, planning::MissionExecutive e
     if (!pose) return;
     guide_ = pose;
     guided_at_ = bus_.now();
+    guard_.on_pose(guided_at_);
   }));
+  watch_ = bus_.every(DriveGuard::kPeriod, [this] { watch(); });
+}
+
+/// Also when an exception ends the program.
+Navigator::~Navigator() {
+  if (stands_ != StandReason::kStopping) stop();
 }
 
 std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
@@ -108,21 +119,52 @@ bool Navigator::guided() const {
 }
 
 void Navigator::drive(const planning::Command& command) {
+  const auto reason = guard_.check(bus_.now());
+  note(reason);
+  const planning::Command passed = reason ? planning::Command{} : command;
   bus_.publish(wire::topics::cmd_vel(),
-               wire::encode(wire::VelocityCommand{command.forward_speed, command.yaw_rate}));
+               wire::encode(wire::VelocityCommand{passed.forward_speed, passed.yaw_rate}));
+}
+
+void Navigator::note(const std::optional<StandReason>& reason) {
+  drove_ |= !reason;
+  if (reason == stands_) return;
+  if (!reason) {
+    if (stands_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
+  } else if (drove_ || reason == StandReason::kHeld) {  // before it ever drove there is nothing to warn of
+    spdlog::log(reason == StandReason::kStopping ? spdlog::level::info : spdlog::level::warn,
+                "{}: stands still: {}", self_.str(), to_string(*reason));
+  }
+  stands_ = reason;
+  stands_since_ = bus_.now();
+}
+
+void Navigator::watch() {
+  const auto reason = guard_.check(bus_.now());
+  if (reason == StandReason::kHeld) follower_.pause(bus_.now());
+  if (reason || stands_) drive({});
+}
+
+bool Navigator::locate(const Perceived& perceived) {
+  const Stamp now = bus_.now();
+  const bool lost = perceived.odometry.lost;
+  if (!lost) guard_.on_odometry(perceived.heard, now);
+  if (guided()) {
+    pose_ = guide_;
+    return !lost;
+  }
+  if (!perceived.G) return false;
+  pose_ = pose_of(*perceived.G);
+  const double sigma = place::horizontal_sigma(perceived.G->covariance);
+  if (!pose_ || !(sigma <= config_.guard.max_position_sigma)) return false;
+  guard_.on_pose(now);
+  return !lost;
 }
 
 void Navigator::on_perceived(const Perceived& perceived) {
-  if (stopped_) return;
-  const bool led = guided();
-  if (led) {
-    pose_ = guide_;
-  } else if (perceived.G) {
-    pose_ = pose_of(*perceived.G);
-  }
-  // Without a pose there is no telling where to; the robot waits.
-  if (!(led || perceived.G) || !pose_ || action_.kind != planning::MissionAction::Kind::kFollow)
-    return drive({});
+  const bool located = locate(perceived);
+  const bool follow = action_.kind == planning::MissionAction::Kind::kFollow;
+  if (!located || !follow || guard_.check(bus_.now())) return drive({});
   const double speed = perceived.odometry.twist.x();
   drive(follower_.update(*pose_, speed, obstacles_among(perceived.odometry.points.points, config_.obstacles),
                          bus_.now()));
@@ -133,14 +175,14 @@ void Navigator::on_report(const exchange::MissionReport& report) {
 }
 
 void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
-  if (stopped_ || !pose_) return;
+  if (stands_ == StandReason::kStopping || !pose_) return;
   planning::MissionInput input;
   input.now = bus_.now();
   input.pose = *pose_;
   input.battery = battery_.value_or(1.0);
   input.path_number = action_.path_number;
   input.finished = follower_.finished();
-  input.stuck = follower_.stuck(input.now);
+  input.stuck = stuck(input.now);
   input.progress = follower_.progress();
   input.maps_exchanged = maps_exchanged;
   input.exchanged_with = std::move(exchanged_with);
@@ -158,8 +200,21 @@ bool Navigator::all_rows_driven() const {
   return status.done + status.abandoned >= status.rows;
 }
 
+/// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.
+bool Navigator::stuck(Stamp now) const {
+  if (stands_ == StandReason::kHeld) return false;
+  const bool blind = stands_ && now - stands_since_ > from_seconds(config_.follower.stuck_after);
+  return blind || follower_.stuck(now);
+}
+
+void Navigator::obey(const exchange::HoldOrder& order) {
+  guard_.set_held(order.hold);
+  spdlog::warn("{}: {} by order of {}", self_.str(), order.hold ? "held" : "let go", order.issuer.str());
+  watch();
+}
+
 void Navigator::stop() {
-  stopped_ = true;
+  guard_.stop();
   handles_.clear();
   drive({});
 }

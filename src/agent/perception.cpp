@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
@@ -30,10 +31,12 @@ SensorTopics::SensorTopics()
       fix(wire::topics::fix().name),
       wheel(wire::topics::wheel_odometry().name) {}
 
-Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived)
+Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
+                       std::function<void()> on_scan)
     : config_(config),
       bus_(bus),
       on_perceived_(std::move(on_perceived)),
+      on_scan_(std::move(on_scan)),
       loam_(config.odometry, config.lidar),
       ekf_(config.localization),
       scans_(config.waiting_scans),
@@ -89,7 +92,8 @@ void Perception::on_sample(const bus::Topic& topic, std::uint64_t& count, Use us
 void Perception::on_scan(const Bytes& cdr) {
   last_heard_ = last_scan_ = bus_.now();
   ++counters_.scans;
-  scans_.push(cdr);
+  if (on_scan_) on_scan_();
+  scans_.push({last_scan_, cdr});
   if (scans_.dropped() > counters_.dropped_scans) {
     counters_.dropped_scans = scans_.dropped();
     warn("odometry is too slow for the LiDAR", "a scan was dropped; lower the rate or thin the scans");
@@ -101,7 +105,7 @@ void Perception::start_next() {
   if (busy_ || scans_.empty()) return;
   busy_ = true;
   auto job = std::make_shared<Job>();
-  job->scan = std::move(*scans_.pop());
+  std::tie(job->heard, job->scan) = std::move(*scans_.pop());
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
   bus_.offload(
@@ -125,7 +129,7 @@ void Perception::finish(Job& job) {
     bus_.publish(wire::topics::odometry(),
                  wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
     const Eigen::Vector3d up = up_in(update.T_odom_base);
-    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), up, job.cpu_seconds};
+    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), up, job.cpu_seconds, job.heard};
     if (perceived.G) bus_.publish(wire::topics::global_pose(), wire::encode(*perceived.G));
     on_perceived_(std::move(perceived));
   } else {

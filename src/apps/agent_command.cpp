@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "drive_watchdog.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/agent/results.hpp"
@@ -85,6 +86,8 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   }
   if (none_yet) return;
   if (const agent::Navigator* navigator = agent.navigator()) {
+    if (const auto reason = navigator->stands())
+      spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
                  agent.config().id.str(), planning::to_string(mission.state), mission.done, mission.rows,
@@ -128,7 +131,7 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
   return settled ? silence > patience : silence > patience + kPeerPatience;
 }
 
-void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idle) {
+void run_until_done(bus::DdsBus& bus, agent::Agent& agent, DriveWatchdog* watchdog, double exit_after_idle) {
   const std::atomic<bool>& stop = stop_on_signals();
   const bus::Handle report = bus.every(kReportPeriod, [&] { print_progress(agent, bus); });
   bus::Handle check;
@@ -139,6 +142,9 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, double exit_after_idl
     });
   }
   bus.run_until(stop);
+  // Before anything that takes time.
+  if (watchdog != nullptr) watchdog->stand();
+  agent.halt();
   if (!rest_frozen) agent.freeze_rest();  // told to end
 }
 
@@ -185,7 +191,9 @@ int run(const AgentOptions& options) {
   }
   spdlog::info("{}: ready, store {}", config->agent.id.str(),
                (config->agent.directory / "store.db").string());
-  run_until_done(**bus, **agent, options.exit_after_idle);
+  std::optional<DriveWatchdog> watchdog;
+  if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
+  run_until_done(**bus, **agent, watchdog ? &*watchdog : nullptr, options.exit_after_idle);
   if (recorder) {
     if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
   }

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   int exit_code = kDone;
   add_run(app, exit_code);
   add_agent(app, exit_code);
+  add_hold(app, exit_code);
   add_sim(app, exit_code);
   add_replay(app, exit_code);
   add_odometry(app, exit_code);

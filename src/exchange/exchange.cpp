@@ -8,6 +8,8 @@ namespace {
 
 using store::Put;
 
+constexpr const char* kHoldKey = "hold_orders";
+
 }  // namespace
 
 Status ExchangeConfig::validate(const AgentId& self) const {
@@ -32,7 +34,11 @@ Status ExchangeConfig::validate(const AgentId& self) const {
 
 Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
-  return Exchange(config, store, now);
+  Exchange exchange(config, store, now);
+  const auto orders = store.meta(kHoldKey);
+  if (!orders) return tl::unexpected(orders.error());
+  if (*orders) exchange.holds_.load(**orders);
+  return exchange;
 }
 
 Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
@@ -46,7 +52,8 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       encounters_(self_, config.encounters),
       reconcile_(self_, config.reconcile),
       submap_receiver_(self_, config.submaps),
-      submap_sender_(self_, config.submaps) {
+      submap_sender_(self_, config.submaps),
+      holds_(self_, fleet_) {
   status_.position = GeoPoint{};
   for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
   for (const auto& [id, node] : store.nodes()) encounters_.on_node(node, now);
@@ -105,6 +112,17 @@ void Exchange::tell(MissionReport report) {
   queue_.push(Priority::kState, std::move(report));
 }
 
+void Exchange::on_local_order(HoldOrder order, Stamp now) {
+  if (order.stamp == Stamp{}) order.stamp = later_than(holds_.all(), now);
+  const auto before = holds_.in_force();
+  if (holds_.add(order)) note_orders(before);
+}
+
+void Exchange::note_orders(const std::optional<HoldOrder>& before) {
+  orders_to_store_ = true;
+  if (const auto order = holds_.in_force(); order && order != before) events_.push_back(HoldChanged{*order});
+}
+
 std::vector<Event> Exchange::take_events() { return std::exchange(events_, {}); }
 
 // ---- from the links
@@ -113,16 +131,20 @@ std::vector<Event> Exchange::take_events() { return std::exchange(events_, {}); 
 bool Exchange::admit(const Message& message, Stamp now) {
   const auto sender = sender_of(message);
   if (!sender) return true;  // a node or alignment: its maker is checked instead
-  if (*sender == self_ || !member(*sender)) {
+  const bool of_fleet = member(*sender);
+  // Operators are not of the fleet.
+  if (*sender == self_ || (!of_fleet && !std::holds_alternative<Hold>(message))) {
     ++strangers_;
     return false;
   }
+  if (!of_fleet) return true;
   const auto recipient = recipient_of(message);
   if (reach_of(message) == Reach::kShortRange) {
     submap_receiver_.on_heard(*sender, now);
   } else {
     reconcile_.on_heard(*sender, now);
     encounters_.on_heard(*sender, now);
+    holds_.on_heard(*sender, now);
   }
   return !recipient || *recipient == self_;
 }
@@ -215,6 +237,11 @@ void Exchange::handle(const AgentStatus& status, Stamp) { events_.push_back(Peer
 
 void Exchange::handle(const MissionReport& report, Stamp) { events_.push_back(MissionHeard{report}); }
 
+void Exchange::handle(const Hold& hold, Stamp) {
+  const auto before = holds_.in_force();
+  if (holds_.on_hold(hold)) note_orders(before);
+}
+
 void Exchange::handle(const SubmapDigest& digest, Stamp now) { submap_receiver_.on_digest(digest, now); }
 
 void Exchange::handle(const SubmapRequest& request, Stamp) { submap_sender_.on_request(request, *store_); }
@@ -272,6 +299,19 @@ void Exchange::tick_status(Stamp now) {
   queue_.push(Priority::kState, std::move(status));
 }
 
+void Exchange::tick_holds(Stamp now) {
+  if (std::exchange(orders_to_store_, false)) {
+    if (const Status kept = store_->set_meta(kHoldKey, holds_.encoded()); !kept)
+      events_.push_back(StoreFailed{kept.error()});
+  }
+  auto orders = holds_.tick(now);
+  if (!orders) return;
+  const auto driving = !drives_        ? Hold::Driving::kNoMission
+                       : holds_.held() ? Hold::Driving::kHeld
+                                       : Hold::Driving::kFree;
+  queue_.push(Priority::kSafety, Hold{self_, driving, std::move(*orders)});
+}
+
 void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
   const auto send = [&](Message message) {
     const auto to = recipient_of(message);
@@ -290,6 +330,7 @@ void Exchange::note_completion() {
 }
 
 std::vector<Outgoing> Exchange::tick(Stamp now) {
+  tick_holds(now);
   tick_encounters(now);
   tick_clouds(now);
   tick_items(now);

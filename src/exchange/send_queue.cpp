@@ -53,6 +53,7 @@ SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
     Subject operator()(const ItemRequest&) const { return {}; }
     Subject operator()(const AgentStatus&) const { return {}; }
     Subject operator()(const MissionReport&) const { return {}; }
+    Subject operator()(const Hold&) const { return {}; }
     Subject operator()(const SubmapDigest&) const { return {}; }
     Subject operator()(const SubmapRequest& m) const { return {m.node, m.offset}; }
     Subject operator()(const SubmapChunk& m) const { return {m.node, m.offset}; }

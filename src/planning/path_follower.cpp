@@ -376,6 +376,11 @@ Command PathFollower::update(const Pose2& pose, double speed,
   return state.held(state.drive(corrected, speed, now), speed, dt);
 }
 
+void PathFollower::pause(Stamp now) {
+  state_->progress_at = state_->nearer_at = state_->last_update = now;
+  state_->last_speed = 0.0;
+}
+
 double PathFollower::progress() const { return state_->path.along(); }
 double PathFollower::remaining() const { return state_->path.length() - state_->path.along(); }
 bool PathFollower::finished() const { return state_->finished; }

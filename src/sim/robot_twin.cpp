@@ -182,7 +182,8 @@ ScanJob RobotTwin::State::scan_job(std::uint64_t number) const {
 }
 
 void RobotTwin::State::step(std::vector<TwinSample>& samples) {
-  if (commanded && now - *commanded >= from_seconds(config.vehicle.command_timeout)) {
+  const double timeout = config.vehicle.command_timeout;
+  if (commanded && timeout > 0.0 && now - *commanded >= from_seconds(timeout)) {
     wanted_speed = wanted_yaw_rate = 0.0;
     commanded.reset();
   }

@@ -30,7 +30,7 @@ Status VehicleSpec::validate() const {
       within("suspension_rate", suspension_rate, 0.2, 10.0, "Hz"),
       within("suspension_damping", suspension_damping, 0.1, 2.0, "(a ratio)"),
       within("braking", braking, 0.5, 100.0, "m/s^2"),
-      within("command_timeout", command_timeout, 0.01, 1e4, "s"),
+      within("command_timeout", command_timeout, 0.0, 1e4, "s"),
       within("battery_wh", battery_wh, 0.0, 1e6, "Wh"),
       within("idle_power_w", idle_power_w, 0.0, 1e5, "W"),
       within("energy_per_metre", energy_per_metre, 0.0, 1e5, "J/m"),

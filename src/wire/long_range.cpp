@@ -264,4 +264,38 @@ Result<exchange::MissionReport> decode(ByteView cdr) {
   return check.finish(std::move(report));
 }
 
+Bytes encode(const exchange::Hold& hold) {
+  msg::Hold out;
+  out.schema(kSchemaVersion);
+  out.driving(static_cast<std::uint8_t>(hold.driving));
+  out.sender(agent_name(hold.from));
+  out.orders().resize(std::min(hold.orders.size(), kMaxHoldOrders));
+  for (std::size_t k = 0; k < out.orders().size(); ++k) {
+    msg::HoldOrder& order = out.orders()[k];
+    order.stamp(to_ns(hold.orders[k].stamp));
+    order.robot(agent_name(hold.orders[k].robot));
+    order.issuer(agent_name(hold.orders[k].issuer));
+    order.hold(hold.orders[k].hold);
+  }
+  return to_cdr(out);
+}
+
+template <>
+Result<exchange::Hold> decode(ByteView cdr) {
+  const auto in = fleet_type_from_cdr<msg::Hold>(cdr, type_name::kHold);
+  if (!in) return tl::unexpected(in.error());
+  FieldCheck check(type_name::kHold);
+  exchange::Hold hold;
+  hold.from = check.agent(in->sender(), "sender");
+  check.require(in->driving() <= 3, "driving is not known");
+  hold.driving = static_cast<exchange::Hold::Driving>(in->driving());
+  check.require(in->orders().size() <= kMaxHoldOrders, "orders are more than 32");
+  for (const msg::HoldOrder& order : in->orders()) {
+    const bool all = order.robot() == AgentName{};
+    hold.orders.push_back({check.stamp(order.stamp()), all ? AgentId{} : check.agent(order.robot(), "robot"),
+                           check.agent(order.issuer(), "issuer"), order.hold()});
+  }
+  return check.finish(std::move(hold));
+}
+
 }  // namespace fleetmap::wire

@@ -29,6 +29,7 @@ Result<exchange::Message> decode_message(const bus::Topic& topic, ByteView cdr) 
   if (type == type_name::kItemRequest) return decode_as<exchange::ItemRequest>(cdr);
   if (type == type_name::kAgentStatus) return decode_as<exchange::AgentStatus>(cdr);
   if (type == type_name::kMissionReport) return decode_as<exchange::MissionReport>(cdr);
+  if (type == type_name::kHold) return decode_as<exchange::Hold>(cdr);
   if (type == type_name::kSubmapDigest) return decode_as<exchange::SubmapDigest>(cdr);
   if (type == type_name::kSubmapRequest) return decode_as<exchange::SubmapRequest>(cdr);
   if (type == type_name::kSubmapChunk) return decode_as<exchange::SubmapChunk>(cdr);

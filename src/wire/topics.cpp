@@ -37,6 +37,9 @@ bus::Topic mission_report() {
   return {Link::kLongRange, "fleetmap/mission_report", type_name::kMissionReport, "small"};
 }
 
+bus::Topic hold() { return {Link::kLongRange, "fleetmap/hold", type_name::kHold, "small"}; }
+bus::Topic hold_onboard() { return {Link::kOnboard, "fleetmap/hold", type_name::kHold, "state"}; }
+
 bus::Topic proximity_match(const AgentId& recipient) {
   return to_one(Link::kLongRange, "fleetmap/proximity_match", recipient, type_name::kProximityMatch, "small");
 }
@@ -72,6 +75,7 @@ struct TopicOf {
   bus::Topic operator()(const exchange::Digest&) const { return topics::digest(); }
   bus::Topic operator()(const exchange::AgentStatus&) const { return topics::status(); }
   bus::Topic operator()(const exchange::MissionReport&) const { return topics::mission_report(); }
+  bus::Topic operator()(const exchange::Hold&) const { return topics::hold(); }
   bus::Topic operator()(const exchange::SubmapDigest&) const { return topics::submap_digest(); }
   bus::Topic operator()(const exchange::ProximityMatch& m) const { return topics::proximity_match(m.to); }
   bus::Topic operator()(const exchange::CloudRequest& m) const { return topics::cloud_request(m.to); }
@@ -91,6 +95,7 @@ std::vector<bus::Topic> inbox_topics(const AgentId& self) {
           topics::digest(),
           topics::status(),
           topics::mission_report(),
+          topics::hold(),
           topics::proximity_match(self),
           topics::cloud_request(self),
           topics::item_request(self),

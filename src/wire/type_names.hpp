@@ -21,6 +21,7 @@ inline constexpr char kDigest[] = "fleetmap::msg::Digest";
 inline constexpr char kItemRequest[] = "fleetmap::msg::ItemRequest";
 inline constexpr char kAgentStatus[] = "fleetmap::msg::AgentStatus";
 inline constexpr char kMissionReport[] = "fleetmap::msg::MissionReport";
+inline constexpr char kHold[] = "fleetmap::msg::Hold";
 inline constexpr char kSubmapDigest[] = "fleetmap::msg::SubmapDigest";
 inline constexpr char kSubmapRequest[] = "fleetmap::msg::SubmapRequest";
 inline constexpr char kSubmapChunk[] = "fleetmap::msg::SubmapChunk";

@@ -98,15 +98,28 @@ class NavigatorTest : public ::testing::Test {
     perceived.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
     return perceived;
   }
-  /// Scans and ticks at one place for `seconds`.
-  void stand(const Perceived& perceived, int seconds) {
-    for (int k = 0; k < 2 * seconds; ++k) {
-      network_->run_until(network_->now() + std::chrono::milliseconds(500));
-      navigator_->on_perceived(perceived);
-      navigator_->tick(false);
+  /// Scans and ticks at one place for `seconds`; `told`: what who leads the robot tells it.
+  void stand(const Perceived& perceived, int seconds, const Bytes& told = {}) {
+    for (int k = 0; k < 10 * seconds; ++k) {
+      if (!told.empty()) bus_->publish(wire::topics::guide_pose(), told);
+      network_->run_until(network_->now() + std::chrono::milliseconds(100));
+      see(perceived);
+      if (k % 5 == 4) navigator_->tick(false);
     }
     network_->run_until(network_->now());
   }
+  void see(Perceived perceived) {
+    perceived.heard = network_->now();
+    navigator_->on_scan();
+    navigator_->on_perceived(perceived);
+  }
+  void expect_zeros() const {
+    for (const auto& command : commands_) {
+      ASSERT_EQ(command.forward_speed, 0.0);
+      ASSERT_EQ(command.yaw_rate, 0.0);
+    }
+  }
+  static exchange::HoldOrder order(bool hold) { return {{}, {}, AgentId::parse("operator").value(), hold}; }
   exchange::MissionReport report_of(const char* id, Bytes done) const {
     exchange::MissionReport report;
     report.from = AgentId::parse(id).value();
@@ -159,8 +172,7 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   const auto led_at = [&](const Eigen::Vector2d& p) {
     GlobalPose pose = *at(p, 0.0).G;
     pose.stamp = network_->now();
-    bus_->publish(wire::topics::guide_pose(), wire::encode(pose));
-    stand({}, 1);
+    stand({}, 1, wire::encode(pose));
   };
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
@@ -181,8 +193,7 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
 
 TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
   for (int k = 0; k < 8; ++k) {
-    bus_->publish(wire::topics::guide_pose(), wire::encode(*at({1.0, 0.0}, 0.0).G));
-    stand(at({9.0, 4.0}, 0.0), 1);
+    stand(at({9.0, 4.0}, 0.0), 1, wire::encode(*at({1.0, 0.0}, 0.0).G));
   }
   ASSERT_FALSE(told_.empty());
   EXPECT_NEAR(told_.back().east, 1.0, 0.01);
@@ -262,8 +273,91 @@ TEST_F(NavigatorTest, OnceStoppedItStandsForGood) {
   commands_.clear();
   navigator_->stop();
   stand(at({0.0, 0.0}, 0.0), 2);
-  ASSERT_EQ(commands_.size(), 1u);
-  EXPECT_EQ(commands_[0].forward_speed, 0.0);
+  ASSERT_FALSE(commands_.empty());
+  expect_zeros();
+  EXPECT_EQ(navigator_->stands(), StandReason::kStopping);
+}
+
+TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  network_->run_until(network_->now() + std::chrono::milliseconds(300));
+  EXPECT_EQ(navigator_->stands(), StandReason::kNoScan);
+  commands_.clear();
+  network_->run_until(network_->now() + std::chrono::seconds(1));
+  EXPECT_GE(commands_.size(), 45u) << "whoever lost one gets the next";
+  expect_zeros();
+}
+
+TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  Perceived doubtful = at({0.0, 0.0}, 0.0);
+  doubtful.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
+  commands_.clear();
+  stand(doubtful, 1);
+  EXPECT_GT(commands_.back().forward_speed, 0.2) << "it still knows its lane";
+  doubtful.G->covariance = 5.1 * 5.1 * Matrix6d::Identity();
+  commands_.clear();
+  stand(doubtful, 1);
+  expect_zeros();
+  EXPECT_EQ(navigator_->stands(), StandReason::kNoPose);
+  doubtful.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+  stand(doubtful, 1);
+  EXPECT_EQ(navigator_->stands(), StandReason::kNoPose);
+  stand(at({0.0, 0.0}, 0.0), 1);
+  EXPECT_GT(commands_.back().forward_speed, 0.2);
+}
+
+TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  Perceived lost = at({0.0, 0.0}, 0.0);
+  lost.odometry.lost = true;
+  commands_.clear();
+  stand(lost, 1);
+  ASSERT_FALSE(commands_.empty());
+  expect_zeros();
+  EXPECT_EQ(navigator_->stands(), StandReason::kNoOdometry);
+  commands_.clear();
+  stand(lost, 1, wire::encode(*at({0.0, 0.0}, 0.0).G));
+  expect_zeros();  // whoever leads it does not see what is in the way
+}
+
+TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
+  const Bytes told = wire::encode(*at({0.0, 0.0}, 0.0).G);
+  stand({}, 2, told);
+  EXPECT_GT(commands_.back().forward_speed, 0.2);
+  navigator_->obey(order(true));
+  network_->run_until(network_->now());
+  commands_.clear();
+  stand({}, 2, told);
+  expect_zeros();
+}
+
+TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  ASSERT_EQ(navigator_->status().mine, 1u);
+  navigator_->obey(order(true));
+  network_->run_until(network_->now());
+  commands_.clear();
+  stand(at({0.0, 0.0}, 0.0), 50);
+  expect_zeros();
+  EXPECT_EQ(navigator_->status().state, planning::MissionState::kDriving);
+  EXPECT_EQ(navigator_->status().mine, 1u);
+  EXPECT_EQ(navigator_->status().replans, 0u);
+  EXPECT_FALSE(told_.empty()) << "the others hear of it";
+  navigator_->obey(order(false));
+  stand(at({0.0, 0.0}, 0.0), 5);
+  EXPECT_GT(commands_.back().forward_speed, 0.2);
+  EXPECT_EQ(navigator_->status().mine, 1u) << "the time that it was held does not count";
+}
+
+TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
+  stand(at({0.0, 0.0}, 0.0), 2);
+  ASSERT_EQ(navigator_->status().mine, 1u);
+  for (int k = 0; k < 60; ++k) {
+    network_->run_until(network_->now() + std::chrono::milliseconds(500));
+    navigator_->tick(false);
+  }
+  EXPECT_EQ(navigator_->status().mine, 0u);
 }
 
 TEST_F(NavigatorTest, WhoIsNotInThePlanHasNoNavigator) {

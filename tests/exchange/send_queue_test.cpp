@@ -81,7 +81,7 @@ TEST(SendQueue, replaces_what_is_stale_and_counts_what_it_drops) {
   EXPECT_EQ(queue.stats().superseded, 4u);
   EXPECT_EQ(queue.backlog_bytes(), 72u + config.overhead_bytes);
   for (std::uint32_t k = 0; k < 5; ++k) queue.push(Priority::kNews, node(k));
-  EXPECT_EQ(queue.stats().dropped[1], 2u);
+  EXPECT_EQ(queue.stats().dropped[static_cast<std::size_t>(Priority::kNews)], 2u);
   const auto out = queue.take(kStart);
   ASSERT_EQ(out.size(), 4u);
   EXPECT_EQ(std::get<graph::Node>(out[0].message).id.seq, 2u);

@@ -22,6 +22,7 @@ std::size_t payload_size(const Message& message) {
     }
     std::size_t operator()(const exchange::AgentStatus&) const { return 72; }
     std::size_t operator()(const exchange::MissionReport&) const { return 120; }
+    std::size_t operator()(const exchange::Hold& m) const { return 20 + 32 * m.orders.size(); }
     std::size_t operator()(const exchange::SubmapDigest& m) const { return 20 + 16 * m.submaps.size(); }
     std::size_t operator()(const exchange::SubmapRequest&) const { return 44; }
     std::size_t operator()(const exchange::SubmapChunk& m) const { return 52 + m.payload.size(); }

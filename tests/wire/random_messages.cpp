@@ -127,6 +127,13 @@ exchange::SubmapChunk RandomMessages::chunk() {
   return c;
 }
 
+exchange::Hold RandomMessages::hold() {
+  exchange::Hold hold{agent(), static_cast<exchange::Hold::Driving>(integer(0, 3)), {}};
+  for (std::uint32_t k = integer(0, 8); k > 0; --k)
+    hold.orders.push_back({stamp(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(), integer(0, 1) == 0});
+  return hold;
+}
+
 std::vector<exchange::Message> RandomMessages::one_of_each() {
   exchange::CloudRequest request{agent(), agent(), node_id(), {}};
   for (std::uint32_t k = integer(0, 23); k > 0; --k) request.missing.push_back(static_cast<std::uint16_t>(k));
@@ -139,6 +146,7 @@ std::vector<exchange::Message> RandomMessages::one_of_each() {
           exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
           exchange::AgentStatus{agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1},
           exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
+          hold(),
           exchange::SubmapDigest{agent(), ranges(200)},
           exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
           chunk()};

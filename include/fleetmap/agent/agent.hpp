@@ -48,6 +48,8 @@ class Agent {
 
   /// Freezes what was seen since the last node, as when a mission ends. Goes on with the next scan.
   void freeze_rest();
+  /// The robot stands still from now on; everything else goes on. The first thing to do when told to end.
+  void halt();
   /// Hears no more sensors and messages. Before the agent is destroyed, offloaded work must have ended, too.
   void stop();
   /// Nothing waits: no scan, no registration, no message.
@@ -86,6 +88,8 @@ class Agent {
   /// The odometry lost its way and began anew: what it says from now on is in another frame.
   void begin_session();
   void navigate();
+  /// From a button on the robot.
+  void on_local_hold(const Bytes& cdr);
   /// GPS may take a while to begin with; nodes without G are made only when it does not come.
   bool worth_waiting_for_gps();
   /// Two own nodes, off this thread.
@@ -96,6 +100,7 @@ class Agent {
   void handle(const exchange::CloudArrived& arrived);
   void handle(const exchange::PeerStatus& status);
   void handle(const exchange::MissionHeard& heard);
+  void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
   void handle(const exchange::StoreFailed& failed);
   void handle(const exchange::NodeAdded&) {}
@@ -152,6 +157,7 @@ class Agent {
   bus::Handle live_timer_;
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;
+  bus::Handle local_hold_;
   bool rest_frozen_for_meeting_ = false;
 };
 

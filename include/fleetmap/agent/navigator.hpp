@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "fleetmap/agent/drive_guard.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/ids.hpp"
@@ -35,12 +36,15 @@ struct NavigatorConfig {
   std::shared_ptr<const planning::FleetPlan> plan;
   planning::PathFollowerConfig follower;
   ObstacleConfig obstacles;
+  DriveGuardConfig guard;
   Duration report_period = std::chrono::seconds(5);
 };
 
 /// Drives one robot through its part of the mission: pose and scan in, cmd_vel out; tells the others how far
 /// it is and takes over what they cannot do. Uses the EKF's pose for where to go, or while one is told that
 /// of wire::topics::guide_pose() (so a robot without GPS can be led), and the scan for where it is free.
+/// Every command passes a DriveGuard, and while that has a reason zero is published every
+/// DriveGuard::kPeriod.
 class Navigator {
  public:
   using Tell = std::function<void(exchange::MissionReport)>;
@@ -49,14 +53,22 @@ class Navigator {
   static Result<std::unique_ptr<Navigator>> create(const NavigatorConfig& config, const AgentId& self,
                                                    const GeoPoint& site, bus::Bus& bus, Tell tell);
 
+  ~Navigator();
+
+  /// When a scan comes.
+  void on_scan() { guard_.on_scan(bus_.now()); }
   /// After every scan.
   void on_perceived(const Perceived& perceived);
   void on_report(const exchange::MissionReport& report);
   /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
   /// of. `exchanged_with`: robots in reach with whom nothing is left to be exchanged.
   void tick(bool maps_exchanged, std::vector<AgentId> exchanged_with = {});
+  /// The order of an operator that is in force.
+  void obey(const exchange::HoldOrder& order);
   /// Stands still from now on.
   void stop();
+  /// Why the robot stands still; nothing if it may be driven.
+  std::optional<StandReason> stands() const { return stands_; }
 
   /// Nothing is left to do for this robot.
   bool done() const { return action_.kind == planning::MissionAction::Kind::kDone; }
@@ -66,14 +78,21 @@ class Navigator {
   std::optional<double> battery() const { return battery_; }
 
  private:
-  Navigator(const NavigatorConfig& config, planning::MissionExecutive executive, const GeoPoint& site,
-            bus::Bus& bus, Tell tell);
+  Navigator(const NavigatorConfig& config, const AgentId& self, planning::MissionExecutive executive,
+            const GeoPoint& site, bus::Bus& bus, Tell tell);
+  /// Publishes the command, or zero if the guard has a reason.
   void drive(const planning::Command& command);
+  void watch();
+  void note(const std::optional<StandReason>& reason);
+  /// Takes the pose of the scan; whether the mission can be driven by it.
+  bool locate(const Perceived& perceived);
+  bool stuck(Stamp now) const;
   std::optional<planning::Pose2> pose_of(const GlobalPose& G) const;
   bool guided() const;
 
   NavigatorConfig config_;
   LocalFrame site_;
+  AgentId self_;
   bus::Bus& bus_;
   Tell tell_;
   planning::MissionExecutive executive_;
@@ -82,10 +101,14 @@ class Navigator {
   std::optional<planning::Pose2> pose_;
   std::optional<planning::Pose2> guide_;  ///< the last that was told
   Stamp guided_at_{};
-  bool stopped_ = false;
+  DriveGuard guard_;
+  std::optional<StandReason> stands_;  ///< as of the last check
+  Stamp stands_since_{};
+  bool drove_ = false;             ///< the guard let a command pass
   std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;
   std::vector<bus::Handle> handles_;
+  bus::Handle watch_;
 };
 
 }  // namespace fleetmap::agent

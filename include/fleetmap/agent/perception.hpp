@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
@@ -39,6 +40,7 @@ struct Perceived {
   /// z, which is up if the robot started level.
   Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
   double cpu_seconds = 0.0;  ///< that LOAM took
+  Stamp heard;               ///< when the scan came, on the bus's clock
 };
 
 struct PerceptionCounters {
@@ -56,7 +58,9 @@ struct PerceptionCounters {
 class Perception {
  public:
   using OnPerceived = std::function<void(Perceived&&)>;
-  Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived);
+  /// `on_scan` is called when a scan comes, before and whatever LOAM makes of it.
+  Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
+             std::function<void()> on_scan = {});
 
   /// No scan waits or is under way.
   bool idle() const { return !busy_ && scans_.empty(); }
@@ -75,6 +79,7 @@ class Perception {
   /// A scan and the other samples that came since the scan before it.
   struct Job {
     Bytes scan;
+    Stamp heard;
     std::vector<sensor::Imu> imu;
     std::vector<sensor::Wheel> wheel;
     Result<odometry::OdometryUpdate> update = failure("not run");
@@ -94,10 +99,11 @@ class Perception {
   PerceptionConfig config_;
   bus::Bus& bus_;
   OnPerceived on_perceived_;
+  std::function<void()> on_scan_;
   odometry::Loam loam_;  ///< touched by the work item under way only
   odometry::LoamCounters loam_counters_;
   localization::Ekf ekf_;
-  BoundedQueue<Bytes> scans_;
+  BoundedQueue<std::pair<Stamp, Bytes>> scans_;  ///< when they came, and as they came
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;
   bool busy_ = false;

@@ -11,6 +11,7 @@
 
 #include "fleetmap/exchange/cloud_transfer.hpp"
 #include "fleetmap/exchange/encounters.hpp"
+#include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile.hpp"
 #include "fleetmap/exchange/routing.hpp"
@@ -65,6 +66,10 @@ struct PeerStatus {
 struct MissionHeard {
   MissionReport report;
 };
+/// Another order of an operator is in force for this agent.
+struct HoldChanged {
+  HoldOrder order;
+};
 /// Another item came under a name that is taken; it was refused. Two robots with one name, or a store that
 /// was lost.
 struct ItemConflict {
@@ -81,7 +86,7 @@ struct MapComplete {
   std::size_t alignments = 0;
 };
 using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           MissionHeard, ItemConflict, StoreFailed, MapComplete>;
+                           MissionHeard, HoldChanged, ItemConflict, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -119,6 +124,13 @@ class Exchange {
   void set_status(const AgentStatus& status) { status_ = status; }
   /// Tells all what we do of the mission; a report that still waits is replaced.
   void tell(MissionReport report);
+  /// Whether this agent drives a mission, which its answers to operators say. By default it does not.
+  void set_drives(bool drives) { drives_ = drives; }
+  /// An order that was given to this agent on its own robot: sent to all. One without a stamp (zero) gets one
+  /// that replaces all others.
+  void on_local_order(HoldOrder order, Stamp now);
+  /// The order in force for this agent; nothing if there never was one. It survives a restart.
+  std::optional<HoldOrder> hold_in_force() const { return holds_.in_force(); }
 
   void on_message(const Message& message, Stamp now);
   std::vector<Outgoing> tick(Stamp now);
@@ -155,6 +167,7 @@ class Exchange {
   void handle(const ItemRequest& request, Stamp now);
   void handle(const AgentStatus& status, Stamp now);
   void handle(const MissionReport& report, Stamp now);
+  void handle(const Hold& hold, Stamp now);
   void handle(const SubmapDigest& digest, Stamp now);
   void handle(const SubmapRequest& request, Stamp now);
   void handle(const SubmapChunk& chunk, Stamp now);
@@ -164,6 +177,9 @@ class Exchange {
   void tick_clouds(Stamp now);
   void tick_items(Stamp now);
   void tick_status(Stamp now);
+  void tick_holds(Stamp now);
+  /// Emits HoldChanged if `before` is in force no more. The robot obeys before the disk is written to.
+  void note_orders(const std::optional<HoldOrder>& before);
   void tick_short_range(std::vector<Outgoing>& out, Stamp now);
   void note_completion();
 
@@ -183,6 +199,9 @@ class Exchange {
   Reconcile reconcile_;
   SubmapReceiver submap_receiver_;
   SubmapSender submap_sender_;
+  HoldOrders holds_;
+  bool drives_ = false;
+  bool orders_to_store_ = false;
   std::map<NodeId, Needed> needed_;
   AgentStatus status_;
   std::optional<Stamp> next_status_;

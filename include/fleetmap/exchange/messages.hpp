@@ -93,6 +93,29 @@ struct MissionReport {
   Bytes failed;               ///< rows that `from` gave up
 };
 
+/// An operator's order to stand still or to drive on. Of the orders that concern a robot, for itself or for
+/// all, the one with the latest stamp is in force.
+struct HoldOrder {
+  Stamp stamp;    ///< when it was given; raised above that of the order which it replaces, whatever the clock
+  AgentId robot;  ///< empty: every robot
+  AgentId issuer;  ///< for people
+  bool hold = false;
+  bool operator==(const HoldOrder&) const = default;
+};
+
+/// Orders that `from` gives (an operator, a button) or repeats (an agent, so that nobody misses them).
+struct Hold {
+  enum class Driving : std::uint8_t {
+    kNoRobot,    ///< `from` is an operator
+    kFree,       ///< `from` drives its mission
+    kHeld,       ///< `from` stands by an order
+    kNoMission,  ///< `from` obeys nobody here: something else drives it
+  };
+  AgentId from;
+  Driving driving = Driving::kNoRobot;
+  std::vector<HoldOrder> orders;
+};
+
 // ---- short range
 // ----------------------------------------------------------------------------------------------
 
@@ -123,6 +146,6 @@ struct SubmapChunk {
 
 using Message =
     std::variant<graph::Node, ProximityMatch, CloudFragment, CloudRequest, graph::Alignment, Digest,
-                 ItemRequest, AgentStatus, MissionReport, SubmapDigest, SubmapRequest, SubmapChunk>;
+                 ItemRequest, AgentStatus, MissionReport, Hold, SubmapDigest, SubmapRequest, SubmapChunk>;
 
 }  // namespace fleetmap::exchange

@@ -17,15 +17,16 @@
 
 namespace fleetmap::exchange {
 
-/// What goes first. The first three go in this order; backfill and clouds share what they leave.
+/// What goes first. The first four go in this order; backfill and clouds share what they leave.
 enum class Priority : std::uint8_t {
+  kSafety,    ///< orders to stand still
   kControl,   ///< matches and requests: a few bytes that set others to work
   kNews,      ///< own new nodes and alignments
   kState,     ///< digests and status
   kBackfill,  ///< items that an agent asked for
   kCloud      ///< fragments of spherized clouds
 };
-inline constexpr std::size_t kPriorities = 5;
+inline constexpr std::size_t kPriorities = 6;
 
 struct LongRangeConfig {
   /// B/s that all agents together send: 150 kbit/s. With DDS discovery and Ethernet headers, which nobody
@@ -37,7 +38,7 @@ struct LongRangeConfig {
   std::size_t overhead_bytes = 160;  ///< B a message, as captured: 28 of IP and UDP, 132 of RTPS
   bool deliver_to_one =
       true;  ///< a message with a recipient goes to it alone; false: every agent gets a copy
-  std::size_t max_small = 512;      ///< messages waiting in each of the classes control, news and state
+  std::size_t max_small = 512;  ///< messages waiting in each of the classes safety, control, news and state
   std::size_t max_backfill = 512;   ///< messages
   std::size_t max_fragments = 512;  ///< messages
   Status validate() const;

@@ -60,6 +60,9 @@ class PathFollower {
   Command update(const Pose2& pose, double speed, const std::vector<Eigen::Vector2d>& obstacles_in_base,
                  Stamp now);
 
+  /// The robot has to stand for a reason that is not its path's: no progress counts from `now` on.
+  void pause(Stamp now);
+
   double progress() const;   ///< m along the path
   double remaining() const;  ///< m
   bool finished() const;

@@ -22,7 +22,7 @@ struct VehicleSpec {
   double suspension_rate = 2.5;   ///< Hz, natural frequency of the body on its tyres
   double suspension_damping = 0.7;
   double braking = 8.0;             ///< m/s^2, in front of an obstacle
-  double command_timeout = 0.5;     ///< s, a command is forgotten after this
+  double command_timeout = 0.5;     ///< s, a command is forgotten after this; 0: never
   double battery_wh = 270.0;        ///< Wh, at start
   double idle_power_w = 45.0;       ///< W, computer and sensors
   double energy_per_metre = 60.0;   ///< J/m driven

@@ -24,6 +24,7 @@ inline constexpr std::size_t kMaxRanges = 256;               ///< in a Digest or
 inline constexpr std::size_t kMaxSubmapRanges = 1'024;       ///< in a SubmapDigest
 inline constexpr std::size_t kMaxMissing = 256;              ///< in a CloudRequest
 inline constexpr std::size_t kMaxRowSet = 512;               ///< bytes of each set of rows in a MissionReport
+inline constexpr std::size_t kMaxHoldOrders = 32;            ///< in a Hold
 inline constexpr std::uint32_t kMaxSeq = (1u << 24) - 1;     ///< of nodes and alignments
 inline constexpr std::uint32_t kMaxSubmapBytes = 64u << 20;  ///< of one encoded submap
 
@@ -41,9 +42,9 @@ inline constexpr std::size_t kSpherizedCloudOverhead = 36;
 inline constexpr std::size_t kMaxEncodedCloud = kMaxCloudPayload + kSpherizedCloudOverhead;
 
 /// Node and Alignment are rounded to what fits on the wire (see the IDL for the steps). Digest, ItemRequest,
-/// CloudRequest, MissionReport and SubmapDigest carry their first kMax... entries: what is cut off is offered
-/// or asked for again later. Payloads beyond the type's bound are a bug of the caller and are cut, which
-/// their hash then shows.
+/// CloudRequest, MissionReport, Hold and SubmapDigest carry their first kMax... entries: what is cut off is
+/// offered or asked for again later. Payloads beyond the type's bound are a bug of the caller and are cut,
+/// which their hash then shows.
 Bytes encode(const graph::Node& node);
 Bytes encode(const graph::Alignment& alignment);
 Bytes encode(const exchange::ProximityMatch& match);
@@ -53,6 +54,7 @@ Bytes encode(const exchange::Digest& digest);
 Bytes encode(const exchange::ItemRequest& request);
 Bytes encode(const exchange::AgentStatus& status);
 Bytes encode(const exchange::MissionReport& report);
+Bytes encode(const exchange::Hold& hold);
 Bytes encode(const exchange::SubmapDigest& digest);
 Bytes encode(const exchange::SubmapRequest& request);
 Bytes encode(const exchange::SubmapChunk& chunk);
@@ -82,6 +84,8 @@ template <>
 Result<exchange::AgentStatus> decode(ByteView cdr);
 template <>
 Result<exchange::MissionReport> decode(ByteView cdr);
+template <>
+Result<exchange::Hold> decode(ByteView cdr);
 template <>
 Result<exchange::SubmapDigest> decode(ByteView cdr);
 template <>

@@ -21,6 +21,8 @@ bus::Topic corrected_pose();  ///< GlobalPose: T_enu_odom of the fleet's graph, 
 bus::Topic guide_pose();
 bus::Topic cmd_vel();  ///< wire::VelocityCommand
 bus::Topic battery();  ///< sensor::Battery
+/// exchange::Hold, from a button on the robot.
+bus::Topic hold_onboard();
 
 // ---- long range: to all
 bus::Topic node();
@@ -28,6 +30,7 @@ bus::Topic alignment();
 bus::Topic digest();
 bus::Topic status();
 bus::Topic mission_report();
+bus::Topic hold();
 // ---- long range: to one
 bus::Topic proximity_match(const AgentId& recipient);
 bus::Topic cloud_request(const AgentId& recipient);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/messages.hpp"
+
+namespace fleetmap::exchange {
+
+/// Of two orders for the same robots: whether `a` replaces `b`. The later stamp wins; at equal stamps the
+/// order to stand does.
+bool replaces(const HoldOrder& a, const HoldOrder& b);
+/// The order of `orders` that is in force for `robot`: the latest that names it or all; nothing without one.
+std::optional<HoldOrder> order_for(const AgentId& robot, const std::vector<HoldOrder>& orders);
+/// A stamp later than those of all `orders`, and not before `now`: an order that carries it replaces them
+/// whatever the clocks of those who gave them.
+Stamp later_than(const std::vector<HoldOrder>& orders, Stamp now);
+
+/// The operators' orders to stand still and to drive on, replicated over the fleet: one last-writer-wins
+/// register for each robot and one for all. An agent sends its registers when they change, to an operator
+/// that sends an order, to an agent that lacks one or that was silent, and from time to time; so a robot that
+/// missed an order gets it from any other. Nothing is sent while nobody ever gave an order.
+class HoldOrders {
+ public:
+  HoldOrders(const AgentId& self, const std::set<AgentId>& fleet) : self_(self), fleet_(fleet) {}
+
+  /// True if it replaced a register. Orders for robots that are not of the fleet are ignored.
+  bool add(const HoldOrder& order);
+  /// True if an order that came replaced a register.
+  bool on_hold(const Hold& hold);
+  /// A message of another agent of the fleet came.
+  void on_heard(const AgentId& agent, Stamp now);
+  /// The registers are to be sent with the next tick.
+  void send_soon() { due_ = true; }
+  /// What is to be sent now, but for `from` and `driving`.
+  std::optional<std::vector<HoldOrder>> tick(Stamp now);
+
+  std::vector<HoldOrder> all() const;
+  /// The order that this robot obeys.
+  std::optional<HoldOrder> in_force() const { return order_for(self_, all()); }
+  bool held() const;
+
+  /// The registers as text, a line each, for the store; and back. Lines that cannot be read are left out.
+  Bytes encoded() const;
+  void load(ByteView encoded);
+
+ private:
+  bool lacks_any(const std::vector<HoldOrder>& theirs) const;
+
+  AgentId self_;
+  std::set<AgentId> fleet_;
+  std::map<AgentId, HoldOrder> registers_;  ///< by whom they are for; empty: all
+  std::map<AgentId, Stamp> heard_;
+  bool due_ = false;
+  std::optional<Stamp> next_;
+};
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,165 @@
+#include "agent/driven_fleet.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+
+#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::testing {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(20);
+constexpr Duration kGuidePeriod = std::chrono::milliseconds(100);
+const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+}  // namespace
+
+DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kOrigin) {
+  files_.write_fleet("network: {long_range: {loss: " + std::to_string(options.long_range_loss) + "}}\n");
+  config_ = must(config::load_fleet(files_.path("fleet.yaml"), {}));
+  config_.keep_first(options.robots.size());
+  const auto world = must(config::make_world(files_.path("world.yaml")));
+  scene_ = must(sim::Scene::create(world->mesh()));
+
+  planning::Mission mission;
+  std::vector<planning::RobotAbility> abilities;
+  for (std::size_t k = 0; k < options.robots.size(); ++k) {
+    const sim::Aisle& lane = world->aisles().at(k);
+    const Eigen::Vector2d along = (lane.to - lane.from).normalized();
+    mission.rows.push_back({static_cast<planning::RowId>(k), {lane.from, lane.to}});
+    sim::RobotTwinConfig& twin = config_.members[k].robot;
+    twin.vehicle.command_timeout = 0.0;
+    twin.lidar.rate = options.lidar_rate;
+    twin.gps.fitted = !options.guided;
+    twin.start_given = true;
+    twin.start = lane.from;
+    twin.start_yaw = std::atan2(along.y(), along.x());
+    planning::RobotAbility ability;
+    ability.id = config_.members[k].agent.id;
+    ability.start = {twin.start, twin.start_yaw};
+    abilities.push_back(ability);
+  }
+  agent::NavigatorConfig navigator;
+  navigator.plan = must(planning::plan_fleet(mission, abilities, {}));
+  navigator.obstacles.base_height = config_.members[0].robot.vehicle.base_height;
+
+  config_.network.perception_time = options.perception_time;
+  config_.network.start = stamp_from_ns(1'700'000'000'000'000'000);
+  network_ = must(bus::LocalNetwork::create(config_.network));
+  operator_ = &network_->add_robot(robot_id("operator"));
+  for (std::size_t k = 0; k < options.robots.size(); ++k) {
+    auto& member = config_.members[k];
+    member.agent.directory = files_.path(member.agent.id.str());
+    member.agent.site_origin = origin_;
+    member.agent.navigator = std::make_shared<const agent::NavigatorConfig>(navigator);
+    auto robot = std::make_unique<Robot>();
+    robot->id = member.agent.id;
+    robot->twin = std::make_unique<sim::RobotTwin>(
+        must(sim::RobotTwin::create(world, origin_, member.robot, network_->now())));
+    start(*robot);
+    robots_.push_back(std::move(robot));
+  }
+  network_->at(now() + kTick, [this] { tick(); });
+}
+
+DrivenFleet::Robot& DrivenFleet::robot(const std::string& name) {
+  const auto found = std::ranges::find_if(robots_, [&](const auto& r) { return r->id.str() == name; });
+  return **found;
+}
+
+void DrivenFleet::start(Robot& robot) {
+  const auto member =
+      std::ranges::find_if(config_.members, [&](const auto& m) { return m.agent.id == robot.id; });
+  robot.bus = &network_->add_robot(robot.id);
+  robot.handles.push_back(robot.bus->subscribe(wire::topics::cmd_vel(), [this, &robot](const Bytes& cdr) {
+    const auto command = wire::decode<wire::VelocityCommand>(cdr).value();
+    robot.commands.push_back({now(), command});
+    robot.twin->command(command.forward_speed, command.yaw_rate);
+  }));
+  robot.agent = must(agent::Agent::create(member->agent, *robot.bus));
+}
+
+void DrivenFleet::restart(const std::string& name) {
+  Robot& self = robot(name);
+  self.handles.clear();
+  network_->finish_work(self.id);  // it uses the agent and its store
+  self.agent.reset();
+  network_->remove_robot(self.id);
+  self.twin->command(0.0, 0.0);
+  start(self);
+}
+
+void DrivenFleet::tick() {
+  for (const auto& robot : robots_) {
+    sense(*robot);
+    if (options_.guided && robot->guide && now() - robot->last_guide >= kGuidePeriod) guide(*robot);
+  }
+  network_->at(now() + kTick, [this] { tick(); });
+}
+
+void DrivenFleet::guide(Robot& robot) {
+  robot.last_guide = now();
+  GlobalPose pose;
+  pose.stamp = now();
+  const Pose T = robot.twin->T_enu_base();
+  pose.position = LocalFrame(origin_).to_geo(T.translation());
+  pose.q_enu_base = Eigen::Quaterniond(T.linear()).normalized();
+  robot.bus->publish(wire::topics::guide_pose(), wire::encode(pose));
+}
+
+void DrivenFleet::sense(Robot& robot) {
+  for (sim::TwinSample& sample : robot.twin->advance(now())) {
+    if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
+      robot.bus->publish(wire::topics::imu(), wire::encode(*imu));
+    } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
+      robot.bus->publish(wire::topics::fix(), wire::encode(*fix));
+    } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) {
+      robot.bus->publish(wire::topics::wheel_odometry(), wire::encode(*wheel));
+    } else if (robot.scans) {
+      sensor::Scan scan = sim::cast_scan(*scene_, robot.twin->config().lidar, std::get<sim::ScanJob>(sample));
+      if (!robot.points) scan.points.resize(10);
+      robot.last_scan = now();
+      robot.bus->publish(wire::topics::points(), wire::encode(scan));
+    }
+  }
+}
+
+bool DrivenFleet::run_until_driving() {
+  for (int k = 0; k < 60; ++k) {
+    run_for(std::chrono::milliseconds(500));
+    if (std::ranges::all_of(robots_, [](const auto& r) { return r->twin->speed() > 0.5; })) return true;
+  }
+  return false;
+}
+
+exchange::HoldOrder DrivenFleet::order_now(const std::string& robot, bool hold) const {
+  return {now(), robot.empty() ? AgentId{} : robot_id(robot), robot_id("operator"), hold};
+}
+
+void DrivenFleet::order(const std::string& robot, bool hold) {
+  const exchange::Hold message{
+      robot_id("operator"), exchange::Hold::Driving::kNoRobot, {order_now(robot, hold)}};
+  operator_->publish(wire::topics::hold(), wire::encode(message));
+}
+
+Stamp stands_from(const DrivenFleet::Robot& robot, Stamp event, Stamp until) {
+  Stamp from = until + Duration(1);
+  for (auto command = robot.commands.rbegin(); command != robot.commands.rend(); ++command) {
+    if (command->at > until) continue;
+    if (command->at <= event || !command->zero()) break;
+    from = command->at;
+  }
+  return from;
+}
+
+}  // namespace fleetmap::testing
