@@ -155,7 +155,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
 
 bool Navigator::all_rows_driven() const {
   const auto status = executive_.status();
-  return status.done + status.abandoned >= status.rows;
+  return status.done + status.abandoned.size() >= status.rows;
 }
 
 void Navigator::stop() {
