@@ -124,13 +124,9 @@ Status Agent::start() {
     exchange_->set_drives(true);
     if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
   }
-<<<<<<< HEAD
-  if (config_.placement.method == graph::PlacementMethod::graph) {
-=======
   local_hold_ =
       bus_.subscribe(wire::topics::hold_onboard(), [this](const Bytes& cdr) { on_local_hold(cdr); });
-  if (config_.placement.mode == graph::PlacementMode::fleet) {
->>>>>>> safety
+  if (config_.placement.method == graph::PlacementMethod::graph) {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });

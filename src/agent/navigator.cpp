@@ -197,7 +197,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
 
 bool Navigator::all_rows_driven() const {
   const auto status = executive_.status();
-  return status.done + status.abandoned >= status.rows;
+  return status.done + status.abandoned.size() >= status.rows;
 }
 
 /// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.

@@ -13,6 +13,7 @@
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
+#include "mission_setup.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "sample_player.hpp"
@@ -92,6 +93,10 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
                  agent.config().id.str(), planning::to_string(mission.state), mission.done, mission.rows,
                  mission.mine);
+    for (const auto& row : mission.abandoned) {
+      spdlog::warn("{}: row {} is abandoned: {}", agent.config().id.str(), row.row,
+                   row.why.empty() ? "other robots gave it up" : row.why);
+    }
   }
   spdlog::info("{}: {} scans, {} nodes, {} alignments, {} of {} submaps, last sensor {:.1f} s ago",
                agent.config().id.str(), agent.perception().counters().scans, store.nodes().size(),
@@ -157,18 +162,28 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
   return folder;
 }
 
+/// The robot of its own file, with its mission planned.
+Result<config::RobotConfig> robot_of_its_own(const AgentOptions& options,
+                                             const std::vector<config::Override>& overrides) {
+  auto robot = config::load_robot(options.config, overrides);
+  if (!robot) return robot;
+  if (const Status planned = plan_mission(*robot); !planned) return tl::unexpected(planned.error());
+  return robot;
+}
+
 /// One robot of a fleet's file, as a process of its own on this machine.
 Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
                                             const std::vector<config::Override>& overrides) {
   auto fleet = config::load_fleet(options.config, overrides);
   if (!fleet) return tl::unexpected(fleet.error());
   if (fleet->twin) {
-    if (const auto setup = set_up_twin(*fleet); !setup) return tl::unexpected(setup.error());
+    if (const Status planned = set_up_agents(*fleet); !planned) return tl::unexpected(planned.error());
   }
   for (auto& member : fleet->members) {
     if (member.agent.id.str() != options.as) continue;
     member.agent.directory = std::filesystem::path(options.out) / options.as;
-    return config::RobotConfig{std::move(member.agent), std::move(member.dds), std::move(member.recording)};
+    return config::RobotConfig{std::move(member.agent), std::nullopt, std::move(member.dds),
+                               std::move(member.recording)};
   }
   return failure(options.config + ": has no agent '" + options.as + "'");
 }
@@ -176,8 +191,8 @@ Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  const auto config = options.as.empty() ? config::load_robot(options.config, *overrides)
-                                         : member_of_fleet(options, *overrides);
+  const auto config =
+      options.as.empty() ? robot_of_its_own(options, *overrides) : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
   auto bus = join_dds(config->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);

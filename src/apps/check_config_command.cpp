@@ -5,9 +5,11 @@
 
 #include "commands.hpp"
 #include "experiment/case.hpp"
+#include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/world_config.hpp"
+#include "mission_setup.hpp"
 #include "options.hpp"
 #include "twin_setup.hpp"
 
@@ -34,6 +36,19 @@ Result<std::string> check_fleet(const std::string& file, const std::vector<confi
   return text.str();
 }
 
+Result<std::string> check_robot(const std::string& file, const std::vector<config::Override>& overrides) {
+  auto robot = config::load_robot(file, overrides);
+  if (!robot) return tl::unexpected(robot.error());
+  if (const Status planned = plan_mission(*robot); !planned) return tl::unexpected(planned.error());
+  if (!robot->mission) return std::string("a valid agent configuration");
+  const planning::FleetPlan& plan = *robot->agent.navigator->plan;
+  std::ostringstream text;
+  text << "a valid agent configuration with a mission: " << plan.fleet.size() << " robots, "
+       << plan.mission.rows.size() << " rows, planned to be driven in " << std::fixed << std::setprecision(0)
+       << plan.completion << " s";
+  return text.str();
+}
+
 Result<std::string> check(const std::string& file, const std::vector<config::Override>& overrides) {
   const auto kind = config::check(file, overrides);
   if (!kind) return tl::unexpected(kind.error());
@@ -57,7 +72,7 @@ Result<std::string> check(const std::string& file, const std::vector<config::Ove
     case config::FileKind::kRobot:
       break;
   }
-  return std::string("a valid agent configuration");
+  return check_robot(file, overrides);
 }
 
 int run(const CheckOptions& options) {

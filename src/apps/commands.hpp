@@ -22,6 +22,7 @@ void add_experiment(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 void add_world(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 
 /// Prints the error for a person and gives the code to exit with.

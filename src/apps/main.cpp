@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   add_register(app, exit_code);
   add_map(app, exit_code);
   add_world(app, exit_code);
+  add_plan(app, exit_code);
   add_eval(app, exit_code);
   add_experiment(app, exit_code);
   add_check_config(app, exit_code);

@@ -95,6 +95,13 @@ json completion_json(const Completion& completion) {
               {"aligned_s", seconds_or_null(completion.aligned)},
               {"completed_s", seconds_or_null(completion.completed)}};
   if (!completion.completed) all["why_not"] = completion.why_not;
+  if (completion.lane_share) all["lane_share"] = *completion.lane_share;
+  all["abandoned_rows"] = json::array();
+  for (const Completion::Abandoned& row : completion.abandoned) {
+    all["abandoned_rows"].push_back({{"row", row.row},
+                                     {"agent", row.agent.str()},
+                                     {"why", row.why.empty() ? "no robot was left to drive it" : row.why}});
+  }
   return all;
 }
 

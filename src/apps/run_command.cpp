@@ -49,11 +49,11 @@ Result<config::FleetConfig> fleet_config(const RunOptions& options,
 
 /// The recordings, or the robots of the twin.
 Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const RunOptions& options,
-                                           std::shared_ptr<const sim::World>& world) {
+                                           std::optional<TwinSetup>& twin) {
   const unsigned threads = options.threads > 1 ? options.threads : 0;
   config.network.threads = threads;
   if (config.twin) {
-    const auto setup = set_up_twin(config);
+    auto setup = set_up_twin(config);
     if (!setup) return tl::unexpected(setup.error());
     // What perception and background work take on a robot; also lets the robots' work overlap.
     config.network.perception_time = kPerceptionTime;
@@ -62,7 +62,7 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
     for (const auto& member : config.members) robots.push_back(member.robot);
     auto feed = TwinFeed::create(setup->world, setup->origin, robots, threads);
     if (!feed) return tl::unexpected(feed.error());
-    world = setup->world;
+    twin = std::move(*setup);
     return std::unique_ptr<FleetFeed>(std::move(*feed));
   }
   std::vector<config::RecordingConfig> recordings;
@@ -107,6 +107,10 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
                  "report.json\n";
   }
   if (outcome.completion) {
+    for (const Completion::Abandoned& row : outcome.completion->abandoned) {
+      std::cout << "row " << row.row << " was given up by " << row.agent.str() << ": "
+                << (row.why.empty() ? "no robot was left to drive it" : row.why) << '\n';
+    }
     if (outcome.completion->completed) {
       std::cout << "mission completed after " << *outcome.completion->completed << " s\n";
     } else {
@@ -134,22 +138,31 @@ int run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<std::filesystem::path> record;
   if (!options.record.empty()) record = options.record;
-  std::shared_ptr<const sim::World> world;
-  auto feed = feed_of(*config, options, world);
+  // Rows of a file may be others than the lanes of the world.
+  const bool on_own_drawing = config->twin && config->twin->mission.file.empty();
+  const int every = config->twin ? config->twin->mission.rows.every : 1;
+  std::optional<TwinSetup> setup;
+  auto feed = feed_of(*config, options, setup);
   if (!feed) return report(feed.error(), config->twin ? kBadConfiguration : kFailed);
   const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
   auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
   if (!fleet) return report(fleet.error(), kFailed);
-  if (world) {
-    if (const Status written = write_truth_cloud(options.out, *world); !written)
+  if (setup) {
+    if (const Status written = write_truth_cloud(options.out, *setup->world); !written)
+      return report(written.error(), kFailed);
+    if (const Status written = write_site(options.out, *setup); !written)
       return report(written.error(), kFailed);
   }
-  const auto outcome = (*fleet)->run();
+  auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
+  std::vector<std::vector<agent::StampedPose>> truths;
   for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
-    const Status written = write_truth(outcome->agents[k].directory, twin->truth(k));
+    truths.push_back(twin->truth(k));
+    const Status written = write_truth(outcome->agents[k].directory, truths.back());
     if (!written) return report(written.error(), kFailed);
   }
+  if (setup && outcome->completion && on_own_drawing)
+    outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, truths);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
     return report(written.error(), kFailed);

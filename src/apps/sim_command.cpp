@@ -153,6 +153,7 @@ int run(const SimOptions& options) {
   if (!options.out.empty()) {
     if (const Status writable = make_writable(options.out); !writable)
       return report(writable.error(), kFailed);
+    if (const Status drawn = write_site(options.out, *setup); !drawn) return report(drawn.error(), kFailed);
   }
   auto scene = sim::Scene::create(setup->world->mesh());
   if (!scene) return report(scene.error(), kFailed);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/sim/world.hpp"
+#include "twin_setup.hpp"
 
 namespace fleetmap::apps {
 
@@ -15,5 +17,13 @@ Status write_truth(const std::filesystem::path& directory, const std::vector<age
 /// `out`/truth.ply: points spread evenly over every surface of the world, as dense as fits some million
 /// points.
 Status write_truth_cloud(const std::filesystem::path& out, const sim::World& world);
+
+/// `out`/site.geojson: the drawing that the fleet planned on.
+Status write_site(const std::filesystem::path& out, const TwinSetup& setup);
+
+/// Share of the length of each `every`-th lane of the world to which some robot truly came within 2 m.
+/// Nothing for a world without lanes.
+std::optional<double> share_of_lanes_driven(const sim::World& world, int every,
+                                            const std::vector<std::vector<agent::StampedPose>>& truths);
 
 }  // namespace fleetmap::apps

@@ -8,29 +8,52 @@
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/sim/parked_things.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
+#include "mission_setup.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-/// Where sites are that name no origin.
-const GeoPoint kSomewhere = geo_point_from_degrees(39.0, -3.0, 600.0);
 constexpr double kStartSpacing = 2.5;    // m between robots that set out
-constexpr double kStartSearch = 60.0;    // m around the first waypoint
+constexpr double kStartSearch = 60.0;    // m around the start that the drawing marks
 constexpr double kStartClearance = 1.0;  // m, of free ground around a start
 
-Result<planning::Mission> mission_of(const config::TwinConfig& twin, const sim::World& world,
+constexpr double kFileSlack = 10.0;  // m, that a file's rows may lie outside of the world
+
+std::uint64_t seed_of(const config::TwinConfig& twin) { return twin.seed.value_or(1); }
+
+/// The drawing that the fleet plans on: the mission's file, or one of the world that is off by `map_error`.
+/// Starts that the fleet's file names are marked in it, as imprecisely as all the rest.
+Result<planning::Mission> drawn_site(const config::FleetConfig& config, const sim::World& world,
                                      const GeoPoint& origin) {
-  if (twin.mission.waypoints == "aisles" && world.aisles().empty()) {
-    return failure(twin.world.string() +
-                   ": the world has no aisles; name them there (aisles: [[[x, y], [x, y]]]) or give "
-                   "mission.waypoints a GeoJSON file");
+  const config::TwinConfig& twin = *config.twin;
+  if (!twin.mission.file.empty()) {
+    auto site = planning::read_geojson(twin.mission.file, LocalFrame(origin));
+    if (!site) return site;
+    const Eigen::Vector2d slack = Eigen::Vector2d::Constant(kFileSlack);
+    const Status within =
+        planning::check_within(*site, world.bounds().low - slack, world.bounds().high + slack);
+    if (!within) return failure(twin.mission.file.string() + ": " + within.error().message);
+    return site;
   }
-  planning::SitePlan site;
-  for (const sim::Aisle& aisle : world.aisles()) site.lanes.push_back({aisle.from, aisle.to});
-  site.keep_out = world.plan();
-  site.bounds = {world.bounds().low, world.bounds().high};
-  return planning::make_mission(twin.mission, site, LocalFrame(origin));
+  if (world.aisles().empty()) {
+    return failure(
+        twin.world.string() +
+        ": the world has no aisles; name them there (aisles: [[[x, y], [x, y]]]) or give the mission "
+        "a drawing with rows (mission.file: SITE.geojson)");
+  }
+  sim::SiteDrawing drawing = world.drawing();
+  std::vector<AgentId> marked;
+  for (const auto& member : config.members) {
+    if (!member.robot.start_given) continue;
+    drawing.marks.push_back(member.robot.start);
+    marked.push_back(member.agent.id);
+  }
+  drawing = sim::with_position_error(drawing, twin.map_error, seed_of(twin));
+  planning::Mission site = mission_on(drawing);
+  for (std::size_t k = 0; k < marked.size(); ++k) site.starts.push_back({marked[k], drawing.marks[k]});
+  return site;
 }
 
 /// Free places near `near`, the nearest first, apart from each other and from `taken`.
@@ -54,19 +77,23 @@ std::vector<Eigen::Vector2d> free_places(const sim::World& world, const Eigen::V
   return places;
 }
 
-Status choose_starts(config::FleetConfig& config, const sim::World& world, const planning::Mission& mission) {
+/// Robots that the fleet's file gives no start stand about where the drawing marks it.
+Status choose_starts(config::FleetConfig& config, const sim::World& world, const planning::Mission& site) {
   std::vector<Eigen::Vector2d> taken;
   std::size_t open = 0;
   for (const auto& member : config.members) {
     if (member.robot.start_given) taken.push_back(member.robot.start);
     open += !member.robot.start_given;
   }
-  const Eigen::Vector2d first = mission.rows.front().waypoints.front();
-  const Eigen::Vector2d ahead = mission.rows.front().waypoints.back() - first;
-  const auto places = free_places(world, first, open, taken);
+  const planning::Polyline& first = site.rows.front().waypoints;
+  const Eigen::Vector2d ahead = first.back() - first.front();
+  const auto common = std::ranges::find(site.starts, std::optional<AgentId>(), &planning::StartPoint::agent);
+  const auto places =
+      free_places(world, common == site.starts.end() ? first.front() : common->at, open, taken);
   if (places.size() < open) {
-    return failure(config.twin->world.string() + ": no free ground for " + std::to_string(open) +
-                   " robots near the first waypoint; give each agent robot.start: [east, north, yaw_deg]");
+    return failure(
+        config.twin->world.string() + ": no free ground for " + std::to_string(open) +
+        " robots near the start of the mission; give each agent robot.start: [east, north, yaw_deg]");
   }
   auto place = places.begin();
   for (auto& member : config.members) {
@@ -99,17 +126,26 @@ Status check_starts(const config::FleetConfig& config, const std::shared_ptr<con
   return {};
 }
 
-planning::RobotAbility ability_of(const config::FleetConfig::Member& member,
-                                  const planning::MissionConfig& mission) {
-  planning::RobotAbility ability;
-  ability.id = member.agent.id;
-  ability.start = {member.robot.start, member.robot.start_yaw};
-  ability.speed = std::min(mission.speed, member.robot.vehicle.max_speed);
-  ability.yaw_rate = std::min(ability.yaw_rate, member.robot.vehicle.max_yaw_rate);
-  ability.battery_wh = member.robot.vehicle.battery_wh;
-  ability.power_idle_w = member.robot.vehicle.idle_power_w;
-  ability.energy_per_metre_wh = member.robot.vehicle.energy_per_metre / 3600.0;
-  return ability;
+/// Plans on `site` and gives every agent its navigator.
+Status plan_twin(config::FleetConfig& config, const planning::Mission& site, const GeoPoint& origin,
+                 std::shared_ptr<const planning::FleetPlan>& plan) {
+  const config::TwinConfig& twin = *config.twin;
+  auto planned = plan_on(site, abilities_of(config), twin.mission);
+  if (!planned) return failure(twin.mission_at + ": " + planned.error().message);
+  plan = std::move(*planned);
+  for (auto& member : config.members) {
+    member.agent.site_origin = origin;
+    agent::NavigatorConfig navigator;
+    navigator.plan = plan;
+    navigator.follower.max_speed = std::min(twin.mission.speed, member.robot.vehicle.max_speed);
+    navigator.obstacles.base_height = member.robot.vehicle.base_height;
+    member.agent.navigator = std::make_shared<const agent::NavigatorConfig>(navigator);
+  }
+  return {};
+}
+
+GeoPoint origin_of(const config::FleetConfig& config) {
+  return config.members.front().agent.site_origin.value_or(kSomewhere);
 }
 
 }  // namespace
@@ -120,30 +156,39 @@ Result<TwinSetup> set_up_twin(config::FleetConfig& config) {
   if (!world) return tl::unexpected(world.error());
   TwinSetup setup;
   setup.world = *world;
-  setup.origin = config.members.front().agent.site_origin.value_or(kSomewhere);
-  const auto mission = mission_of(twin, *setup.world, setup.origin);
-  if (!mission) return tl::unexpected(mission.error());
-  if (const Status started = choose_starts(config, *setup.world, *mission); !started)
+  setup.origin = origin_of(config);
+  auto site = drawn_site(config, *setup.world, setup.origin);
+  if (!site) return tl::unexpected(site.error());
+  setup.site = std::move(*site);
+  if (const Status started = choose_starts(config, *setup.world, setup.site); !started)
     return tl::unexpected(started.error());
+  if (twin.unknown_obstacles > 0) {
+    std::vector<Eigen::Vector2d> starts;
+    for (const auto& member : config.members) starts.push_back(member.robot.start);
+    auto cluttered = sim::with_parked_things(*setup.world, twin.unknown_obstacles, seed_of(twin), starts);
+    if (!cluttered) return failure(twin.mission_at + ".unknown_obstacles: " + cluttered.error().message);
+    setup.world = *cluttered;
+  }
   if (const Status free = check_starts(config, setup.world, setup.origin); !free)
     return tl::unexpected(free.error());
-  std::vector<planning::RobotAbility> fleet;
-  for (const auto& member : config.members) fleet.push_back(ability_of(member, twin.mission));
-  auto plan = planning::plan_fleet(*mission, fleet, twin.mission);
-  if (!plan) return failure(twin.mission_at + ": " + plan.error().message);
-  setup.plan = *plan;
+  if (const Status planned = plan_twin(config, setup.site, setup.origin, setup.plan); !planned)
+    return tl::unexpected(planned.error());
   std::uint64_t index = 0;
-  for (auto& member : config.members) {
-    member.agent.site_origin = setup.origin;
-    // Another seed of the run gives every robot other errors, and no two robots the same.
-    member.robot.seed += 1000 * twin.seed.value_or(0) + index++;
-    agent::NavigatorConfig navigator;
-    navigator.plan = setup.plan;
-    navigator.follower.max_speed = std::min(twin.mission.speed, member.robot.vehicle.max_speed);
-    navigator.obstacles.base_height = member.robot.vehicle.base_height;
-    member.agent.navigator = std::make_shared<const agent::NavigatorConfig>(navigator);
-  }
+  // Another seed of the run gives every robot other errors, and no two robots the same.
+  for (auto& member : config.members) member.robot.seed += 1000 * twin.seed.value_or(0) + index++;
   return setup;
+}
+
+Status set_up_agents(config::FleetConfig& config) {
+  if (config.twin->mission.file.empty()) {
+    const auto setup = set_up_twin(config);
+    return setup ? Status() : tl::unexpected(setup.error());
+  }
+  const GeoPoint origin = origin_of(config);
+  const auto site = planning::read_geojson(config.twin->mission.file, LocalFrame(origin));
+  if (!site) return tl::unexpected(site.error());
+  std::shared_ptr<const planning::FleetPlan> plan;
+  return plan_twin(config, *site, origin, plan);
 }
 
 }  // namespace fleetmap::apps

@@ -122,6 +122,21 @@ bool VirtualFleet::all_driven() const {
   });
 }
 
+/// One entry for each robot that gave a row up which nobody drove.
+std::vector<Completion::Abandoned> VirtualFleet::abandoned_rows() const {
+  std::vector<Completion::Abandoned> rows;
+  for (const Member& member : members_) {
+    if (!member.agent || member.agent->navigator() == nullptr) continue;
+    for (auto& row : member.agent->navigator()->status().abandoned) {
+      const bool listed = std::ranges::find(rows, row.row, &Completion::Abandoned::row) != rows.end();
+      if (row.why.empty() && listed) continue;
+      std::erase_if(rows, [&](const auto& other) { return other.row == row.row && other.why.empty(); });
+      rows.push_back({row.row, member.id, std::move(row.why)});
+    }
+  }
+  return rows;
+}
+
 void VirtualFleet::note_completion(Duration elapsed) {
   if (!completion_ || completion_->completed) return;
   const double now = to_seconds(elapsed);
@@ -244,6 +259,7 @@ Result<FleetOutcome> VirtualFleet::run() {
   if (!error_.empty()) return failure(error_);
   outcome.virtual_time = network_->now() - start;
   outcome.settle_time = network_->now() - last_sample;
+  if (completion_) completion_->abandoned = abandoned_rows();
   outcome.completion = completion_;
   outcome.links = network_->link_use();
   outcome.origin_known = origin_.has_value();

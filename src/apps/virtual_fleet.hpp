@@ -22,6 +22,13 @@ struct Completion {
   std::optional<double> aligned;      ///< every agent joined to the fleet by alignments with E <= 0.4
   std::optional<double> completed;    ///< both, and all nodes shared: the paper's end of mapping
   std::string why_not;                ///< not completed
+  struct Abandoned {
+    planning::RowId row = 0;
+    AgentId agent;    ///< gave it up
+    std::string why;  ///< empty: no robot was left to drive it
+  };
+  std::vector<Abandoned> abandoned;  ///< rows that were not driven to their ends, at the end of the run
+  std::optional<double> lane_share;  ///< of the twin's lanes, truly driven
 };
 
 /// What a run in virtual time gave.
@@ -89,6 +96,7 @@ class VirtualFleet {
   std::optional<bus::EnuPosition> position_of(std::size_t member) const;
   bool playing() const;
   bool has_mission() const;
+  std::vector<Completion::Abandoned> abandoned_rows() const;
   /// Tells the feed when nobody has anything left to drive, or time is up.
   void end_mission(Duration elapsed);
   bool all_driven() const;

@@ -87,7 +87,7 @@ void suit_estimator(FleetConfig::Member& member, Section lidar) {
 std::optional<TwinConfig> read_twin(Section& top) {
   if (!top.has("world")) {
     for (const char* key : {"mission", "max_time"}) {
-      if (top.has(key)) top.problem(key, "is for the twin, which needs world: {file: WORLD.yaml}");
+      if (top.has(key)) top.problem(key, "of a fleet is for the twin, which needs world: {file: WORLD.yaml}");
     }
     return std::nullopt;
   }
@@ -105,7 +105,7 @@ std::optional<TwinConfig> read_twin(Section& top) {
     twin.seed = seed;
   }
   world.finish();
-  read_mission(top, twin.mission);
+  read_mission(top, twin);
   top.read("max_time", twin.max_time);
   if (!(twin.max_time > 0.0)) top.problem("max_time", "expected seconds > 0");
   return twin;
@@ -245,6 +245,7 @@ Result<RobotConfig> read_robot(Document& document) {
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);
+  robot.mission = read_mission(top, robot.agent);
   top.finish();
   if (robot.agent.directory.empty())
     top.problem("directory", "expected the folder where the agent keeps its store and maps");
@@ -293,6 +294,17 @@ Result<FleetConfig> load_fleet(const std::filesystem::path& file, const std::vec
   return read_fleet(*document);
 }
 
+Result<planning::MissionConfig> load_mission_settings(const std::vector<Override>& overrides) {
+  Document document = Document::from(YAML::Node(YAML::NodeType::Map), "command line");
+  if (const Status applied = document.apply(overrides); !applied) return tl::unexpected(applied.error());
+  Section top(document, document.root(), "");
+  planning::MissionConfig mission;
+  read_mission_settings(top, mission);
+  top.finish();
+  if (const Status status = document.status(); !status) return tl::unexpected(status.error());
+  return mission;
+}
+
 Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesystem::path>>& recordings,
                              const std::vector<Override>& overrides) {
   YAML::Node root(YAML::NodeType::Map);
@@ -334,6 +346,7 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   robot.dds.qos_directory = "qos";
   read_dds(top, robot.dds);
   robot.recording = read_recording(top);
+  top.has("mission");  // of no concern to the sensors
   top.finish();
   if (const Status status = document->status(); !status) return tl::unexpected(status.error());
   return robot;

@@ -88,9 +88,8 @@ Status ExecutiveConfig::validate() const {
 }
 
 Status MissionConfig::validate() const {
-  if (waypoints.empty()) return failure("waypoints: expected aisles or the path of a GeoJSON file");
-  if (lanes.every < 1) return failure("every: must be at least 1");
-  if (!(lanes.max_row_length == 0.0 || lanes.max_row_length >= 1.0)) {
+  if (rows.every < 1) return failure("every: must be at least 1");
+  if (!(rows.max_row_length == 0.0 || rows.max_row_length >= 1.0)) {
     return failure("max_row_length: must be at least 1 m, or 0 for no limit");
   }
   if (!(std::isfinite(speed) && speed > 0.0)) return failure("speed: must be > 0 m/s");
@@ -105,6 +104,16 @@ std::optional<std::size_t> FleetPlan::find(const AgentId& id) const {
   const auto found = std::ranges::find(fleet, id, &RobotAbility::id);
   if (found == fleet.end()) return std::nullopt;
   return static_cast<std::size_t>(found - fleet.begin());
+}
+
+Polyline route_of(const FleetPlan& plan, std::size_t index) {
+  const std::optional<Eigen::Vector2d> end =
+      plan.meeting ? std::optional<Eigen::Vector2d>(plan.meeting->positions[index]) : std::nullopt;
+  Polyline route =
+      timed_path(plan.planner, plan.mission, plan.fleet[index], plan.division.routes[index].visits, end)
+          .points;
+  route.erase(std::ranges::unique(route).begin(), route.end());
+  return route;
 }
 
 Result<std::shared_ptr<const FleetPlan>> plan_fleet(Mission mission, std::span<const RobotAbility> fleet,

@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -13,8 +12,6 @@ namespace fleetmap::planning {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Thrown inside this file only; the public functions turn it into an Error.
 struct Problem {
@@ -32,6 +29,17 @@ std::string distance_text(double metres) {
   return out.str();
 }
 
+/// Nothing: a frame that is not known.
+std::optional<FileFrame> frame_of(const json& root) {
+  json frame = root.value("frame", json());
+  if (frame.is_null() && root.contains("properties") && root["properties"].is_object()) {
+    frame = root["properties"].value("frame", json());
+  }
+  if (frame.is_null() || frame == "wgs84") return FileFrame::kWgs84;
+  if (frame == "enu") return FileFrame::kEnu;
+  return std::nullopt;
+}
+
 class Reader {
  public:
   Reader(const LocalFrame& site, const GeoJsonLimits& limits) : site_(site), limits_(limits) {}
@@ -41,7 +49,9 @@ class Reader {
       throw Problem{
           "expected a GeoJSON FeatureCollection: {\"type\": \"FeatureCollection\", \"features\": [...]}"};
     }
-    enu_ = frame_of(root);
+    const auto frame = frame_of(root);
+    if (!frame) throw Problem{"\"frame\" must be \"wgs84\" or \"enu\""};
+    enu_ = *frame == FileFrame::kEnu;
     if (!root.contains("features") || !root["features"].is_array()) {
       throw Problem{"\"features\" is missing; expected a list of features"};
     }
@@ -59,25 +69,23 @@ class Reader {
   }
 
  private:
-  static bool frame_of(const json& root) {
-    json frame = root.value("frame", json());
-    if (frame.is_null() && root.contains("properties") && root["properties"].is_object()) {
-      frame = root["properties"].value("frame", json());
-    }
-    if (frame.is_null() || frame == "wgs84") return false;
-    if (frame == "enu") return true;
-    throw Problem{"\"frame\" must be \"wgs84\" or \"enu\""};
-  }
-
   void read_feature(const json& feature) {
     if (!feature.is_object() || !feature.contains("geometry") || !feature["geometry"].is_object()) {
       throw Problem{"expected a Feature with a geometry"};
     }
     const json& geometry = feature["geometry"];
     const std::string type = geometry.value("type", "");
-    if (type == "Point" || type == "MultiPoint") return;
     const json coordinates = geometry.value("coordinates", json());
-    if (type == "LineString") return add_row(coordinates, row_id(feature));
+    if (type == "MultiPoint") return;
+    if (type == "Point") return add_start(coordinates, property(feature, "start"));
+    if (type == "LineString") {
+      if (property(feature, "route").is_null()) add_row(coordinates, row_id(feature));
+      return;
+    }
+    if (property(feature, "boundary") == true) {
+      if (type != "Polygon") throw Problem{"the boundary must be one Polygon"};
+      return set_boundary(coordinates);
+    }
     if (type == "Polygon") return add_keep_out(coordinates);
     if (type != "MultiLineString" && type != "MultiPolygon") {
       throw Problem{"geometry '" + type +
@@ -89,11 +97,14 @@ class Reader {
     }
   }
 
+  static json property(const json& feature, const char* name) {
+    if (!feature.contains("properties") || !feature["properties"].is_object()) return {};
+    return feature["properties"].value(name, json());
+  }
+
   static std::optional<RowId> row_id(const json& feature) {
-    json id;
-    if (feature.contains("properties") && feature["properties"].is_object()) {
-      id = feature["properties"].value("row", feature["properties"].value("id", json()));
-    }
+    json id = property(feature, "row");
+    if (id.is_null()) id = property(feature, "id");
     if (id.is_null()) return std::nullopt;
     if (!id.is_number_integer() || id < 0 || id > 1'000'000'000) {
       throw Problem{"property \"row\" must be a whole number from 0 to 1000000000, found " + id.dump()};
@@ -113,12 +124,34 @@ class Reader {
     mission_.rows.push_back(std::move(row));
   }
 
-  void add_keep_out(const json& rings) {
+  void add_keep_out(const json& rings) { mission_.keep_out.push_back(ring(rings)); }
+
+  void set_boundary(const json& rings) {
+    if (mission_.boundary) throw Problem{"a second boundary; a site has one"};
+    mission_.boundary = ring(rings);
+  }
+
+  KeepOut ring(const json& rings) {
     if (!rings.is_array() || rings.empty()) throw Problem{"a polygon needs a ring of corners"};
     KeepOut polygon = points(rings[0], "corner");
     if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
     if (polygon.size() < 3) throw Problem{"a polygon needs at least three corners"};
-    mission_.keep_out.push_back(std::move(polygon));
+    return polygon;
+  }
+
+  /// Other points (a hydrant, a name on the map) are of no concern to the mission.
+  void add_start(const json& coordinates, const json& whose) {
+    if (whose.is_null() || whose == false) return;
+    StartPoint start;
+    if (whose.is_string()) {
+      const auto agent = AgentId::parse(whose.get<std::string>());
+      if (!agent) throw Problem{"property \"start\": " + agent.error().message};
+      start.agent = *agent;
+    } else if (whose != true) {
+      throw Problem{"property \"start\" must be true or the name of a robot, found " + whose.dump()};
+    }
+    start.at = point(coordinates, "start");
+    mission_.starts.push_back(std::move(start));
   }
 
   Polyline points(const json& list, const std::string& name) {
@@ -178,23 +211,6 @@ class Reader {
   Mission mission_;
 };
 
-double rounded(double value, double unit) { return std::round(value / unit) * unit; }
-
-json coordinate(const Eigen::Vector2d& p, const LocalFrame& site, FileFrame frame) {
-  if (frame == FileFrame::kEnu) return {rounded(p.x(), 1e-6), rounded(p.y(), 1e-6)};
-  // The height of the origin's plane at p, so that east and north come back as they were.
-  const GeoPoint geo = site.to_geo({p.x(), p.y(), 0.0});
-  const Eigen::Vector3d back = site.to_enu({geo.latitude, geo.longitude, site.origin().altitude});
-  const GeoPoint level = site.to_geo({2.0 * p.x() - back.x(), 2.0 * p.y() - back.y(), 0.0});
-  return {rounded(level.longitude / kDegree, 1e-9), rounded(level.latitude / kDegree, 1e-9)};
-}
-
-json feature_of(const char* type, json coordinates, json properties) {
-  return {{"type", "Feature"},
-          {"properties", std::move(properties)},
-          {"geometry", {{"type", type}, {"coordinates", std::move(coordinates)}}}};
-}
-
 /// Line of the byte at which the parser stopped.
 std::size_t line_of(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
@@ -232,11 +248,28 @@ Result<Mission> parse_geojson(const std::string& text, const std::string& name, 
   }
 }
 
+std::optional<GeoPoint> first_position(const std::string& text) {
+  if (too_deep(text)) return std::nullopt;
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object() || !root.contains("features") || !root["features"].is_array()) return std::nullopt;
+  if (frame_of(root) != FileFrame::kWgs84) return std::nullopt;
+  for (const json& feature : root["features"]) {
+    if (!feature.is_object() || !feature.contains("geometry") || !feature["geometry"].is_object()) continue;
+    json position = feature["geometry"].value("coordinates", json());
+    while (position.is_array() && !position.empty() && position[0].is_array()) position = json(position[0]);
+    if (!position.is_array() || position.size() < 2 || !position[0].is_number() || !position[1].is_number())
+      continue;
+    const GeoPoint point = geo_point_from_degrees(position[1].get<double>(), position[0].get<double>(), 0.0);
+    if (is_valid(point)) return point;
+  }
+  return std::nullopt;
+}
+
 Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame& site,
                              const GeoJsonLimits& limits) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    return failure(file.string() + ": no such file; give a GeoJSON file of waypoints");
+    return failure(file.string() + ": no such file; give the GeoJSON file of the site");
   }
   if (std::filesystem::file_size(file, error) > limits.file_bytes) {
     return failure(file.string() + ": larger than " + std::to_string(limits.file_bytes >> 20) +
@@ -246,59 +279,6 @@ Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in) return failure(file.string() + ": cannot be read; check its permissions");
   return parse_geojson(text, file.string(), site, limits);
-}
-
-std::string to_geojson(const Mission& mission, const LocalFrame& site, FileFrame frame) {
-  json features = json::array();
-  for (const Row& row : mission.rows) {
-    json line = json::array();
-    for (const Eigen::Vector2d& p : row.waypoints) line.push_back(coordinate(p, site, frame));
-    features.push_back(feature_of("LineString", std::move(line), {{"row", row.id}}));
-  }
-  for (const KeepOut& polygon : mission.keep_out) {
-    json ring = json::array();
-    for (const Eigen::Vector2d& p : polygon) ring.push_back(coordinate(p, site, frame));
-    if (!polygon.empty()) ring.push_back(coordinate(polygon.front(), site, frame));
-    features.push_back(feature_of("Polygon", json::array({std::move(ring)}), {{"keep_out", true}}));
-  }
-  json root = {{"type", "FeatureCollection"}, {"features", std::move(features)}};
-  if (frame == FileFrame::kEnu) root["frame"] = "enu";
-  return root.dump(1) + "\n";
-}
-
-Status write_geojson(const std::filesystem::path& file, const Mission& mission, const LocalFrame& site,
-                     FileFrame frame) {
-  std::ofstream out(file, std::ios::binary);
-  out << to_geojson(mission, site, frame);
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; check the folder and free space");
-  return {};
-}
-
-Result<Mission> make_mission(const MissionConfig& config, const SitePlan& plan, const LocalFrame& site) {
-  Mission mission;
-  const bool from_file = config.waypoints != "aisles";
-  if (from_file) {
-    auto read = read_geojson(config.waypoints, site);
-    if (!read) return read;
-    mission = std::move(*read);
-    mission.keep_out.insert(mission.keep_out.end(), plan.keep_out.begin(), plan.keep_out.end());
-    mission.bounds = plan.bounds;
-  } else {
-    if (plan.lanes.empty()) {
-      return failure(
-          "mission.waypoints: this site has no lanes; give the path of a GeoJSON file of waypoints");
-    }
-    mission = mission_of_aisles(plan.lanes, config.lanes, plan.keep_out, plan.bounds);
-  }
-  const std::string name = (from_file ? config.waypoints : std::string("mission.waypoints")) + ": ";
-  if (const Status status = mission.validate(); !status) return failure(name + status.error().message);
-  if (plan.bounds) {
-    if (const Status status = check_within(mission, plan.bounds->low, plan.bounds->high); !status) {
-      return failure(name + status.error().message);
-    }
-  }
-  return mission;
 }
 
 }  // namespace fleetmap::planning

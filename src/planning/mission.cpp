@@ -5,14 +5,48 @@
 #include <cstdio>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kMaxReach = 100e3;    // m from the origin: beyond, ENU of one origin is no map any more
-constexpr double kShortestLane = 0.1;  // m
+constexpr double kMaxReach = 100e3;  // m from the origin: beyond, ENU of one origin is no map any more
 
 bool sound(const Eigen::Vector2d& p) { return p.allFinite() && p.norm() < kMaxReach; }
+
+Status check_polygon(const KeepOut& polygon, const std::string& name) {
+  if (polygon.size() < 3) return failure(name + " has fewer than three corners");
+  if (std::ranges::all_of(polygon, sound)) return {};
+  return failure(name + " has a corner that is not finite or more than 100 km from the site origin");
+}
+
+Status check_starts(const std::vector<StartPoint>& starts) {
+  std::set<std::optional<AgentId>> agents;
+  for (const StartPoint& start : starts) {
+    const std::string name = start.agent ? "start of " + start.agent->str() : "common start";
+    if (!sound(start.at))
+      return failure("mission: the " + name + " is not finite or more than 100 km from the site origin");
+    if (!agents.insert(start.agent).second) return failure("mission: there are two points for the " + name);
+  }
+  return {};
+}
+
+/// The piece of a line between two lengths along it (m).
+Polyline piece_of(const Polyline& line, double from, double to) {
+  Polyline piece;
+  double along = 0.0;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const Eigen::Vector2d step = line[k] - line[k - 1];
+    const double length = step.norm();
+    const double end = along + length;
+    if (length > 0.0 && end > from && along < to) {
+      if (piece.empty()) piece.push_back(line[k - 1] + step * (std::max(0.0, from - along) / length));
+      piece.push_back(to < end ? Eigen::Vector2d(line[k - 1] + step * ((to - along) / length)) : line[k]);
+    }
+    along = end;
+  }
+  return piece;
+}
 
 std::string text(const Eigen::Vector2d& p) {
   char buffer[64];
@@ -41,19 +75,23 @@ Status Mission::validate() const {
     points += row.waypoints.size();
   }
   for (std::size_t k = 0; k < keep_out.size(); ++k) {
-    const std::string name = "mission: keep-out polygon " + std::to_string(k);
-    if (keep_out[k].size() < 3) return failure(name + " has fewer than three corners");
-    if (!std::ranges::all_of(keep_out[k], sound)) {
-      return failure(name + " has a corner that is not finite or more than 100 km from the site origin");
-    }
+    const Status sound = check_polygon(keep_out[k], "mission: keep-out polygon " + std::to_string(k));
+    if (!sound) return sound;
     points += keep_out[k].size();
   }
   if (points > kMaxPoints) return failure("mission: more than a million points; simplify rows and keep-outs");
-  if (bounds &&
-      !(sound(bounds->low) && sound(bounds->high) && (bounds->low.array() < bounds->high.array()).all())) {
-    return failure("mission: bounds must be finite with low < high");
+  if (boundary) {
+    if (const Status sound = check_polygon(*boundary, "mission: the boundary"); !sound) return sound;
   }
-  return {};
+  return check_starts(starts);
+}
+
+Eigen::Vector2d Mission::start_of(const AgentId& agent) const {
+  for (const std::optional<AgentId>& wanted : {std::optional<AgentId>(agent), std::optional<AgentId>()}) {
+    const auto found = std::ranges::find(starts, wanted, &StartPoint::agent);
+    if (found != starts.end()) return found->at;
+  }
+  return rows.front().waypoints.front();
 }
 
 Status RobotAbility::validate() const {
@@ -79,23 +117,26 @@ double length_of(std::span<const Eigen::Vector2d> line) {
   return length;
 }
 
-Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& selection,
-                          std::vector<KeepOut> keep_out, std::optional<SiteBounds> bounds) {
-  Mission mission;
-  mission.keep_out = std::move(keep_out);
-  mission.bounds = std::move(bounds);
+Mission with_selected_rows(Mission mission, const RowSelection& selection) {
   const auto step = static_cast<std::size_t>(std::max(1, selection.every));
-  for (std::size_t k = 0; k < lanes.size(); k += step) {
-    const Eigen::Vector2d along = lanes[k].to - lanes[k].from;
-    if (!(along.norm() >= kShortestLane)) continue;
-    const bool cut = selection.max_row_length >= 1.0 && along.norm() > selection.max_row_length;
-    const int pieces = cut ? static_cast<int>(std::ceil(along.norm() / selection.max_row_length)) : 1;
+  const std::vector<Row> all = std::exchange(mission.rows, {});
+  bool cut = false;
+  for (std::size_t k = 0; k < all.size(); k += step) {
+    const double length = length_of(all[k].waypoints);
+    const bool long_row = selection.max_row_length >= 1.0 && length > selection.max_row_length;
+    const int pieces = long_row ? static_cast<int>(std::ceil(length / selection.max_row_length)) : 1;
+    if (pieces == 1) {
+      mission.rows.push_back(all[k]);
+      continue;
+    }
+    cut = true;
     for (int piece = 0; piece < pieces; ++piece) {
-      const Eigen::Vector2d from = lanes[k].from + along * piece / pieces;
-      const Eigen::Vector2d to = lanes[k].from + along * (piece + 1) / pieces;
-      mission.rows.push_back({static_cast<RowId>(mission.rows.size()), {from, to}});
+      mission.rows.push_back(
+          {0, piece_of(all[k].waypoints, length * piece / pieces, length * (piece + 1) / pieces)});
     }
   }
+  if (!cut) return mission;
+  for (std::size_t k = 0; k < mission.rows.size(); ++k) mission.rows[k].id = static_cast<RowId>(k);
   return mission;
 }
 

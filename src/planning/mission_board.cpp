@@ -6,6 +6,9 @@
 namespace fleetmap::planning {
 namespace {
 
+/// Robots that tried a row from both ends until nobody tries it any more.
+constexpr std::size_t kRefusals = 2;
+
 /// Replanning must be quick and is repeated anyway.
 DivisionConfig quick(const DivisionConfig& config) {
   DivisionConfig fast = config;
@@ -105,13 +108,21 @@ bool MissionBoard::outclaimed(std::size_t row, bool ours_under_way, Stamp now) c
 }
 
 bool MissionBoard::abandoned(std::size_t row, Stamp now) const {
-  bool anybody = false;
+  std::size_t left = 0;
+  std::size_t refused = 0;
   for (std::size_t robot = 0; robot < robots(); ++robot) {
     if (!available(robot, now)) continue;
-    if (!failed(robot, row)) return false;
-    anybody = true;
+    ++left;
+    refused += failed(robot, row) ? 1 : 0;
   }
-  return anybody;
+  return left > 0 && refused >= std::min(left, kRefusals);
+}
+
+bool MissionBoard::nobody_left(Stamp now) const {
+  for (std::size_t robot = 0; robot < robots(); ++robot) {
+    if (available(robot, now)) return false;
+  }
+  return true;
 }
 
 bool MissionBoard::all_settled(Stamp now) const {

@@ -37,8 +37,10 @@ class MissionBoard {
 
   /// Another available robot's claim goes before ours.
   bool outclaimed(std::size_t row, bool ours_under_way, Stamp now) const;
-  /// Everybody who is left gave it up.
+  /// Two of those who are left gave it up, or the only one who is.
   bool abandoned(std::size_t row, Stamp now) const;
+  /// No robot, this one included, can drive rows.
+  bool nobody_left(Stamp now) const;
   /// Done or abandoned.
   bool settled(std::size_t row, Stamp now) const { return done_.has(row) || abandoned(row, now); }
   bool all_settled(Stamp now) const;

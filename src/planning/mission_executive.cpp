@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "appointments.hpp"
 #include "mission_board.hpp"
@@ -11,9 +14,10 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kAtStart = 5.0;         // m; who starts farther from its start was restarted
+constexpr double kAtStart = 12.0;        // m; a robot that begins farther from its start was restarted
 constexpr double kMoved = 3.0;           // m between two places at which it is stuck that are not the same
 constexpr double kCovered = 0.9;         // share of a row that counts as driven if both ends were tried
+constexpr double kSeenAcross = 8.0;      // m between the two places at which it was stopped, seen from both
 constexpr double kTakeoverPeriod = 5.0;  // s between two looks at who takes the orphans
 constexpr double kRecovered = 0.2;       // share of the battery above the low mark at which it is used again
 constexpr double kRouteRetry = 5.0;      // s, when no way was found from where it seems to be
@@ -22,6 +26,13 @@ constexpr double kAhead = 2.0;        // m from where it is stuck to what is in 
 constexpr double kLongest = 86400.0;  // s, of an exchange that is waited for
 constexpr double kForgotten = 300.0;  // s, after which a blocked place is tried again
 constexpr std::size_t kMostBlockages = 12;
+constexpr int kMostFailedRoutes = 4;  // to one row, every kRouteRetry, until the robot gives it up
+
+std::string text(const Eigen::Vector2d& p) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "(%.1f, %.1f)", p.x(), p.y());
+  return buffer;
+}
 
 enum class Goal : std::uint8_t { kNone, kRow, kStop, kMeeting, kHome };
 
@@ -37,6 +48,8 @@ struct MissionExecutive::State {
         attempts(plan->mission.rows.size(), 0),
         last_reversed(plan->mission.rows.size(), false),
         covered(plan->mission.rows.size(), {0.0, 0.0}),
+        failed_routes(plan->mission.rows.size(), 0),
+        why(plan->mission.rows.size()),
         orphan_since(plan->mission.rows.size()) {}
 
   const ExecutiveConfig& rules() const { return plan->config.executive; }
@@ -45,6 +58,7 @@ struct MissionExecutive::State {
   void begin(const MissionInput& input);
   void look_at_follower(const MissionInput& input);
   void row_stuck(const MissionInput& input);
+  void give_up(std::size_t row, std::string reason);
   void remember_blockage(const MissionInput& input);
   Result<Polyline> way_to(const Eigen::Vector2d& place, const MissionInput& input);
   void look_at_battery(const MissionInput& input);
@@ -75,6 +89,7 @@ struct MissionExecutive::State {
   MissionState state = MissionState::kDriving;
   bool begun = false;
   Stamp begun_at{};
+  Eigen::Vector2d home = Eigen::Vector2d::Zero();
   Stamp listen_until{};
 
   std::vector<std::size_t> queue;  // rows to drive, the one under way not included
@@ -83,6 +98,8 @@ struct MissionExecutive::State {
   std::vector<int> attempts;
   std::vector<bool> last_reversed;
   std::vector<std::array<double, 2>> covered;  // m of each row driven from its first and its last waypoint
+  std::vector<int> failed_routes;
+  std::vector<std::string> why;  // this robot gave the row up; empty: it did not
   std::vector<std::optional<Stamp>> orphan_since;
   Stamp next_takeover{};
   Stamp next_offer{};
@@ -110,6 +127,7 @@ void MissionExecutive::State::begin(const MissionInput& input) {
   board.begin(input.now);
   const bool restarted = (input.pose.position - robot().start.position).norm() > kAtStart;
   listen_until = input.now + from_seconds(restarted ? rules().listen : 0.0);
+  home = restarted ? robot().start.position : input.pose.position;
   for (const RowVisit& visit : plan->division.routes[self].visits) {
     const auto row = std::ranges::find(plan->mission.rows, visit.row, &Row::id);
     queue.push_back(static_cast<std::size_t>(row - plan->mission.rows.begin()));
@@ -131,17 +149,30 @@ void MissionExecutive::State::row_stuck(const MissionInput& input) {
   const double length = plan->costs.along(row).length;
   double& reached = covered[row][last_reversed[row] ? 1 : 0];
   reached = std::max(reached, std::clamp(input.progress - row_begins, 0.0, length));
-  if (covered[row][0] + covered[row][1] >= kCovered * length) {
+  const double left = length - covered[row][0] - covered[row][1];
+  const bool from_both_ends = covered[row][0] > 0.0 && covered[row][1] > 0.0;
+  if (left <= (1.0 - kCovered) * length || (from_both_ends && left <= kSeenAcross)) {
     board.set_done(row);
     return;
   }
   appointments.drop_all();
-  if (++attempts[row] >= rules().row_attempts) {
-    failed.set(row);
-    ++replans;
-  } else {
+  if (++attempts[row] < rules().row_attempts) {
     queue.push_back(row);  // later, from the other end
+    return;
   }
+  char reason[160];
+  std::snprintf(
+      reason, sizeof reason,
+      "blocked near %s m; of %.0f m it was driven %.0f m from its first and %.0f m from its last waypoint",
+      text(input.pose.position).c_str(), length, covered[row][0], covered[row][1]);
+  give_up(row, reason);
+}
+
+/// Others may still try the row; when enough of them gave it up, it is abandoned.
+void MissionExecutive::State::give_up(std::size_t row, std::string reason) {
+  failed.set(row);
+  why[row] = std::move(reason);
+  ++replans;
 }
 
 /// What is not on the site's plan is met only on the way; the next way leads around it.
@@ -198,6 +229,8 @@ void MissionExecutive::State::look_at_follower(const MissionInput& input) {
     stuck_in_a_row = 0;
     failed = RowSet(board.rows());
     std::ranges::fill(attempts, 0);
+    std::ranges::fill(failed_routes, 0);
+    std::ranges::fill(why, "");
   }
   if (!input.stuck) return;
   stuck_in_a_row = moved < kMoved ? stuck_in_a_row + 1 : 1;
@@ -222,7 +255,7 @@ void MissionExecutive::State::look_at_follower(const MissionInput& input) {
 /// Low is also who only just gets home.
 void MissionExecutive::State::look_at_battery(const MissionInput& input) {
   if (!std::isfinite(input.battery) || state == MissionState::kDone) return;
-  const double way = 1.4 * (input.pose.position - robot().start.position).norm();
+  const double way = 1.4 * (input.pose.position - home).norm();
   const double share_home =
       energy_of({static_cast<float>(way), 0.0f}, robot()) / robot().battery_wh + 0.5 * rules().low_battery;
   const double mark = std::max(rules().low_battery, std::min(share_home, 0.5));
@@ -365,6 +398,9 @@ bool MissionExecutive::State::start_row(const MissionInput& input) {
   const auto way = along ? way_to(along->front(), input) : along;
   if (!way) {
     retry_at = input.now + from_seconds(kRouteRetry);
+    if (++failed_routes[row] < kMostFailedRoutes) return false;
+    std::erase(queue, row);
+    give_up(row, way.error().message);
     return false;
   }
   std::erase(queue, row);
@@ -395,21 +431,21 @@ bool MissionExecutive::State::go(Goal where, const Eigen::Vector2d& place, const
 void MissionExecutive::State::choose(const MissionInput& input) {
   if (state == MissionState::kDone) return;
   const bool settled = board.all_settled(input.now);
-  if (!settled) all_done_since.reset();
-  if (settled && !all_done_since) all_done_since = input.now;
+  const bool nothing_to_come = settled || board.nobody_left(input.now);
+  if (!nothing_to_come) all_done_since.reset();
+  if (nothing_to_come && !all_done_since) all_done_since = input.now;
   const double planned = plan->exchange ? std::min(plan->exchange->transfer_at_meeting, kLongest) : 0.0;
   const bool alone_too_long =
       all_done_since && input.now - *all_done_since > from_seconds(rules().meeting_timeout + planned);
+  const bool may_set_out = goal == Goal::kNone && input.now >= retry_at;
   if (state == MissionState::kLowBattery) {
-    if (goal == Goal::kNone && !arrived && input.now >= retry_at)
-      go(Goal::kHome, robot().start.position, input);
-    if (settled && arrived && (input.maps_exchanged || alone_too_long)) state = MissionState::kDone;
+    if (settled && arrived && input.maps_exchanged) state = MissionState::kDone;
+    if (goal == Goal::kNone && alone_too_long) state = MissionState::kDone;
+    if (state != MissionState::kDone && may_set_out && !arrived) go(Goal::kHome, home, input);
     return;
   }
   if (state == MissionState::kStuck) {
-    if (goal == Goal::kNone && input.now >= retry_at) {
-      go(Goal::kMeeting, plan->meeting ? plan->meeting->positions[self] : robot().start.position, input);
-    }
+    if (may_set_out) go(Goal::kMeeting, plan->meeting ? plan->meeting->positions[self] : home, input);
     if (alone_too_long) state = MissionState::kDone;
     return;
   }
@@ -428,7 +464,8 @@ void MissionExecutive::State::choose(const MissionInput& input) {
   }
   if (plan->meeting && !arrived) {
     state = MissionState::kDriving;
-    if (goal != Goal::kMeeting && input.now >= retry_at)
+    if (goal != Goal::kMeeting && alone_too_long) state = MissionState::kDone;  // it found no way there
+    if (goal != Goal::kMeeting && input.now >= retry_at && state != MissionState::kDone)
       go(Goal::kMeeting, plan->meeting->positions[self], input);
     return;
   }
@@ -501,10 +538,18 @@ MissionReport MissionExecutive::report() const { return state_->report; }
 MissionExecutive::Status MissionExecutive::status() const {
   const State& s = *state_;
   const Stamp now = s.report.stamp;
-  Status status{s.state, s.board.rows(), s.board.done().count(),      s.report.claimed.count(),      0, {},
-                {},      s.replans,      s.appointments.count_kept(), s.appointments.count_dropped()};
+  Status status;
+  status.state = s.state;
+  status.rows = s.board.rows();
+  status.done = s.board.done().count();
+  status.mine = s.report.claimed.count();
+  status.replans = s.replans;
+  status.stops_kept = s.appointments.count_kept();
+  status.stops_dropped = s.appointments.count_dropped();
   for (std::size_t row = 0; row < s.board.rows(); ++row) {
-    status.abandoned += !s.board.done().has(row) && s.board.abandoned(row, now) ? 1 : 0;
+    if (s.board.done().has(row)) continue;
+    if (!s.board.abandoned(row, now) && s.state != MissionState::kDone) continue;
+    status.abandoned.push_back({s.plan->mission.rows[row].id, s.why[row]});
   }
   for (std::size_t robot = 0; robot < s.board.robots(); ++robot) {
     if (robot == s.self) continue;

@@ -3,22 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fleetmap::planning {
 namespace {
 
 constexpr double kMostCells = 24e6;  // of a raster: 24 MB; larger sites get coarser cells
 
-SiteBounds extent(const Mission& mission, double margin, std::span<const Eigen::Vector2d> also) {
-  if (mission.bounds) return *mission.bounds;
+struct Box {
+  Eigen::Vector2d low, high;
+};
+
+Box extent(const Mission& mission, double margin, std::span<const Eigen::Vector2d> also) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  SiteBounds box{Eigen::Vector2d::Constant(kInfinity), Eigen::Vector2d::Constant(-kInfinity)};
+  Box box{Eigen::Vector2d::Constant(kInfinity), Eigen::Vector2d::Constant(-kInfinity)};
   const auto include = [&box](std::span<const Eigen::Vector2d> points) {
     for (const Eigen::Vector2d& p : points) {
       box.low = box.low.cwiseMin(p);
       box.high = box.high.cwiseMax(p);
     }
   };
+  if (mission.boundary) {
+    include(*mission.boundary);
+    return box;
+  }
   for (const Row& row : mission.rows) include(row.waypoints);
   for (const KeepOut& polygon : mission.keep_out) include(polygon);
   include(also);
@@ -31,7 +39,7 @@ SiteBounds extent(const Mission& mission, double margin, std::span<const Eigen::
 
 SiteGrid::SiteGrid(const Mission& mission, double clearance, double cell, double margin,
                    std::span<const Eigen::Vector2d> also) {
-  const SiteBounds box = extent(mission, margin, also);
+  const Box box = extent(mission, margin, also);
   const Eigen::Vector2d size = box.high - box.low;
   low_ = box.low;
   cell_ = std::max(cell, std::sqrt(size.x() * size.y() / kMostCells));
@@ -40,13 +48,28 @@ SiteGrid::SiteGrid(const Mission& mission, double clearance, double cell, double
   zones_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
   for (const KeepOut& polygon : mission.keep_out) {
     fill(polygon);
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Eigen::Vector2d& a = polygon[k];
-      const Eigen::Vector2d& b = polygon[(k + 1) % polygon.size()];
-      draw_edge(a, b, clearance, kNear);
-      draw_edge(a, b, 0.71 * cell_, kInside);  // thin walls must not slip between cell centres
-    }
+    draw_outline(polygon, clearance);
   }
+  if (mission.boundary) fence_in(*mission.boundary, clearance);
+}
+
+void SiteGrid::draw_outline(const KeepOut& polygon, double clearance) {
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Eigen::Vector2d& a = polygon[k];
+    const Eigen::Vector2d& b = polygon[(k + 1) % polygon.size()];
+    draw_edge(a, b, clearance, kNear);
+    draw_edge(a, b, 0.71 * cell_, kInside);  // thin walls must not slip between cell centres
+  }
+}
+
+/// The ground outside of the boundary is a keep-out.
+void SiteGrid::fence_in(const KeepOut& boundary, double clearance) {
+  const std::vector<std::uint8_t> within = std::exchange(zones_, std::vector<std::uint8_t>(zones_.size(), 0));
+  fill(boundary);
+  for (std::size_t k = 0; k < zones_.size(); ++k) {
+    zones_[k] = zones_[k] != 0 ? within[k] : static_cast<std::uint8_t>(kNear | kInside);
+  }
+  draw_outline(boundary, clearance);
 }
 
 void SiteGrid::mark(int y, double x_from, double x_to, std::uint8_t zone) {

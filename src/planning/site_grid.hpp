@@ -15,10 +15,10 @@ namespace fleetmap::planning {
 class SiteGrid {
  public:
   enum Zone : std::uint8_t {
-    kNear = 1,    ///< within the clearance of a keep-out
-    kInside = 2,  ///< in a keep-out
+    kNear = 1,    ///< within the clearance of a keep-out or of the boundary
+    kInside = 2,  ///< in a keep-out or outside of the boundary
   };
-  /// Covers the mission's bounds, or else all its points and `also` with `margin` (m) around.
+  /// Covers the mission's boundary, or else all its points and `also` with `margin` (m) around.
   SiteGrid(const Mission& mission, double clearance, double cell, double margin,
            std::span<const Eigen::Vector2d> also);
 
@@ -36,6 +36,8 @@ class SiteGrid {
 
  private:
   void draw_edge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double radius, std::uint8_t zone);
+  void draw_outline(const KeepOut& polygon, double clearance);
+  void fence_in(const KeepOut& boundary, double clearance);
   void fill(const KeepOut& polygon);
   void mark(int y, double x_from, double x_to, std::uint8_t zone);
   double centre(int index, int axis) const { return low_[axis] + (index + 0.5) * cell_; }

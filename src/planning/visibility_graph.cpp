@@ -65,8 +65,7 @@ std::vector<Corner> corners_of(const Mission& mission, const SiteGrid& grid, dou
   // Half a cell more, so that a point on the border of the raster's zone is surely outside of it.
   const double hold_off = clearance + 0.75 * grid.cell();
   std::vector<Corner> corners;
-  for (const KeepOut& polygon : mission.keep_out) {
-    const double orientation = signed_area(polygon) >= 0.0 ? 1.0 : -1.0;
+  const auto add = [&](const KeepOut& polygon, double orientation) {
     std::vector<Corner> found;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       add_corner(polygon, k, orientation, hold_off, found);
@@ -74,7 +73,10 @@ std::vector<Corner> corners_of(const Mission& mission, const SiteGrid& grid, dou
     for (const Corner& corner : found) {
       if (grid.clear(corner.at) && corners.size() < kMostVertices) corners.push_back(corner);
     }
-  }
+  };
+  for (const KeepOut& polygon : mission.keep_out) add(polygon, signed_area(polygon) >= 0.0 ? 1.0 : -1.0);
+  // Routes run inside of the boundary: they bend at the corners where it points inwards.
+  if (mission.boundary) add(*mission.boundary, signed_area(*mission.boundary) >= 0.0 ? -1.0 : 1.0);
   return corners;
 }
 

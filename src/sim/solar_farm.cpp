@@ -143,8 +143,7 @@ Status SolarFarmConfig::validate() const {
 Result<std::shared_ptr<const World>> make_solar_farm(const SolarFarmConfig& config) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   const SolarFarmLayout layout = lay_out(config);
-  auto world = World::create(mesh_of(config, layout), config.drivable, aisles_of(config, layout),
-                             plan_of(config, layout));
+  auto world = World::create(mesh_of(config, layout), config.drivable, drawing_of(config, layout));
   if (!world) return world;
   if (const Status free = lanes_are_free(**world); !free) return tl::unexpected(free.error());
   return world;

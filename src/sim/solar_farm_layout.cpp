@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint64_t kMissing = 0xA1, kCabin = 0xA2, kTree = 0xA3,
                         kTreeInside = 0xA4;  // separate streams of chance
 constexpr double kCrown = 2.4;               // m, the widest reach of a tree
-constexpr double kRim = 0.05;                // m around what the plan shows
+constexpr double kRim = 0.05;                // m around what the drawing shows
 
 bool road_before(const SolarFarmConfig& config, int table) {
   return config.road_every > 0 && table > 0 && table % config.road_every == 0;
@@ -109,23 +109,36 @@ Footprint around(const SolarFarmLayout& layout, const Eigen::Vector2d& center, c
   return rectangle(layout, center - reach, center + reach);
 }
 
-/// Tables that stand next to each other are one block.
+/// Tables that are drawn next to each other are one block.
 void add_row(const SolarFarmConfig& config, const SolarFarmLayout& layout, std::size_t row,
-             std::vector<Footprint>& plan) {
+             std::vector<Footprint>& drawn) {
   const std::vector<Place>& places = layout.places[row];
   const double v = layout.rows[row];
   const Eigen::Vector2d reach(0.5 * config.table_length + kRim, 0.5 * layout.depth + kRim);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    if (places[k] == Place::kCabin)
-      plan.push_back(around(layout, {layout.tables[k], v}, 0.5 * cabin_size(config)));
-    if (places[k] != Place::kTable) continue;
+    if (places[k] == Place::kCabin) {
+      drawn.push_back(around(layout, {layout.tables[k], v}, 0.5 * cabin_size(config)));
+      continue;
+    }
     const std::size_t first = k;
-    while (k + 1 < places.size() && places[k + 1] == Place::kTable &&
+    while (k + 1 < places.size() && places[k + 1] != Place::kCabin &&
            !road_before(config, static_cast<int>(k) + 1))
       ++k;
-    plan.push_back(rectangle(layout, Eigen::Vector2d(layout.tables[first], v) - reach,
-                             Eigen::Vector2d(layout.tables[k], v) + reach));
+    drawn.push_back(rectangle(layout, Eigen::Vector2d(layout.tables[first], v) - reach,
+                              Eigen::Vector2d(layout.tables[k], v) + reach));
   }
+}
+
+std::vector<Aisle> aisles_of(const SolarFarmConfig& config, const SolarFarmLayout& layout) {
+  const double reach = layout.tables.back() + 0.5 * config.table_length + 0.5 * config.headland;
+  std::vector<Aisle> aisles;
+  const auto add = [&](double v) { aisles.push_back({layout.enu({-reach, v}), layout.enu({reach, v})}); };
+  // Outer lanes keep the distance that the inner ones have, or the middle of a narrower headland.
+  const double outer = std::min(0.5 * config.row_pitch, 0.5 * (layout.depth + config.headland));
+  add(layout.rows.front() - outer);
+  for (std::size_t k = 0; k + 1 < layout.rows.size(); ++k) add(0.5 * (layout.rows[k] + layout.rows[k + 1]));
+  add(layout.rows.back() + outer);
+  return aisles;
 }
 
 }  // namespace
@@ -165,31 +178,14 @@ SolarFarmLayout lay_out(const SolarFarmConfig& config) {
   return layout;
 }
 
-std::vector<Aisle> aisles_of(const SolarFarmConfig& config, const SolarFarmLayout& layout) {
-  const double reach = layout.tables.back() + 0.5 * config.table_length + 0.5 * config.headland;
-  std::vector<Aisle> aisles;
-  const auto add = [&](double v) { aisles.push_back({layout.enu({-reach, v}), layout.enu({reach, v})}); };
-  // Outer lanes keep the distance that the inner ones have, or the middle of a narrower headland.
-  const double outer = std::min(0.5 * config.row_pitch, 0.5 * (layout.depth + config.headland));
-  add(layout.rows.front() - outer);
-  for (std::size_t k = 0; k + 1 < layout.rows.size(); ++k) add(0.5 * (layout.rows[k] + layout.rows[k + 1]));
-  add(layout.rows.back() + outer);
-  return aisles;
-}
-
-std::vector<Footprint> plan_of(const SolarFarmConfig& config, const SolarFarmLayout& layout) {
-  std::vector<Footprint> plan;
-  for (std::size_t row = 0; row < layout.rows.size(); ++row) add_row(config, layout, row, plan);
-  if (config.fence.enabled) {
-    const Eigen::Vector2d& half = layout.half_site;
-    for (const double side : {-1.0, 1.0}) {
-      plan.push_back(around(layout, {0.0, side * half.y()}, {half.x(), 0.05}));
-      plan.push_back(around(layout, {side * half.x(), 0.0}, {0.05, half.y()}));
-    }
-  }
-  for (const Spot& tree : layout.trees)
-    plan.push_back(around(layout, tree.center, Eigen::Vector2d::Constant(tree.radius)));
-  return plan;
+SiteDrawing drawing_of(const SolarFarmConfig& config, const SolarFarmLayout& layout) {
+  SiteDrawing drawing;
+  drawing.lanes = aisles_of(config, layout);
+  for (std::size_t row = 0; row < layout.rows.size(); ++row) add_row(config, layout, row, drawing.keep_out);
+  const double outside = config.fence.enabled ? 0.0 : config.margin;
+  const Eigen::Vector2d reach = layout.half_site + Eigen::Vector2d::Constant(outside);
+  drawing.boundary = rectangle(layout, -reach, reach);
+  return drawing;
 }
 
 }  // namespace fleetmap::sim

@@ -39,7 +39,7 @@ int rows_that_fit(const SolarFarmConfig& config);
 int tables_that_fit(const SolarFarmConfig& config);
 
 SolarFarmLayout lay_out(const SolarFarmConfig& config);
-std::vector<Aisle> aisles_of(const SolarFarmConfig& config, const SolarFarmLayout& layout);
-std::vector<Footprint> plan_of(const SolarFarmConfig& config, const SolarFarmLayout& layout);
+/// As the farm was planned: with every table, without trees.
+SiteDrawing drawing_of(const SolarFarmConfig& config, const SolarFarmLayout& layout);
 
 }  // namespace fleetmap::sim

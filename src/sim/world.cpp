@@ -93,7 +93,7 @@ Status DrivableConfig::validate() const {
 }
 
 Result<std::shared_ptr<const World>> World::create(Mesh mesh, const DrivableConfig& config,
-                                                   std::vector<Aisle> aisles, std::vector<Footprint> plan) {
+                                                   SiteDrawing drawing) {
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   if (const Status valid = consistent(mesh); !valid) return tl::unexpected(valid.error());
   const WorldBounds bounds = bounds_of(mesh);
@@ -110,8 +110,11 @@ Result<std::shared_ptr<const World>> World::create(Mesh mesh, const DrivableConf
   auto world = std::shared_ptr<World>(new World());
   world->mesh_ = std::move(mesh);
   world->bounds_ = bounds;
-  world->aisles_ = std::move(aisles);
-  world->plan_ = std::move(plan);
+  world->drawing_ = std::move(drawing);
+  if (world->drawing_.boundary.empty()) {
+    world->drawing_.boundary = {
+        bounds.low, {bounds.high.x(), bounds.low.y()}, bounds.high, {bounds.low.x(), bounds.high.y()}};
+  }
   world->config_ = config;
   world->size_ = {grid->columns, grid->rows};
   world->heights_ = std::move(ground.heights);

@@ -13,7 +13,7 @@ Result<std::shared_ptr<const World>> build(const MeshWorld& spec) {
   if (const Status valid = spec.validate(); !valid) return tl::unexpected(valid.error());
   Result<Mesh> mesh = read_mesh(spec.path);
   if (!mesh) return tl::unexpected(mesh.error());
-  auto world = World::create(std::move(*mesh), spec.drivable, spec.aisles);
+  auto world = World::create(std::move(*mesh), spec.drivable, SiteDrawing{spec.aisles, {}, {}, {}});
   if (!world) return failure(spec.path.string() + ": " + world.error().message);
   for (std::size_t k = 0; k < spec.aisles.size(); ++k) {
     const WorldBounds& bounds = (*world)->bounds();

@@ -42,7 +42,7 @@ class BadTwinInput : public ::testing::Test {
   }
   void mission(const std::string& geojson) const {
     twin_.write("rows.geojson", geojson);
-    replace("fleet.yaml", "waypoints: aisles", "waypoints: rows.geojson");
+    replace("fleet.yaml", "mission: \\{", "mission: {file: rows.geojson, ");
   }
   void replace(const std::string& name, const std::string& what, const std::string& with) const {
     twin_.write(name, std::regex_replace(text_of(name), std::regex(what), with));
@@ -78,14 +78,27 @@ TEST_F(BadTwinInput, AMeshThatIsCutOff) {
 TEST_F(BadTwinInput, AMeshWithoutLanesNeedsWaypoints) {
   mesh_world("flat.obj", "v -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nf 1 2 3\nf 1 3 4\n");
   twin_.write("world.yaml", "kind: mesh\npath: flat.obj\n");
-  refused({"world.yaml: the world has no aisles", "give mission.waypoints a GeoJSON file"});
+  refused({"world.yaml: the world has no aisles",
+           "give the mission a drawing with rows (mission.file: SITE.geojson)"});
+}
+
+TEST_F(BadTwinInput, ThingsThatHaveNoRoom) {
+  twin_.write_fleet("", {}, ", unknown_obstacles: 500");
+  refused({"fleet.yaml:4: mission.unknown_obstacles: there is no room for 500 parked things"});
+}
+
+TEST_F(BadTwinInput, TheKeyThatNamedWaypoints) {
+  twin_.write_fleet("", {}, ", waypoints: aisles");
+  refused(
+      {"fleet.yaml:4: mission.waypoints: is not a key any more; name the site's drawing with file: "
+       "SITE.geojson"});
 }
 
 TEST_F(BadTwinInput, WaypointsOutsideTheWorld) {
   mission(
       R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
           {"type": "LineString", "coordinates": [[-3.0, 39.0], [-3.0, 39.01]]}}]})");
-  refused({"rows.geojson: row 0, waypoint 1 at (0.0, 1110.3) m is 1090 m outside the site",
+  refused({"rows.geojson: row 0, waypoint 1 at (0.0, 1110.3) m is 1080 m outside the site",
            "correct the waypoint"});
   mission(R"({"type": "FeatureColl)");
   refused({"rows.geojson:1: not valid JSON"});
@@ -95,7 +108,7 @@ TEST_F(BadTwinInput, ARobotInsideAPanel) {
   const auto world = config::make_world(twin_.path("world.yaml"));
   ASSERT_TRUE(world);
   std::string start;
-  for (const sim::Footprint& thing : (*world)->plan()) {
+  for (const sim::Footprint& thing : (*world)->drawing().keep_out) {
     for (const Eigen::Vector2d& corner : thing) {
       if ((*world)->blocked(corner, 0.2))
         start = std::to_string(corner.x()) + ", " + std::to_string(corner.y());
@@ -151,7 +164,7 @@ TEST_F(BadTwinInput, BrokenYaml) {
 
 TEST_F(BadTwinInput, AMissionWithoutAWorld) {
   replace("fleet.yaml", "world: \\{file: world.yaml\\}\n", "");
-  refused({"fleet.yaml:3: mission: is for the twin, which needs world: {file: WORLD.yaml}"});
+  refused({"fleet.yaml:3: mission: of a fleet is for the twin, which needs world: {file: WORLD.yaml}"});
 }
 
 TEST_F(BadTwinInput, AWorldThatIsNotThere) {

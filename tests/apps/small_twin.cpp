@@ -21,7 +21,7 @@ void SmallTwin::write_fleet(const std::string& top_keys, const std::vector<std::
                             const std::string& mission_keys) const {
   std::string text =
       "world: {file: world.yaml}\nmax_time: 300\nsite: {origin: [39.0, -3.0, 600.0]}\n"
-      "mission: {waypoints: aisles, every: 1, rendezvous: true, speed: 1.5" +
+      "mission: {every: 1, rendezvous: true, speed: 1.5" +
       mission_keys + "}\n" + top_keys +
       "defaults:\n"
       "  lidar: {translation: [0, 0, 0.6], max_range: 40, min_range: 0.6}\n"

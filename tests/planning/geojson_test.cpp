@@ -3,11 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "planning/sites.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fleetmap::planning {
 namespace {
@@ -101,29 +102,84 @@ TEST(GeoJson, AnyCutOfAFileIsRefusedOrRead) {
   }
 }
 
-TEST(GeoJson, AMissionIsMadeOfLanesOrOfAFile) {
-  fleetmap::testing::TemporaryFolder folder;
-  SitePlan plan;
-  plan.lanes = {{{0, 0}, {100, 0}}, {{0, 8}, {100, 8}}, {{0, 16}, {100, 16}}};
-  plan.bounds = SiteBounds{{-20, -20}, {120, 40}};
-  MissionConfig config;
-  config.lanes = {2, 40.0};
-  const auto lanes = make_mission(config, plan, site_frame());
-  ASSERT_TRUE(lanes) << lanes.error().message;
-  EXPECT_EQ(lanes->rows.size(), 6u);  // lanes 0 and 2 in three pieces each
-  EXPECT_EQ(lanes->rows[5].waypoints.back(), Eigen::Vector2d(100.0, 16.0));
+TEST(GeoJson, ADrawingHasABoundaryAndPlacesToSetOutFrom) {
+  const std::string ring = "[[[-20,-20],[120,-20],[120,40],[-20,40],[-20,-20]]]";
+  const auto feature = [](const std::string& type, const std::string& coordinates,
+                          const std::string& properties) {
+    return R"({"type": "Feature", "properties": )" + properties + R"(, "geometry": {"type": ")" + type +
+           R"(", "coordinates": )" + coordinates + "}}";
+  };
+  const std::string row = line("[[0,0],[100,0]]");
+  const std::string boundary = feature("Polygon", ring, R"({"boundary": true})");
+  const auto read = [&](const std::string& features) {
+    return parse_geojson(collection(features, "\"frame\": \"enu\","), "m", site_frame());
+  };
+  const auto site = read(row + "," + boundary + "," + feature("Point", "[1, 2]", R"({"start": true})") + "," +
+                         feature("Point", "[5, 6]", R"({"start": "r2"})") + "," +
+                         feature("Point", "[7, 8]", R"({"name": "hydrant"})") + "," +
+                         line("[[0,0],[9,9]]", R"({"route": "r1"})"));
+  ASSERT_TRUE(site) << site.error().message;
+  EXPECT_EQ(site->rows.size(), 1u) << "the route of a plan is no row";
+  EXPECT_TRUE(site->keep_out.empty());
+  ASSERT_TRUE(site->boundary);
+  EXPECT_EQ(site->boundary->size(), 4u);
+  EXPECT_EQ(site->starts.size(), 2u);
+  EXPECT_EQ(site->start_of(testing::name(0)), Eigen::Vector2d(1.0, 2.0));
+  EXPECT_EQ(site->start_of(testing::name(1)), Eigen::Vector2d(5.0, 6.0));
+  EXPECT_EQ(read(row)->start_of(testing::name(0)), Eigen::Vector2d(0.0, 0.0)) << "the first waypoint";
 
-  config.waypoints = (folder.path() / "rows.geojson").string();
-  EXPECT_FALSE(make_mission(config, plan, site_frame()));
-  ASSERT_TRUE(write_geojson(config.waypoints, *lanes, site_frame()));
-  const auto file = make_mission(config, plan, site_frame());
-  ASSERT_TRUE(file) << file.error().message;
-  EXPECT_EQ(file->rows.size(), 6u);
-  plan.bounds->high.x() = 90.0;
-  const auto outside = make_mission(config, plan, site_frame());
-  ASSERT_FALSE(outside);
-  EXPECT_THAT(outside.error().message, AllOf(HasSubstr("rows.geojson"), HasSubstr("row 2, waypoint 1"),
-                                             HasSubstr("outside the site")));
+  const auto again = parse_geojson(to_geojson(*site, site_frame()), "m", site_frame());
+  ASSERT_TRUE(again) << again.error().message;
+  ASSERT_TRUE(again->boundary);
+  EXPECT_LT((again->boundary->at(2) - Eigen::Vector2d(120.0, 40.0)).norm(), 1e-3);
+  EXPECT_LT((again->start_of(testing::name(1)) - Eigen::Vector2d(5.0, 6.0)).norm(), 1e-3);
+
+  const auto error = [&](const std::string& features) {
+    const auto wrong = read(row + "," + features);
+    return wrong ? "no error" : wrong.error().message;
+  };
+  EXPECT_THAT(error(boundary + "," + boundary), HasSubstr("a second boundary"));
+  EXPECT_THAT(error(feature("MultiPolygon", "[" + ring + "]", R"({"boundary": true})")),
+              HasSubstr("one Polygon"));
+  EXPECT_THAT(error(feature("Point", "[1, 2]", R"({"start": 3})")), HasSubstr("name of a robot"));
+  EXPECT_THAT(error(feature("Point", "[1, 2]", R"({"start": "R 2"})")), HasSubstr("\"start\""));
+  EXPECT_THAT(error(feature("Point", "[1, 2]", R"({"start": true})") + "," +
+                    feature("Point", "[1, 3]", R"({"start": true})")),
+              HasSubstr("two points for the common start"));
+}
+
+TEST(GeoJson, APlanShowsWhoDrivesWhatAndIsADrawingAgain) {
+  testing::SiteSpec spec;
+  spec.width = spec.depth = 80.0;
+  const auto plan = plan_fleet(testing::site(spec), testing::fleet(2, false), {});
+  ASSERT_TRUE(plan) << plan.error().message;
+  const std::vector<std::string> colours = {"#112233", "#445566"};
+  const std::string text = to_geojson(**plan, colours, site_frame());
+  const auto features = nlohmann::json::parse(text)["features"];
+  std::map<std::string, std::size_t> rows;
+  std::set<std::string> routes;
+  bool meeting = false;
+  for (const auto& feature : features) {
+    const auto& properties = feature["properties"];
+    if (properties.contains("robot")) {
+      ++rows[properties["robot"]];
+      EXPECT_EQ(properties["stroke"], colours[properties["robot"] == "r1" ? 0 : 1]);
+    }
+    if (properties.contains("route")) routes.insert(properties["route"].get<std::string>());
+    meeting |= properties.contains("meeting");
+  }
+  EXPECT_EQ(rows["r1"], (*plan)->division.routes[0].visits.size());
+  EXPECT_EQ(rows["r2"], (*plan)->division.routes[1].visits.size());
+  EXPECT_EQ(routes, (std::set<std::string>{"r1", "r2"}));
+  EXPECT_TRUE(meeting);
+  const auto again = parse_geojson(text, "plan", site_frame());
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->rows.size(), (*plan)->mission.rows.size());
+  EXPECT_EQ(again->keep_out.size(), (*plan)->mission.keep_out.size());
+  const auto first = first_position(text);
+  ASSERT_TRUE(first);
+  EXPECT_LT(site_frame().to_enu(*first).head<2>().norm(), 200.0);
+  EXPECT_FALSE(first_position(to_geojson((*plan)->mission, site_frame(), FileFrame::kEnu)));
 }
 
 }  // namespace

@@ -132,7 +132,61 @@ TEST(MissionExecutive, ARowThatNobodyCanEnterIsAbandoned) {
   fleet.run(kLimit);
   EXPECT_GE(fleet.rows_driven() + 1, fleet.plan->mission.rows.size());
   expect_at_the_meeting(fleet);
-  EXPECT_EQ(fleet.robots[0].executive->status().abandoned, 1u);
+  ASSERT_EQ(fleet.robots[0].executive->status().abandoned.size(), 1u);
+  EXPECT_EQ(fleet.robots[0].executive->status().abandoned[0].row, row.id);
+}
+
+TEST(MissionExecutive, TheReasonForAnAbandonedRowIsTold) {
+  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  const Row& row = fleet.plan->mission.rows[4];
+  const Eigen::Vector2d middle = 0.5 * (row.waypoints.front() + row.waypoints.back());
+  fleet.obstacles.push_back({middle, 20.0});
+  fleet.run(kLimit);
+  expect_at_the_meeting(fleet);
+  std::size_t reasons = 0;
+  for (const auto& robot : fleet.robots) {
+    for (const auto& abandoned : robot.executive->status().abandoned) {
+      if (abandoned.row != row.id || abandoned.why.empty()) continue;
+      ++reasons;
+      EXPECT_NE(abandoned.why.find("blocked near ("), std::string::npos) << abandoned.why;
+    }
+  }
+  EXPECT_EQ(reasons, 2u) << "a second robot tries it, a third does not";
+}
+
+TEST(MissionExecutive, ARowWithAThingAcrossItIsDrivenOnceBothSidesAreSeen) {
+  VirtualFleet fleet(plan_for(3), kLoss, 2);
+  const Row& row = fleet.plan->mission.rows[4];
+  fleet.obstacles.push_back({0.5 * (row.waypoints.front() + row.waypoints.back()), 3.0});
+  fleet.run(kLimit);
+  for (const auto& robot : fleet.robots) EXPECT_TRUE(robot.executive->status().abandoned.empty());
+}
+
+TEST(MissionExecutive, AFleetThatIsStuckAltogetherEnds) {
+  VirtualFleet fleet(plan_for(2), kLoss, 2);
+  const double time = fleet.run(kLimit, [&] {
+    for (auto& robot : fleet.robots) {
+      if (fleet.now >= 100.0) robot.speed = 0.0;
+    }
+  });
+  EXPECT_LT(time, 1500.0);
+  for (const auto& robot : fleet.robots) {
+    EXPECT_EQ(robot.state, MissionState::kDone);
+    const auto status = robot.executive->status();
+    EXPECT_EQ(status.done + status.abandoned.size(), status.rows);
+    EXPECT_GT(status.abandoned.size(), 0u);
+  }
+}
+
+TEST(MissionExecutive, WhereverARobotReallyBeginsItDrivesItsShare) {
+  auto plan = plan_for(3);
+  VirtualFleet fleet(plan, kLoss, 6);
+  fleet.robots[0].pose.position += Eigen::Vector2d(-3.0, 6.0);
+  fleet.robots[1].pose.position += Eigen::Vector2d(-7.0, -4.0);
+  fleet.robots[2].pose.position += Eigen::Vector2d(2.0, 40.0);  // as if it had been restarted
+  fleet.run(kLimit);
+  expect_all_driven(fleet);
+  expect_at_the_meeting(fleet);
 }
 
 TEST(MissionExecutive, AStuckRobotGivesItsRowsAway) {

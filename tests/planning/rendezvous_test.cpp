@@ -48,7 +48,7 @@ TEST(Rendezvous, PlacesAreApartClearAndWithinReach) {
 TEST(Rendezvous, ThereIsNoneAcrossAWallWithoutGate) {
   Mission mission;
   mission.rows = {{0, {{0, 0}, {10, 0}}}};
-  mission.bounds = SiteBounds{{-50, -50}, {50, 50}};
+  mission.boundary = KeepOut{{-50, -50}, {50, -50}, {50, 50}, {-50, 50}};
   mission.keep_out = {{{20, -60}, {22, -60}, {22, 60}, {20, 60}}};
   const auto planner = *RoutePlanner::create(mission);
   const std::vector<Arrival> arrivals = {{{0, 0}, 0.0, 1.0}, {{40, 0}, 0.0, 1.0}};

@@ -13,7 +13,7 @@ Mission site(const SiteSpec& spec) {
   std::mt19937_64 random(spec.seed);
   const Eigen::Rotation2Dd turned(spec.turned);
   std::vector<KeepOut> tables;
-  std::vector<Lane> lanes;
+  Mission mission;
   const int rows = static_cast<int>(spec.depth / spec.pitch);
   double left = 0.0;
   double right = spec.width;
@@ -42,9 +42,11 @@ Mission site(const SiteSpec& spec) {
       first = end + 1;
     }
     const double lane = y + 0.5 * spec.pitch;
-    lanes.push_back({turned * Eigen::Vector2d(left, lane), turned * Eigen::Vector2d(right, lane)});
+    mission.rows.push_back({static_cast<RowId>(k),
+                            {turned * Eigen::Vector2d(left, lane), turned * Eigen::Vector2d(right, lane)}});
   }
-  return mission_of_aisles(lanes, {spec.every, spec.max_row_length}, std::move(tables));
+  mission.keep_out = std::move(tables);
+  return with_selected_rows(std::move(mission), {spec.every, spec.max_row_length});
 }
 
 AgentId name(int k) { return *AgentId::parse(std::string("r").append(std::to_string(k + 1))); }

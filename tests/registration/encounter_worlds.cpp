@@ -34,8 +34,7 @@ Pose pose_on_ground(const Site& site, const Eigen::Vector2d& p, double yaw, doub
 Site farm_site(const std::string& name, const sim::SolarFarmConfig& config) {
   const auto world = sim::make_solar_farm(config).value();
   return {name, sim::Scene::create(world->mesh()).value(),
-          [world](const Eigen::Vector2d& p) { return world->ground_height(p); }, world->aisles(),
-          world->plan()};
+          [world](const Eigen::Vector2d& p) { return world->ground_height(p); }, world->aisles()};
 }
 
 Site wild_site(const std::string& name, unsigned seed, double half_m) {

@@ -21,8 +21,6 @@ struct Site {
   std::shared_ptr<const sim::Scene> scene;
   std::function<double(const Eigen::Vector2d&)> ground;
   std::vector<sim::Aisle> lanes;
-  /// What stands there as seen from above; empty where nobody drew a plan.
-  std::vector<sim::Footprint> plan;
 };
 
 Site farm_site(const std::string& name, const sim::SolarFarmConfig& config);

@@ -64,8 +64,9 @@ TEST_P(SolarFarm, LanesAndTheHeadlandBetweenThemAreFree) {
   }
 }
 
-TEST_P(SolarFarm, ThePlanShowsWhatIsInTheWay) {
+TEST_P(SolarFarm, TheDrawingShowsWhatIsInTheWayWhereAllWasBuiltAsDrawn) {
   SolarFarmConfig config = small_farm();
+  config.missing_tables = 0.0;
   config.row_azimuth_rad = GetParam();
   const auto world = made(config);
   ASSERT_TRUE(world);
@@ -77,7 +78,8 @@ TEST_P(SolarFarm, ThePlanShowsWhatIsInTheWay) {
     for (double v = -29.0; v < 29.0; v += 0.3) {
       const Eigen::Vector2d p = u * along + v * across;
       const auto covers = [&](double by) {
-        return std::ranges::any_of(world->plan(), [&](const Footprint& f) { return inside(f, p, by); });
+        return std::ranges::any_of(world->drawing().keep_out,
+                                   [&](const Footprint& f) { return inside(f, p, by); });
       };
       if (world->blocked(p, 0.0)) {
         ++blocked;
@@ -91,6 +93,24 @@ TEST_P(SolarFarm, ThePlanShowsWhatIsInTheWay) {
   EXPECT_GT(blocked, 500);
   EXPECT_GT(shown, 3000);
   EXPECT_EQ(shown_and_free, 0);
+}
+
+TEST_P(SolarFarm, TheDrawingIsOfTheFarmAsPlannedNotAsItStands) {
+  SolarFarmConfig config = small_farm();
+  config.row_azimuth_rad = GetParam();
+  config.missing_tables = 0.0;
+  const auto whole = made(config);
+  config.missing_tables = 0.3;
+  config.trees = 40;
+  config.trees_inside = 30;
+  const auto ragged = made(config);
+  ASSERT_TRUE(whole && ragged);
+  EXPECT_EQ(whole->drawing().keep_out, ragged->drawing().keep_out);
+  EXPECT_EQ(whole->drawing().boundary, ragged->drawing().boundary);
+  EXPECT_LT(whole->drawing().keep_out.size(), 40u) << "rows of tables, not tables, posts or trees";
+  ASSERT_EQ(whole->drawing().boundary.size(), 4u);
+  EXPECT_NEAR((whole->drawing().boundary[1] - whole->drawing().boundary[0]).norm(), 70.0, 1e-9)
+      << "the fence";
 }
 
 INSTANTIATE_TEST_SUITE_P(Azimuths, SolarFarm, ::testing::Values(1.57079633, 1.2, 0.0));

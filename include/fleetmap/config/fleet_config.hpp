@@ -35,9 +35,24 @@ struct RecordingConfig {
   std::optional<double> start;
 };
 
+/// A robot as its own scan meets the ground and what stands there.
+struct RobotShape {
+  double radius = 0.35;      ///< m, around base_link
+  double base_height = 0.1;  ///< m, of base_link above the ground
+};
+
+/// A mission on the drawing of a site, for a robot without a twin.
+struct RobotMission {
+  planning::MissionConfig settings;
+  std::vector<planning::RobotAbility> fleet;  ///< of every robot; their starts are the drawing's
+  RobotShape shape;                           ///< of this robot
+  std::string at;                             ///< file, line and key, for messages
+};
+
 /// One robot over DDS: AGENT.yaml.
 struct RobotConfig {
   agent::AgentConfig agent;
+  std::optional<RobotMission> mission;
   bus::DdsBusConfig dds;
   std::optional<RecordingConfig> recording;
 };
@@ -47,8 +62,10 @@ struct TwinConfig {
   std::filesystem::path world;        ///< WORLD.yaml
   std::optional<std::uint64_t> seed;  ///< instead of the world's own; robots' seeds follow from it
   planning::MissionConfig mission;
-  std::string mission_at;    ///< file, line and key, for messages
-  double max_time = 3600.0;  ///< s of virtual time until robots that have not finished are stopped
+  std::string mission_at;               ///< file, line and key, for messages
+  double map_error = 0.5;               ///< m, by which the drawing that the fleet plans on is off
+  std::uint32_t unknown_obstacles = 0;  ///< parked things that the drawing lacks
+  double max_time = 3600.0;             ///< s of virtual time until robots that have not finished are stopped
 };
 
 /// A time in which a robot of the twin is switched off, as if its battery were out: s since the start of the
@@ -89,6 +106,8 @@ Result<RobotConfig> load_robot(const std::filesystem::path& file, const std::vec
 /// Agents' directories are left empty. Robots over DDS get domains of their own, counted from
 /// dds.base_domain.
 Result<FleetConfig> load_fleet(const std::filesystem::path& file, const std::vector<Override>& overrides);
+/// The settings of a mission alone, from overrides of `mission.*`.
+Result<planning::MissionConfig> load_mission_settings(const std::vector<Override>& overrides);
 /// A fleet with default settings (VLP-16), one agent a recording.
 Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesystem::path>>& recordings,
                              const std::vector<Override>& overrides);

@@ -32,6 +32,9 @@ struct FleetPlan {
   std::optional<std::size_t> find(const AgentId& id) const;
 };
 
+/// The way of the robot `index` of the plan's fleet: from its start through its rows to the meeting. ENU, m.
+Polyline route_of(const FleetPlan& plan, std::size_t index);
+
 /// Fails, with the remedy, for whatever is wrong with mission, fleet or settings.
 Result<std::shared_ptr<const FleetPlan>> plan_fleet(Mission mission, std::span<const RobotAbility> fleet,
                                                     const MissionConfig& config);

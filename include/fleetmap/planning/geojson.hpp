@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/planning/fleet_plan.hpp"
 #include "fleetmap/planning/mission.hpp"
-#include "fleetmap/planning/mission_config.hpp"
 
 namespace fleetmap::planning {
 
@@ -22,10 +24,13 @@ struct GeoJsonLimits {
   double reach = 10'000.0;
 };
 
-/// A mission from a GeoJSON FeatureCollection: each LineString is a row (property "row" or "id" numbers it,
-/// else it gets the next number), each Polygon a keep-out (its outer ring). MultiLineString and MultiPolygon
-/// stand for their parts; Points are ignored. WGS84 degrees unless a member "frame" (of the collection or its
-/// "properties") says "enu". Fails with file, line or feature, what is wrong and the remedy.
+/// A site's drawing from a GeoJSON FeatureCollection:
+/// - LineString: a row (property "row" or "id" numbers it, else it gets the next number);
+/// - Polygon: a keep-out (its outer ring), or with property "boundary": true the site's boundary;
+/// - Point with property "start": true or a robot's name: where robots set out; other points are ignored;
+/// - LineString with property "route" (of a plan that was written): ignored.
+/// MultiLineString and MultiPolygon stand for their parts. WGS84 degrees unless a member "frame" (of the
+/// collection or its "properties") says "enu". Fails with file, line or feature, the problem and the remedy.
 Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame& site,
                              const GeoJsonLimits& limits = {});
 /// The same from text; problems are reported under `name`.
@@ -37,16 +42,14 @@ std::string to_geojson(const Mission& mission, const LocalFrame& site, FileFrame
 Status write_geojson(const std::filesystem::path& file, const Mission& mission, const LocalFrame& site,
                      FileFrame frame = FileFrame::kWgs84);
 
-/// What a site brings along for any mission on it.
-struct SitePlan {
-  std::vector<Lane> lanes;        ///< sorted across the site; empty if unknown
-  std::vector<KeepOut> keep_out;  ///< what stands there
-  std::optional<SiteBounds> bounds;
-};
+/// The division as a map shows it: each row with its robot ("robot") and each robot's way ("route",
+/// "length_m", "time_s") in its colour ("#rrggbb", property "stroke" of simplestyle), the meeting place, and
+/// the site.
+std::string to_geojson(const FleetPlan& plan, std::span<const std::string> colours, const LocalFrame& site,
+                       FileFrame frame = FileFrame::kWgs84);
 
-/// The mission that `config.waypoints` asks for, on this site: rows of its lanes or of a GeoJSON file, with
-/// the site's keep-outs besides the file's. Fails, with the remedy, if a waypoint lies outside the bounds or
-/// the site knows no lanes.
-Result<Mission> make_mission(const MissionConfig& config, const SitePlan& plan, const LocalFrame& site);
+/// The first position of a file in WGS84, at height 0: an origin for a site that names none. Nothing for a
+/// file in ENU or without positions; parse_geojson says what is wrong with the latter.
+std::optional<GeoPoint> first_position(const std::string& text);
 
 }  // namespace fleetmap::planning

@@ -25,10 +25,11 @@ struct Row {
 /// Ground that may not be driven on: a closed polygon in ENU, m.
 using KeepOut = std::vector<Eigen::Vector2d>;
 
-/// The ground that a site has at all.
-struct SiteBounds {
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();   ///< ENU, m
-  Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< ENU, m
+/// A place at which robots set out, ENU, m. It is marked on the site's drawing, so it is right to metres
+/// only.
+struct StartPoint {
+  std::optional<AgentId> agent;  ///< absent: every robot that has no start of its own
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
 };
 
 /// What the fleet is to drive: the same on every robot. Everything in the ENU frame of the site, metres.
@@ -38,8 +39,11 @@ struct Mission {
 
   std::vector<Row> rows;  ///< in the order in which they lie across the site
   std::vector<KeepOut> keep_out;
-  std::optional<SiteBounds> bounds;  ///< routes stay inside; without it, near rows and keep-outs
+  std::optional<KeepOut> boundary;  ///< routes stay inside; without it, near rows and keep-outs
+  std::vector<StartPoint> starts;   ///< at most one a robot and one for all others
 
+  /// The start of a robot: its own, else the common one, else the first waypoint of the first row.
+  Eigen::Vector2d start_of(const AgentId& agent) const;
   /// At least one row, ids unique, two waypoints a row, polygons of three corners, all finite and near the
   /// origin (100 km), within the limits above. Says which row breaks which rule.
   Status validate() const;
@@ -66,22 +70,15 @@ struct RobotAbility {
 /// m
 double length_of(std::span<const Eigen::Vector2d> line);
 
-/// A free lane of a site.
-struct Lane {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< ENU, m
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();    ///< ENU, m
+/// Which rows of a site are driven and how they are cut.
+struct RowSelection {
+  int every = 1;                ///< each `every`-th row, from the first
+  double max_row_length = 0.0;  ///< m; longer rows are cut, so that few can be divided. 0: no cut
 };
 
-/// Which of a site's lanes are driven and how they are cut.
-struct LaneSelection {
-  int every = 1;  ///< each `every`-th lane, from the first
-  double max_row_length =
-      0.0;  ///< m; longer lanes become several rows, so that few can be divided. 0: no cut
-};
-
-/// Rows along lanes, numbered from 0 in the order of the lanes. Lanes shorter than 0.1 m are left out.
-Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& selection,
-                          std::vector<KeepOut> keep_out = {}, std::optional<SiteBounds> bounds = {});
+/// Keeps each `every`-th row and cuts rows into equal pieces along their length. Rows keep their ids unless
+/// one is cut; then all are numbered anew from 0.
+Mission with_selected_rows(Mission mission, const RowSelection& selection);
 
 /// Every waypoint lies within [low, high]; else says which row and waypoint does not, by how much, and what
 /// to do.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/planning/division.hpp"
@@ -13,7 +13,7 @@ namespace fleetmap::planning {
 /// When a robot takes over, gives away or gives up work. Times in s.
 struct ExecutiveConfig {
   double lost_after = 60.0;  ///< without a report a robot counts as lost
-  double listen = 12.0;  ///< a robot that starts away from its start (restarted) first listens for so long
+  double listen = 12.0;      ///< a robot that begins far from its start (restarted) first listens for so long
   double orphan_wait = 15.0;   ///< a row that nobody claims for so long is claimed by whoever sees it; the
                                ///< next robot in the order of names waits as long again
   double offer_gain = 45.0;    ///< rows are given to an idle robot if the fleet is done so much earlier by it
@@ -30,8 +30,8 @@ struct ExecutiveConfig {
 
 /// All of a mission's settings; the same on every robot.
 struct MissionConfig {
-  std::string waypoints = "aisles";  ///< "aisles": the world's lanes; else path of a GeoJSON file
-  LaneSelection lanes;
+  std::filesystem::path file;  ///< GeoJSON of the site; empty: the twin plans on a drawing of its world
+  RowSelection rows;
   bool rendezvous = true;
   double speed = 1.5;  ///< m/s, of robots that name none
   DivisionConfig division;

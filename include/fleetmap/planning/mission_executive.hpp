@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
@@ -45,6 +46,7 @@ struct MissionAction {
 /// acts on its own knowledge and what it heard:
 /// - what is done is done: knowledge of driven rows only grows and is passed on in every report;
 /// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
+/// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
 /// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
 ///   of them takes which, and whoever still sees nobody at a row after a while takes it;
 /// - a robot with many rows left gives some away when another one has none (the late one, the returned one);
@@ -69,12 +71,16 @@ class MissionExecutive {
   /// As of the last update.
   MissionReport report() const;
 
+  struct Abandoned {
+    RowId row = 0;
+    std::string why;  ///< this robot gave it up; empty: only others did, or no robot is left to drive it
+  };
   struct Status {
     MissionState state = MissionState::kDriving;
     std::size_t rows = 0;
-    std::size_t done = 0;       ///< by anyone, as far as is known
-    std::size_t mine = 0;       ///< still claimed by this robot
-    std::size_t abandoned = 0;  ///< all who are left gave them up
+    std::size_t done = 0;              ///< by anyone, as far as is known
+    std::size_t mine = 0;              ///< still claimed by this robot
+    std::vector<Abandoned> abandoned;  ///< rows that are not driven any more
     std::vector<AgentId> lost;
     std::vector<AgentId> expected;  ///< others who are to come to the meeting
     std::uint64_t replans = 0;      ///< rows taken over or given away

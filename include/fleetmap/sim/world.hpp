@@ -7,18 +7,9 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/sim/mesh.hpp"
+#include "fleetmap/sim/site_drawing.hpp"
 
 namespace fleetmap::sim {
-
-/// A free lane along which a robot can map, from end to end (ENU, m).
-struct Aisle {
-  Eigen::Vector2d from = Eigen::Vector2d::Zero();
-  Eigen::Vector2d to = Eigen::Vector2d::Zero();
-};
-
-/// What stands in the way as a site plan shows it: a closed polygon (ENU, m), its last corner joined to its
-/// first.
-using Footprint = std::vector<Eigen::Vector2d>;
 
 struct WorldBounds {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
@@ -45,16 +36,16 @@ class World {
   /// to a step high; holes narrower than a metre are bridged, wider ones are in the way. Fails, with the
   /// remedy, for a mesh without triangles, with non-finite vertices, too large for its cells, or with hardly
   /// any ground that can be driven on.
+  /// A drawing without a boundary gets the bounds of the mesh.
   static Result<std::shared_ptr<const World>> create(Mesh mesh, const DrivableConfig& config = {},
-                                                     std::vector<Aisle> aisles = {},
-                                                     std::vector<Footprint> plan = {});
+                                                     SiteDrawing drawing = {});
 
   const Mesh& mesh() const { return mesh_; }
   const WorldBounds& bounds() const { return bounds_; }
   /// Lanes to map along, sorted across the site; empty for a user's mesh.
-  const std::vector<Aisle>& aisles() const { return aisles_; }
-  /// Where tables, cabins, fences and trees stand; empty for a user's mesh.
-  const std::vector<Footprint>& plan() const { return plan_; }
+  const std::vector<Aisle>& aisles() const { return drawing_.lanes; }
+  /// What a user has of this site before a robot was there, without an error in position.
+  const SiteDrawing& drawing() const { return drawing_; }
   const DrivableConfig& drivable() const { return config_; }
   /// Share of the bounds' cells where nothing is in the way.
   double drivable_share() const { return drivable_share_; }
@@ -71,8 +62,7 @@ class World {
   World() = default;
   Mesh mesh_;
   WorldBounds bounds_;
-  std::vector<Aisle> aisles_;
-  std::vector<Footprint> plan_;
+  SiteDrawing drawing_;
   DrivableConfig config_;
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();  ///< cells along east and north
   std::vector<float> heights_;                      ///< row by row from the south
