@@ -208,6 +208,7 @@ bool Navigator::stuck(Stamp now) const {
 }
 
 void Navigator::obey(const exchange::HoldOrder& order) {
+  if (order.hold == guard_.held()) return;
   guard_.set_held(order.hold);
   spdlog::warn("{}: {} by order of {}", self_.str(), order.hold ? "held" : "let go", order.issuer.str());
   watch();

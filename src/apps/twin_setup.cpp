@@ -126,6 +126,21 @@ Status check_starts(const config::FleetConfig& config, const std::shared_ptr<con
   return {};
 }
 
+/// Scans come often enough that the drive guard lets a robot drive between two of them.
+Status check_scan_rates(const config::FleetConfig& config) {
+  const double longest = to_seconds(agent::DriveGuardConfig{}.patience);
+  for (const auto& member : config.members) {
+    if (1.0 / member.robot.lidar.rate < longest) continue;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        ".lidar_rate: a robot that drives a mission stands %.2f s after its last scan; set at least 5 Hz",
+        longest);
+    return failure(member.robot_at + text);
+  }
+  return {};
+}
+
 /// Plans on `site` and gives every agent its navigator.
 Status plan_twin(config::FleetConfig& config, const planning::Mission& site, const GeoPoint& origin,
                  std::shared_ptr<const planning::FleetPlan>& plan) {
@@ -171,6 +186,7 @@ Result<TwinSetup> set_up_twin(config::FleetConfig& config) {
   }
   if (const Status free = check_starts(config, setup.world, setup.origin); !free)
     return tl::unexpected(free.error());
+  if (const Status driven = check_scan_rates(config); !driven) return tl::unexpected(driven.error());
   if (const Status planned = plan_twin(config, setup.site, setup.origin, setup.plan); !planned)
     return tl::unexpected(planned.error());
   std::uint64_t index = 0;

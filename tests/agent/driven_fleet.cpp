@@ -156,7 +156,7 @@ Stamp stands_from(const DrivenFleet::Robot& robot, Stamp event, Stamp until) {
   Stamp from = until + Duration(1);
   for (auto command = robot.commands.rbegin(); command != robot.commands.rend(); ++command) {
     if (command->at > until) continue;
-    if (command->at <= event || !command->zero()) break;
+    if (command->at < event || !command->zero()) break;
     from = command->at;
   }
   return from;

@@ -77,7 +77,7 @@ class DrivenFleet {
   std::vector<std::unique_ptr<Robot>> robots_;
 };
 
-/// When the first command of zero after `event` was published, after which none moves the robot until
+/// When the first command of zero since `event` was published, after which none moves the robot until
 /// `until`; a time beyond `until` if there is none.
 Stamp stands_from(const DrivenFleet::Robot& robot, Stamp event, Stamp until);
 

@@ -130,6 +130,11 @@ TEST_F(BadTwinInput, TwoRobotsInOnePlace) {
   refused({"agents[2].robot.start: is 0.20 m from that of r1", "move it, or leave start out"});
 }
 
+TEST_F(BadTwinInput, ALidarTooSlowToDriveBy) {
+  replace("lidar.yaml", "rate: 5", "rate: 3");
+  refused({"lidar_rate: a robot that drives a mission", "set at least 5 Hz"});
+}
+
 TEST_F(BadTwinInput, MoreRobotsThanRows) {
   replace("fleet.yaml", "every: 1", "every: 3");
   refused({"fleet.yaml:4: mission: ", "3 robots for 1 rows; take fewer robots"});

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "apps/drive_watchdog.hpp"
 #include "apps/small_twin.hpp"
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
@@ -81,6 +82,11 @@ class CommandLog {
     hear_for(2s);
     EXPECT_GT(commands_.size(), 20u) << name_;
     EXPECT_TRUE(std::ranges::all_of(commands_, &Command::zero)) << name_;
+  }
+  std::size_t heard_within(Duration time) {
+    const std::size_t before = commands_.size();
+    hear_for(time);
+    return commands_.size() - before;
   }
 
  private:
@@ -175,6 +181,44 @@ TEST_F(DriveStop, WhenTheOperatorSaysSo) {
   EXPECT_EQ(unheard->wait(), 1);
   EXPECT_THAT(unheard->output(), HasSubstr("r1 stands"));
   EXPECT_THAT(unheard->output(), HasSubstr("r2 did not confirm"));
+}
+
+/// A bus on which nothing drives, but for the watchdog.
+class Watchdog : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    bus::DdsBusConfig config;
+    config.agent = AgentId::parse("r1").value();
+    config.qos_directory = std::string(FLEETMAP_SOURCE_DIR) + "/qos";
+    config.onboard.domain = first_test_domain();
+    config.long_range.enabled = config.short_range.enabled = false;
+    bus_ = bus::DdsBus::create(config).value();
+    watchdog_ = std::make_unique<apps::DriveWatchdog>(*bus_, stop_);
+    const auto matched = [&] { return bus_->matches(wire::topics::cmd_vel()).readers == 1; };
+    ASSERT_TRUE(bus_->run_until(matched, 20s));
+    bus_->run_until([] { return false; }, 300ms);
+  }
+
+  CommandLog log_{"r1", first_test_domain()};
+  std::atomic<bool> stop_ = false;
+  std::unique_ptr<bus::DdsBus> bus_;
+  std::unique_ptr<apps::DriveWatchdog> watchdog_;
+};
+
+TEST_F(Watchdog, StopsTheRobotWhileTheProgramIsBusy) {
+  EXPECT_EQ(log_.heard_within(50ms), 0u) << "it was not busy yet";
+  bus_->post([&] {
+    const Stamp event = log_.now();
+    log_.hear_for(1s);
+    log_.expect_stands_since(event);
+    log_.expect_stands_now();
+  });
+  bus_->run_until([] { return false; }, 100ms);
+}
+
+TEST_F(Watchdog, StopsTheRobotWhileTheProgramEnds) {
+  stop_ = true;
+  log_.expect_stands_now();
 }
 
 TEST_F(DriveStop, OrdersThatCannotBeGivenAreRefused) {

@@ -85,6 +85,18 @@ TEST(RobotTwin, ACommandIsForgotten) {
   EXPECT_NEAR(twin.speed(), 0.0, 1e-6);
 }
 
+TEST(RobotTwin, WithoutATimeoutTheLastCommandHolds) {
+  RobotTwinConfig config = robot();
+  config.vehicle.command_timeout = 0.0;
+  RobotTwin twin = made(walled(), config);
+  twin.command(1.0, 0.0);
+  twin.advance(at(6));
+  EXPECT_NEAR(twin.speed(), 1.0, 0.02);
+  twin.command(0.0, 0.0);
+  twin.advance(at(9));
+  EXPECT_NEAR(twin.speed(), 0.0, 1e-3);
+}
+
 TEST(RobotTwin, StopsAtAWallTurnsAndBacksOff) {
   const auto world = walled();
   RobotTwin twin = made(world, robot());

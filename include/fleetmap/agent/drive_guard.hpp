@@ -41,6 +41,7 @@ class DriveGuard {
   /// Where the robot is on the site became known.
   void on_pose(Stamp now) { pose_ = now; }
   void set_held(bool held) { held_ = held; }
+  bool held() const { return held_; }
   /// For good.
   void stop() { stopping_ = true; }
 
