@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and lets three robots map a solar farm of 200 m x 200 m in the digital twin: the twin
-# and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. Ends with
-# the merged map, the report and pictures of the map in one folder.
+# and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. The robots
+# plan on a drawing of the site, not on the twin's world. Ends with the plan, the merged map, the report and pictures of the map in one folder.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
 cd "$(dirname "$0")/.."
 fleet=config/fleets/demo.yaml
+site=config/sites/farm_200.geojson  # the drawing that the fleet plans on
 robots=(r1 r2 r3)
 limit=270  # s; a robot that is not done by then is told to end
 
@@ -26,7 +27,7 @@ fleetmap=build/release/bin/fleetmap
 
 # Only what an earlier demo left goes.
 if [ -e "$out/.fleetmap-demo" ]; then
-  rm -rf "${out:?}"/r[0-9]* "$out"/*.json "$out"/*.html "$out"/*.png "$out"/*.ply "$out"/*.log
+  rm -rf "${out:?}"/r[0-9]* "$out"/*.json "$out"/*.html "$out"/*.png "$out"/*.ply "$out"/*.log "$out"/*.geojson
 elif [ -e "$out/r1" ]; then
   echo "$out holds something that is not an earlier demo's; name another folder" >&2
   exit 2
@@ -34,6 +35,7 @@ fi
 mkdir -p "$out"
 touch "$out/.fleetmap-demo"
 
+"$fleetmap" plan "$site" -c "$fleet" --out "$out/plan.geojson"
 "$fleetmap" sim -c "$fleet" --out "$out" >"$out/sim.log" 2>&1 &
 sim=$!
 pids+=("$sim")
@@ -70,6 +72,7 @@ pids=()
 "$fleetmap" eval "$out"
 
 echo
+echo "plan:              $out/plan.geojson $out/plan.png"
 echo "map of each robot: $out/{r1,r2,r3}/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
 echo "pictures:          $out/map_top.png $out/map_perspective.png (coloured by robot)"
 echo "report:            $out/evaluation.html, and $out/r1/report.json of each robot"

@@ -3,7 +3,9 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "commands.hpp"
@@ -81,7 +83,18 @@ Result<Site> read_site(const std::string& file, const std::optional<GeoPoint>& o
   return site;
 }
 
-void print(const planning::FleetPlan& plan) {
+std::string place_text(const Eigen::Vector2d& p, const Site& site) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const bool enu = site.frame == planning::FileFrame::kEnu;
+  const GeoPoint geo = site.enu.to_geo({p.x(), p.y(), 0.0});
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(enu ? 1 : 6) << (enu ? p.x() : geo.latitude / kDegree) << ", "
+       << (enu ? p.y() : geo.longitude / kDegree)
+       << (enu ? " m (east, north)" : " deg (latitude, longitude)");
+  return text.str();
+}
+
+void print(const planning::FleetPlan& plan, const Site& site) {
   std::cout << std::fixed << std::setprecision(0);
   for (const planning::RobotRoute& route : plan.division.routes) {
     std::cout << route.agent.str() << ": " << route.visits.size() << " rows, " << route.length << " m, "
@@ -96,9 +109,8 @@ void print(const planning::FleetPlan& plan) {
     std::cout << '\n';
   }
   if (plan.meeting) {
-    std::cout << "all meet at (" << plan.meeting->place.x() << ", " << plan.meeting->place.y()
-              << ") m (ENU) after " << plan.meeting->latest << " s; all maps are exchanged after "
-              << plan.completion << " s\n";
+    std::cout << "all meet at " << place_text(plan.meeting->place, site) << " after " << plan.meeting->latest
+              << " s; all maps are exchanged after " << plan.completion << " s\n";
   } else {
     std::cout << "all rows are driven after " << plan.completion << " s\n";
   }
@@ -122,6 +134,9 @@ Status write(const planning::FleetPlan& plan, const Site& site, const std::files
 int run(const PlanOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(options.site, error))
+    return report({options.site + ": no such file; give the GeoJSON drawing of a site"}, kBadConfiguration);
   auto fleet = fleet_of(options, *overrides);
   if (!fleet) return report(fleet.error(), kBadConfiguration);
   if (options.agents && *options.agents > fleet->robots.size()) {
@@ -134,7 +149,7 @@ int run(const PlanOptions& options) {
   if (!site) return report(site.error(), kBadConfiguration);
   const auto plan = plan_on(site->mission, std::move(fleet->robots), fleet->settings);
   if (!plan) return report({options.site + ": " + plan.error().message}, kBadConfiguration);
-  print(**plan);
+  print(**plan, *site);
   if (options.out.empty()) return kDone;
   if (const Status written = write(**plan, *site, options.out); !written)
     return report(written.error(), kFailed);

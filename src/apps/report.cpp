@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/eval/html_page.hpp"
@@ -96,6 +97,9 @@ json completion_json(const Completion& completion) {
               {"completed_s", seconds_or_null(completion.completed)}};
   if (!completion.completed) all["why_not"] = completion.why_not;
   if (completion.lane_share) all["lane_share"] = *completion.lane_share;
+  std::set<planning::RowId> rows;
+  for (const Completion::Abandoned& row : completion.abandoned) rows.insert(row.row);
+  all["abandoned"] = rows.size();
   all["abandoned_rows"] = json::array();
   for (const Completion::Abandoned& row : completion.abandoned) {
     all["abandoned_rows"].push_back({{"row", row.row},

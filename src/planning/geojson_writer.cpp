@@ -14,15 +14,16 @@ using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+/// To so many decimals; written as 0.1, not as 0.10000000000000001.
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 json coordinate(const Eigen::Vector2d& p, const LocalFrame& site, FileFrame frame) {
-  if (frame == FileFrame::kEnu) return {rounded(p.x(), 1e-6), rounded(p.y(), 1e-6)};
+  if (frame == FileFrame::kEnu) return {rounded(p.x(), 1e6), rounded(p.y(), 1e6)};
   // The height of the origin's plane at p, so that east and north come back as they were.
   const GeoPoint geo = site.to_geo({p.x(), p.y(), 0.0});
   const Eigen::Vector3d back = site.to_enu({geo.latitude, geo.longitude, site.origin().altitude});
   const GeoPoint level = site.to_geo({2.0 * p.x() - back.x(), 2.0 * p.y() - back.y(), 0.0});
-  return {rounded(level.longitude / kDegree, 1e-9), rounded(level.latitude / kDegree, 1e-9)};
+  return {rounded(level.longitude / kDegree, 1e9), rounded(level.latitude / kDegree, 1e9)};
 }
 
 /// Collects the features of one file.
@@ -49,10 +50,16 @@ class Writer {
       point(start.at, {{"start", start.agent ? json(start.agent->str()) : json(true)}});
     }
   }
-  std::string text() {
-    json root = {{"type", "FeatureCollection"}, {"features", std::move(features_)}};
-    if (frame_ == FileFrame::kEnu) root["frame"] = "enu";
-    return root.dump(1) + "\n";
+  /// One feature a line.
+  std::string text() const {
+    std::string all = "{\"type\": \"FeatureCollection\",";
+    if (frame_ == FileFrame::kEnu) all += " \"frame\": \"enu\",";
+    all += " \"features\": [";
+    for (std::size_t k = 0; k < features_.size(); ++k) {
+      all += k == 0 ? "\n" : ",\n";
+      all += features_[k].dump();
+    }
+    return all + "\n]}\n";
   }
 
  private:

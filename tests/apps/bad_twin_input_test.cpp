@@ -42,7 +42,7 @@ class BadTwinInput : public ::testing::Test {
   }
   void mission(const std::string& geojson) const {
     twin_.write("rows.geojson", geojson);
-    replace("fleet.yaml", "mission: \\{", "mission: {file: rows.geojson, ");
+    replace("fleet.yaml", "mission: \\{every", "mission: {file: rows.geojson, every");
   }
   void replace(const std::string& name, const std::string& what, const std::string& with) const {
     twin_.write(name, std::regex_replace(text_of(name), std::regex(what), with));
