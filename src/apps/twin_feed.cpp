@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fleetmap/core/cpu_time.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -68,13 +70,19 @@ void TwinFeed::deliver_pending() {
   for (; !pending_.empty(); pending_.pop_front()) {
     Pending& next = pending_.front();
     next.cast.get();
-    deliver_(next.member, *next.scan, next.scan->stamp);
+    seconds_.rays += next.result->cpu_seconds;
+    deliver_(next.member, next.result->scan, next.result->scan.stamp);
   }
 }
 
 void TwinFeed::sense(std::size_t member) {
   Robot& robot = robots_[member];
-  for (sim::TwinSample& sample : robot.twin.advance(network_->now())) {
+  std::vector<sim::TwinSample> samples;
+  {
+    const CpuTimer timer(seconds_.driving);
+    samples = robot.twin.advance(network_->now());
+  }
+  for (sim::TwinSample& sample : samples) {
     if (!robot.on) break;
     if (auto* job = std::get_if<sim::ScanJob>(&sample)) {
       cast(member, std::move(*job));
@@ -90,10 +98,11 @@ void TwinFeed::sense(std::size_t member) {
 }
 
 void TwinFeed::cast(std::size_t member, sim::ScanJob job) {
-  auto scan = std::make_shared<sensor::Scan>();
+  auto result = std::make_shared<CastScan>();
   const sim::LidarSpec& spec = robots_[member].twin.config().lidar;
-  pending_.push_back({member, scan, pool_.run([scene = scene_, &spec, scan, job = std::move(job)] {
-                        *scan = sim::cast_scan(*scene, spec, job);
+  pending_.push_back({member, result, pool_.run([scene = scene_, &spec, result, job = std::move(job)] {
+                        const CpuTimer timer(result->cpu_seconds);
+                        result->scan = sim::cast_scan(*scene, spec, job);
                       })});
 }
 

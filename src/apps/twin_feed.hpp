@@ -33,6 +33,7 @@ class TwinFeed final : public FleetFeed {
   void stop() override { stopped_ = true; }
   bool ended(std::size_t) const override { return stopped_ && pending_.empty(); }
   std::string problem(std::size_t) const override { return {}; }
+  FeedSeconds cpu_seconds() const override { return seconds_; }
   recording::Counters counters(std::size_t) const override { return {}; }
   std::optional<bus::EnuPosition> position(std::size_t member) const override;
   std::optional<GlobalPose> guide(std::size_t member) const override;
@@ -50,10 +51,14 @@ class TwinFeed final : public FleetFeed {
     TruthTrack truth;
     bool on = true;
   };
+  struct CastScan {
+    sensor::Scan scan;
+    double cpu_seconds = 0.0;
+  };
   /// A scan whose rays are being cast.
   struct Pending {
     std::size_t member = 0;
-    std::shared_ptr<sensor::Scan> scan;
+    std::shared_ptr<CastScan> result;
     std::future<void> cast;
   };
   TwinFeed(std::shared_ptr<const sim::Scene> scene, const GeoPoint& origin, unsigned threads)
@@ -71,6 +76,7 @@ class TwinFeed final : public FleetFeed {
   bus::LocalNetwork* network_ = nullptr;
   Deliver deliver_;
   bool stopped_ = false;
+  FeedSeconds seconds_;
   ThreadPool pool_;  ///< last: its threads end before what they write to goes
 };
 

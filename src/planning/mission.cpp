@@ -90,10 +90,13 @@ Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& sele
     if (!(along.norm() >= kShortestLane)) continue;
     const bool cut = selection.max_row_length >= 1.0 && along.norm() > selection.max_row_length;
     const int pieces = cut ? static_cast<int>(std::ceil(along.norm() / selection.max_row_length)) : 1;
+    const bool back = cut && k / step % 2 == 1;
     for (int piece = 0; piece < pieces; ++piece) {
-      const Eigen::Vector2d from = lanes[k].from + along * piece / pieces;
-      const Eigen::Vector2d to = lanes[k].from + along * (piece + 1) / pieces;
-      mission.rows.push_back({static_cast<RowId>(mission.rows.size()), {from, to}});
+      const int place = back ? pieces - 1 - piece : piece;
+      const Eigen::Vector2d from = lanes[k].from + along * place / pieces;
+      const Eigen::Vector2d to = lanes[k].from + along * (place + 1) / pieces;
+      mission.rows.push_back({static_cast<RowId>(mission.rows.size()),
+                              back ? Polyline{to, from} : Polyline{from, to}});
     }
   }
   return mission;

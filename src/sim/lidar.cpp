@@ -14,6 +14,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBlock = 16;                   ///< columns cast together: one packet a ring
 constexpr float kPulseLength = 1.0f;                 ///< m, echoes closer than this are one
+constexpr float kRounding = 0.01f;                   ///< m, more than a range's last digits
 constexpr std::size_t kLasers = 4;                   ///< behind the prisms, firing in turn
 constexpr double kPrismRates[2] = {121.57, -77.73};  ///< turns/s, 7294 and -4664 rpm
 
@@ -58,37 +59,66 @@ class BeamCaster {
   void add(const Beam& beam, const Eigen::Matrix3f& R, const Eigen::Vector3f& origin) {
     beams_.push_back(beam);
     axis_rays_.push_back({origin, R * beam.axis});
-    if (beam_radius_ <= 0.0f) return;
-    const std::uint64_t bits = mixed(mixed(key_ ^ beam.number) + 1);
-    // A square of the same area as the beam's round section.
-    const float reach = 0.886f * beam_radius_;
-    const Eigen::Vector3f rim = beam.axis + (2.0f * uniform16(bits, 0) - 1.0f) * reach * beam.aside +
-                                (2.0f * uniform16(bits, 1) - 1.0f) * reach * beam.above;
-    rim_rays_.push_back({origin, R * rim});
+    rotations_.push_back(R);
   }
 
   /// Beams of `rings` packets of `columns` each, given ring by ring; the points come column by column.
   void flush(std::size_t rings, std::size_t columns, std::vector<sensor::ScanPoint>& points) {
     axis_hits_.resize(beams_.size());
     scene_.cast(axis_rays_, min_range_, max_range_, axis_hits_);
-    rim_hits_.resize(rim_rays_.size());
-    scene_.cast(rim_rays_, min_range_, max_range_, rim_hits_);
+    if (beam_radius_ > 0.0f) cast_rims();
     for (std::size_t column = 0; column < columns; ++column) {
       for (std::size_t ring = 0; ring < rings; ++ring) receive(ring * columns + column, points);
     }
-    beams_.clear(), axis_rays_.clear(), rim_rays_.clear();
+    beams_.clear(), axis_rays_.clear(), rotations_.clear();
   }
 
  private:
+  std::uint64_t bits_of(const Beam& beam) const { return mixed(key_ ^ beam.number); }
+
+  /// Whether the beam's return depends on what a ray beside its axis meets, see receive() and mix().
+  bool needs_rim(const Hit& echo, std::uint64_t bits) const {
+    if (uniform16(bits, 1) < dropout_) return false;
+    if (echo.distance <= 0.0f) return uniform16(bits, 0) < 0.5f;
+    return !lost_on_glass(echo);
+  }
+
+  bool lost_on_glass(const Hit& echo) const {
+    return echo.material == Material::kGlass && echo.cos_incidence < glass_min_cos_;
+  }
+
+  /// Only rays that can change a return, and only as far as they can.
+  void cast_rims() {
+    rim_hits_.assign(beams_.size(), Hit{});
+    rim_rays_.clear(), rim_beams_.clear();
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      const Beam& beam = beams_[k];
+      const Hit& echo = axis_hits_[k];
+      const std::uint64_t own_bits = bits_of(beam);
+      if (!needs_rim(echo, own_bits)) continue;
+      const std::uint64_t bits = mixed(own_bits + 1);
+      // A square of the same area as the beam's round section.
+      const float reach = 0.886f * beam_radius_;
+      const Eigen::Vector3f rim = beam.axis + (2.0f * uniform16(bits, 0) - 1.0f) * reach * beam.aside +
+                                  (2.0f * uniform16(bits, 1) - 1.0f) * reach * beam.above;
+      rim_rays_.push_back({axis_rays_[k].origin, rotations_[k] * rim});
+      if (echo.distance > 0.0f) rim_rays_.back().reach = echo.distance + kPulseLength + kRounding;
+      rim_beams_.push_back(k);
+    }
+    found_.resize(rim_rays_.size());
+    scene_.cast(rim_rays_, min_range_, max_range_, found_);
+    for (std::size_t k = 0; k < found_.size(); ++k) rim_hits_[rim_beams_[k]] = found_[k];
+  }
+
   void receive(std::size_t k, std::vector<sensor::ScanPoint>& points) const {
     const Beam& beam = beams_[k];
     Hit echo = axis_hits_[k];
-    const bool split = !rim_hits_.empty() && (echo.distance > 0.0f || rim_hits_[k].distance > 0.0f);
+    const bool split = beam_radius_ > 0.0f && (echo.distance > 0.0f || rim_hits_[k].distance > 0.0f);
     if (!split && echo.distance <= 0.0f) return;
-    const std::uint64_t bits = mixed(key_ ^ beam.number);
+    const std::uint64_t bits = bits_of(beam);
     if (split) mix(rim_hits_[k], uniform16(bits, 0), echo);
     if (echo.distance <= 0.0f || uniform16(bits, 1) < dropout_) return;
-    if (echo.material == Material::kGlass && echo.cos_incidence < glass_min_cos_) return;
+    if (lost_on_glass(echo)) return;
     float range = echo.distance;
     if (noise_ > 0.0f) range += noise_ * gaussian_float(mixed(bits));
     if (!(range > 0.0f)) return;
@@ -123,8 +153,11 @@ class BeamCaster {
   float min_range_, max_range_, noise_, beam_radius_, dropout_, glass_min_cos_;
   std::uint64_t key_;
   std::vector<Beam> beams_;
+  std::vector<Eigen::Matrix3f> rotations_;  ///< of the LiDAR, a beam
   std::vector<Ray> axis_rays_, rim_rays_;
-  std::vector<Hit> axis_hits_, rim_hits_;
+  std::vector<std::size_t> rim_beams_;      ///< a ray of rim_rays_
+  std::vector<Hit> axis_hits_, rim_hits_;  ///< a beam
+  std::vector<Hit> found_;                 ///< a ray of rim_rays_
 };
 
 void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& caster,

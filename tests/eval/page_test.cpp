@@ -40,6 +40,21 @@ TEST(Plot, of_lines_with_bands_is_well_formed) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Plot, in_a_file_has_a_background_and_marks_the_given_values) {
+  Axes plain{.x_label = "Number of robots", .y_label = "RMSE [m]"};
+  const std::vector<LineSeries> lines{{"10 Hz", {2, 3, 4, 5}, {0.4, 0.3, 0.2, 0.1}, {}, {}}};
+  const std::string in_page = line_plot(plain, lines);
+  EXPECT_EQ(elements(in_page, "rect"), 1);  // of the legend
+  EXPECT_NE(in_page.find(">2.5<"), std::string::npos);
+  plain.opaque = true;
+  plain.x_ticks = {2, 3, 4, 5};
+  const std::string in_file = line_plot(plain, lines);
+  EXPECT_EQ(elements(in_file, "rect"), 2);
+  EXPECT_EQ(in_file.find(">2.5<"), std::string::npos);
+  for (const char* tick : {">2<", ">3<", ">4<", ">5<"})
+    EXPECT_NE(in_file.find(tick), std::string::npos) << tick;
+}
+
 TEST(Plot, of_every_kind_survives_every_input) {
   const double huge = 1e300, tiny = 1e-300;
   const std::vector<std::vector<double>> values{

@@ -79,7 +79,7 @@ struct LaneSelection {
       0.0;  ///< m; longer lanes become several rows, so that few can be divided. 0: no cut
 };
 
-/// Rows along lanes, numbered from 0 in the order of the lanes. Lanes shorter than 0.1 m are left out.
+/// Rows along lanes in their order, ids from 0; every second cut lane runs back. Leaves out lanes under 0.1 m.
 Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& selection,
                           std::vector<KeepOut> keep_out = {}, std::optional<SiteBounds> bounds = {});
 
