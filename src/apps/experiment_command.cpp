@@ -93,10 +93,9 @@ int run(const ExperimentOptions& options) {
   const experiment::RunnerConfig runner{options.out, options.jobs, options.keep, this_program(),
                                         options.any_build};
   if (!options.one_case.empty()) return run_single(cases, options.one_case, engine, runner, stop);
-  const auto result = options.report
-                          ? experiment::report_experiment(*config, runner, std::cout)
-                          : experiment::run_experiment(*config, engine, runner, stop, std::cout,
-                                                       ::isatty(STDOUT_FILENO) != 0);
+  const auto result = options.report ? experiment::report_experiment(*config, runner, std::cout)
+                                     : experiment::run_experiment(*config, engine, runner, stop, std::cout,
+                                                                  ::isatty(STDOUT_FILENO) != 0);
   if (!result) return report(result.error(), kFailed);
   if (!result->outcome.complete()) {
     std::cout << "incomplete: " << result->outcome.missing.size() << " runs are still to be made"

@@ -34,8 +34,13 @@ double RunProfile::rest() const {
 }
 
 RunProfile profile_of(const FleetOutcome& outcome, double cpu_before, double cpu, double wall_seconds) {
-  return {outcome.feed_seconds, outcome.work_seconds, outcome.results_seconds,         cpu_before, cpu,
-          wall_seconds,         to_seconds(outcome.virtual_time)};
+  return {outcome.feed_seconds,
+          outcome.work_seconds,
+          outcome.results_seconds,
+          cpu_before,
+          cpu,
+          wall_seconds,
+          to_seconds(outcome.virtual_time)};
 }
 
 nlohmann::json to_json(const RunProfile& profile) {
@@ -51,7 +56,8 @@ nlohmann::json to_json(const RunProfile& profile) {
 
 std::string summary_of(const RunProfile& profile) {
   char text[160];
-  std::snprintf(text, sizeof text, "%.0f s of virtual time in %.0f s, %.1f times real time, %.0f s of CPU:\n ",
+  std::snprintf(text, sizeof text,
+                "%.0f s of virtual time in %.0f s, %.1f times real time, %.0f s of CPU:\n ",
                 profile.virtual_time, profile.wall, ratio(profile.virtual_time, profile.wall), profile.cpu);
   std::string all = text;
   for (const auto& [name, seconds] : entries_of(profile)) {

@@ -95,8 +95,8 @@ Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& sele
       const int place = back ? pieces - 1 - piece : piece;
       const Eigen::Vector2d from = lanes[k].from + along * place / pieces;
       const Eigen::Vector2d to = lanes[k].from + along * (place + 1) / pieces;
-      mission.rows.push_back({static_cast<RowId>(mission.rows.size()),
-                              back ? Polyline{to, from} : Polyline{from, to}});
+      mission.rows.push_back(
+          {static_cast<RowId>(mission.rows.size()), back ? Polyline{to, from} : Polyline{from, to}});
     }
   }
   return mission;

@@ -14,7 +14,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBlock = 16;                   ///< columns cast together: one packet a ring
 constexpr float kPulseLength = 1.0f;                 ///< m, echoes closer than this are one
-constexpr float kRounding = 0.01f;                   ///< m, more than a range's last digits
 constexpr std::size_t kLasers = 4;                   ///< behind the prisms, firing in turn
 constexpr double kPrismRates[2] = {121.57, -77.73};  ///< turns/s, 7294 and -4664 rpm
 
@@ -59,66 +58,37 @@ class BeamCaster {
   void add(const Beam& beam, const Eigen::Matrix3f& R, const Eigen::Vector3f& origin) {
     beams_.push_back(beam);
     axis_rays_.push_back({origin, R * beam.axis});
-    rotations_.push_back(R);
+    if (beam_radius_ <= 0.0f) return;
+    const std::uint64_t bits = mixed(mixed(key_ ^ beam.number) + 1);
+    // A square of the same area as the beam's round section.
+    const float reach = 0.886f * beam_radius_;
+    const Eigen::Vector3f rim = beam.axis + (2.0f * uniform16(bits, 0) - 1.0f) * reach * beam.aside +
+                                (2.0f * uniform16(bits, 1) - 1.0f) * reach * beam.above;
+    rim_rays_.push_back({origin, R * rim});
   }
 
   /// Beams of `rings` packets of `columns` each, given ring by ring; the points come column by column.
   void flush(std::size_t rings, std::size_t columns, std::vector<sensor::ScanPoint>& points) {
     axis_hits_.resize(beams_.size());
     scene_.cast(axis_rays_, min_range_, max_range_, axis_hits_);
-    if (beam_radius_ > 0.0f) cast_rims();
+    rim_hits_.resize(rim_rays_.size());
+    scene_.cast(rim_rays_, min_range_, max_range_, rim_hits_);
     for (std::size_t column = 0; column < columns; ++column) {
       for (std::size_t ring = 0; ring < rings; ++ring) receive(ring * columns + column, points);
     }
-    beams_.clear(), axis_rays_.clear(), rotations_.clear();
+    beams_.clear(), axis_rays_.clear(), rim_rays_.clear();
   }
 
  private:
-  std::uint64_t bits_of(const Beam& beam) const { return mixed(key_ ^ beam.number); }
-
-  /// Whether the beam's return depends on what a ray beside its axis meets, see receive() and mix().
-  bool needs_rim(const Hit& echo, std::uint64_t bits) const {
-    if (uniform16(bits, 1) < dropout_) return false;
-    if (echo.distance <= 0.0f) return uniform16(bits, 0) < 0.5f;
-    return !lost_on_glass(echo);
-  }
-
-  bool lost_on_glass(const Hit& echo) const {
-    return echo.material == Material::kGlass && echo.cos_incidence < glass_min_cos_;
-  }
-
-  /// Only rays that can change a return, and only as far as they can.
-  void cast_rims() {
-    rim_hits_.assign(beams_.size(), Hit{});
-    rim_rays_.clear(), rim_beams_.clear();
-    for (std::size_t k = 0; k < beams_.size(); ++k) {
-      const Beam& beam = beams_[k];
-      const Hit& echo = axis_hits_[k];
-      const std::uint64_t own_bits = bits_of(beam);
-      if (!needs_rim(echo, own_bits)) continue;
-      const std::uint64_t bits = mixed(own_bits + 1);
-      // A square of the same area as the beam's round section.
-      const float reach = 0.886f * beam_radius_;
-      const Eigen::Vector3f rim = beam.axis + (2.0f * uniform16(bits, 0) - 1.0f) * reach * beam.aside +
-                                  (2.0f * uniform16(bits, 1) - 1.0f) * reach * beam.above;
-      rim_rays_.push_back({axis_rays_[k].origin, rotations_[k] * rim});
-      if (echo.distance > 0.0f) rim_rays_.back().reach = echo.distance + kPulseLength + kRounding;
-      rim_beams_.push_back(k);
-    }
-    found_.resize(rim_rays_.size());
-    scene_.cast(rim_rays_, min_range_, max_range_, found_);
-    for (std::size_t k = 0; k < found_.size(); ++k) rim_hits_[rim_beams_[k]] = found_[k];
-  }
-
   void receive(std::size_t k, std::vector<sensor::ScanPoint>& points) const {
     const Beam& beam = beams_[k];
     Hit echo = axis_hits_[k];
-    const bool split = beam_radius_ > 0.0f && (echo.distance > 0.0f || rim_hits_[k].distance > 0.0f);
+    const bool split = !rim_hits_.empty() && (echo.distance > 0.0f || rim_hits_[k].distance > 0.0f);
     if (!split && echo.distance <= 0.0f) return;
-    const std::uint64_t bits = bits_of(beam);
+    const std::uint64_t bits = mixed(key_ ^ beam.number);
     if (split) mix(rim_hits_[k], uniform16(bits, 0), echo);
     if (echo.distance <= 0.0f || uniform16(bits, 1) < dropout_) return;
-    if (lost_on_glass(echo)) return;
+    if (echo.material == Material::kGlass && echo.cos_incidence < glass_min_cos_) return;
     float range = echo.distance;
     if (noise_ > 0.0f) range += noise_ * gaussian_float(mixed(bits));
     if (!(range > 0.0f)) return;
@@ -153,14 +123,27 @@ class BeamCaster {
   float min_range_, max_range_, noise_, beam_radius_, dropout_, glass_min_cos_;
   std::uint64_t key_;
   std::vector<Beam> beams_;
-  std::vector<Eigen::Matrix3f> rotations_;  ///< of the LiDAR, a beam
   std::vector<Ray> axis_rays_, rim_rays_;
-  std::vector<std::size_t> rim_beams_;      ///< a ray of rim_rays_
-  std::vector<Hit> axis_hits_, rim_hits_;  ///< a beam
-  std::vector<Hit> found_;                 ///< a ray of rim_rays_
+  std::vector<Hit> axis_hits_, rim_hits_;
 };
 
-void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& caster,
+/// The moment of a firing, s after the scan's stamp.
+double firing_time(const LidarSpec& spec, std::size_t firing) {
+  if (spec.pattern == FiringPattern::kSpinning) return static_cast<double>(firing) / spec.columns / spec.rate;
+  return 1.0 / spec.rate * static_cast<double>(firing) / spec.rays;
+}
+
+/// Firings that are cast together. Parts of a scan end between two such blocks, so that the packets of rays
+/// are those of the whole scan.
+std::size_t block_size(const LidarSpec& spec) {
+  return spec.pattern == FiringPattern::kSpinning ? kBlock : kBlock * kLasers;
+}
+
+struct Firings {
+  std::size_t first, end;
+};
+
+void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, const Firings& firings, BeamCaster& caster,
                    std::vector<sensor::ScanPoint>& points) {
   struct Ring {
     float cosine, sine;
@@ -175,11 +158,10 @@ void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& ca
     float cosine, sine, time;
   };
   std::array<Column, kBlock> block;
-  const auto columns = static_cast<std::size_t>(spec.columns);
-  for (std::size_t begin = 0; begin < columns; begin += kBlock) {
-    const std::size_t size = std::min(kBlock, columns - begin);
+  for (std::size_t begin = firings.first; begin < firings.end; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, firings.end - begin);
     for (std::size_t c = 0; c < size; ++c) {
-      const double turn = static_cast<double>(begin + c) / spec.columns, time = turn / spec.rate;
+      const double turn = static_cast<double>(begin + c) / spec.columns, time = firing_time(spec, begin + c);
       const double azimuth = kPi + (spec.clockwise ? -2.0 : 2.0) * kPi * turn;
       Eigen::Matrix3d R;
       Eigen::Vector3d origin;
@@ -218,17 +200,16 @@ Deflection rosette(double field_of_view, double seconds, std::size_t laser) {
   return {0.5 * field_of_view * std::cos(apart), {std::cos(middle), std::sin(middle)}};
 }
 
-void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, BeamCaster& caster,
-                  std::vector<sensor::ScanPoint>& points) {
-  const auto rays = static_cast<std::size_t>(spec.rays);
+void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, const Firings& firings,
+                  BeamCaster& caster, std::vector<sensor::ScanPoint>& points) {
   const double period = 1.0 / spec.rate, begin_time = static_cast<double>(scan) * period;
-  for (std::size_t begin = 0, count; begin < rays; begin += count) {
-    const std::size_t lasers = std::min(kLasers, rays - begin);
-    const std::size_t rounds = std::clamp<std::size_t>((rays - begin) / kLasers, 1, kBlock);
+  for (std::size_t begin = firings.first, count; begin < firings.end; begin += count) {
+    const std::size_t lasers = std::min(kLasers, firings.end - begin);
+    const std::size_t rounds = std::clamp<std::size_t>((firings.end - begin) / kLasers, 1, kBlock);
     count = lasers * rounds;
     for (std::size_t laser = 0; laser < lasers; ++laser) {  // rays of one laser lie side by side
       for (std::size_t k = begin + laser; k < begin + count; k += lasers) {
-        const double time = period * static_cast<double>(k) / spec.rays;
+        const double time = firing_time(spec, k);
         const auto [bend, side] = rosette(spec.field_of_view, begin_time + time, laser);
         const double c = std::cos(bend), s = std::sin(bend);
         Eigen::Matrix3d R;
@@ -247,22 +228,50 @@ void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t s
 
 }  // namespace
 
+std::size_t firings(const LidarSpec& spec) {
+  return static_cast<std::size_t>(spec.pattern == FiringPattern::kSpinning ? spec.columns : spec.rays);
+}
+
+std::size_t firings_known(const LidarSpec& spec, const ScanJob& job) {
+  const double step = to_seconds(job.step);
+  if (job.T_enu_lidar.size() < 2 || !(step > 0.0)) return 0;
+  const std::size_t block = block_size(spec), blocks = firings(spec) / block;
+  // The last firing of a block lies before the last pose: from there on the next pose counts, too.
+  const auto known = [&](std::size_t count) {
+    const double steps = firing_time(spec, count * block - 1) / step;
+    return steps < static_cast<double>(job.T_enu_lidar.size() - 1);
+  };
+  std::size_t low = 0, high = blocks;
+  while (low < high) {
+    const std::size_t middle = low + (high - low + 1) / 2;
+    (known(middle) ? low : high) = known(middle) ? middle : middle - 1;
+  }
+  return low * block;
+}
+
+std::vector<sensor::ScanPoint> cast_firings(const Scene& scene, const LidarSpec& spec, const ScanJob& job,
+                                            std::size_t first, std::size_t end) {
+  std::vector<sensor::ScanPoint> points;
+  const bool finite = std::ranges::all_of(job.T_enu_lidar, [](const Pose& T) { return all_finite(T); });
+  if (!spec.validate() || job.T_enu_lidar.size() < 2 || !finite || first >= end) return points;
+  const PoseTrack poses(job.T_enu_lidar, to_seconds(job.step));
+  BeamCaster caster(scene, spec, job);
+  if (spec.pattern == FiringPattern::kSpinning) {
+    points.reserve((end - first) * spec.vertical_angles.size());
+    cast_spinning(spec, poses, {first, end}, caster, points);
+  } else {
+    points.reserve(end - first);
+    cast_rosette(spec, poses, job.number, {first, end}, caster, points);
+  }
+  return points;
+}
+
 sensor::Scan cast_scan(const Scene& scene, const LidarSpec& spec, const ScanJob& job) {
   sensor::Scan scan;
   scan.stamp = job.stamp;
   scan.has_time = true;
   scan.has_ring = spec.pattern == FiringPattern::kSpinning;
-  const bool finite = std::ranges::all_of(job.T_enu_lidar, [](const Pose& T) { return all_finite(T); });
-  if (!spec.validate() || job.T_enu_lidar.size() < 2 || !finite) return scan;
-  const PoseTrack poses(job.T_enu_lidar, to_seconds(job.step));
-  BeamCaster caster(scene, spec, job);
-  if (spec.pattern == FiringPattern::kSpinning) {
-    scan.points.reserve(static_cast<std::size_t>(spec.columns) * spec.vertical_angles.size());
-    cast_spinning(spec, poses, caster, scan.points);
-  } else {
-    scan.points.reserve(static_cast<std::size_t>(spec.rays));
-    cast_rosette(spec, poses, job.number, caster, scan.points);
-  }
+  scan.points = cast_firings(scene, spec, job, 0, firings(spec));
   return scan;
 }
 

@@ -106,7 +106,7 @@ void Scene::State::cast_packet(std::span<const Ray> rays, float min_range, float
   RTCRayHit16 packet;
   alignas(64) int valid[kPacket];
   for (std::size_t k = 0; k < kPacket; ++k) {
-    const bool cast = k < rays.size() && usable(rays[k]) && rays[k].reach > min_range;
+    const bool cast = k < rays.size() && usable(rays[k]);
     const Ray ray = cast ? rays[k] : Ray{Eigen::Vector3f::Zero(), Eigen::Vector3f::UnitX()};
     valid[k] = cast ? -1 : 0;
     packet.ray.org_x[k] = ray.origin.x();
@@ -117,7 +117,7 @@ void Scene::State::cast_packet(std::span<const Ray> rays, float min_range, float
     packet.ray.dir_z[k] = ray.direction.z();
     // Where packets of 16 are not native Embree goes by the range and not by `valid`.
     packet.ray.tnear[k] = cast ? min_range : kInfinity;
-    packet.ray.tfar[k] = cast ? std::min(max_range, ray.reach) : -kInfinity;
+    packet.ray.tfar[k] = cast ? max_range : -kInfinity;
     packet.ray.time[k] = 0.0f;
     packet.ray.mask[k] = ~0u;
     packet.ray.id[k] = 0;

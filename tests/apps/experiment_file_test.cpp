@@ -139,7 +139,8 @@ TEST_F(ExperimentTest, TheFingerprintFollowsTheFilesThatAreNamed) {
 }
 
 TEST(Gather, FlattensWhatRunAndEvaluationWrote) {
-  const auto report = nlohmann::json::parse(R"({"wall_time_s": 12.5, "virtual_time_s": 60, "profile": {"rays_s": 7, "shares": {"rays": 0.35}},
+  const auto report = nlohmann::json::parse(
+      R"({"wall_time_s": 12.5, "virtual_time_s": 60, "profile": {"rays_s": 7, "shares": {"rays": 0.35}},
     "completion": {"mission_s": 50, "aligned_s": 40, "completed_s": null},
     "links": [{"agent": "r1", "link": "long_range", "topic": "a", "wire_bytes": 100, "airtime_s": 1.5},
               {"agent": "r2", "link": "long_range", "topic": "a", "wire_bytes": 50, "airtime_s": 0.5}],

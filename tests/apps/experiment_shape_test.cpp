@@ -117,8 +117,8 @@ TEST_F(Shapes, AStepBackBeyondTheSeedsScatterViolates) {
 }
 
 TEST(Residual, IsWhatPointsAndSeedsDoNotExplain) {
-  // Montgomery, Design and Analysis of Experiments, vascular grafts: extrusion pressures and batches of resin,
-  // mean square of the error 7.33 with 15 degrees of freedom.
+  // Montgomery, Design and Analysis of Experiments, vascular grafts: extrusion pressures and batches of
+  // resin, mean square of the error 7.33 with 15 degrees of freedom.
   const Curve curve{{8500, 8700, 8900, 9100},
                     {{90.3, 89.2, 98.2, 93.9, 87.4, 97.9},
                      {92.5, 89.5, 90.6, 94.7, 87.0, 95.8},

@@ -78,7 +78,8 @@ TEST_F(SingleCase, AGridRunsInManyProcessesAtOnce) {
 TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
   EXPECT_FALSE(report_experiment(load().value(), runner(), said_));
   twin_.failing = {"size.agents=1.seed=02"};
-  for (const char* name : {"size.agents=1.seed=01", "size.agents=1.seed=02", "size.agents=3.seed=01"}) run_one(name);
+  for (const char* name : {"size.agents=1.seed=01", "size.agents=1.seed=02", "size.agents=3.seed=01"})
+    run_one(name);
   const ExperimentResult result = report();
   EXPECT_FALSE(result.good());
   EXPECT_THAT(result.outcome.missing,

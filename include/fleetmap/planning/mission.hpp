@@ -79,7 +79,8 @@ struct LaneSelection {
       0.0;  ///< m; longer lanes become several rows, so that few can be divided. 0: no cut
 };
 
-/// Rows along lanes in their order, ids from 0; every second cut lane runs back. Leaves out lanes under 0.1 m.
+/// Rows along lanes in their order, ids from 0; every second cut lane runs back. Leaves out lanes under 0.1
+/// m.
 Mission mission_of_aisles(std::span<const Lane> lanes, const LaneSelection& selection,
                           std::vector<KeepOut> keep_out = {}, std::optional<SiteBounds> bounds = {});
 

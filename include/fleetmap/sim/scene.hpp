@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -14,7 +13,6 @@ namespace fleetmap::sim {
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;  ///< unit
-  float reach = std::numeric_limits<float>::infinity();  ///< m: hits beyond are not needed
 };
 
 struct Hit {
@@ -27,7 +25,7 @@ struct Hit {
 class Scene {
  public:
   static Result<std::shared_ptr<const Scene>> create(const Mesh& mesh);
-  /// hits[k] of rays[k], within (min_range, max_range) and its reach.
+  /// hits[k] of rays[k], within (min_range, max_range).
   void cast(std::span<const Ray> rays, float min_range, float max_range, std::span<Hit> hits) const;
   ~Scene();
   Scene(const Scene&) = delete;

@@ -31,8 +31,7 @@ void remove_large_files(const fs::path& directory) {
 }  // namespace
 
 std::optional<CaseRecord> recorded(const RunnerConfig& config, const Case& one, const std::string& hash) {
-  return read_record(config.folder(one.name), one, hash,
-                     config.any_program ? std::string() : config.program);
+  return read_record(config.folder(one.name), one, hash, config.any_program ? std::string() : config.program);
 }
 
 CaseRecord run_in_folder(const RunnerConfig& config, const Case& one, const std::string& hash,

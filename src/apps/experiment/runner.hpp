@@ -36,9 +36,9 @@ Result<Outcome> run_cases(const std::vector<Case>& cases, const Engine& engine, 
                           const std::function<void(const Progress&)>& on_progress);
 
 /// Runs cases[index] alone, so that a cluster's scheduler distributes a grid: any number of processes on any
-/// machines that share `config.directory`, one a case. Returns what there is already (`reused`) when the case,
-/// or another one with equal inputs, is done. Fails when run_cases() is at work in the directory, another
-/// process runs this very case, or `stop` interrupted it.
+/// machines that share `config.directory`, one a case. Returns what there is already (`reused`) when the
+/// case, or another one with equal inputs, is done. Fails when run_cases() is at work in the directory,
+/// another process runs this very case, or `stop` interrupted it.
 Result<CaseRecord> run_single_case(const std::vector<Case>& cases, std::size_t index, const Engine& engine,
                                    const RunnerConfig& config, const std::atomic<bool>& stop);
 

@@ -29,11 +29,11 @@ Residual residual_of(const Curve& curve);
 /// How a curve lies to the shape it is expected to have.
 struct Trend {
   std::vector<double> means;
-  double change = 0.0;    ///< last mean less the first
-  double slope = 0.0;     ///< of the least-squares line through the means, a unit of x
-  double p = 1.0;         ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
+  double change = 0.0;     ///< last mean less the first
+  double slope = 0.0;      ///< of the least-squares line through the means, a unit of x
+  double p = 1.0;          ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
   double tolerance = 0.0;  ///< the largest step back that the seeds explain; NaN with one seed
-  std::string violation;  ///< which rule is broken and by how much; empty: none
+  std::string violation;   ///< which rule is broken and by how much; empty: none
   bool holds() const { return violation.empty(); }
 };
 
@@ -69,7 +69,7 @@ struct ShapeCheck {
   double change = 0.0;  ///< last mean less the first; of log-scale metrics the last over the first
   double p = 1.0;
   double tolerance = 0.0;  ///< Trend::tolerance; of log-scale metrics of logarithms
-  std::string detail;  ///< in words: what was measured, or which rule is broken and by how much
+  std::string detail;      ///< in words: what was measured, or which rule is broken and by how much
 };
 
 /// Falls-less-than-linearly is: the metric falls, and the metric times x rises (each robot more brings less
