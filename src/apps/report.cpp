@@ -230,7 +230,8 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
   return report;
 }
 
-Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile) {
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome,
+                    const RunProfile& profile) {
   json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
                  {"settle_time_s", to_seconds(outcome.settle_time)},
                  {"settled", outcome.settled},

@@ -71,7 +71,7 @@ class VirtualFleet {
     std::optional<bus::EnuPosition> position;  ///< the last that was known
     bool rest_frozen = false;
     agent::WorkSeconds work_before;  ///< of agents that were switched off
-    bool lost = false;  ///< switched off, and stays so
+    bool lost = false;               ///< switched off, and stays so
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
@@ -110,7 +110,7 @@ class VirtualFleet {
   std::vector<Member> members_;
   std::optional<Completion> completion_;
   std::vector<agent::MapFiles> maps_;  ///< written so far
-  double results_seconds_ = 0.0;        ///< CPU
+  double results_seconds_ = 0.0;       ///< CPU
   bool mission_ended_ = false;
   std::string error_;
 };

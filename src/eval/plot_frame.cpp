@@ -129,6 +129,7 @@ PlotFrame::PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string
   right_ = axes_.width - 18;
   bottom_ = axes_.height - (axes_.x_label.empty() ? 34 : 54);
   place_legend();
+  for (const double tick : axes_.x_ticks) x.add(tick);  // also where no series has a value
   fit(x, y);
 }
 

@@ -53,6 +53,10 @@ TEST(Plot, in_a_file_has_a_background_and_marks_the_given_values) {
   EXPECT_EQ(in_file.find(">2.5<"), std::string::npos);
   for (const char* tick : {">2<", ">3<", ">4<", ">5<"})
     EXPECT_NE(in_file.find(tick), std::string::npos) << tick;
+  // A series of one value leaves the marks where they are.
+  const std::string sparse = line_plot(plain, {{"10 Hz", {4}, {0.4}, {}, {}}});
+  const auto first_mark = [](const std::string& svg) { return svg.substr(svg.find("<line"), 60); };
+  EXPECT_EQ(first_mark(sparse), first_mark(in_file));
 }
 
 TEST(Plot, of_every_kind_survives_every_input) {

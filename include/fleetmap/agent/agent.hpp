@@ -156,7 +156,7 @@ class Agent {
   std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;
-  WorkSeconds work_;  ///< without the placement's
+  WorkSeconds work_;                            ///< without the placement's
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   bool told_of_missing_gps_ = false;
   std::unique_ptr<Perception> perception_;
