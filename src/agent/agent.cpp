@@ -152,6 +152,12 @@ bool Agent::idle() const {
   return jobs_ == 0 && !solving && perception_->idle() && exchange_->idle(bus_.now(), lost());
 }
 
+WorkSeconds Agent::work_seconds() const {
+  WorkSeconds all = work_;
+  if (live_placement_) all.placement = live_placement_->cpu_seconds();
+  return all;
+}
+
 // ---- own map
 // ----------------------------------------------------------------------------------------------------
 
@@ -173,6 +179,7 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (perception_->odometry_counters().map_restarts > map_restarts_) begin_session();
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
+  work_.odometry += perceived.cpu_seconds;
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   motion_.add(update);
@@ -302,7 +309,12 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
-        const double start = thread_cpu_seconds();
+        const CpuTimer all(job->registered.cpu_seconds);
+        {
+          const CpuTimer timer(job->registered.spherize_seconds);
+          job->target->spherized();
+          job->source->spherized();
+        }
         const auto target = job->target->prepared(config_.registration);
         const auto source = job->source->prepared(config_.registration);
         if (target && source) {
@@ -313,7 +325,6 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
         } else {
           job->registered.result = tl::unexpected(target ? source.error() : target.error());
         }
-        job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job] {
         --jobs_;
@@ -334,11 +345,17 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
   const graph::Node* node = store_.node(needed.node);
   if (node == nullptr) return exchange_->decline_cloud(needed.node);
   const std::shared_ptr<OwnCloud> own = own_clouds_.of(store_, *node);
+  auto seconds = std::make_shared<double>(0.0);
   ++jobs_;
   bus_.offload(
-      bus::Lane::kBackground, [own] { own->spherized(); },
-      [this, own] {
+      bus::Lane::kBackground,
+      [own, seconds] {
+        const CpuTimer timer(*seconds);
+        own->spherized();
+      },
+      [this, own, seconds] {
         --jobs_;
+        work_.spherization += *seconds;
         const NodeId id = own->node().id;
         const auto& cloud = own->spherized();
         if (!cloud) {
@@ -382,10 +399,13 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
   bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
-        const double start = thread_cpu_seconds();
+        const CpuTimer all(job->registered.cpu_seconds);
+        {
+          const CpuTimer timer(job->registered.spherize_seconds);
+          job->target->spherized();
+        }
         job->registered.result = register_encoded(*job->target, job->source, job->encoded, job->prior,
                                                   job->drifts, job->registered.input);
-        job->registered.cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job, pair = arrived.pair] {
         --jobs_;
@@ -420,6 +440,8 @@ void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registere
                      const std::optional<exchange::NodePair>& pair) {
   log_registration(i.id, j.id, registered);
   if (registered.result) keep_input(registered.input);
+  work_.registration += registered.cpu_seconds - registered.spherize_seconds;
+  work_.spherization += registered.spherize_seconds;
   const auto is = [&](registration::Verdict verdict) {
     return registered.result && registered.result->verdict == verdict;
   };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fleetmap/agent/results.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
@@ -18,6 +19,7 @@ struct LivePlacement::Job {
   std::vector<graph::Alignment> alignments;
   std::vector<graph::Alignment> used;
   std::optional<Solution> solution;
+  double cpu_seconds = 0.0;
 };
 
 LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store,
@@ -44,12 +46,14 @@ void LivePlacement::refresh() {
       bus::Lane::kBackground, [job] { solve(*job); },
       [this, job] {
         under_way_ = false;
+        cpu_seconds_ += job->cpu_seconds;
         solution_ = job->solution;
         on_used_(job->used);
       });
 }
 
 void LivePlacement::solve(Job& job) {
+  const CpuTimer timer(job.cpu_seconds);
   graph::Placement placement =
       graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, {&job.newest, 1});
   job.used = std::move(placement.used);

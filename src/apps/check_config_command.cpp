@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 #include "commands.hpp"
@@ -19,13 +21,16 @@ namespace {
 struct CheckOptions {
   std::string file;
   std::vector<std::string> set;
+  std::optional<std::size_t> agents;
 };
 
 /// What there is to say of a valid fleet: of one of the twin that its world can be built and its mission
 /// planned from where its robots start.
-Result<std::string> check_fleet(const std::string& file, const std::vector<config::Override>& overrides) {
+Result<std::string> check_fleet(const std::string& file, const std::vector<config::Override>& overrides,
+                                const std::optional<std::size_t>& agents) {
   auto fleet = config::load_fleet(file, overrides);
   if (!fleet) return tl::unexpected(fleet.error());
+  if (agents) fleet->keep_first(std::min(*agents, fleet->members.size()));
   if (!fleet->twin) return std::string("a valid fleet configuration");
   const auto setup = set_up_twin(*fleet);
   if (!setup) return tl::unexpected(setup.error());
@@ -49,12 +54,13 @@ Result<std::string> check_robot(const std::string& file, const std::vector<confi
   return text.str();
 }
 
-Result<std::string> check(const std::string& file, const std::vector<config::Override>& overrides) {
+Result<std::string> check(const std::string& file, const std::vector<config::Override>& overrides,
+                          const std::optional<std::size_t>& agents) {
   const auto kind = config::check(file, overrides);
   if (!kind) return tl::unexpected(kind.error());
   switch (*kind) {
     case config::FileKind::kFleet:
-      return check_fleet(file, overrides);
+      return check_fleet(file, overrides, agents);
     case config::FileKind::kWorld: {
       const auto world = config::make_world(file);
       if (!world) return tl::unexpected(world.error());
@@ -78,7 +84,7 @@ Result<std::string> check(const std::string& file, const std::vector<config::Ove
 int run(const CheckOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  const auto checked = check(options.file, *overrides);
+  const auto checked = check(options.file, *overrides, options.agents);
   if (!checked) return report(checked.error(), kBadConfiguration);
   std::cout << options.file << ": " << *checked << '\n';
   return kDone;
@@ -94,6 +100,8 @@ void add_check_config(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
+  command->add_option("--agents", options->agents, "only the first N agents of a fleet's file")
+      ->check(whole_number(1));
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

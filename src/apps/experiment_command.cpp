@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "experiment/case_groups.hpp"
 #include "experiment/experiment.hpp"
+#include "experiment/progress_line.hpp"
 #include "experiment/run_case.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "options.hpp"
@@ -24,6 +26,8 @@ struct ExperimentOptions {
   bool keep = false;
   bool any_build = false;
   bool list = false;
+  bool report = false;
+  std::string one_case;  ///< its name; empty: all
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
 };
 
@@ -35,13 +39,38 @@ std::string this_program() {
   return std::string(FLEETMAP_VERSION) + " " + to_hex(hash).substr(0, 16);
 }
 
+/// A line a case; those whose run an earlier line has are marked.
 int list_cases(const std::vector<experiment::Case>& cases) {
-  for (const experiment::Case& one : cases) {
-    std::cout << one.name << ": " << one.agents << " robots";
-    for (const config::Override& entry : one.overrides)
+  const auto groups = experiment::grouped(cases);
+  if (!groups) return report(groups.error(), kBadConfiguration);
+  std::vector<std::size_t> first(cases.size());
+  for (const experiment::CaseGroup& group : *groups)
+    for (const std::size_t k : group.cases) first[k] = group.cases.front();
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    std::cout << cases[k].name;
+    if (first[k] != k) {
+      std::cout << ": same run as " << cases[first[k]].name << '\n';
+      continue;
+    }
+    std::cout << ": " << cases[k].agents << " robots";
+    for (const config::Override& entry : cases[k].overrides)
       std::cout << " --set " << entry.key << '=' << entry.value;
     std::cout << '\n';
   }
+  return kDone;
+}
+
+int run_single(const std::vector<experiment::Case>& cases, const std::string& name,
+               const experiment::ChildEngine& engine, const experiment::RunnerConfig& runner,
+               const std::atomic<bool>& stop) {
+  const auto index = experiment::case_named(cases, name);
+  if (!index) return report({"--case " + index.error().message}, kUsage);
+  const auto record = experiment::run_single_case(cases, *index, engine, runner, stop);
+  if (!record) return report(record.error(), kFailed);
+  if (!record->done()) return report({name + ": " + record->reason}, kFailed);
+  std::cout << name << (record->reused ? ": was done already, in " : ": done in ")
+            << experiment::duration_text(record->wall_seconds) << ", "
+            << (runner.folder(record->folder) / "result.json").string() << '\n';
   return kDone;
 }
 
@@ -63,12 +92,14 @@ int run(const ExperimentOptions& options) {
   const experiment::ChildEngine engine(stop, std::max(1U, cores / options.jobs));
   const experiment::RunnerConfig runner{options.out, options.jobs, options.keep, this_program(),
                                         options.any_build};
-  const auto result =
-      experiment::run_experiment(*config, engine, runner, stop, std::cout, ::isatty(STDOUT_FILENO) != 0);
+  if (!options.one_case.empty()) return run_single(cases, options.one_case, engine, runner, stop);
+  const auto result = options.report ? experiment::report_experiment(*config, runner, std::cout)
+                                     : experiment::run_experiment(*config, engine, runner, stop, std::cout,
+                                                                  ::isatty(STDOUT_FILENO) != 0);
   if (!result) return report(result.error(), kFailed);
-  if (result->outcome.interrupted) {
-    std::cout << "interrupted after " << result->outcome.records.size() << " of " << result->outcome.total
-              << " cases; the same command goes on from here\n";
+  if (!result->outcome.complete()) {
+    std::cout << "incomplete: " << result->outcome.missing.size() << " runs are still to be made"
+              << (options.report ? "\n" : "; the same command goes on from here\n");
   }
   return result->good() ? kDone : kFailed;
 }
@@ -96,6 +127,21 @@ void add_experiment(CLI::App& app, int& exit_code) {
   command->add_flag("--any-build", options->any_build,
                     "take cases that another build of fleetmap has finished, too");
   command->add_flag("--list", options->list, "only print the cases and their keys");
+  command
+      ->add_option("--case", options->one_case,
+                   "run only this case, by its name in --list; many processes may do so in one DIR at a time")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return name.empty() ? std::string("is empty; give a name of --list (is a variable unset?)")
+                                : std::string();
+          },
+          "", "name"))
+      ->excludes("--list");
+  command
+      ->add_flag("--report", options->report,
+                 "run nothing: report what is there, and list the cases that are missing")
+      ->excludes("--list")
+      ->excludes("--case");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

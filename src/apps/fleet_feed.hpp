@@ -14,6 +14,12 @@
 
 namespace fleetmap::apps {
 
+/// CPU seconds that a feed of simulated robots has used.
+struct FeedSeconds {
+  double rays = 0.0;     ///< LiDAR rays, on any thread
+  double driving = 0.0;  ///< motion and all other sensors
+};
+
 /// Where the sensor samples of a fleet in virtual time come from. Members are counted as in the fleet's
 /// configuration.
 class FleetFeed {
@@ -41,6 +47,7 @@ class FleetFeed {
   virtual bool ended(std::size_t member) const = 0;
   /// Why the feed could not give all that it should; empty if it could.
   virtual std::string problem(std::size_t member) const = 0;
+  virtual FeedSeconds cpu_seconds() const { return {}; }
   /// What was skipped on reading.
   virtual recording::Counters counters(std::size_t member) const = 0;
   /// Where the member really is, if the feed knows (ENU).

@@ -241,11 +241,13 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
   return report;
 }
 
-Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, double wall_seconds) {
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome,
+                    const RunProfile& profile) {
   json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
                  {"settle_time_s", to_seconds(outcome.settle_time)},
                  {"settled", outcome.settled},
-                 {"wall_time_s", wall_seconds},
+                 {"wall_time_s", profile.wall},
+                 {"profile", to_json(profile)},
                  {"links", links_json(outcome.links)}};
   if (outcome.completion) report["completion"] = completion_json(*outcome.completion);
   if (outcome.origin_known) report["origin"] = origin_json(outcome.origin);

@@ -6,6 +6,7 @@
 
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/results.hpp"
+#include "run_profile.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
@@ -21,7 +22,7 @@ Distribution distribution(std::vector<double> values);
 nlohmann::json agent_report(const agent::Agent& agent, const agent::Results* results);
 
 /// report.json and report.html of a fleet's run. Sizes in bytes, times in seconds.
-Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, double wall_seconds);
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile);
 /// The same of one agent alone.
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
                     const agent::Results* results);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
 #include "report.hpp"
@@ -153,6 +154,7 @@ int run(const RunOptions& options) {
     if (const Status written = write_site(options.out, *setup); !written)
       return report(written.error(), kFailed);
   }
+  const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
   std::vector<std::vector<agent::StampedPose>> truths;
@@ -164,9 +166,11 @@ int run(const RunOptions& options) {
   if (setup && outcome->completion && on_own_drawing)
     outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, truths);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  if (const Status written = write_report(options.out, *outcome, wall.count()); !written)
+  const RunProfile profile = profile_of(*outcome, cpu_before, process_cpu_seconds(), wall.count());
+  if (const Status written = write_report(options.out, *outcome, profile); !written)
     return report(written.error(), kFailed);
   print_summary(*outcome, options.out);
+  std::cout << summary_of(profile) << '\n';
   const bool whole = std::ranges::all_of(outcome->agents, [](const auto& entry) {
     return (entry.results || !entry.agent) && entry.problem.empty();
   });

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fleetmap/core/cpu_time.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -67,17 +69,32 @@ void TwinFeed::deliver_pending() {
   // What is delivered may not start new casts, so the queue is emptied in one go.
   for (; !pending_.empty(); pending_.pop_front()) {
     Pending& next = pending_.front();
-    next.cast.get();
-    deliver_(next.member, *next.scan, next.scan->stamp);
+    const sim::LidarSpec& spec = robots_[next.member].twin.config().lidar;
+    sensor::Scan scan;
+    scan.stamp = next.stamp;
+    scan.has_time = true;
+    scan.has_ring = spec.pattern == sim::FiringPattern::kSpinning;
+    for (auto& [part, done] : next.sweep.parts) {
+      done.get();
+      seconds_.rays += part->cpu_seconds;
+      scan.points.insert(scan.points.end(), part->points.begin(), part->points.end());
+    }
+    deliver_(next.member, scan, scan.stamp);
   }
 }
 
 void TwinFeed::sense(std::size_t member) {
   Robot& robot = robots_[member];
-  for (sim::TwinSample& sample : robot.twin.advance(network_->now())) {
+  std::vector<sim::TwinSample> samples;
+  {
+    const CpuTimer timer(seconds_.driving);
+    samples = robot.twin.advance(network_->now());
+  }
+  for (sim::TwinSample& sample : samples) {
     if (!robot.on) break;
     if (auto* job = std::get_if<sim::ScanJob>(&sample)) {
-      cast(member, std::move(*job));
+      cast(member, *job, sim::firings(robot.twin.config().lidar));
+      pending_.push_back({member, job->stamp, std::exchange(robot.sweep, {})});
     } else if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
       deliver_(member, *imu, imu->stamp);
     } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
@@ -87,14 +104,23 @@ void TwinFeed::sense(std::size_t member) {
     }
   }
   robot.truth.follow(robot.twin);
+  if (!robot.on) return;
+  const sim::ScanJob job = robot.twin.scan_under_way();
+  cast(member, job, sim::firings_known(robot.twin.config().lidar, job));
 }
 
-void TwinFeed::cast(std::size_t member, sim::ScanJob job) {
-  auto scan = std::make_shared<sensor::Scan>();
-  const sim::LidarSpec& spec = robots_[member].twin.config().lidar;
-  pending_.push_back({member, scan, pool_.run([scene = scene_, &spec, scan, job = std::move(job)] {
-                        *scan = sim::cast_scan(*scene, spec, job);
-                      })});
+void TwinFeed::cast(std::size_t member, const sim::ScanJob& job, std::size_t end) {
+  Robot& robot = robots_[member];
+  if (robot.sweep.number != job.number) robot.sweep = {job.number, 0, {}};  // it was switched off meanwhile
+  const std::size_t first = robot.sweep.begun;
+  if (first >= end) return;
+  robot.sweep.begun = end;
+  auto part = std::make_shared<CastPart>();
+  const sim::LidarSpec& spec = robot.twin.config().lidar;
+  robot.sweep.parts.emplace_back(part, pool_.run([scene = scene_, &spec, part, job, first, end] {
+    const CpuTimer timer(part->cpu_seconds);
+    part->points = sim::cast_firings(*scene, spec, job, first, end);
+  }));
 }
 
 }  // namespace fleetmap::apps

@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleet_feed.hpp"
@@ -33,6 +34,7 @@ class TwinFeed final : public FleetFeed {
   void stop() override { stopped_ = true; }
   bool ended(std::size_t) const override { return stopped_ && pending_.empty(); }
   std::string problem(std::size_t) const override { return {}; }
+  FeedSeconds cpu_seconds() const override { return seconds_; }
   recording::Counters counters(std::size_t) const override { return {}; }
   std::optional<bus::EnuPosition> position(std::size_t member) const override;
   std::optional<GlobalPose> guide(std::size_t member) const override;
@@ -45,23 +47,35 @@ class TwinFeed final : public FleetFeed {
   const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
 
  private:
+  struct CastPart {
+    std::vector<sensor::ScanPoint> points;
+    double cpu_seconds = 0.0;
+  };
+  /// A scan whose rays are being cast, part by part as their poses come to be known: that keeps the casting
+  /// threads busy all the time, not only between a scan's last ray and its delivery.
+  struct Sweep {
+    std::uint64_t number = 0;
+    std::size_t begun = 0;  ///< firings, see sim::firings()
+    std::vector<std::pair<std::shared_ptr<CastPart>, std::future<void>>> parts;
+  };
+  struct Pending {
+    std::size_t member = 0;
+    Stamp stamp;
+    Sweep sweep;
+  };
   struct Robot {
     sim::RobotTwin twin;
     TruthTrack truth;
     bool on = true;
-  };
-  /// A scan whose rays are being cast.
-  struct Pending {
-    std::size_t member = 0;
-    std::shared_ptr<sensor::Scan> scan;
-    std::future<void> cast;
+    Sweep sweep = {};  ///< of the scan under way
   };
   TwinFeed(std::shared_ptr<const sim::Scene> scene, const GeoPoint& origin, unsigned threads)
       : scene_(std::move(scene)), origin_(origin), pool_(threads) {}
   void tick();
   void deliver_pending();
   void sense(std::size_t member);
-  void cast(std::size_t member, sim::ScanJob job);
+  /// Begins to cast the firings of the job up to `end` that were not begun before.
+  void cast(std::size_t member, const sim::ScanJob& job, std::size_t end);
 
   std::shared_ptr<const sim::Scene> scene_;
   GeoPoint origin_;
@@ -71,6 +85,7 @@ class TwinFeed final : public FleetFeed {
   bus::LocalNetwork* network_ = nullptr;
   Deliver deliver_;
   bool stopped_ = false;
+  FeedSeconds seconds_;
   ThreadPool pool_;  ///< last: its threads end before what they write to goes
 };
 

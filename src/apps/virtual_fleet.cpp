@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fleetmap/agent/navigator.hpp"
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/planning/mission_complete.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
@@ -264,11 +265,15 @@ Result<FleetOutcome> VirtualFleet::run() {
   outcome.links = network_->link_use();
   outcome.origin_known = origin_.has_value();
   if (origin_) outcome.origin = *origin_;
+  outcome.feed_seconds = feed_->cpu_seconds();
   for (std::size_t k = 0; k < members_.size(); ++k) {
+    outcome.work_seconds += members_[k].work_before;
+    if (members_[k].agent) outcome.work_seconds += members_[k].agent->work_seconds();
     auto result = finish(k);
     if (!result) return tl::unexpected(result.error());
     outcome.agents.push_back(std::move(*result));
   }
+  outcome.results_seconds = results_seconds_;
   return outcome;
 }
 
@@ -281,7 +286,10 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   FleetOutcome::AgentOutcome result;
   result.id = self.id;
   result.directory = self.agent->config().directory;
-  auto written = agent::write_results(self.agent->store(), self.agent->config(), maps_);
+  auto written = [&] {
+    const CpuTimer timer(results_seconds_);
+    return agent::write_results(self.agent->store(), self.agent->config(), maps_);
+  }();
   if (written) {
     maps_.push_back(written->map);
     result.results = std::move(*written);

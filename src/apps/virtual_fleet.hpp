@@ -50,6 +50,9 @@ struct FleetOutcome {
   Duration settle_time{};                ///< of it, after the last sensor sample
   bool settled = false;                  ///< the exchange came to its end by itself
   std::optional<Completion> completion;  ///< of a mission
+  FeedSeconds feed_seconds;              ///< CPU
+  agent::WorkSeconds work_seconds;       ///< CPU, of all agents
+  double results_seconds = 0.0;          ///< CPU of the final placements and maps
 };
 
 /// A whole fleet in one process, in virtual time: each member's samples come from a feed onto its bus.
@@ -74,7 +77,8 @@ class VirtualFleet {
     std::vector<bus::Handle> base;             ///< what it says to its base, and is told by who leads it
     std::optional<bus::EnuPosition> position;  ///< the last that was known
     bool rest_frozen = false;
-    bool lost = false;  ///< switched off, and stays so
+    agent::WorkSeconds work_before;  ///< of agents that were switched off
+    bool lost = false;               ///< switched off, and stays so
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
@@ -114,6 +118,7 @@ class VirtualFleet {
   std::vector<Member> members_;
   std::optional<Completion> completion_;
   std::vector<agent::MapFiles> maps_;  ///< written so far
+  double results_seconds_ = 0.0;       ///< CPU
   bool mission_ended_ = false;
   std::string error_;
 };

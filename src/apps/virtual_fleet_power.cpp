@@ -1,6 +1,7 @@
 // Robots that are switched off and on during a run, and radios that pass nothing.
 #include <spdlog/spdlog.h>
 
+#include "fleetmap/core/cpu_time.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
@@ -29,6 +30,7 @@ void VirtualFleet::switch_off(std::size_t member, bool for_ever) {
   self.base.clear();
   // Work under way uses the agent and its store.
   network_->finish_work(self.id);
+  if (self.agent) self.work_before += self.agent->work_seconds();
   self.agent.reset();
   self.bus = nullptr;
   network_->remove_robot(self.id);
@@ -62,6 +64,7 @@ FleetOutcome::AgentOutcome VirtualFleet::results_of_store(std::size_t member) {
     return result;
   }
   result.store.emplace(std::move(*store));
+  const CpuTimer timer(results_seconds_);
   auto written = agent::write_results(*result.store, config, maps_);
   if (written) {
     maps_.push_back(written->map);

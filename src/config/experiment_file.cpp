@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -47,6 +48,15 @@ std::vector<MetricSpec> read_metrics(Section& top) {
     entry.read("title", metric.title);
     entry.read("unit", metric.unit);
     entry.read("log", metric.log_scale);
+    entry.read("resolution", metric.resolution);
+    entry.read("with", metric.with);
+    entry.read("series", metric.series);
+    if (!metric.with.empty() && std::ranges::find(metrics, metric.with, &MetricSpec::name) == metrics.end())
+      entry.problem("with", "'" + metric.with + "' is not listed above");
+    if (!(std::isfinite(metric.resolution) && metric.resolution >= 0.0))
+      entry.problem("resolution", "must be >= 0: the metric's values are multiples of it");
+    if (metric.log_scale && metric.resolution > 0.0)
+      entry.problem("resolution", "a metric that is compared as logarithms has none; leave it out");
     entry.finish();
     if (metric.name.empty())
       entry.problem("name", "expected the metric's name in a case's result, e.g. map.rmse");
@@ -99,6 +109,7 @@ Axis read_axis(Section& section) {
   Axis axis;
   section.read("name", axis.name);
   section.read("unit", axis.unit);
+  section.read("title", axis.title);
   if (!is_name(axis.name)) section.problem("name", "expected a name of letters, digits, '_' and '-'");
   if (section.has("values") == section.has("points"))
     section.problem("values", "expected either values: [...] with keys: [...], or points: [{label, set}]");

@@ -7,25 +7,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "fleetmap/core/edit_distance.hpp"
+
 namespace fleetmap::config {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
-    }
-  }
-  return row.back();
-}
 
 std::string text_of(const YAML::Node& node) {
   std::ostringstream out;

@@ -129,6 +129,7 @@ PlotFrame::PlotFrame(const Axes& axes, Range x, Range y, std::vector<std::string
   right_ = axes_.width - 18;
   bottom_ = axes_.height - (axes_.x_label.empty() ? 34 : 54);
   place_legend();
+  for (const double tick : axes_.x_ticks) x.add(tick);  // also where no series has a value
   fit(x, y);
 }
 
@@ -208,7 +209,9 @@ std::string PlotFrame::ticks_x() const {
       out += text(x_pixel(static_cast<double>(k)), bottom_ + 18, "middle", categories_[k]);
     return out;
   }
-  for (const double tick : round_ticks(x_.low, x_.high, kTicks)) {
+  constexpr std::size_t kMostGiven = 12;
+  const bool given = !axes_.x_ticks.empty() && axes_.x_ticks.size() <= kMostGiven;
+  for (const double tick : given ? axes_.x_ticks : round_ticks(x_.low, x_.high, kTicks)) {
     const double at = x_pixel(tick);
     out += line(at, top_, at, bottom_, 0.12);
     out += text(at, bottom_ + 18, "middle", short_number(tick, 4));
@@ -231,8 +234,10 @@ std::string PlotFrame::finish() const {
   const double width = axes_.width, height = axes_.height;
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + pixel(width) + " " +
                     pixel(height) + "\" width=\"" + pixel(width) +
-                    "\" font-family=\"system-ui,sans-serif\" role=\"img\">\n<title>" +
+                    "\" font-family=\"system-ui,sans-serif\" role=\"img\"" +
+                    (axes_.opaque ? " color=\"#1b1f24\"" : "") + ">\n<title>" +
                     escaped(axes_.title.empty() ? axes_.y_label : axes_.title) + "</title>\n";
+  if (axes_.opaque) svg += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   svg += ticks_x() + ticks_y();
   // A nested svg clips what reaches beyond the axes.
   svg += "<svg x=\"" + pixel(left_) + "\" y=\"" + pixel(top_) + "\" width=\"" + pixel(right_ - left_) +

@@ -16,6 +16,7 @@ constexpr double kOvertimeWeight = 100.0;  // a row that no battery allows is wo
 constexpr double kSumWeight = 0.01;        // among equal makespans the shorter routes
 constexpr double kLeastGain = 1e-6;        // s
 constexpr std::size_t kMostPermutations = 120;
+constexpr std::size_t kMostOrdered = 300;  // rows of a share; ordering more of them takes too long
 
 /// What is minimised: mostly the time of the last robot, in s.
 double price(const Routes& routes) {
@@ -252,8 +253,12 @@ std::vector<TimedRoute> uniform_division(const TravelCosts& costs, std::span<con
   for (std::size_t k = 0; k < routes.size(); ++k) {
     const std::size_t first = k * rows.size() / routes.size();
     const std::size_t end = (k + 1) * rows.size() / routes.size();
-    routes[k].assign(
-        {rows.begin() + static_cast<std::ptrdiff_t>(first), rows.begin() + static_cast<std::ptrdiff_t>(end)});
+    std::vector<std::size_t> share(rows.begin() + static_cast<std::ptrdiff_t>(first),
+                                   rows.begin() + static_cast<std::ptrdiff_t>(end));
+    routes[k].assign(share);
+    std::ranges::reverse(share);
+    if (routes[k].time_of_order(share) < routes[k].time() - kLeastGain) routes[k].assign(std::move(share));
+    if (end - first <= kMostOrdered) shorten(routes[k]);
   }
   return routes;
 }

@@ -130,9 +130,12 @@ Mission with_selected_rows(Mission mission, const RowSelection& selection) {
       continue;
     }
     cut = true;
+    const bool back = k / step % 2 == 1;
     for (int piece = 0; piece < pieces; ++piece) {
-      mission.rows.push_back(
-          {0, piece_of(all[k].waypoints, length * piece / pieces, length * (piece + 1) / pieces)});
+      const int place = back ? pieces - 1 - piece : piece;
+      Polyline waypoints = piece_of(all[k].waypoints, length * place / pieces, length * (place + 1) / pieces);
+      if (back) std::ranges::reverse(waypoints);
+      mission.rows.push_back({0, std::move(waypoints)});
     }
   }
   if (!cut) return mission;

@@ -127,7 +127,23 @@ class BeamCaster {
   std::vector<Hit> axis_hits_, rim_hits_;
 };
 
-void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& caster,
+/// The moment of a firing, s after the scan's stamp.
+double firing_time(const LidarSpec& spec, std::size_t firing) {
+  if (spec.pattern == FiringPattern::kSpinning) return static_cast<double>(firing) / spec.columns / spec.rate;
+  return 1.0 / spec.rate * static_cast<double>(firing) / spec.rays;
+}
+
+/// Firings that are cast together. Parts of a scan end between two such blocks, so that the packets of rays
+/// are those of the whole scan.
+std::size_t block_size(const LidarSpec& spec) {
+  return spec.pattern == FiringPattern::kSpinning ? kBlock : kBlock * kLasers;
+}
+
+struct Firings {
+  std::size_t first, end;
+};
+
+void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, const Firings& firings, BeamCaster& caster,
                    std::vector<sensor::ScanPoint>& points) {
   struct Ring {
     float cosine, sine;
@@ -142,11 +158,10 @@ void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, BeamCaster& ca
     float cosine, sine, time;
   };
   std::array<Column, kBlock> block;
-  const auto columns = static_cast<std::size_t>(spec.columns);
-  for (std::size_t begin = 0; begin < columns; begin += kBlock) {
-    const std::size_t size = std::min(kBlock, columns - begin);
+  for (std::size_t begin = firings.first; begin < firings.end; begin += kBlock) {
+    const std::size_t size = std::min(kBlock, firings.end - begin);
     for (std::size_t c = 0; c < size; ++c) {
-      const double turn = static_cast<double>(begin + c) / spec.columns, time = turn / spec.rate;
+      const double turn = static_cast<double>(begin + c) / spec.columns, time = firing_time(spec, begin + c);
       const double azimuth = kPi + (spec.clockwise ? -2.0 : 2.0) * kPi * turn;
       Eigen::Matrix3d R;
       Eigen::Vector3d origin;
@@ -185,17 +200,16 @@ Deflection rosette(double field_of_view, double seconds, std::size_t laser) {
   return {0.5 * field_of_view * std::cos(apart), {std::cos(middle), std::sin(middle)}};
 }
 
-void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, BeamCaster& caster,
-                  std::vector<sensor::ScanPoint>& points) {
-  const auto rays = static_cast<std::size_t>(spec.rays);
+void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t scan, const Firings& firings,
+                  BeamCaster& caster, std::vector<sensor::ScanPoint>& points) {
   const double period = 1.0 / spec.rate, begin_time = static_cast<double>(scan) * period;
-  for (std::size_t begin = 0, count; begin < rays; begin += count) {
-    const std::size_t lasers = std::min(kLasers, rays - begin);
-    const std::size_t rounds = std::clamp<std::size_t>((rays - begin) / kLasers, 1, kBlock);
+  for (std::size_t begin = firings.first, count; begin < firings.end; begin += count) {
+    const std::size_t lasers = std::min(kLasers, firings.end - begin);
+    const std::size_t rounds = std::clamp<std::size_t>((firings.end - begin) / kLasers, 1, kBlock);
     count = lasers * rounds;
     for (std::size_t laser = 0; laser < lasers; ++laser) {  // rays of one laser lie side by side
       for (std::size_t k = begin + laser; k < begin + count; k += lasers) {
-        const double time = period * static_cast<double>(k) / spec.rays;
+        const double time = firing_time(spec, k);
         const auto [bend, side] = rosette(spec.field_of_view, begin_time + time, laser);
         const double c = std::cos(bend), s = std::sin(bend);
         Eigen::Matrix3d R;
@@ -214,22 +228,50 @@ void cast_rosette(const LidarSpec& spec, const PoseTrack& poses, std::uint64_t s
 
 }  // namespace
 
+std::size_t firings(const LidarSpec& spec) {
+  return static_cast<std::size_t>(spec.pattern == FiringPattern::kSpinning ? spec.columns : spec.rays);
+}
+
+std::size_t firings_known(const LidarSpec& spec, const ScanJob& job) {
+  const double step = to_seconds(job.step);
+  if (job.T_enu_lidar.size() < 2 || !(step > 0.0)) return 0;
+  const std::size_t block = block_size(spec), blocks = firings(spec) / block;
+  // The last firing of a block lies before the last pose: from there on the next pose counts, too.
+  const auto known = [&](std::size_t count) {
+    const double steps = firing_time(spec, count * block - 1) / step;
+    return steps < static_cast<double>(job.T_enu_lidar.size() - 1);
+  };
+  std::size_t low = 0, high = blocks;
+  while (low < high) {
+    const std::size_t middle = low + (high - low + 1) / 2;
+    (known(middle) ? low : high) = known(middle) ? middle : middle - 1;
+  }
+  return low * block;
+}
+
+std::vector<sensor::ScanPoint> cast_firings(const Scene& scene, const LidarSpec& spec, const ScanJob& job,
+                                            std::size_t first, std::size_t end) {
+  std::vector<sensor::ScanPoint> points;
+  const bool finite = std::ranges::all_of(job.T_enu_lidar, [](const Pose& T) { return all_finite(T); });
+  if (!spec.validate() || job.T_enu_lidar.size() < 2 || !finite || first >= end) return points;
+  const PoseTrack poses(job.T_enu_lidar, to_seconds(job.step));
+  BeamCaster caster(scene, spec, job);
+  if (spec.pattern == FiringPattern::kSpinning) {
+    points.reserve((end - first) * spec.vertical_angles.size());
+    cast_spinning(spec, poses, {first, end}, caster, points);
+  } else {
+    points.reserve(end - first);
+    cast_rosette(spec, poses, job.number, {first, end}, caster, points);
+  }
+  return points;
+}
+
 sensor::Scan cast_scan(const Scene& scene, const LidarSpec& spec, const ScanJob& job) {
   sensor::Scan scan;
   scan.stamp = job.stamp;
   scan.has_time = true;
   scan.has_ring = spec.pattern == FiringPattern::kSpinning;
-  const bool finite = std::ranges::all_of(job.T_enu_lidar, [](const Pose& T) { return all_finite(T); });
-  if (!spec.validate() || job.T_enu_lidar.size() < 2 || !finite) return scan;
-  const PoseTrack poses(job.T_enu_lidar, to_seconds(job.step));
-  BeamCaster caster(scene, spec, job);
-  if (spec.pattern == FiringPattern::kSpinning) {
-    scan.points.reserve(static_cast<std::size_t>(spec.columns) * spec.vertical_angles.size());
-    cast_spinning(spec, poses, caster, scan.points);
-  } else {
-    scan.points.reserve(static_cast<std::size_t>(spec.rays));
-    cast_rosette(spec, poses, job.number, caster, scan.points);
-  }
+  scan.points = cast_firings(scene, spec, job, 0, firings(spec));
   return scan;
 }
 

@@ -24,6 +24,7 @@ class Clock {
   }
   Stamp last() const { return at(count_); }
   Stamp next() const { return at(count_ + 1); }
+  std::uint64_t count() const { return count_; }
   /// The number of the period that ends at next().
   std::uint64_t pass() { return count_++; }
 
@@ -124,6 +125,7 @@ struct RobotTwin::State {
   void step(std::vector<TwinSample>& samples);
   Truth truth(Stamp stamp) const;
   ImuMotion imu_motion(Stamp stamp) const;
+  /// With the poses up to now.
   ScanJob scan_job(std::uint64_t number) const;
 
   RobotTwinConfig config;
@@ -175,7 +177,7 @@ ScanJob RobotTwin::State::scan_job(std::uint64_t number) const {
   const Duration period = scan_clock.at(number + 1) - job.stamp;
   const std::int64_t parts = std::max<std::int64_t>(1, (period + kStep / 2) / kStep);
   job.step = period / parts;
-  for (std::int64_t k = 0; k <= parts; ++k) {
+  for (std::int64_t k = 0; k <= parts && job.stamp + k * job.step <= now; ++k) {
     job.T_enu_lidar.push_back(truth(job.stamp + k * job.step).T_enu_base * config.T_base_lidar);
   }
   return job;
@@ -234,6 +236,8 @@ std::vector<TwinSample> RobotTwin::advance(Stamp stamp) {
   while (state_->now + kStep <= stamp) state_->step(samples);
   return samples;
 }
+
+ScanJob RobotTwin::scan_under_way() const { return state_->scan_job(state_->scan_clock.count()); }
 
 Stamp RobotTwin::now() const { return state_->now; }
 Pose RobotTwin::T_enu_base() const { return state_->vehicle.T_enu_base(); }

@@ -81,6 +81,24 @@ TEST_F(CommandLine, AnEmptyOutIsRefusedBeforeAnythingRuns) {
   }
 }
 
+TEST_F(CommandLine, ExperimentNamesTheCasesNearToAnUnknownOneAndMarksEqualRuns) {
+  const std::string paper = std::string(FLEETMAP_SOURCE_DIR) + "/config/experiments/paper.yaml";
+  run({"experiment", "-c", paper, "--out", path("out"), "--case", "fleet_size.agents=2.rate=10.seed=1"});
+  EXPECT_EQ(exit_code_, 2);
+  EXPECT_THAT(output_, HasSubstr("near it: fleet_size.agents=2.rate=10.seed=01"));
+  run({"experiment", "-c", paper, "--out", path("out"), "--case", ""});
+  EXPECT_EQ(exit_code_, 2);
+  run({"experiment", "-c", paper, "--out", path("out"), "--list", "--report"});
+  EXPECT_EQ(exit_code_, 2);
+  run({"experiment", "-c", paper, "--out", path("out"), "--report"});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("holds no cases"));
+  run({"experiment", "-c", paper, "--out", path("out"), "--list"});
+  EXPECT_EQ(exit_code_, 0);
+  EXPECT_THAT(output_, HasSubstr("division.division=uniform.seed=01: same run as "
+                                 "fleet_size.agents=3.rate=10.seed=01\n"));
+}
+
 TEST_F(CommandLine, AgentTakesOutOnlyWithAs) {
   run({"agent", "-c", "r1.yaml", "--out", path("out")});
   EXPECT_EQ(exit_code_, 2);

@@ -70,7 +70,7 @@ TEST_F(ExperimentTest, OnlyWhatAStudyShowsIsEvaluatedAndASharedRunGivesWhatAnyOf
 
 TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
   write_experiment(
-      "metrics: [{name: map.rmse}, {name: map.rmse}]\n"  // 2
+      "metrics: [{name: map.rmse}, {name: map.rmse}, {name: d, log: true, resolution: 1}]\n"  // 2
       "studies:\n"
       "  - name: a b\n"  // 4
       "    seeds: 0\n"   // 5
@@ -89,6 +89,7 @@ TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
   ASSERT_FALSE(config);
   for (const char* expected :
        {"experiment.yaml:2: metrics[1].name: 'map.rmse' is listed above",
+        "experiment.yaml:2: metrics[2].resolution: a metric that is compared as logarithms has none",
         "experiment.yaml:4: studies[0].name", "experiment.yaml:5: studies[0].seeds: expected how many runs",
         "4 robots are wanted, the fleet's file lists 3", "experiment.yaml:8: studies[0].axes[1]",
         "experiment.yaml:10: studies[0].metrics: 'map.rsme' is not listed",
@@ -138,7 +139,8 @@ TEST_F(ExperimentTest, TheFingerprintFollowsTheFilesThatAreNamed) {
 }
 
 TEST(Gather, FlattensWhatRunAndEvaluationWrote) {
-  const auto report = nlohmann::json::parse(R"({"wall_s": 12.5, "virtual_time_s": 60,
+  const auto report = nlohmann::json::parse(
+      R"({"wall_time_s": 12.5, "virtual_time_s": 60, "profile": {"rays_s": 7, "shares": {"rays": 0.35}},
     "completion": {"mission_s": 50, "aligned_s": 40, "completed_s": null},
     "links": [{"agent": "r1", "link": "long_range", "topic": "a", "wire_bytes": 100, "airtime_s": 1.5},
               {"agent": "r2", "link": "long_range", "topic": "a", "wire_bytes": 50, "airtime_s": 0.5}],
@@ -158,8 +160,10 @@ TEST(Gather, FlattensWhatRunAndEvaluationWrote) {
                                                {"map.f1[1]", 0.2},
                                                {"map.f1[2]", 0.3},
                                                {"map.rmse", 0.1},
+                                               {"profile.rays_s", 7.0},
+                                               {"profile.shares.rays", 0.35},
                                                {"virtual_time_s", 60.0},
-                                               {"wall_s", 12.5}};
+                                               {"wall_time_s", 12.5}};
   EXPECT_EQ(result.metrics, expected);
   ASSERT_THAT(result.histograms, SizeIs(1));
   EXPECT_EQ(result.histograms.at("map.density").bin_width, 5.0);

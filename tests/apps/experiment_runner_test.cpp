@@ -42,11 +42,12 @@ TEST_F(ExperimentTest, AnInterruptLosesOnlyWhatWasUnderWay) {
   twin_.stop = &stop_;
   twin_.stop_at = "size.agents=1.seed=01";
   const ExperimentResult first = run(runner(1));
-  EXPECT_TRUE(first.outcome.interrupted);
+  EXPECT_THAT(first.outcome.missing, ElementsAre("size.agents=1.seed=01", "size.agents=1.seed=02",
+                                                 "size.agents=2.seed=02", "size.agents=3.seed=02"));
   EXPECT_FALSE(first.good());
   EXPECT_THAT(first.outcome.records, SizeIs(2));  // of the three first seeds, the largest fleets came first
   EXPECT_FALSE(std::filesystem::exists(out() / "cases" / twin_.stop_at / "result.json"));
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("Interrupted"));
+  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("Incomplete: 4 runs"));
 
   stop_ = false;
   twin_.stop_at.clear();
@@ -90,7 +91,7 @@ TEST_F(ExperimentTest, AFailedCaseIsReportedAndRunAgainByTheNextStart) {
   twin_.throwing = {"size.agents=3.seed=02"};
   const ExperimentResult result = run(runner());
   EXPECT_FALSE(result.good());
-  EXPECT_FALSE(result.outcome.interrupted);
+  EXPECT_TRUE(result.outcome.complete());
   EXPECT_THAT(result.outcome.records, SizeIs(6));
   EXPECT_THAT(said_.str(), HasSubstr("size.agents=2.seed=01: robot r1 is inside a panel"));
   EXPECT_THAT(said_.str(), HasSubstr("size.agents=3.seed=02: out of memory"));
@@ -217,6 +218,41 @@ TEST_F(ExperimentTest, KeysThatNoFleetHasAreNamedOnceWithTheExperimentsLine) {
       HasSubstr("experiment.yaml:5: studies[0].axes[0].keys: robot.lidar_rte: unknown key; did you mean"));
   EXPECT_THAT(valid.error().message, HasSubstr("experiment.yaml:2: seed_keys: world.sed: unknown key"));
   EXPECT_EQ(std::ranges::count(valid.error().message, '\n'), 1);
+}
+
+TEST_F(ExperimentTest, PlotsAreFilesOfTheirOwn) {
+  write_experiment(
+      "set: [a.b=0]\nseed_keys: [world.seed]\n"
+      "metrics:\n"
+      "  - {name: map.rmse, title: Error of the map, unit: m, series: all}\n"
+      "  - {name: time, unit: s, with: map.rmse, series: other}\n"
+      "studies:\n"
+      "  - name: size\n"
+      "    seeds: 2\n"
+      "    axes: [{name: agents, title: Number of robots, values: [1, 2, 3]},\n"
+      "           {name: rate, unit: Hz, keys: [a.b], values: [5, 10]}]\n"
+      "    metrics: [map.rmse, time]\n"
+      "    histograms: [map.density]\n"
+      "  - {name: alone, metrics: [time], axes: [{name: agents, values: [1, 2]}]}\n");
+  ASSERT_TRUE(run(runner()).good());
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(out() / "plots")) {
+    files.insert(entry.path().filename().string());
+    EXPECT_LT(entry.file_size(), 300'000u);
+  }
+  EXPECT_THAT(files, ElementsAre("alone_time.svg", "size_map.density_histogram.svg", "size_map.rmse.svg"));
+  const std::string svg = text_of(out() / "plots/size_map.rmse.svg");
+  for (const char* text : {">Number of robots<", ">Error of the map [m]<", ">all, rate=5 Hz<",
+                           ">all, rate=10 Hz<", ">other, rate=5 Hz<"})
+    EXPECT_THAT(svg, HasSubstr(text));
+  const auto bands = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find("<polygon"); at != std::string::npos; at = text.find("<polygon", at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(bands(svg), 4u);  // min to max of either metric at either rate
+  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr(svg));
 }
 
 TEST_F(ExperimentTest, TheReportNeedsNoOtherFile) {

@@ -1,7 +1,9 @@
 // Verdicts on the shapes that an experiment expects.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 #include <random>
 
 #include "apps/experiment_fixture.hpp"
@@ -28,7 +30,7 @@ class Shapes : public ::testing::Test {
  protected:
   ShapeCheck judge(config::Shape shape, int seeds, const std::function<double(double, int)>& metric) const {
     config::ExperimentConfig config;
-    config.metrics.push_back({"m", "m", "", log_scale_});
+    config.metrics.push_back({"m", "m", "", log_scale_, resolution_});
     config::Study study;
     study.name = "s";
     config::Axis axis{"x", "", {}};
@@ -55,7 +57,15 @@ class Shapes : public ::testing::Test {
     return checks.empty() ? ShapeCheck{} : checks.front();
   }
   bool log_scale_ = false;
+  double resolution_ = 0.0;
 };
+
+/// values[seed][point] of two seeds at 2, 3, 4 and 5 robots.
+std::function<double(double, int)> two_seeds(std::array<std::array<double, 4>, 2> values) {
+  return [values](double x, int seed) {
+    return values[static_cast<std::size_t>(seed - 1)][static_cast<std::size_t>(x - 2.0)];
+  };
+}
 
 TEST_F(Shapes, AClearTrendHoldsAndItsOppositeIsViolated) {
   const auto falling = [](double x, int seed) { return 10.0 - x + 0.1 * seed + 0.01 * std::sin(seed * x); };
@@ -104,6 +114,51 @@ TEST_F(Shapes, AStepBackBeyondTheSeedsScatterViolates) {
   // The same bump in one seed of five may be chance.
   const auto rare = [](double x, int seed) { return 10.0 - x + (x == 4.0 && seed == 3 ? 9.0 : 0.0); };
   EXPECT_NE(judge(config::Shape::kFalls, 5, rare).verdict, Verdict::kViolated);
+}
+
+TEST(Residual, IsWhatPointsAndSeedsDoNotExplain) {
+  // Montgomery, Design and Analysis of Experiments, vascular grafts: extrusion pressures and batches of
+  // resin, mean square of the error 7.33 with 15 degrees of freedom.
+  const Curve curve{{8500, 8700, 8900, 9100},
+                    {{90.3, 89.2, 98.2, 93.9, 87.4, 97.9},
+                     {92.5, 89.5, 90.6, 94.7, 87.0, 95.8},
+                     {85.5, 90.8, 89.6, 86.2, 88.0, 93.4},
+                     {82.5, 89.5, 85.6, 87.4, 78.9, 90.7}}};
+  const Residual residual = residual_of(curve);
+  EXPECT_EQ(residual.freedom, 15.0);
+  EXPECT_NEAR(residual.sigma * residual.sigma, 7.33, 0.005);
+  EXPECT_TRUE(std::isnan(residual_of({{1, 2}, {{3}, {4}}}).sigma));
+}
+
+TEST_F(Shapes, TwoEqualDifferencesDoNotMakeTheToleranceVanish) {
+  // Both seeds complete 15 s later with five robots than with four, whose means are 287, 272.5, 209.5 and
+  // 224.5 s: the differences of this step alone have no scatter, those of all steps have.
+  const auto measured = two_seeds({{{280, 268, 203, 218}, {294, 277, 216, 231}}});
+  const ShapeCheck check = judge(config::Shape::kFalls, 2, measured);
+  EXPECT_NEAR(check.tolerance, 3.1824 * 1.5679, 0.01);  // t of 3 degrees of freedom, sigma of a run
+  EXPECT_EQ(check.verdict, Verdict::kViolated);         // 15 s are more than what two such seeds explain
+  EXPECT_THAT(check.detail, HasSubstr("from 4 to 5 it goes 15 the other way, the seeds explain 4.99"));
+  // A step back of 3 s, the same in both seeds, is within their scatter.
+  const auto small = two_seeds({{{280, 268, 203, 206}, {294, 277, 216, 219}}});
+  EXPECT_NE(judge(config::Shape::kFalls, 2, small).verdict, Verdict::kViolated);
+}
+
+TEST_F(Shapes, TheToleranceIsNeverLessThanTheMetricsResolutionAllows) {
+  const auto equal = two_seeds({{{280, 268, 204, 204.9}, {284, 272, 208, 208.9}}});
+  EXPECT_EQ(judge(config::Shape::kFalls, 2, equal).verdict, Verdict::kViolated);
+  resolution_ = 1.0;  // s
+  const ShapeCheck check = judge(config::Shape::kFalls, 2, equal);
+  EXPECT_NEAR(check.tolerance, 3.1824 / std::sqrt(12.0), 1e-3);
+  EXPECT_NE(check.verdict, Verdict::kViolated) << check.detail;
+  const auto larger = two_seeds({{{280, 268, 204, 206}, {284, 272, 208, 210}}});
+  EXPECT_EQ(judge(config::Shape::kFalls, 2, larger).verdict, Verdict::kViolated);
+}
+
+TEST_F(Shapes, TwoEqualSlopesAreNoCertainty) {
+  // Both seeds change by -0.3 a robot, but each scatters by more than that from robot to robot.
+  const auto equal = two_seeds({{{10.0, 8.0, 11.0, 8.0}, {9.0, 11.0, 8.0, 9.0}}});
+  const ShapeCheck check = judge(config::Shape::kFalls, 2, equal);
+  EXPECT_GT(check.p, 0.05) << check.detail;
 }
 
 TEST_F(Shapes, FlatIsNoTrend) {

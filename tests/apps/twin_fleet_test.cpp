@@ -61,6 +61,14 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
   EXPECT_LE(completion["mission_s"].get<double>(), completion["completed_s"].get<double>());
   EXPECT_TRUE(fs::exists(two.out / "truth.ply"));
 
+  double sum = 0.0;
+  const auto& shares = two.report["profile"]["shares"];
+  for (const auto& [part, share] : shares.items()) sum += share.get<double>();
+  EXPECT_NEAR(sum, 1.0, 1e-9) << shares.dump();
+  for (const char* part : {"rays", "odometry", "registration", "spherization", "placement", "results"})
+    EXPECT_GT(shares[part].get<double>(), 0.001) << part;
+  EXPECT_LT(shares["rest"].get<double>(), 0.5);
+
   const auto world = config::make_world(twin.path("world.yaml"));
   ASSERT_TRUE(world);
   const std::string map_hash = two.report["agents"]["r1"]["map_hash"];

@@ -40,6 +40,24 @@ TEST(Plot, of_lines_with_bands_is_well_formed) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
+TEST(Plot, in_a_file_has_a_background_and_marks_the_given_values) {
+  Axes plain{.x_label = "L_max [m]", .y_label = "RMSE [m]"};
+  const std::vector<LineSeries> lines{{"10 Hz", {20, 40, 80}, {0.4, 0.3, 0.2}, {}, {}}};
+  const std::string in_page = line_plot(plain, lines);
+  EXPECT_EQ(elements(in_page, "rect"), 1);  // of the legend
+  EXPECT_NE(in_page.find(">60<"), std::string::npos);
+  plain.opaque = true;
+  plain.x_ticks = {20, 40, 80};
+  const std::string in_file = line_plot(plain, lines);
+  EXPECT_EQ(elements(in_file, "rect"), 2);
+  EXPECT_EQ(in_file.find(">60<"), std::string::npos);
+  for (const char* tick : {">20<", ">40<", ">80<"}) EXPECT_NE(in_file.find(tick), std::string::npos) << tick;
+  // A series of one value leaves the marks where they are.
+  const std::string sparse = line_plot(plain, {{"10 Hz", {40}, {0.4}, {}, {}}});
+  const auto first_mark = [](const std::string& svg) { return svg.substr(svg.find("<line"), 60); };
+  EXPECT_EQ(first_mark(sparse), first_mark(in_file));
+}
+
 TEST(Plot, of_every_kind_survives_every_input) {
   const double huge = 1e300, tiny = 1e-300;
   const std::vector<std::vector<double>> values{

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "fleetmap/planning/fleet_plan.hpp"
@@ -72,10 +73,32 @@ TEST(Division, UniformIsContiguousAndEqual) {
   const Site site(triangle());
   const Division division = site.divide_by(DivisionMethod::kUniform, testing::fleet(4));
   RowId next = 0;
-  for (const RobotRoute& route : division.routes) {
+  for (RobotRoute route : division.routes) {
     EXPECT_NEAR(static_cast<double>(route.visits.size()), static_cast<double>(site.mission.rows.size()) / 4.0,
                 1.0);
+    std::ranges::sort(route.visits, {}, &RowVisit::row);  // a share is driven in the best order
     for (const RowVisit& visit : route.visits) EXPECT_EQ(visit.row, next++);
+  }
+}
+
+TEST(Division, UniformDrivesEachShareInTheBestOrder) {
+  // Twelve lanes, each in five pieces; robots start at the south-west corner. Were each share driven from its
+  // first row, those that begin in the east or in the middle of a lane would take as long as larger ones.
+  testing::SiteSpec spec;
+  spec.width = 200.0;
+  spec.depth = 96.0;
+  spec.missing = 0.0;
+  spec.max_row_length = 42.0;
+  const Site site(spec);
+  const auto rows = site.mission.rows.size();
+  ASSERT_EQ(rows, 60u);
+  double before = std::numeric_limits<double>::infinity();
+  for (int robots = 2; robots <= 5; ++robots) {
+    const Division division = site.divide_by(DivisionMethod::kUniform, testing::fleet(robots));
+    for (const RobotRoute& route : division.routes)
+      EXPECT_EQ(route.visits.size(), rows / static_cast<std::size_t>(robots));
+    EXPECT_LT(division.makespan, before) << robots << " robots";
+    before = division.makespan;
   }
 }
 

@@ -265,6 +265,39 @@ TEST(Lidar, SameJobSameBytesOnAnyThread) {
   EXPECT_NE(alone[0], alone[2]);
 }
 
+TEST(Lidar, PartsCastAsPosesComeInAreTheWholeScan) {
+  const auto scene = made(yard(Material::kGlass));
+  LidarSpec five_hertz = at_rate(vlp16_spec(), 5.0), odd = vlp16_spec(), rosette = non_repeating();
+  odd.columns = 1003;  // the last block is not full
+  rosette.range_noise = 0.02;
+  for (const LidarSpec& spec : {vlp16_spec(), five_hertz, odd, rosette}) {
+    ScanJob job;
+    job.number = 3;
+    job.step = from_seconds(1.0 / spec.rate / 20.0);
+    for (int k = 0; k <= 20; ++k) {
+      const Eigen::Vector3d p(-2.0 + 0.05 * k, 1.0, 1.0 + 0.01 * k);
+      job.T_enu_lidar.push_back(make_pose(rotation_from_rpy(0.01 * k, 0.02, 0.1 * k), p));
+    }
+    ScanJob known = job;
+    sensor::Scan parts;
+    std::size_t first = 0;
+    for (const std::size_t poses : {1u, 2u, 3u, 9u, 10u, 20u, 21u}) {
+      known.T_enu_lidar.assign(job.T_enu_lidar.begin(), job.T_enu_lidar.begin() + poses);
+      const std::size_t end = poses == 21u ? firings(spec) : firings_known(spec, known);
+      EXPECT_GE(end, first);
+      // All but the firings after the last pose and less than a block of 64 before it.
+      EXPECT_GE(static_cast<double>(end) + 64.0,
+                static_cast<double>(firings(spec)) * static_cast<double>(poses - 1) / 20.0);
+      const auto points = cast_firings(*scene, spec, known, first, end);
+      parts.points.insert(parts.points.end(), points.begin(), points.end());
+      first = end;
+    }
+    const std::string whole = bytes_of(cast_scan(*scene, spec, job));
+    EXPECT_GT(whole.size(), 10'000u);
+    EXPECT_EQ(bytes_of(parts), whole) << spec.name;
+  }
+}
+
 TEST(Lidar, BadJobsAndSpecsGiveEmptyScans) {
   const auto scene = made(yard());
   ScanJob job = standing(above_ground(1.5));

@@ -225,6 +225,34 @@ TEST(RobotTwin, ScansStartAtThePoseOfTheirStamp) {
   }
 }
 
+TEST(RobotTwin, TheScanUnderWayHasTheFirstPosesOfTheOneThatBecomesDue) {
+  RobotTwinConfig config = robot();
+  config.lidar = at_rate(vlp16_spec(), 7.0);  // no multiple of the physics' step
+  RobotTwin twin = made(walled(), config);
+  std::vector<ScanJob> under_way;
+  std::size_t compared = 0;
+  for (int k = 1; k <= 100; ++k) {
+    twin.command(1.0, 0.6);
+    for (const TwinSample& sample : twin.advance(at(0.02 * k))) {
+      const auto* job = std::get_if<ScanJob>(&sample);
+      if (job == nullptr) continue;
+      for (const ScanJob& part : under_way) {
+        EXPECT_EQ(part.number, job->number);
+        EXPECT_EQ(part.stamp, job->stamp);
+        EXPECT_EQ(part.step, job->step);
+        EXPECT_EQ(part.seed, job->seed);
+        ASSERT_LE(part.T_enu_lidar.size(), job->T_enu_lidar.size());
+        for (std::size_t p = 0; p < part.T_enu_lidar.size(); ++p, ++compared)
+          EXPECT_EQ(part.T_enu_lidar[p].matrix(), job->T_enu_lidar[p].matrix());
+      }
+      under_way.clear();
+    }
+    under_way.push_back(twin.scan_under_way());
+    EXPECT_LE(due(under_way.back()), twin.now());
+  }
+  EXPECT_GT(compared, 500u);
+}
+
 TEST(RobotTwin, SameCommandsSameSamplesHoweverOneAsks) {
   const auto run = [](double step) {
     RobotTwin twin = made(walled(), robot());

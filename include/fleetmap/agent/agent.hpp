@@ -36,6 +36,22 @@ struct RegistrationCounters {
   std::size_t largest_cloud_bytes = 0;  ///< payload of the largest of them
 };
 
+/// CPU seconds of the work that a robot offloads.
+struct WorkSeconds {
+  double odometry = 0.0;
+  double registration = 0.0;  ///< without the spherization of its clouds
+  double spherization = 0.0;
+  double placement = 0.0;  ///< solutions of the fleet's graph while driving
+
+  WorkSeconds& operator+=(const WorkSeconds& other) {
+    odometry += other.odometry;
+    registration += other.registration;
+    spherization += other.spherization;
+    placement += other.placement;
+    return *this;
+  }
+};
+
 /// One robot: every component on one Bus, and the only place that knows their order.
 /// sensors -> O, G -> node -> ball tree -> exchange -> registration -> alignment -> placement -> merged map.
 class Agent {
@@ -75,6 +91,8 @@ class Agent {
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of each scan, as LOAM took them.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
+  /// Of what has come to its end.
+  WorkSeconds work_seconds() const;
 
  private:
   Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
@@ -111,6 +129,7 @@ class Agent {
   struct Registered {
     Result<registration::RegistrationResult> result = failure("not run");
     double cpu_seconds = 0.0;
+    double spherize_seconds = 0.0;  ///< of cpu_seconds
     store::LoggedRegistration input;
   };
   /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
@@ -148,6 +167,7 @@ class Agent {
   std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;
+  WorkSeconds work_;                            ///< without the placement's
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   bool told_of_missing_gps_ = false;
   std::unique_ptr<Perception> perception_;

@@ -25,6 +25,8 @@ class LivePlacement {
   void refresh();
   /// Nothing is under way, and the last solution holds all that there is.
   bool idle() const { return !under_way_ && !due(); }
+  /// Of all solutions.
+  double cpu_seconds() const { return cpu_seconds_; }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const StampedPose& odometry);
 
@@ -45,6 +47,7 @@ class LivePlacement {
   OnUsed on_used_;
   std::size_t items_ = 0;  ///< in the store at the last solution
   bool under_way_ = false;
+  double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;
 };
 

@@ -20,6 +20,10 @@ struct MetricSpec {
   std::string title;  ///< of its plot and column
   std::string unit;
   bool log_scale = false;  ///< positive and spread over magnitudes: averaged and compared as logarithms
+  /// The metric is measured in multiples of this, in `unit`; 0: its values are continuous.
+  double resolution = 0.0;
+  std::string with = {};    ///< the metric in whose plot this one is drawn; empty: it has a plot of its own
+  std::string series = {};  ///< what its lines are called there
 };
 
 /// One value of an axis: the keys it sets in the fleet's file.
@@ -34,6 +38,7 @@ struct Axis {
   std::string name;
   std::string unit;
   std::vector<AxisValue> values;
+  std::string title = {};  ///< in plots; empty: the name
 };
 
 enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly };

@@ -16,6 +16,8 @@ struct Axes {
   bool log_y = false;             ///< values that are not positive are left out
   bool equal = false;             ///< a metre is as long on both axes (maps)
   bool zero_based = false;        ///< y begins at 0
+  bool opaque = false;            ///< black on white, for files; else the page's background and text colour
+  std::vector<double> x_ticks = {};  ///< where the x axis is marked, if they are few; empty: round numbers
 };
 
 /// A line with an optional band: mean, min and max as in the paper's Figures 9 to 11. Values that are not
@@ -32,8 +34,8 @@ struct Bars {
   std::vector<double> values;  ///< one for each group
 };
 
-/// Each returns a complete <svg> element that stands alone in a file or in a page and takes its text colour
-/// from there.
+/// Each returns a complete <svg> element that stands alone in a file or in a page and, unless it is
+/// opaque, takes its text colour from there.
 std::string line_plot(const Axes& axes, const std::vector<LineSeries>& series);
 std::string scatter_plot(const Axes& axes, const std::vector<LineSeries>& series);
 /// Shares by bin: bin k covers [first + k * width, first + (k + 1) * width). Several are laid over each

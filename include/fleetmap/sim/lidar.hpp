@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -58,5 +59,14 @@ LidarSpec at_rate(LidarSpec spec, double rate);
 /// apart the axis decides; where the axis meets nothing, the rim's weak echo comes back every second time.
 /// Intensity 0 to 255: reflectivity of the material by the cosine of incidence, less with range.
 sensor::Scan cast_scan(const Scene& scene, const LidarSpec& spec, const ScanJob& job);
+
+/// Firings of a scan: columns of a spinning LiDAR, rays of a non-repeating one.
+std::size_t firings(const LidarSpec& spec);
+/// How many of them `job` of a scan under way has the poses of, so that they can be cast already.
+std::size_t firings_known(const LidarSpec& spec, const ScanJob& job);
+/// The points of the firings [first, end): those of cast_scan(), in parts. `first` and `end` are 0, results
+/// of firings_known() or firings().
+std::vector<sensor::ScanPoint> cast_firings(const Scene& scene, const LidarSpec& spec, const ScanJob& job,
+                                            std::size_t first, std::size_t end);
 
 }  // namespace fleetmap::sim

@@ -72,6 +72,10 @@ class RobotTwin {
   /// in between.
   std::vector<TwinSample> advance(Stamp stamp);
 
+  /// The scan that becomes due next, with the poses that it has so far: those of its first firings can be
+  /// cast, see firings_known().
+  ScanJob scan_under_way() const;
+
   Stamp now() const;
   Pose T_enu_base() const;  ///< the truth
   double speed() const;     ///< m/s forward, the truth

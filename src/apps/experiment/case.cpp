@@ -8,19 +8,10 @@
 #include <utility>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/edit_distance.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
-
-std::string file_name(const std::string& text) {
-  std::string name = text;
-  for (char& c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '.' || c == '_' || c == '-';
-    if (!plain) c = '_';
-  }
-  return name;
-}
 
 std::string two_digits(std::uint64_t number) {
   const std::string digits = std::to_string(number);
@@ -102,6 +93,16 @@ void share_needs(std::vector<Case>& cases) {
 
 }  // namespace
 
+std::string file_name(const std::string& text) {
+  std::string name = text;
+  for (char& c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '.' || c == '_' || c == '-';
+    if (!plain) c = '_';
+  }
+  return name;
+}
+
 std::vector<Case> all_cases(const config::ExperimentConfig& config) {
   std::vector<Case> cases;
   for (const config::Study& study : config.studies) {
@@ -112,6 +113,18 @@ std::vector<Case> all_cases(const config::ExperimentConfig& config) {
   }
   share_needs(cases);
   return cases;
+}
+
+Result<std::size_t> case_named(const std::vector<Case>& cases, const std::string& name) {
+  constexpr std::size_t kShown = 3;
+  const auto found = std::ranges::find(cases, name, &Case::name);
+  if (found != cases.end()) return static_cast<std::size_t>(found - cases.begin());
+  std::vector<std::pair<std::size_t, std::string>> near;
+  for (const Case& one : cases) near.emplace_back(edit_distance(name, one.name), one.name);
+  std::ranges::sort(near);
+  std::string message = "'" + name + "': this experiment has no such case; near it:";
+  for (std::size_t k = 0; k < std::min(kShown, near.size()); ++k) message += " " + near[k].second;
+  return failure(message + "; --list prints all");
 }
 
 Result<std::string> input_hash(const Case& one) {

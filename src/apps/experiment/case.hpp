@@ -44,8 +44,14 @@ struct CaseResult {
 /// Runs one case in an empty folder. Called from several threads.
 using Engine = std::function<Result<CaseResult>(const Case&, const std::filesystem::path& directory)>;
 
+/// `text` with '_' for what does not belong into a file's name.
+std::string file_name(const std::string& text);
+
 /// Every case of every study, in the order of the file, a point's seeds one after another.
 std::vector<Case> all_cases(const config::ExperimentConfig& config);
+
+/// Index of the case with this name. The error lists the names that are nearest to it.
+Result<std::size_t> case_named(const std::vector<Case>& cases, const std::string& name);
 
 /// What a case is to be run with, without its name, study and point: in one build of the program, equal
 /// inputs give equal results.

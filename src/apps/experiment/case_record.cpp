@@ -96,13 +96,13 @@ Status write_record(const std::filesystem::path& directory, const CaseRecord& re
   return write_whole(directory / "result.json", text + "\n");
 }
 
-std::optional<CaseRecord> finished_record(const std::filesystem::path& directory, const Case& one,
-                                          const std::string& hash, const std::string& program) {
+std::optional<CaseRecord> read_record(const std::filesystem::path& directory, const Case& one,
+                                      const std::string& hash, const std::string& program) {
   std::ifstream in(directory / "result.json", std::ios::binary);
   if (!in) return std::nullopt;
   const json record = json::parse(in, nullptr, false);
   try {
-    if (record.at("status") != "done" || record.at("hash") != hash) return std::nullopt;
+    if (record.at("hash") != hash) return std::nullopt;
     CaseRecord found;
     found.of = one;
     found.hash = hash;
@@ -110,8 +110,12 @@ std::optional<CaseRecord> finished_record(const std::filesystem::path& directory
     found.program = record.at("program").get<std::string>();
     if (!program.empty() && found.program != program) return std::nullopt;
     found.wall_seconds = record.at("wall_s").get<double>();
-    found.result = result_from(record);
     found.reused = true;
+    if (record.at("status") != "done") {
+      found.reason = record.at("reason").get<std::string>();
+      return found;
+    }
+    found.result = result_from(record);
     if (!pictures_are_there(directory, *found.result)) return std::nullopt;
     return found;
   } catch (const json::exception&) {

@@ -26,10 +26,10 @@ nlohmann::json to_json(const CaseRecord& record);
 
 /// Writes `directory`/result.json so that it is there whole or not at all.
 Status write_record(const std::filesystem::path& directory, const CaseRecord& record);
-/// What an earlier start left of the case; nothing if it did not come to its end, failed, had other inputs,
-/// lost its pictures or was run by another build than `program` (empty: any will do).
-std::optional<CaseRecord> finished_record(const std::filesystem::path& directory, const Case& one,
-                                          const std::string& hash, const std::string& program);
+/// How an earlier start ended the case, done or failed; empty if it did not come to its end, had other
+/// inputs, lost its pictures or was run by another build than `program` (empty: any will do).
+std::optional<CaseRecord> read_record(const std::filesystem::path& directory, const Case& one,
+                                      const std::string& hash, const std::string& program);
 
 /// Writes a whole file beside its place and moves it there.
 Status write_whole(const std::filesystem::path& file, const std::string& content);

@@ -6,6 +6,7 @@
 #include "experiment/progress_line.hpp"
 #include "experiment/report_page.hpp"
 #include "experiment/results_file.hpp"
+#include "experiment/study_plots.hpp"
 #include "experiment/study_table.hpp"
 #include "experiment/study_values.hpp"
 
@@ -14,6 +15,21 @@ namespace {
 
 bool met(const ShapeCheck& check) {
   return check.verdict == Verdict::kHolds || check.verdict == Verdict::kHoldsWeakly;
+}
+
+/// plots/NAME.svg: what report.html shows, for documents.
+Status write_plots(const config::ExperimentConfig& config, const std::vector<CaseRecord>& records,
+                   const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) return failure(directory.string() + ": " + error.message());
+  for (const config::Study& study : config.studies) {
+    for (const StudyPlot& plot : study_plots(config, study, records)) {
+      const Status written = write_whole(directory / (plot.name + ".svg"), plot.svg);
+      if (!written) return written;
+    }
+  }
+  return {};
 }
 
 Status write_results(const config::ExperimentConfig& config, const Outcome& outcome,
@@ -25,6 +41,8 @@ Status write_results(const config::ExperimentConfig& config, const Outcome& outc
     return written;
   if (const Status written = write_whole(directory / "tables.md", markdown_tables(config, outcome.records));
       !written)
+    return written;
+  if (const Status written = write_plots(config, outcome.records, directory / "plots"); !written)
     return written;
   return write_whole(directory / "report.html", report_page(config, outcome, checks, directory));
 }
@@ -38,15 +56,34 @@ void print_outcome(const ExperimentResult& result, const std::filesystem::path& 
   }
   for (const CaseRecord& record : result.outcome.records)
     if (!record.done()) out << "! " << record.of.name << ": " << record.reason << '\n';
+  for (const std::string& name : result.outcome.missing) out << "? " << name << ": not run\n";
   out << "report: " << (directory / "report.html").string() << '\n';
 }
 
 }  // namespace
 
 bool ExperimentResult::good() const {
-  return !outcome.interrupted && std::ranges::all_of(outcome.records, &CaseRecord::done) &&
+  return outcome.complete() && std::ranges::all_of(outcome.records, &CaseRecord::done) &&
          std::ranges::all_of(checks, met);
 }
+
+namespace {
+
+Result<ExperimentResult> reported(const config::ExperimentConfig& config, Result<Outcome>&& outcome,
+                                  const std::filesystem::path& directory, std::ostream& out) {
+  if (!outcome) return tl::unexpected(outcome.error());
+  ExperimentResult result;
+  result.outcome = std::move(*outcome);
+  result.checks = check_shapes(config, result.outcome.records);
+  if (const Status written = write_results(config, result.outcome, result.checks, directory); !written)
+    return tl::unexpected(written.error());
+  for (const std::string& line : absent_metrics(config, result.outcome.records))
+    out << "! " << line << "; the columns of results.csv are those that there are\n";
+  print_outcome(result, directory, out);
+  return result;
+}
+
+}  // namespace
 
 Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, const Engine& engine,
                                         const RunnerConfig& runner, const std::atomic<bool>& stop,
@@ -55,16 +92,15 @@ Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, 
   auto outcome = run_cases(all_cases(config), engine, runner, stop,
                            [&line](const Progress& progress) { line.show(progress); });
   line.finish();
-  if (!outcome) return tl::unexpected(outcome.error());
-  ExperimentResult result;
-  result.outcome = std::move(*outcome);
-  result.checks = check_shapes(config, result.outcome.records);
-  if (const Status written = write_results(config, result.outcome, result.checks, runner.directory); !written)
-    return tl::unexpected(written.error());
-  for (const std::string& line : absent_metrics(config, result.outcome.records))
-    out << "! " << line << "; the columns of results.csv are those that there are\n";
-  print_outcome(result, runner.directory, out);
-  return result;
+  return reported(config, std::move(outcome), runner.directory, out);
+}
+
+Result<ExperimentResult> report_experiment(const config::ExperimentConfig& config, const RunnerConfig& runner,
+                                           std::ostream& out) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(runner.directory / "cases", error))
+    return failure(runner.directory.string() + ": holds no cases; run some first, or correct --out");
+  return reported(config, collect_cases(all_cases(config), runner), runner.directory, out);
 }
 
 }  // namespace fleetmap::apps::experiment

@@ -3,21 +3,16 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <map>
 
+#include "experiment/study_plots.hpp"
 #include "experiment/study_table.hpp"
 #include "experiment/study_values.hpp"
 #include "fleetmap/eval/html_page.hpp"
-#include "fleetmap/eval/plot.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + unit + "]";
-}
 
 void add_shapes(eval::HtmlPage& page, const std::vector<ShapeCheck>& checks) {
   if (checks.empty()) return;
@@ -26,11 +21,10 @@ void add_shapes(eval::HtmlPage& page, const std::vector<ShapeCheck>& checks) {
       "A shape holds when the last mean lies beyond the first in the expected direction, the least-squares "
       "line "
       "through the means goes there too, and no mean steps back from its neighbour by more than the seeds "
-      "explain (97.5 % point of Student's t of the paired differences). p is the one-sided chance of such "
-      "slopes "
-      "without any trend; above 0.05 the shape holds weakly. falls_less_than_linearly also asks that the "
-      "metric "
-      "times the axis rises.");
+      "explain: the 97.5 % point of Student's t times the standard error of a difference, from the residual "
+      "variance of all points and seeds. p is the one-sided chance of such slopes without any trend; above "
+      "0.05 "
+      "the shape holds weakly. falls_less_than_linearly also asks that the metric times the axis rises.");
   eval::Table table{{"study", "metric", "expected", "at", "verdict", "measured"}};
   for (const ShapeCheck& check : checks) {
     table.push_back(
@@ -48,90 +42,11 @@ void add_failures(eval::HtmlPage& page, const Outcome& outcome) {
     if (!record.done()) page.details(record.of.name, record.reason);
 }
 
-bool has_numbers(const config::Axis& axis) {
-  return std::ranges::none_of(axis.values, [](const config::AxisValue& value) {
-    return value.label.find_first_not_of("0123456789.+-eE") != std::string::npos;
-  });
-}
-
-/// Min-mean-max of a metric along the study's first axis, a line for each combination of the others.
-std::string metric_lines(const config::Study& study, const std::vector<CaseRecord>& records,
-                         const std::string& metric, eval::Axes axes) {
-  std::vector<eval::LineSeries> lines;
-  for (const Slice& slice : slices(study, 0)) {
-    const SliceValues along = values_along(study, records, 0, slice, metric);
-    eval::LineSeries line;
-    line.name = slice.name;
-    for (std::size_t k = 0; k < along.x.size(); ++k) {
-      const Spread values = spread(along.values[k], axes.log_y);
-      if (values.count == 0) continue;
-      line.x.push_back(along.x[k]);
-      line.y.push_back(values.mean);
-      line.low.push_back(values.min);
-      line.high.push_back(values.max);
-    }
-    lines.push_back(std::move(line));
-  }
-  return eval::line_plot(axes, lines);
-}
-
-/// The same where the first axis has names instead of numbers: means alone.
-std::string metric_bars(const config::Study& study, const std::vector<CaseRecord>& records,
-                        const std::string& metric, const eval::Axes& axes) {
-  std::vector<std::string> groups;
-  for (const config::AxisValue& value : study.axes.front().values) groups.push_back(value.label);
-  std::vector<eval::Bars> bars;
-  for (const Slice& slice : slices(study, 0)) {
-    const SliceValues along = values_along(study, records, 0, slice, metric);
-    eval::Bars means{slice.name, {}};
-    for (const std::vector<double>& values : along.values)
-      means.values.push_back(spread(values, axes.log_y).mean);
-    bars.push_back(std::move(means));
-  }
-  return eval::bar_plot(axes, groups, bars);
-}
-
-void add_metric(eval::HtmlPage& page, const config::ExperimentConfig& config, const config::Study& study,
-                const std::vector<CaseRecord>& records, const std::string& metric) {
-  const config::MetricSpec* spec = config.metric(metric);
-  const config::Axis& axis = study.axes.front();
-  eval::Axes axes;
-  axes.title = spec ? spec->title : metric;
-  axes.x_label = with_unit(axis.name, axis.unit);
-  axes.y_label = metric_title(config, metric);
-  axes.log_y = spec && spec->log_scale;
-  page.figure(has_numbers(axis) ? metric_lines(study, records, metric, axes)
-                                : metric_bars(study, records, metric, axes));
-}
-
-const CaseRecord* first_done(const config::Study& study, const std::vector<CaseRecord>& records,
-                             const std::vector<std::string>& point) {
-  const auto found = records_at(study, records, point);
-  const auto done = std::ranges::find_if(found, &CaseRecord::done);
-  return done == found.end() ? nullptr : *done;
-}
-
-void add_histograms(eval::HtmlPage& page, const config::Study& study,
-                    const std::vector<CaseRecord>& records) {
-  for (const std::string& name : study.histograms) {
-    // Only those with bins of the same width can be laid over each other.
-    std::map<double, std::vector<eval::HistogramSeries>> by_width;
-    for (const Slice& point : slices(study, study.axes.size())) {
-      const CaseRecord* record = first_done(study, records, point.labels);
-      if (!record) continue;
-      const auto found = record->result->histograms.find(name);
-      if (found == record->result->histograms.end()) continue;
-      by_width[found->second.bin_width].push_back({point_name(point), found->second.shares});
-    }
-    for (const auto& [width, series] : by_width) {
-      eval::Axes axes;
-      axes.title = name + ", first seed";
-      axes.x_label = name;
-      axes.y_label = "share";
-      axes.zero_based = true;
-      page.figure(eval::histogram(axes, series, width));
-    }
-  }
+void add_missing(eval::HtmlPage& page, const Outcome& outcome) {
+  if (outcome.complete()) return;
+  std::string names;
+  for (const std::string& name : outcome.missing) names += name + "\n";
+  page.details("Not run", names);
 }
 
 void add_pictures(eval::HtmlPage& page, const config::Study& study, const std::vector<CaseRecord>& records,
@@ -157,10 +72,8 @@ void add_study(eval::HtmlPage& page, const config::ExperimentConfig& config, con
   if (!study.figure.empty()) text += ", " + study.figure + " of the paper";
   page.paragraph(text + "; seeds a point: " + std::to_string(study.seeds.size()) +
                  ". Lines and cells are means, bands and brackets run from least to greatest.");
-  if (!study.axes.empty())
-    for (const std::string& metric : study.metrics) add_metric(page, config, study, records, metric);
+  for (const StudyPlot& plot : study_plots(config, study, records)) page.figure(plot.svg);
   page.table(study_table(config, study, records));
-  add_histograms(page, study, records);
   add_pictures(page, study, records, directory);
 }
 
@@ -174,10 +87,14 @@ std::string report_page(const config::ExperimentConfig& config, const Outcome& o
                  " cases came to their end, " +
                  std::to_string(outcome.records.size() - static_cast<std::size_t>(done)) +
                  " failed. Every case starts from " + config.base.filename().string() + ".");
-  if (outcome.interrupted) page.paragraph("Interrupted: what follows is of the cases that were finished.");
+  if (!outcome.complete()) {
+    page.paragraph("Incomplete: " + std::to_string(outcome.missing.size()) +
+                   " runs are still to be made, and what follows is of the cases that were finished.");
+  }
   for (const std::string& line : absent_metrics(config, outcome.records))
     page.paragraph(line + "; the columns of results.csv are those that there are.");
   add_failures(page, outcome);
+  add_missing(page, outcome);
   add_shapes(page, checks);
   for (const config::Study& study : config.studies)
     add_study(page, config, study, outcome.records, directory);

@@ -26,6 +26,7 @@ json check_json(const ShapeCheck& check) {
           {"means", check.means},
           {"change", finite(check.change)},
           {"p", finite(check.p)},
+          {"tolerance", finite(check.tolerance)},
           {"seeds", check.seeds},
           {"seeds_planned", check.seeds_planned},
           {"detail", check.detail}};
@@ -92,9 +93,8 @@ std::string axis_label(const config::ExperimentConfig& config, const Case& one, 
 
 json results_json(const config::ExperimentConfig& config, const Outcome& outcome,
                   const std::vector<ShapeCheck>& checks) {
-  json out{{"title", config.title},          {"base", config.base.string()},
-           {"cases_planned", outcome.total}, {"interrupted", outcome.interrupted},
-           {"studies", json::array()},       {"shapes", json::array()},
+  json out{{"title", config.title},      {"base", config.base.string()}, {"cases_planned", outcome.total},
+           {"missing", outcome.missing}, {"studies", json::array()},     {"shapes", json::array()},
            {"cases", json::array()}};
   for (const config::Study& study : config.studies) {
     json axes = json::array();

@@ -106,7 +106,7 @@ CaseResult gather(const json& report, const json& evaluation) {
   add_numbers(evaluation, "", result);
   add_histograms(evaluation, "", result);
   if (!report.is_object()) return result;
-  for (const char* key : {"completion", "wall_s", "virtual_time_s"})
+  for (const char* key : {"completion", "profile", "wall_time_s", "virtual_time_s"})
     if (report.contains(key)) add_numbers(report[key], key, result);
   add_links(report, result);
   return result;

@@ -1,22 +1,13 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "experiment/case_record.hpp"
+#include "experiment/case_folder.hpp"
 
 namespace fleetmap::apps::experiment {
-
-struct RunnerConfig {
-  std::filesystem::path directory;  ///< cases/<name>/ and their results are kept here
-  unsigned jobs = 1;                ///< cases at a time
-  bool keep = false;                ///< leave stores, maps and recordings where they are
-  std::string program;              ///< the build that runs the cases
-  bool any_program = false;         ///< take what another build finished, too
-};
 
 /// Where the experiment stands, told whenever a case begins or ends.
 struct Progress {
@@ -30,16 +21,28 @@ struct Progress {
 };
 
 struct Outcome {
-  std::vector<CaseRecord> records;  ///< of finished and failed cases, in the order of the cases
-  std::size_t total = 0;
-  bool interrupted = false;
+  std::vector<CaseRecord> records;   ///< of finished and failed cases, in the order of the cases
+  std::size_t total = 0;             ///< cases
+  std::vector<std::string> missing;  ///< names of the runs that are still to be made: one for equal cases
+
+  bool complete() const { return missing.empty(); }
 };
 
 /// Runs what no earlier start has finished. A case that fails does not stop the others; it is run again by
 /// the next start. Once `stop` is set no case is begun, and cases under way that then fail count as not run.
-/// Fails when another start is at work in the directory, or nothing can be written there.
+/// Fails when other processes run cases in the directory, or nothing can be written there.
 Result<Outcome> run_cases(const std::vector<Case>& cases, const Engine& engine, const RunnerConfig& config,
                           const std::atomic<bool>& stop,
                           const std::function<void(const Progress&)>& on_progress);
+
+/// Runs cases[index] alone, so that a cluster's scheduler distributes a grid: any number of processes on any
+/// machines that share `config.directory`, one a case. Returns what there is already (`reused`) when the
+/// case, or another one with equal inputs, is done. Fails when run_cases() is at work in the directory,
+/// another process runs this very case, or `stop` interrupted it.
+Result<CaseRecord> run_single_case(const std::vector<Case>& cases, std::size_t index, const Engine& engine,
+                                   const RunnerConfig& config, const std::atomic<bool>& stop);
+
+/// What there is in the directory, without running anything; safe while cases are being run.
+Result<Outcome> collect_cases(const std::vector<Case>& cases, const RunnerConfig& config);
 
 }  // namespace fleetmap::apps::experiment

@@ -39,29 +39,30 @@ double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
 }
 
 /// Chance that the seeds' slopes have this mean or one farther in the expected direction without any trend.
-double slope_chance(const Curve& curve, double sign) {
+double slope_chance(const Curve& curve, const Residual& residual, double sign) {
   std::vector<double> slopes;
   for (std::size_t seed = 0; seed < curve.values.front().size(); ++seed) {
     std::vector<double> y;
     for (const std::vector<double>& row : curve.values) y.push_back(sign * row[seed]);
     slopes.push_back(slope_of(curve.x, y));
   }
-  const double error = standard_error(slopes), mean = mean_of(slopes);
-  if (std::isnan(error)) return error;
-  if (error <= 0.0) return mean > 0.0 ? 0.0 : 1.0;
-  return student_tail(mean / error, static_cast<double>(slopes.size() - 1));
+  const double seeds = static_cast<double>(slopes.size()), mean = mean_of(slopes);
+  if (slopes.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  const double x_mean = mean_of(curve.x);
+  double xx = 0.0;
+  for (const double x : curve.x) xx += (x - x_mean) * (x - x_mean);
+  const auto chance = [mean](double error, double freedom) {
+    if (error <= 0.0) return mean > 0.0 ? 0.0 : 1.0;
+    return student_tail(mean / error, freedom);
+  };
+  return std::max(chance(standard_error(slopes), seeds - 1.0),
+                  chance(residual.sigma / std::sqrt(seeds * xx), residual.freedom));
 }
 
-/// The first step back that the seeds do not explain; empty: there is none.
-std::string step_back(const Curve& curve, const std::vector<double>& means, double sign) {
-  const std::size_t seeds = curve.values.front().size();
-  if (seeds < 2) return "";
-  const double t = student_quantile(0.025, static_cast<double>(seeds - 1));
+/// The first step back that is larger than `allowed` (NaN: any is allowed); empty: there is none.
+std::string step_back(const Curve& curve, const std::vector<double>& means, double sign, double allowed) {
   for (std::size_t k = 0; k + 1 < means.size(); ++k) {
-    std::vector<double> differences;
-    for (std::size_t seed = 0; seed < seeds; ++seed)
-      differences.push_back(sign * (curve.values[k + 1][seed] - curve.values[k][seed]));
-    const double back = -mean_of(differences), allowed = t * standard_error(differences);
+    const double back = sign * (means[k] - means[k + 1]);
     // What is equal but for the last digit is no step.
     if (back > allowed && back > 1e-9 * std::abs(means[k])) {
       return "from " + short_number(curve.x[k]) + " to " + short_number(curve.x[k + 1]) + " it goes " +
@@ -73,6 +74,31 @@ std::string step_back(const Curve& curve, const std::vector<double>& means, doub
 
 }  // namespace
 
+Residual residual_of(const Curve& curve) {
+  const std::size_t points = curve.values.size(), seeds = curve.values.front().size();
+  Residual residual;
+  residual.freedom = static_cast<double>((points - 1) * (seeds - 1));
+  if (residual.freedom < 1.0) {
+    residual.sigma = std::numeric_limits<double>::quiet_NaN();
+    return residual;
+  }
+  std::vector<double> point_means, seed_means(seeds, 0.0);
+  for (const std::vector<double>& row : curve.values) {
+    point_means.push_back(mean_of(row));
+    for (std::size_t s = 0; s < seeds; ++s) seed_means[s] += row[s] / static_cast<double>(points);
+  }
+  const double mean = mean_of(point_means);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < points; ++k) {
+    for (std::size_t s = 0; s < seeds; ++s) {
+      const double rest = curve.values[k][s] - point_means[k] - seed_means[s] + mean;
+      sum += rest * rest;
+    }
+  }
+  residual.sigma = std::max(std::sqrt(sum / residual.freedom), curve.resolution / std::sqrt(12.0));
+  return residual;
+}
+
 Trend check_trend(const Curve& curve, bool falling) {
   const double sign = falling ? -1.0 : 1.0;
   const std::string direction = falling ? "fall" : "rise";
@@ -80,7 +106,12 @@ Trend check_trend(const Curve& curve, bool falling) {
   for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
   trend.change = trend.means.back() - trend.means.front();
   trend.slope = slope_of(curve.x, trend.means);
-  trend.p = slope_chance(curve, sign);
+  const Residual residual = residual_of(curve);
+  trend.p = slope_chance(curve, residual, sign);
+  trend.tolerance = std::isnan(residual.sigma)
+                        ? residual.sigma
+                        : student_quantile(0.025, residual.freedom) * residual.sigma *
+                              std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
   if (!(sign * trend.change > 0.0)) {
     trend.violation =
         "it does not " + direction + " from first to last: the mean changes by " + short_number(trend.change);
@@ -88,7 +119,7 @@ Trend check_trend(const Curve& curve, bool falling) {
     trend.violation =
         "the line through the means does not " + direction + ": its slope is " + short_number(trend.slope);
   } else {
-    trend.violation = step_back(curve, trend.means, sign);
+    trend.violation = step_back(curve, trend.means, sign, trend.tolerance);
   }
   return trend;
 }
@@ -96,9 +127,10 @@ Trend check_trend(const Curve& curve, bool falling) {
 namespace {
 
 /// Only the seeds that gave the metric at every point, as logarithms if that is how it is compared.
-Curve paired(const SliceValues& slice, bool log_scale) {
+Curve paired(const SliceValues& slice, bool log_scale, double resolution) {
   Curve curve;
   curve.x = slice.x;
+  curve.resolution = resolution;
   curve.values.resize(slice.x.size());
   for (std::size_t seed = 0; seed < slice.values.front().size(); ++seed) {
     const bool whole = std::ranges::all_of(slice.values, [&](const std::vector<double>& row) {
@@ -115,6 +147,8 @@ Curve times_x(Curve curve, bool log_scale) {
   for (std::size_t k = 0; k < curve.x.size(); ++k)
     for (double& value : curve.values[k])
       value = log_scale ? value + std::log(curve.x[k]) : value * curve.x[k];
+  // The coarsest of the products, so that the tolerance rather errs on the side of chance.
+  curve.resolution *= *std::ranges::max_element(curve.x);
   return curve;
 }
 
@@ -133,6 +167,7 @@ void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
     for (double& mean : check.means) mean = std::exp(mean);
   check.change = log_scale ? std::exp(trend.change) : trend.change;
   check.p = trend.p;
+  check.tolerance = trend.tolerance;
   std::string violation = trend.violation;
   if (violation.empty() && check.expectation.shape == config::Shape::kFallsLessThanLinearly) {
     const Trend shares = check_trend(times_x(curve, log_scale), false);
@@ -157,7 +192,8 @@ void check_slice(ShapeCheck& check, const config::ExperimentConfig& config, cons
                  const std::vector<CaseRecord>& records, std::size_t axis, const Slice& slice) {
   const config::MetricSpec* metric = config.metric(check.expectation.metric);
   const bool log_scale = metric && metric->log_scale;
-  const Curve curve = paired(values_along(study, records, axis, slice, check.expectation.metric), log_scale);
+  const Curve curve = paired(values_along(study, records, axis, slice, check.expectation.metric), log_scale,
+                             metric ? metric->resolution : 0.0);
   check.x = curve.x;
   check.seeds = curve.values.front().size();
   check.seeds_planned = study.seeds.size();

@@ -12,15 +12,28 @@ namespace fleetmap::apps::experiment {
 struct Curve {
   std::vector<double> x;
   std::vector<std::vector<double>> values;
+  double resolution = 0.0;  ///< values are rounded to multiples of it; 0: they are not
 };
+
+/// What is left of a curve's values when each seed's and each point's mean is taken away: sigma of a single
+/// run that no change of the axis explains.
+struct Residual {
+  double sigma = 0.0;
+  double freedom = 0.0;  ///< degrees of freedom, (points - 1) * (seeds - 1)
+};
+/// Two-way analysis of variance without replication (a randomised block design, seeds are the blocks). All
+/// points share one sigma, so that a few equal differences cannot make it vanish; it is never less than the
+/// resolution's own, resolution / sqrt(12). NaN with one seed.
+Residual residual_of(const Curve& curve);
 
 /// How a curve lies to the shape it is expected to have.
 struct Trend {
   std::vector<double> means;
-  double change = 0.0;    ///< last mean less the first
-  double slope = 0.0;     ///< of the least-squares line through the means, a unit of x
-  double p = 1.0;         ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
-  std::string violation;  ///< which rule is broken and by how much; empty: none
+  double change = 0.0;     ///< last mean less the first
+  double slope = 0.0;      ///< of the least-squares line through the means, a unit of x
+  double p = 1.0;          ///< one-sided: chance of such slopes if there were no trend; NaN with one seed
+  double tolerance = 0.0;  ///< the largest step back that the seeds explain; NaN with one seed
+  std::string violation;   ///< which rule is broken and by how much; empty: none
   bool holds() const { return violation.empty(); }
 };
 
@@ -28,10 +41,11 @@ struct Trend {
 /// x):
 /// 1. the last mean lies beyond the first in the expected direction;
 /// 2. the least-squares line through the means goes in that direction;
-/// 3. no mean steps back from its neighbour by more than the seeds explain: more than `t` standard errors of
-/// the
-///    paired differences, t the one-sided 97.5 % point of Student's distribution (one seed: any step is
-///    allowed).
+/// 3. no mean steps back from its neighbour by more than the seeds explain: Fisher's least significant
+/// difference, t * sigma * sqrt(2 / seeds) with residual_of()'s sigma and t the one-sided 97.5 % point of
+/// Student's distribution of its freedom (one seed: any step is allowed).
+/// p is the larger of two: that of the seeds' slopes (seeds - 1 degrees of freedom), and that of the same
+/// contrast with residual_of()'s sigma, which two equal slopes do not make 0.
 /// `falling` asks for falls; otherwise rises.
 Trend check_trend(const Curve& curve, bool falling);
 
@@ -54,7 +68,8 @@ struct ShapeCheck {
   std::size_t seeds_planned = 0;
   double change = 0.0;  ///< last mean less the first; of log-scale metrics the last over the first
   double p = 1.0;
-  std::string detail;  ///< in words: what was measured, or which rule is broken and by how much
+  double tolerance = 0.0;  ///< Trend::tolerance; of log-scale metrics of logarithms
+  std::string detail;      ///< in words: what was measured, or which rule is broken and by how much
 };
 
 /// Falls-less-than-linearly is: the metric falls, and the metric times x rises (each robot more brings less

@@ -42,6 +42,13 @@ std::vector<const CaseRecord*> records_at(const config::Study& study, const std:
   return found;
 }
 
+const CaseRecord* first_done(const config::Study& study, const std::vector<CaseRecord>& records,
+                             const std::vector<std::string>& point) {
+  const auto found = records_at(study, records, point);
+  const auto done = std::ranges::find_if(found, &CaseRecord::done);
+  return done == found.end() ? nullptr : *done;
+}
+
 SliceValues values_along(const config::Study& study, const std::vector<CaseRecord>& records,
                          std::size_t free_axis, const Slice& slice, const std::string& metric) {
   SliceValues out;

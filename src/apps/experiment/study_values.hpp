@@ -30,6 +30,10 @@ SliceValues values_along(const config::Study& study, const std::vector<CaseRecor
 std::vector<const CaseRecord*> records_at(const config::Study& study, const std::vector<CaseRecord>& records,
                                           const std::vector<std::string>& point);
 
+/// The first of them that came to its end; null: none did.
+const CaseRecord* first_done(const config::Study& study, const std::vector<CaseRecord>& records,
+                             const std::vector<std::string>& point);
+
 /// The metric of those cases that gave it.
 std::vector<double> values_at(const std::vector<const CaseRecord*>& records, const std::string& metric);
 

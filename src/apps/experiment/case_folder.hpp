@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "experiment/case_record.hpp"
+
+namespace fleetmap::apps::experiment {
+
+struct RunnerConfig {
+  std::filesystem::path directory;  ///< cases/<name>/ and their results are kept here
+  unsigned jobs = 1;                ///< cases at a time
+  bool keep = false;                ///< leave stores, maps and recordings where they are
+  std::string program;              ///< the build that runs the cases
+  bool any_program = false;         ///< take what another build finished, too
+
+  std::filesystem::path folder(const std::string& name) const { return directory / "cases" / name; }
+};
+
+/// How an earlier start ended the case: done or failed. Empty when it did not end, had other inputs than
+/// those of `hash`, or was run by a build that `config` does not take.
+std::optional<CaseRecord> recorded(const RunnerConfig& config, const Case& one, const std::string& hash);
+
+/// Runs the case in its emptied folder and writes result.json there, last and whole; no other file of
+/// `config.directory` is touched. A case that fails after `stop` was set was interrupted: it leaves no
+/// result.json.
+CaseRecord run_in_folder(const RunnerConfig& config, const Case& one, const std::string& hash,
+                         const Engine& engine, const std::atomic<bool>& stop);
+
+}  // namespace fleetmap::apps::experiment
