@@ -101,7 +101,7 @@ class DriveStop : public ::testing::Test {
   void SetUp() override {
     twin_.write("two.yaml",
                 "world: {file: world.yaml}\nsite: {origin: [39.0, -3.0, 600.0]}\n"
-                "mission: {waypoints: aisles, every: 1, rendezvous: false, speed: 0.5}\n"
+                "mission: {every: 1, rendezvous: false, speed: 0.5}\n"
                 "dds: {base_domain: " +
                     std::to_string(first_test_domain()) + ", qos: " + FLEETMAP_SOURCE_DIR +
                     "/qos}\n"
