@@ -131,7 +131,7 @@ void Navigator::note(const std::optional<StandReason>& reason) {
   if (reason == stands_) return;
   if (!reason) {
     if (stands_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
-  } else if (drove_ || reason == StandReason::kHeld) {  // before it ever drove there is nothing to warn of
+  } else if ((drove_ && !done()) || reason == StandReason::kHeld) {  // else there is nothing to warn of
     spdlog::log(reason == StandReason::kStopping ? spdlog::level::info : spdlog::level::warn,
                 "{}: stands still: {}", self_.str(), to_string(*reason));
   }
