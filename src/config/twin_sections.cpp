@@ -75,6 +75,10 @@ void read_twin_gps(Section& robot, sim::GpsSpec& spec) {
   jumps.read("size", spec.jump_size);
   jumps.read("duration", spec.jump_duration);
   jumps.finish();
+  Section altitude = gps.section("altitude");
+  altitude.read("wave", spec.altitude_wave);
+  altitude.read("period", spec.altitude_period);
+  altitude.finish();
   gps.finish();
   gps.check(spec.validate());
 }

@@ -24,12 +24,17 @@ Status GpsSpec::validate() const {
       within("jumps_per_hour", jumps_per_hour, 0.0, 3600.0, "an hour"),
       within("jump_size", jump_size, 0.0, 1e4, "m"),
       within("jump_duration", jump_duration, 0.0, 1e5, "s"),
+      within("altitude_wave", altitude_wave, 0.0, 1e4, "m"),
+      within("altitude_period", altitude_period, 1.0, 1e6, "s"),
   });
 }
 
 struct GpsModel::State {
   State(const GpsSpec& s, const LocalFrame& site, std::uint64_t seed)
-      : spec(s), frame(site), random(seed, 0x6505) {
+      : spec(s),
+        frame(site),
+        random(seed, 0x6505),
+        phase(2.0 * std::numbers::pi * RandomStream(seed, 0x6506).uniform()) {
     for (int axis = 0; axis < 3; ++axis) {
       drift.emplace_back(spec.drift_sigma * (axis == 2 ? spec.vertical_factor : 1.0), spec.correlation_time);
     }
@@ -48,6 +53,7 @@ struct GpsModel::State {
       jump_until = seconds + spec.jump_duration;
     }
     if (seconds < jump_until) sum += jump;
+    sum.z() += spec.altitude_wave * std::sin(2.0 * std::numbers::pi * seconds / spec.altitude_period + phase);
     return sum;
   }
   bool out(double seconds) const {
@@ -58,6 +64,7 @@ struct GpsModel::State {
   GpsSpec spec;
   LocalFrame frame;
   RandomStream random;
+  double phase;  ///< rad, of the altitude's wave at the start
   std::vector<GaussMarkov> drift;
   Eigen::Vector3d jump = Eigen::Vector3d::Zero();
   double jump_until = -1.0;

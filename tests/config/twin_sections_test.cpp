@@ -55,7 +55,7 @@ TEST(TwinSections, EverythingOfTheRobotCanBeSet) {
            "  lidar_rate: 5\n  range_noise: 0.08\n  max_range: 40\n  start: [3, -4, 90]\n  seed: 9\n"
            "  imu: {rate: 200, heading_sigma_deg: 10, reports_orientation: false}\n"
            "  gps: {drift_sigma: 3, outages: [{from: 10, until: 20}, {from: 30, until: 31}],\n"
-           "        jumps: {per_hour: 6, size: 12, duration: 5}}\n"
+           "        jumps: {per_hour: 6, size: 12, duration: 5}, altitude: {wave: 4, period: 90}}\n"
            "  wheels: {slip: 0.2}\n  vehicle: {max_speed: 1.2, battery_wh: 50}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.robot.lidar.name, "os1-64");
@@ -73,6 +73,8 @@ TEST(TwinSections, EverythingOfTheRobotCanBeSet) {
   ASSERT_EQ(r.robot.gps.outages.size(), 2u);
   EXPECT_EQ(r.robot.gps.outages[1].until, 31.0);
   EXPECT_EQ(r.robot.gps.jump_size, 12.0);
+  EXPECT_EQ(r.robot.gps.altitude_wave, 4.0);
+  EXPECT_EQ(r.robot.gps.altitude_period, 90.0);
   EXPECT_EQ(r.robot.wheels.slip, 0.2);
   EXPECT_EQ(r.robot.vehicle.battery_wh, 50.0);
 }

@@ -176,6 +176,24 @@ TEST(Gps, JumpsComeAtTheirRateLastAndGo) {
   EXPECT_NEAR(static_cast<double>(away) / fixes, 10.0 / 70.0, 0.02);  // 60 s of peace, 10 s of jump
 }
 
+TEST(Gps, AltitudeSwingsByItsWaveAndChangesNoOtherError) {
+  GpsSpec spec;
+  const GpsErrors level = gps_errors(spec, 5, 120.0);
+  spec.altitude_wave = 5.0;
+  spec.altitude_period = 120.0;
+  const GpsErrors run = gps_errors(spec, 5, 120.0);
+  double highest = 0.0, lowest = 0.0;
+  for (std::size_t k = 0; k < run.errors.size(); ++k) {
+    const Eigen::Vector3d wave = run.errors[k] - level.errors[k];
+    EXPECT_LT(wave.head<2>().norm(), 1e-3);
+    highest = std::max(highest, wave.z());
+    lowest = std::min(lowest, wave.z());
+  }
+  EXPECT_NEAR(highest, 5.0, 0.01);
+  EXPECT_NEAR(lowest, -5.0, 0.01);
+  EXPECT_EQ(run.fixes.back().covariance, level.fixes.back().covariance);
+}
+
 TEST(Wheels, ScaleIsConstantAndSlipGrowsWithTurning) {
   WheelSpec spec;
   spec.slip = 0.01;

@@ -29,14 +29,16 @@ struct GpsSpec {
   /// Reported variance against the true mean one of white and drift (jumps are never reported).
   double covariance_factor = 1.0;
   std::vector<GpsOutage> outages;
-  double jumps_per_hour = 0.0;  ///< multipath: the fix is elsewhere for a while, Poisson
-  double jump_size = 8.0;       ///< m, horizontally, in a random direction
-  double jump_duration = 15.0;  ///< s
+  double jumps_per_hour = 0.0;     ///< multipath: the fix is elsewhere for a while, Poisson
+  double jump_size = 8.0;          ///< m, horizontally, in a random direction
+  double jump_duration = 15.0;     ///< s
+  double altitude_wave = 0.0;      ///< m, amplitude of a sine that the altitude is off by; never reported
+  double altitude_period = 240.0;  ///< s, of that sine; its phase is drawn from the seed
   Status validate() const;
 };
 
-/// A receiver whose error has a white part, a slowly drifting one, jumps and outages. Deterministic in
-/// `seed`.
+/// A receiver whose error has a white part, a slowly drifting one, jumps, a wave of the altitude and outages.
+/// Deterministic in `seed`.
 class GpsModel {
  public:
   GpsModel(const GpsSpec& spec, const LocalFrame& site, std::uint64_t seed);
