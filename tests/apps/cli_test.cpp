@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -169,6 +171,28 @@ TEST_F(CommandLine, StoreThatIsNoneIsRefused) {
   EXPECT_THAT(output_, HasSubstr("is a folder; give the store.db of a robot in it"));
   run({"map", "export", path("none.db"), "--out", path("map.ply")});
   EXPECT_EQ(exit_code_, 1);
+}
+
+TEST_F(CommandLine, RegisterTakesThePapersMethodWhichHasNoPrior) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2500\nproperty float x\nproperty float y\nproperty float "
+      "z\nend_header\n";
+  for (int k = 0; k < 2500; ++k) {
+    const double x = 0.6 * (k % 50), y = 0.6 * (k / 50);
+    ply += std::to_string(x) + " " + std::to_string(y) + " " +
+           std::to_string(2.0 * std::sin(0.4 * x) * std::cos(0.3 * y) + 0.05 * x) + "\n";
+  }
+  folder_.write("hills.ply", ply);
+  run({"register", "--set", "registration.method=paper", path("hills.ply"), path("hills.ply")});
+  EXPECT_EQ(exit_code_, 0);
+  EXPECT_THAT(output_, HasSubstr("\"method\": \"paper\""));
+  EXPECT_THAT(output_, HasSubstr("\"verdict\": \"accepted\""));
+  run({"register", "--set", "registration.method=paper", "--prior", "0,0,0,0", path("hills.ply"),
+       path("hills.ply")});
+  EXPECT_THAT(output_, HasSubstr("--prior is not used"));
+  run({"register", "--set", "registration.method=fpfh", path("hills.ply"), path("hills.ply")});
+  EXPECT_EQ(exit_code_, 78);
+  EXPECT_THAT(output_, HasSubstr("expected 'paper' or 'correlation', found 'fpfh'"));
 }
 
 TEST_F(CommandLine, RegisterPrintsAVerdictForUnusableClouds) {
