@@ -30,8 +30,8 @@ EkfErrors run(const EkfDrive& drive, std::uint64_t seed) {
   RobotTwin twin = RobotTwin::create(drive.world, origin, robot, Stamp{}).value();
   localization::EkfConfig config = drive.ekf;
   config.site_origin = origin;
-  config.mounting.T_base_imu = robot.T_base_imu;
-  config.mounting.p_base_antenna = robot.p_base_antenna;
+  if (drive.knows_imu_mount) config.mounting.T_base_imu = robot.T_base_imu;
+  if (drive.knows_antenna) config.mounting.p_base_antenna = robot.p_base_antenna;
   localization::Ekf ekf(config);
   EkfErrors errors;
   int fixes = 0;

@@ -15,6 +15,8 @@ struct EkfDrive {
   std::shared_ptr<const World> world;
   RobotTwinConfig robot;
   localization::EkfConfig ekf;  ///< mounts and origin are set by run()
+  bool knows_antenna = true;    ///< else it takes the fixes for those of base_link
+  bool knows_imu_mount = true;  ///< else it takes the IMU's axes for those of base_link
   double seconds = 90.0;        ///< s; errors count after the first 20
 };
 

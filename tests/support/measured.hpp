@@ -17,8 +17,9 @@ inline unsigned seeds_to_run(unsigned usual) {
 }
 
 inline void print_measured(const std::string& what, unsigned seed, double value) {
-  if (std::getenv("FLEETMAP_SEEDS") != nullptr)
-    std::printf("measured %s, seed %u: %.5g\n", what.c_str(), seed, value);
+  if (std::getenv("FLEETMAP_SEEDS") == nullptr) return;
+  std::printf("measured %s, seed %u: %.5g\n", what.c_str(), seed, value);
+  std::fflush(stdout);
 }
 
 inline void expect_at_most(double value, double bound, const std::string& what, unsigned seed) {
