@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/planning/geojson.hpp"
@@ -35,26 +36,35 @@ Status write_site(const std::filesystem::path& out, const TwinSetup& setup) {
 std::optional<double> share_of_lanes_driven(const sim::World& world, int every,
                                             const std::vector<std::vector<agent::StampedPose>>& truths) {
   constexpr double kStep = 0.5;   // m along a lane
-  constexpr double kReach = 2.0;  // m
-  double driven = 0.0, all = 0.0;
-  for (std::size_t k = 0; k < world.aisles().size(); k += static_cast<std::size_t>(std::max(1, every))) {
-    const sim::Aisle& lane = world.aisles()[k];
-    const double length = (lane.to - lane.from).norm();
-    const Eigen::Vector2d along = (lane.to - lane.from) / length;
-    std::vector<bool> reached(static_cast<std::size_t>(std::ceil(length / kStep)), false);
-    for (const auto& truth : truths) {
-      for (const agent::StampedPose& pose : truth) {
-        const Eigen::Vector2d p = pose.T_w_base.translation().head<2>() - lane.from;
+  constexpr double kReach = 5.0;  // m beside it
+  const std::vector<sim::Aisle>& lanes = world.aisles();
+  std::vector<std::vector<bool>> driven;
+  for (const sim::Aisle& lane : lanes)
+    driven.emplace_back(static_cast<std::size_t>(std::ceil((lane.to - lane.from).norm() / kStep)), false);
+  for (const auto& truth : truths) {
+    for (const agent::StampedPose& pose : truth) {
+      double nearest = kReach;
+      std::optional<std::pair<std::size_t, std::size_t>> piece;  // of a lane
+      for (std::size_t k = 0; k < lanes.size(); ++k) {
+        const Eigen::Vector2d along = (lanes[k].to - lanes[k].from).normalized();
+        const Eigen::Vector2d p = pose.T_w_base.translation().head<2>() - lanes[k].from;
         const double at = along.dot(p);
-        if ((p - at * along).norm() > kReach || at < 0.0 || at >= length) continue;
-        reached[static_cast<std::size_t>(at / kStep)] = true;
+        const double beside = (p - at * along).norm();
+        const auto index = static_cast<std::size_t>(std::max(0.0, at) / kStep);
+        if (beside > nearest || at < 0.0 || index >= driven[k].size()) continue;
+        nearest = beside;
+        piece = {k, index};
       }
+      if (piece) driven[piece->first][piece->second] = true;
     }
-    driven += static_cast<double>(std::ranges::count(reached, true));
-    all += static_cast<double>(reached.size());
   }
-  if (all == 0.0) return std::nullopt;
-  return driven / all;
+  std::ptrdiff_t done = 0, all = 0;
+  for (std::size_t k = 0; k < lanes.size(); k += static_cast<std::size_t>(std::max(1, every))) {
+    done += std::ranges::count(driven[k], true);
+    all += std::ssize(driven[k]);
+  }
+  if (all == 0) return std::nullopt;
+  return static_cast<double>(done) / static_cast<double>(all);
 }
 
 }  // namespace fleetmap::apps

@@ -21,8 +21,8 @@ Status write_truth_cloud(const std::filesystem::path& out, const sim::World& wor
 /// `out`/site.geojson: the drawing that the fleet planned on.
 Status write_site(const std::filesystem::path& out, const TwinSetup& setup);
 
-/// Share of the length of each `every`-th lane of the world to which some robot truly came within 2 m.
-/// Nothing for a world without lanes.
+/// Share of the length of each `every`-th lane of the world that some robot truly drove: it was within 5 m of
+/// it and nearer to it than to any other lane. Nothing for a world without lanes.
 std::optional<double> share_of_lanes_driven(const sim::World& world, int every,
                                             const std::vector<std::vector<agent::StampedPose>>& truths);
 

@@ -58,7 +58,7 @@ TEST(TwinFaults, OthersDriveTheRowsOfARobotThatDied) {
   EXPECT_THAT(run.output, HasSubstr("r3: switched off"));
   EXPECT_THAT(run.output, HasSubstr("all robots hold the same map"));
 
-  EXPECT_NEAR(moved_between(run.out / "r3", 10.0, 40.0), 0.0, 0.05) << "it stands where it died";
+  EXPECT_NEAR(moved_between(run.out / "r3", 12.0, 40.0), 0.0, 0.05) << "it stands where it rolled to a stop";
   EXPECT_GT(moved_between(run.out / "r3", 0.0, 10.0), 1.0);
   const Nodes left = nodes_in(run.out / "r3", "r3");
   EXPECT_GE(left.own_of_first_start, 1u) << "what it saw before is in its store";
@@ -82,8 +82,8 @@ TEST(TwinFaults, ARobotThatComesBackGoesOnFromItsStore) {
   EXPECT_FALSE(agents["r3"].contains("switched_off"));
   EXPECT_EQ(agents["r3"]["missing_submaps"], 0);
 
-  EXPECT_NEAR(moved_between(run.out / "r3", 10.0, 30.0), 0.0, 0.05);
-  EXPECT_GT(moved_between(run.out / "r3", 30.0, completion["completed_s"].get<double>()), 1.0);
+  EXPECT_NEAR(moved_between(run.out / "r3", 12.0, 30.0), 0.0, 0.05);
+  EXPECT_GT(moved_between(run.out / "r3", 30.0, 60.0), 1.0);
   const Nodes nodes = nodes_in(run.out / "r3", "r3");
   EXPECT_GE(nodes.own_of_first_start, 1u);
   EXPECT_GE(nodes.own_of_second_start, 1u);

@@ -108,6 +108,8 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
   ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
   EXPECT_LT(completion["completed_s"].get<double>(), 200.0);
   EXPECT_LE(completion["mission_s"].get<double>(), completion["completed_s"].get<double>());
+  EXPECT_GT(completion["lane_share"].get<double>(), 0.93) << "the drawing is off, the lanes are driven";
+  EXPECT_EQ(completion["abandoned"], 0);
   EXPECT_TRUE(fs::exists(two.out / "truth.ply"));
 
   double sum = 0.0;
@@ -159,6 +161,23 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
       EXPECT_NE(hash, hash_of(other.out / id / file)) << id << "/" << file << " of another seed";
     }
   }
+}
+
+TEST(TwinFleet, AMissionEndsThoughThingsStandInTheWayThatNobodyDrew) {
+  const testing::SmallTwin twin;
+  const auto clear = twin.run("clear", {"--set", "max_time=1", "--set", "mission.map_error_m=1"});
+  ASSERT_EQ(clear.exit_code, 0) << clear.output;
+  const auto cluttered =
+      twin.run("cluttered", {"--set", "mission.unknown_obstacles=3", "--set", "mission.map_error_m=1"});
+  ASSERT_EQ(cluttered.exit_code, 0) << cluttered.output;
+  EXPECT_EQ(hash_of(clear.out / "site.geojson"), hash_of(cluttered.out / "site.geojson"))
+      << "not in the drawing";
+  EXPECT_NE(hash_of(clear.out / "truth.ply"), hash_of(cluttered.out / "truth.ply")) << "but in the world";
+  const auto& completion = cluttered.report["completion"];
+  ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
+  EXPECT_LT(completion["completed_s"].get<double>(), 300.0);
+  EXPECT_GT(completion["lane_share"].get<double>(), 0.8) << completion.dump();
+  for (const auto& row : completion["abandoned_rows"]) EXPECT_FALSE(row["why"].get<std::string>().empty());
 }
 
 TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
