@@ -70,7 +70,8 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
     return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   };
   expect_at_most(at("/modes/fleet/fleet/ate_joint"), 0.016, "fleet, joint ATE in m", seed);
-  expect_at_most(at("/modes/paper/fleet/ate_joint"), 0.024, "fleet, joint ATE of mode paper in m", seed);
+  expect_at_most(at("/modes/correlation_paper/fleet/ate_joint"), 0.024,
+                 "fleet, joint ATE by the paper's placement in m", seed);
   expect_at_most(at("/fleet/ate_unaligned"), 3.1, "fleet, ATE without alignment in m", seed);
   expect_at_most(at("/fleet/inter_robot_translation"), 0.032, "fleet, relative pose of two robots in m",
                  seed);
@@ -83,7 +84,8 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
   expect_at_most(at("/alignments/wrong"), 0, "fleet, wrong alignments", seed);
   expect_at_most(at("/alignments/wrong_used"), 0, "fleet, wrong alignments in use", seed);
   expect_at_most(at("/modes/fleet/fleet/wrong_merges"), 0, "fleet, wrong merges", seed);
-  expect_at_most(at("/modes/paper/fleet/wrong_merges"), 0, "fleet, wrong merges of mode paper", seed);
+  expect_at_most(at("/modes/correlation_paper/fleet/wrong_merges"), 0,
+                 "fleet, wrong merges by the paper's placement", seed);
   const double f1 = at("/map/overlap/f1/1"), best = at("/map/overlap/with_true_poses/f1/1");
   expect_at_least(f1, 0.917, "fleet, F1 at 10 cm where two robots were", seed);
   expect_at_most(best - f1, 0.001, "fleet, F1 lost against true poses", seed);
