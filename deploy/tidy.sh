@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs clang-tidy (.clang-tidy names the checks) and fails on any finding.
-#   deploy/tidy.sh              .cpp files touched by the last 20 commits, latest first, as many as are begun within 2 minutes
+#   deploy/tidy.sh              .cpp files touched by the last 20 commits, latest first, as many as are begun within TIDY_SECONDS (120)
 #   deploy/tidy.sh COMMIT       all .cpp files that differ from COMMIT, committed or not
 #   deploy/tidy.sh all          all .cpp files
 #   deploy/tidy.sh FILE.cpp...  these
