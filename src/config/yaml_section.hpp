@@ -25,7 +25,6 @@ class Document {
   static Document from(YAML::Node root, std::string name);
 
   const YAML::Node& root() const { return root_; }
-  void set_root(YAML::Node root) { root_ = std::move(root); }
   const std::string& name() const { return name_; }
   /// Folder that relative paths of the document are relative to.
   std::filesystem::path folder() const;
