@@ -97,7 +97,6 @@ Site wild_site(const std::string& name, unsigned seed, double half_m) {
   Site site{name,
             sim::Scene::create(mesh).value(),
             [terrain](const Eigen::Vector2d& p) { return terrain->height(p.x(), p.y()); },
-            {},
             {}};
   for (double y = -half_m; y <= half_m; y += 9.0) site.lanes.push_back({{-half_m, y}, {half_m, y}});
   return site;
