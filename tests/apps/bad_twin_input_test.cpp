@@ -199,7 +199,10 @@ TEST_F(BadTwinInput, CheckConfigSaysWhatAFileIs) {
   const std::filesystem::path shipped = std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config";
   EXPECT_THAT(says(shipped / "experiments/paper.yaml"), HasSubstr("a valid experiment with "));
   EXPECT_THAT(says(shipped / "experiments/accuracy.yaml"), HasSubstr("a valid experiment with "));
+  EXPECT_THAT(says(shipped / "experiments/missions.yaml"), HasSubstr("a valid experiment with "));
   EXPECT_THAT(says(shipped / "agents/r1.yaml"), HasSubstr("a valid agent configuration"));
+  EXPECT_THAT(says(shipped / "fleets/demo.yaml"), HasSubstr("3 robots, 3 rows"))
+      << "on the drawing of its site";
   EXPECT_THAT(says(shipped / "fleets/farm_small.yaml"), HasSubstr("5 robots"));
 }
 
