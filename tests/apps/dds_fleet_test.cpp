@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "fleetmap/store/store.hpp"
+#include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
@@ -21,19 +19,6 @@ namespace {
 const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
 constexpr auto kPatience = std::chrono::minutes(5);
-
-/// Looks again until `condition` holds; false after kPatience. A process's progress shows only in its files.
-bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  std::mutex mutex;
-  std::condition_variable never;
-  std::unique_lock lock(mutex);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    never.wait_for(lock, std::chrono::milliseconds(50));
-  }
-  return true;
-}
 
 class DdsFleet : public ::testing::Test {
  protected:
@@ -113,7 +98,8 @@ TEST_F(DdsFleet, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   auto r2 = agent("r2");
   auto play1 = replay("r1");
   auto play2 = replay("r2", "0.4");  // so that there is something left to hear after the kill
-  ASSERT_TRUE(eventually([&] { return own_nodes("r2") >= 5; })) << r2->output() << play2->output();
+  ASSERT_TRUE(testing::eventually([&] { return own_nodes("r2") >= 5; }, kPatience))
+      << r2->output() << play2->output();
   r2->signal(SIGKILL);
   EXPECT_EQ(r2->wait(), 128 + SIGKILL);
   const std::size_t held = own_nodes("r2");

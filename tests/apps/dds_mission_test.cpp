@@ -4,14 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <fstream>
-#include <functional>
-#include <mutex>
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "small_twin.hpp"
+#include "support/eventually.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -21,20 +19,6 @@ using ::testing::HasSubstr;
 
 const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr auto kPatience = std::chrono::minutes(4);
-
-/// Tests `condition` again until it holds; false after kPatience. A process's progress shows only in its
-/// files.
-bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
-  std::mutex mutex;
-  std::condition_variable never;
-  std::unique_lock lock(mutex);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    never.wait_for(lock, std::chrono::milliseconds(100));
-  }
-  return true;
-}
 
 class DdsMission : public ::testing::Test {
  protected:
@@ -74,7 +58,7 @@ TEST_F(DdsMission, AgentsDriveTheirShareOfADrawing) {
   testing::Process sim({kFleetmap, "sim", "-c", file("fleet.yaml"), "--out", file("truth")});
   testing::Process r1({kFleetmap, "agent", "-c", file("r1.yaml")});
   testing::Process r2({kFleetmap, "agent", "-c", file("r2.yaml")});
-  const bool drove = eventually([&] { return driven("r1") > 8.0 && driven("r2") > 8.0; });
+  const bool drove = testing::eventually([&] { return driven("r1") > 8.0 && driven("r2") > 8.0; }, kPatience);
   for (testing::Process* agent : {&r1, &r2}) agent->signal(SIGINT);
   EXPECT_EQ(r1.wait(), 0) << r1.output();
   EXPECT_EQ(r2.wait(), 0) << r2.output();

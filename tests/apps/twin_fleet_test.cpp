@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <fstream>
-#include <functional>
 #include <limits>
-#include <mutex>
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "small_twin.hpp"
+#include "support/eventually.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
 
@@ -36,20 +34,6 @@ double share_touching(const eval::Trajectory& truth, const sim::World& world, do
     return world.blocked(pose.T_enu_base.translation().head<2>(), radius);
   });
   return static_cast<double>(touching) / static_cast<double>(truth.size());
-}
-
-/// Looks again until `condition` holds; false after two minutes. A process's progress shows only in its
-/// files.
-bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  std::mutex mutex;
-  std::condition_variable never;
-  std::unique_lock lock(mutex);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) return false;
-    never.wait_for(lock, std::chrono::milliseconds(100));
-  }
-  return true;
 }
 
 /// What `fleetmap eval` finds.
@@ -192,10 +176,12 @@ TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
   testing::Process sim({fleetmap, "sim", "-c", config, "--out", twin.path("truth").string()});
   testing::Process agent(
       {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()});
-  const bool drove = eventually([&] {
-    const auto poses = agent::read_trajectory(twin.path("agents/r1/odometry.tum"));
-    return poses && !poses->empty() && poses->back().T_w_base.translation().norm() > 1.5;
-  });
+  const bool drove = testing::eventually(
+      [&] {
+        const auto poses = agent::read_trajectory(twin.path("agents/r1/odometry.tum"));
+        return poses && !poses->empty() && poses->back().T_w_base.translation().norm() > 1.5;
+      },
+      std::chrono::minutes(2));
   agent.signal(SIGINT);
   EXPECT_EQ(agent.wait(), 0) << agent.output();
   sim.signal(SIGINT);
