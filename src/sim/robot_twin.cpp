@@ -48,7 +48,8 @@ std::string at_text(const Eigen::Vector2d& p) {
 
 /// The free place nearest to `p`, on rings about it.
 std::optional<Eigen::Vector2d> nearest_free(const World& world, const Eigen::Vector2d& p, double radius) {
-  for (double ring = 0.25; ring <= 50.0; ring += 0.25) {
+  for (int quarter = 1; quarter <= 200; ++quarter) {
+    const double ring = 0.25 * quarter;  // m
     const int steps = std::max(16, static_cast<int>(ring * 16.0));
     for (int k = 0; k < steps; ++k) {
       const double angle = 2.0 * std::numbers::pi * k / steps;

@@ -79,7 +79,9 @@ Result<std::shared_ptr<const Scene>> Scene::create(const Mesh& mesh) {
   void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             sizeof(std::array<std::uint32_t, 3>), mesh.triangles.size());
   if (vertices != nullptr && triangles != nullptr) {
-    std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(Eigen::Vector3f));
+    // A vertex is three floats in a row.
+    std::memcpy(vertices, static_cast<const void*>(mesh.vertices.data()),
+                mesh.vertices.size() * sizeof(Eigen::Vector3f));
     std::memcpy(triangles, mesh.triangles.data(),
                 mesh.triangles.size() * sizeof(std::array<std::uint32_t, 3>));
     rtcCommitGeometry(geometry);
