@@ -10,6 +10,11 @@ if(FLEETMAP_SANITIZE)
   add_compile_options(-fsanitize=${FLEETMAP_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${FLEETMAP_SANITIZE})
 endif()
+if(FLEETMAP_SANITIZE MATCHES "address")
+  # Else Eigen allocates in a way of its own under this sanitizer, and PCL, which is built without it, frees what our code
+  # allocated.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
 if(FLEETMAP_SANITIZE MATCHES "undefined")
   # Checks of every single pointer and reference, of which Eigen's expressions are made, double the time to build.
   # AddressSanitizer finds what is null or no object at all; misaligned ones are looked for where bytes are read.
