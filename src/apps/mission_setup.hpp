@@ -10,11 +10,11 @@
 
 namespace fleetmap::apps {
 
-/// What a file of the drawing holds: each lane is a row, and robots set out at the beginning of the first
-/// lane.
+/// The mission that a file of the drawing holds: each lane is a row, and robots set out at the beginning of
+/// the first lane.
 planning::Mission mission_on(const sim::SiteDrawing& drawing);
 
-/// Of the robots of a fleet of the twin, without their starts.
+/// Abilities of the robots of a fleet of the twin, without their starts.
 std::vector<planning::RobotAbility> abilities_of(const config::FleetConfig& config);
 
 /// Divides the rows of `site` that `settings` select. All robots compute the same plan, since it follows from

@@ -10,7 +10,7 @@
 
 namespace fleetmap::apps {
 
-/// What a registration method makes of a run's encounters.
+/// The result of registering a run's encounters by one method.
 struct ReplayedRegistrations {
   std::vector<graph::Alignment> alignments;  ///< the accepted and ambiguous ones, named as agents name theirs
   std::size_t accepted = 0, ambiguous = 0, rejected = 0;

@@ -7,7 +7,7 @@
 
 namespace fleetmap::apps {
 
-/// What a run in one process cost: CPU seconds of all threads by what they were spent on, and wall time.
+/// The cost of a run in one process: CPU seconds of all threads by what they were spent on, and wall time.
 struct RunProfile {
   FeedSeconds feed;
   agent::WorkSeconds work;

@@ -91,7 +91,7 @@ class Agent {
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of each scan, as LOAM took them.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
-  /// Of what has come to its end.
+  /// Counts what has come to its end.
   WorkSeconds work_seconds() const;
 
  private:

@@ -38,7 +38,7 @@ class DriveGuard {
   void on_scan(Stamp now) { scan_ = now; }
   /// The odometry has fitted the scan that came at `heard`.
   void on_odometry(Stamp heard, Stamp now);
-  /// Where the robot is on the site became known.
+  /// The robot's pose on the site came.
   void on_pose(Stamp now) { pose_ = now; }
   void set_held(bool held) { held_ = held; }
   bool held() const { return held_; }

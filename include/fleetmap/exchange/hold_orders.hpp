@@ -37,7 +37,7 @@ class HoldOrders {
   void on_heard(const AgentId& agent, Stamp now);
   /// The registers are to be sent with the next tick.
   void send_soon() { due_ = true; }
-  /// What is to be sent now, but for `from` and `driving`.
+  /// The orders that are due now; nothing if none is.
   std::optional<std::vector<HoldOrder>> tick(Stamp now);
 
   std::vector<HoldOrder> all() const;

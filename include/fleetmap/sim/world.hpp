@@ -44,7 +44,7 @@ class World {
   const WorldBounds& bounds() const { return bounds_; }
   /// Lanes to map along, sorted across the site; empty for a user's mesh.
   const std::vector<Aisle>& aisles() const { return drawing_.lanes; }
-  /// What a user has of this site before a robot was there, without an error in position.
+  /// The drawing that a user has of this site before a robot was there, without an error in position.
   const SiteDrawing& drawing() const { return drawing_; }
   const DrivableConfig& drivable() const { return config_; }
   /// Share of the bounds' cells where nothing is in the way.

@@ -24,7 +24,7 @@ struct LoggedPrior {
   Eigen::Vector3d up_target = Eigen::Vector3d::UnitZ();
 };
 
-/// What one registration was computed from.
+/// The inputs of one registration.
 struct LoggedRegistration {
   NodeId target, source;
   std::string method;  ///< registration::to_string(Method)

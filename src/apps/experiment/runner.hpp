@@ -42,7 +42,7 @@ Result<Outcome> run_cases(const std::vector<Case>& cases, const Engine& engine, 
 Result<CaseRecord> run_single_case(const std::vector<Case>& cases, std::size_t index, const Engine& engine,
                                    const RunnerConfig& config, const std::atomic<bool>& stop);
 
-/// What there is in the directory, without running anything; safe while cases are being run.
+/// Reads the cases in the directory and runs none; safe while cases are being run.
 Result<Outcome> collect_cases(const std::vector<Case>& cases, const RunnerConfig& config);
 
 }  // namespace fleetmap::apps::experiment
