@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fleetmap/odometry/deskew.hpp"
@@ -24,6 +25,7 @@ constexpr double kGap = 0.35;            // s between scans from which on "it st
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
+constexpr std::size_t kAhead = 16;  // points whose cubes are fetched before they are looked up
 
 }  // namespace
 
@@ -110,6 +112,7 @@ class Loam::Pipeline {
   std::vector<FeaturePoint> match_planes_, match_edges_, insert_planes_;
   std::vector<FeaturePoint> first_planes_, first_edges_;  ///< of the first scan, until its motion is known
   double first_reference_offset_ = 0.0;
+  std::vector<Eigen::Vector3d> in_odom_;  ///< keeps its memory between scans
 
   bool started_ = false;
   bool velocity_known_ = false;
@@ -164,8 +167,10 @@ void Loam::Pipeline::pick_features(const Sweep& sweep) {
   insert_planes_.clear();
   match_thinning_.clear();
   insert_thinning_.clear();
-  for (const std::uint32_t i : features.planes) {
-    const SweepPoint& p = sweep.points[i];
+  for (std::size_t k = 0; k < features.planes.size(); ++k) {
+    const std::size_t ahead = std::min(k + kAhead, features.planes.size() - 1);
+    insert_thinning_.prefetch(sweep.points[features.planes[ahead]].position);
+    const SweepPoint& p = sweep.points[features.planes[k]];
     if (!insert_thinning_.first_in_cube(p.position)) continue;
     const float time = config_.deskew ? p.time : 0.0f;
     insert_planes_.push_back({p.position, time});
@@ -318,12 +323,15 @@ void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, Stamp reference) 
 void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                             const MotionState& state) {
   const SweepMotion motion(state.twist, state.turn_acceleration);
-  auto in_odom = [&](const FeaturePoint& p) -> Eigen::Vector3d {
-    return state.T_odom_base * motion.at_reference(p.position, p.time).cast<double>();
+  auto in_odom = [&](const std::vector<FeaturePoint>& features) -> std::span<const Eigen::Vector3d> {
+    in_odom_.clear();
+    for (const FeaturePoint& p : features) {
+      in_odom_.emplace_back(state.T_odom_base * motion.at_reference(p.position, p.time).cast<double>());
+    }
+    return in_odom_;
   };
-  const Eigen::Vector3d sensor = state.T_odom_base * config_.T_base_lidar.translation();
-  for (const FeaturePoint& p : planes) map_.add_surface(in_odom(p), sensor);
-  for (const FeaturePoint& p : edges) map_.add_edge(in_odom(p));
+  map_.add_surfaces(in_odom(planes), state.T_odom_base * config_.T_base_lidar.translation());
+  map_.add_edges(in_odom(edges));
   keyframe_ = state.T_odom_base;
   ++insertions_;
   if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {

@@ -1,6 +1,8 @@
 #include "fleetmap/odometry/local_map.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fleetmap::odometry {
@@ -21,6 +23,15 @@ constexpr double kLineThickness = 0.1;  // m
 /// Sine of the angle behind a plane from which on it is seen from its other side; normals err a little.
 constexpr float kBehind = 0.1f;
 const Eigen::Vector3f kNoSide = Eigen::Vector3f::Zero();  // of a line
+/// Points whose windows are fetched together before they are used.
+constexpr std::size_t kBlock = 16;
+constexpr std::size_t kCorners = 8;
+
+void prefetch_both_lines(const SurfaceWindow& window) {
+  const char* memory = reinterpret_cast<const char*>(&window);
+  __builtin_prefetch(memory);
+  __builtin_prefetch(memory + 64);
+}
 
 bool seen_from_behind(const SurfaceWindow& window, const Eigen::Vector3f& toward) {
   return window.shape == Shape::kPlane && window.direction.dot(toward) < -kBehind;
@@ -50,19 +61,46 @@ SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double 
       max_thickness_(max_thickness),
       bend2_(bend * bend) {}
 
-void SurfaceGrid::add(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
-  const Eigen::Vector3d scaled = point * inverse_step_;
-  const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
-  for (int corner = 0; corner < 8; ++corner) {
-    // Window w covers the cells w - 1 and w; its middle is the lattice point w.
-    const std::int64_t w[3] = {cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
-    const std::uint32_t i = index_.insert(pack_cell(w[0], w[1], w[2]));
-    if (i == windows_.size()) {
-      windows_.emplace_back();
-      windows_[i].center = step_ * Eigen::Vector3d(static_cast<double>(w[0]), static_cast<double>(w[1]),
-                                                   static_cast<double>(w[2]));
+void SurfaceGrid::add(std::span<const SeenPoint> seen) {
+  for (std::size_t begin = 0; begin < seen.size(); begin += kBlock) {
+    add_block(seen.subspan(begin, std::min(kBlock, seen.size() - begin)));
+  }
+}
+
+void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
+  struct Target {
+    std::int64_t w[3];
+    CellKey key;
+    std::uint32_t window;
+  };
+  std::array<Target, kBlock * kCorners> targets;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const Eigen::Vector3d scaled = seen[k].point * inverse_step_;
+    const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
+    for (std::size_t corner = 0; corner < kCorners; ++corner) {
+      Target& target = targets[k * kCorners + corner];
+      // Window w covers the cells w - 1 and w; its middle is the lattice point w.
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        target.w[axis] = cell[axis] + static_cast<std::int64_t>(corner >> axis & 1);
+      }
+      target.key = pack_cell(target.w[0], target.w[1], target.w[2]);
+      index_.prefetch(target.key);
     }
-    SurfaceWindow& window = windows_[i];
+  }
+  const auto used = std::span(targets).first(seen.size() * kCorners);
+  for (Target& target : used) {
+    target.window = index_.insert(target.key);
+    if (target.window == windows_.size()) {
+      windows_.emplace_back().center =
+          step_ * Eigen::Vector3d(static_cast<double>(target.w[0]), static_cast<double>(target.w[1]),
+                                  static_cast<double>(target.w[2]));
+    } else {
+      prefetch_both_lines(windows_[target.window]);
+    }
+  }
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    const auto& [point, toward] = seen[k / kCorners];
+    SurfaceWindow& window = windows_[used[k].window];
     take(seen_from_behind(window, toward) ? other_side_of(window) : window, point, toward);
   }
 }
@@ -75,10 +113,22 @@ SurfaceWindow& SurfaceGrid::other_side_of(SurfaceWindow& window) {
   return other_sides_[window.other_side];
 }
 
-const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
+/// Of the window whose middle is nearest.
+CellKey SurfaceGrid::cell_at(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d scaled = point * inverse_step_;
-  const std::uint32_t i = index_.find(
-      pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5), fast_floor(scaled.z() + 0.5)));
+  return pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5), fast_floor(scaled.z() + 0.5));
+}
+
+void SurfaceGrid::fetch_ahead(std::span<const Eigen::Vector3d> points) const {
+  for (const Eigen::Vector3d& point : points) index_.prefetch(cell_at(point));
+  for (const Eigen::Vector3d& point : points) {
+    const std::uint32_t i = index_.find(cell_at(point));
+    if (i != FlatIndex::kAbsent) prefetch_both_lines(windows_[i]);
+  }
+}
+
+const SurfaceWindow* SurfaceGrid::at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
+  const std::uint32_t i = index_.find(cell_at(point));
   if (i == FlatIndex::kAbsent) return nullptr;
   SurfaceWindow& window = windows_[i];
   if (window.stale) refresh(window);
@@ -146,9 +196,9 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
   other_sides_.swap(kept_other_sides);
   windows_.swap(kept);
   index_.clear();
-  for (const SurfaceWindow& window : windows_) {
-    const Eigen::Vector3d w = window.center * inverse_step_;
-    index_.insert(pack_cell(std::llround(w.x()), std::llround(w.y()), std::llround(w.z())));
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    index_.prefetch(cell_at(windows_[std::min(i + kBlock, windows_.size() - 1)].center));
+    index_.insert(cell_at(windows_[i].center));
   }
 }
 
@@ -166,14 +216,22 @@ LocalMap::LocalMap(const LoamConfig& config)
       posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, kLineThickness, 0.0),
       edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, kLineThickness, 0.0) {}
 
-void LocalMap::add_surface(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
-  const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();
-  fine_.add(point, toward);
-  coarse_.add(point, toward);
-  posts_.add(point, kNoSide);
+void LocalMap::add_surfaces(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& sensor) {
+  seen_.clear();
+  for (const Eigen::Vector3d& point : points) {
+    seen_.push_back({point, (sensor - point).normalized().cast<float>()});
+  }
+  fine_.add(seen_);
+  coarse_.add(seen_);
+  for (SurfaceGrid::SeenPoint& seen : seen_) seen.toward = kNoSide;
+  posts_.add(seen_);
 }
 
-void LocalMap::add_edge(const Eigen::Vector3d& point) { edges_.add(point, kNoSide); }
+void LocalMap::add_edges(std::span<const Eigen::Vector3d> points) {
+  seen_.clear();
+  for (const Eigen::Vector3d& point : points) seen_.push_back({point, kNoSide});
+  edges_.add(seen_);
+}
 
 const SurfaceWindow* LocalMap::surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
   const Eigen::Vector3f toward = (sensor - point).normalized().cast<float>();

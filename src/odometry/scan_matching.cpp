@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "fleetmap/geometry/symmetric.hpp"
 
@@ -19,6 +21,7 @@ constexpr double kAssumedDistances = 10.0;
 constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
+constexpr std::size_t kBlock = 16;  // features whose windows are fetched together
 
 double square(double value) { return value * value; }
 
@@ -99,9 +102,8 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   const double return_variance = square(config_.range_noise);
   const double edge_variance = square(config_.edge_noise);
 
-  auto visit = [&](const FeaturePoint& feature, bool edge) {
-    const Eigen::Vector3d p = motion.at_reference(feature.position, feature.time).cast<double>();
-    const Eigen::Vector3d q = R * p + t;
+  auto visit = [&](const FeaturePoint& feature, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                   bool edge) {
     const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q, sensor);
     if (window == nullptr) return;
     const bool plane = window->shape == Shape::kPlane;
@@ -138,8 +140,21 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
       sums_.inlier_dimensions += plane ? 1.0 : 2.0;
     }
   };
-  for (const FeaturePoint& feature : planes) visit(feature, false);
-  for (const FeaturePoint& feature : edges) visit(feature, true);
+  std::array<Eigen::Vector3d, kBlock> p, q;  // base_link, map frame
+  auto visit_all = [&](const std::vector<FeaturePoint>& features, bool edge) {
+    for (std::size_t begin = 0; begin < features.size(); begin += kBlock) {
+      const std::size_t count = std::min(kBlock, features.size() - begin);
+      for (std::size_t k = 0; k < count; ++k) {
+        const FeaturePoint& feature = features[begin + k];
+        p[k] = motion.at_reference(feature.position, feature.time).cast<double>();
+        q[k] = R * p[k] + t;
+      }
+      if (!edge) map.fetch_ahead(std::span(q).first(count));
+      for (std::size_t k = 0; k < count; ++k) visit(features[begin + k], p[k], q[k], edge);
+    }
+  };
+  visit_all(planes, false);
+  visit_all(edges, true);
 }
 
 void ScanMatcher::add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base,

@@ -7,9 +7,11 @@ namespace {
 
 /// A panel of 2 m x 2 m in the plane x = `x`, as the sensor sees it.
 void add_panel(LocalMap& map, double x, const Eigen::Vector3d& sensor) {
+  std::vector<Eigen::Vector3d> points;
   for (double y = -1.0; y < 1.0; y += 0.1) {
-    for (double z = 0.0; z < 2.0; z += 0.1) map.add_surface({x, y, z}, sensor);
+    for (double z = 0.0; z < 2.0; z += 0.1) points.emplace_back(x, y, z);
   }
+  map.add_surfaces(points, sensor);
 }
 
 double plane_at(const SurfaceWindow& window) { return window.center.x() + window.mean.x(); }
@@ -39,9 +41,11 @@ TEST(LocalMap, TheOtherSideOfAPanelIsAnotherSurface) {
 TEST(LocalMap, GroundThatIsPassedStaysOneSurface) {
   LocalMap map({});
   const auto add_ground = [&](const Eigen::Vector3d& sensor) {
+    std::vector<Eigen::Vector3d> points;
     for (double x = -2.0; x < 2.0; x += 0.1) {
-      for (double y = -2.0; y < 2.0; y += 0.1) map.add_surface({x, y, 0.01 * std::sin(7.0 * x)}, sensor);
+      for (double y = -2.0; y < 2.0; y += 0.1) points.emplace_back(x, y, 0.01 * std::sin(7.0 * x));
     }
+    map.add_surfaces(points, sensor);
   };
   add_ground({-20.0, 0.0, 0.6});
   const SurfaceWindow* before = map.surface_at(Eigen::Vector3d::Zero(), {-20.0, 0.0, 0.6});

@@ -32,6 +32,12 @@ std::vector<FeaturePoint> read_points(const fs::path& file) {
   return points;
 }
 
+std::vector<Eigen::Vector3d> in_map(const Pose& T_map_base, const std::vector<FeaturePoint>& features) {
+  std::vector<Eigen::Vector3d> points;
+  for (const FeaturePoint& p : features) points.emplace_back(T_map_base * p.position.cast<double>());
+  return points;
+}
+
 class NewerCollege : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -110,10 +116,8 @@ TEST_F(NewerCollege, EdgesAndPlanesRecoverTheGraph) {
     LocalMap map(config);
     for (std::size_t other = 0; other < truth.size(); ++other) {
       if (other == k) continue;
-      const Eigen::Vector3d sensor = truth[other].translation();
-      for (const FeaturePoint& p : planes[other])
-        map.add_surface(truth[other] * p.position.cast<double>(), sensor);
-      for (const FeaturePoint& p : edges[other]) map.add_edge(truth[other] * p.position.cast<double>());
+      map.add_surfaces(in_map(truth[other], planes[other]), truth[other].translation());
+      map.add_edges(in_map(truth[other], edges[other]));
     }
     Vector6d push;
     push << 0.3, -0.25, 0.1, 0.02, -0.02, 0.05;
