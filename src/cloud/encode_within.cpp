@@ -10,21 +10,28 @@ namespace fleetmap::cloud {
 namespace {
 
 constexpr double kGoodEnough = 0.97;  // of the budget: finer voxels would gain next to nothing
+/// A coded point takes about so many bytes. A cloud that exceeds the budget this often by that is not coded
+/// in full only to find that it does not fit.
+constexpr double kBytesPerPoint = 1.5;
+constexpr double kFarTooBig = 2.0;
 
 struct Trial {
   double log_voxel;
   double log_bytes;
 };
 
-Result<FittedCloud> encode_at(const PointCloud& cloud, double voxel_m, const FitConfig& config) {
+Result<FittedCloud> encode_thinned(const PointCloud& thinned, double voxel_m, const FitConfig& config) {
   FittedCloud fitted;
   fitted.voxel_m = static_cast<float>(voxel_m);
   fitted.resolution_m = voxel_m / config.voxel_over_resolution;
-  auto bytes =
-      encode(voxel_downsample(cloud, fitted.voxel_m), {fitted.resolution_m, config.encode_intensities});
+  auto bytes = encode(thinned, {fitted.resolution_m, config.encode_intensities});
   if (!bytes) return failure(bytes.error().message);
   fitted.bytes = std::move(*bytes);
   return fitted;
+}
+
+Result<FittedCloud> encode_at(const PointCloud& cloud, double voxel_m, const FitConfig& config) {
+  return encode_thinned(voxel_downsample(cloud, static_cast<float>(voxel_m)), voxel_m, config);
 }
 
 /// Where a straight line through the two trials (bytes are close to a power of the voxel's edge) meets the
@@ -59,13 +66,22 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
   };
   const double target = std::log(0.985 * static_cast<double>(config.max_bytes));
 
-  auto tried = encode_at(cloud, static_cast<double>(config.min_voxel_m), config);
-  if (!tried) return tried;
-  int encodings = 1;
+  int encodings = 0;
   std::optional<FittedCloud> best;
-  Trial too_big{std::log(static_cast<double>(config.min_voxel_m)), log_bytes(*tried)};
+  Trial too_big{std::log(static_cast<double>(config.min_voxel_m)), 0.0};
   Trial fits{std::log(static_cast<double>(config.max_voxel_m)), 0.0};
-  if (tried->bytes.size() <= config.max_bytes) best = std::move(*tried);
+  Result<FittedCloud> tried;
+  const PointCloud finest = voxel_downsample(cloud, config.min_voxel_m);
+  const auto points = static_cast<double>(finest.size());
+  if (kBytesPerPoint * points > kFarTooBig * static_cast<double>(config.max_bytes)) {
+    too_big.log_bytes = std::log(kBytesPerPoint * points);
+  } else {
+    tried = encode_thinned(finest, static_cast<double>(config.min_voxel_m), config);
+    if (!tried) return tried;
+    ++encodings;
+    too_big.log_bytes = log_bytes(*tried);
+    if (tried->bytes.size() <= config.max_bytes) best = std::move(*tried);
+  }
 
   // The next voxel after a first miss: bytes fall with its square on surfaces.
   double log_voxel = too_big.log_voxel + 0.5 * (too_big.log_bytes - target);

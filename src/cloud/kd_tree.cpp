@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
+#include <numeric>
+#include <utility>
 
 namespace fleetmap::cloud {
 namespace {
@@ -69,8 +71,8 @@ class WithinRadius {
 }  // namespace
 
 struct KdTree::Index {
-  Points points;
-  std::vector<std::uint32_t> original;  // empty unless non-finite points were left out
+  Points points;                        // in leaf order: what a leaf holds lies side by side in memory
+  std::vector<std::uint32_t> original;  // index of each in the caller's cloud
   std::unique_ptr<Tree> tree;
 
   template <class ResultSet>
@@ -78,26 +80,32 @@ struct KdTree::Index {
     tree->findNeighbors(result, query.data(), nanoflann::SearchParams());
   }
   void restore(std::span<Neighbor> found) const {
-    if (original.empty()) return;
     for (Neighbor& neighbor : found) neighbor.index = original[neighbor.index];
+  }
+  void sort_by_leaf() {
+    std::vector<Eigen::Vector3f> xyz;
+    std::vector<std::uint32_t> from;
+    for (const std::uint32_t i : tree->vAcc) {
+      xyz.push_back(points.xyz[i]);
+      from.push_back(original[i]);
+    }
+    points.xyz = std::move(xyz);
+    original = std::move(from);
+    std::iota(tree->vAcc.begin(), tree->vAcc.end(), 0u);
   }
 };
 
 KdTree::KdTree(const std::vector<Eigen::Vector3f>& points) : index_(std::make_unique<Index>()) {
-  const auto finite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
-  if (std::all_of(points.begin(), points.end(), finite)) {
-    index_->points.xyz = points;
-  } else {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!finite(points[i])) continue;
-      index_->points.xyz.push_back(points[i]);
-      index_->original.push_back(static_cast<std::uint32_t>(i));
-    }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    index_->points.xyz.push_back(points[i]);
+    index_->original.push_back(static_cast<std::uint32_t>(i));
   }
   if (index_->points.xyz.empty()) return;
   index_->tree =
       std::make_unique<Tree>(3, index_->points, nanoflann::KDTreeSingleIndexAdaptorParams(kLeafSize));
   index_->tree->buildIndex();
+  index_->sort_by_leaf();
 }
 
 KdTree::~KdTree() = default;
@@ -105,6 +113,7 @@ KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
 std::size_t KdTree::size() const { return index_->points.xyz.size(); }
+std::span<const std::uint32_t> KdTree::order() const { return index_->original; }
 
 std::optional<Neighbor> KdTree::nearest(const Eigen::Vector3f& query, float max_distance) const {
   if (index_->tree == nullptr || !query.allFinite() || !(max_distance > 0.0f)) return std::nullopt;

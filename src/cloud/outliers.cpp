@@ -23,13 +23,11 @@ std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbor
   std::array<Neighbor, kMaxNeighbors + 1> buffer;
   const std::span<Neighbor> wanted(buffer.data(), std::min(neighbors, kMaxNeighbors) + 1);
   std::vector<double> means(cloud.size(), -1.0);
-  // What surrounded the point before surrounds this one too, so a little farther there is no need to look:
-  // neighbours in a cloud mostly follow each other.
+  // What surrounded the point before surrounds this one too, so a little farther there is no need to look.
   std::optional<Eigen::Vector3f> last;
   float last_reach = 0.0f;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+  for (const std::uint32_t i : tree.order()) {
     const Eigen::Vector3f& point = cloud.points[i];
-    if (!point.allFinite()) continue;
     const float reach = last ? kSlack * (last_reach + (point - *last).norm()) + kSlackM
                              : std::numeric_limits<float>::infinity();
     const std::size_t found = tree.knn(point, wanted, reach);

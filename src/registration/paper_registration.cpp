@@ -5,8 +5,9 @@
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/correspondence_estimation.h>
-#include <pcl/registration/correspondence_rejection_sample_consensus.h>
 #include <pcl/registration/icp.h>
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_registration.h>
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
@@ -95,6 +96,49 @@ struct FeatureCloud::Data {
 
 namespace {
 
+/// Draws three correspondences until their triangles in source and target have equal sides: scoring a pose
+/// is dear, and most samples of wrong correspondences are told apart by this (Buch et al., ICRA 2013, as in
+/// PCL's SampleConsensusPrerejective, which draws from the process's rand()).
+class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::PointNormal> {
+ public:
+  SimilarTriangles(const Points::ConstPtr& source, const Points::ConstPtr& target,
+                   const pcl::Correspondences& matches, double least_ratio)
+      : SampleConsensusModelRegistration(source, indices(matches, &pcl::Correspondence::index_query)),
+        source_(source),
+        target_(target),
+        partner_(source->size(), 0),
+        least_ratio2_(static_cast<float>(least_ratio * least_ratio)) {
+    for (const pcl::Correspondence& match : matches) {
+      partner_[static_cast<std::size_t>(match.index_query)] = static_cast<std::size_t>(match.index_match);
+    }
+    setInputTarget(target, indices(matches, &pcl::Correspondence::index_match));
+  }
+
+ protected:
+  bool isSampleGood(const pcl::Indices& samples) const override {
+    return similar(samples[0], samples[1]) && similar(samples[1], samples[2]) &&
+           similar(samples[2], samples[0]) && SampleConsensusModelRegistration::isSampleGood(samples);
+  }
+
+ private:
+  static pcl::Indices indices(const pcl::Correspondences& matches, pcl::index_t pcl::Correspondence::*side) {
+    pcl::Indices indices;
+    for (const pcl::Correspondence& match : matches) indices.push_back(match.*side);
+    return indices;
+  }
+  bool similar(pcl::index_t a, pcl::index_t b) const {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    const float in_source = ((*source_)[i].getVector3fMap() - (*source_)[j].getVector3fMap()).squaredNorm();
+    const float in_target =
+        ((*target_)[partner_[i]].getVector3fMap() - (*target_)[partner_[j]].getVector3fMap()).squaredNorm();
+    return std::min(in_source, in_target) >= least_ratio2_ * std::max(in_source, in_target);
+  }
+
+  Points::ConstPtr source_, target_;
+  std::vector<std::size_t> partner_;  ///< index in the target of each point of the source
+  float least_ratio2_;
+};
+
 /// T_target_source by RANSAC over the features' correspondences; empty where no three of them agree.
 std::optional<Pose> pose_by_features(const FeatureCloud::Data& target, const FeatureCloud::Data& source,
                                      const PaperConfig& config) {
@@ -106,15 +150,14 @@ std::optional<Pose> pose_by_features(const FeatureCloud::Data& target, const Fea
   if (matches.size() < 3) return std::nullopt;
   silence_pcl();
   // Its random numbers come from a generator of its own with a fixed seed.
-  pcl::registration::CorrespondenceRejectorSampleConsensus<pcl::PointNormal> ransac;
-  ransac.setInputSource(source.sparse);
-  ransac.setInputTarget(target.sparse);
-  ransac.setMaximumIterations(config.ransac_iterations);
-  ransac.setInlierThreshold(config.ransac_inlier_m);
-  pcl::Correspondences inliers;
-  ransac.getRemainingCorrespondences(matches, inliers);
-  if (inliers.size() < 3) return std::nullopt;
-  const Pose T(ransac.getBestTransformation().cast<double>());
+  const auto model =
+      std::make_shared<SimilarTriangles>(source.sparse, target.sparse, matches, config.least_side_ratio);
+  pcl::RandomSampleConsensus<pcl::PointNormal> ransac(model, config.ransac_inlier_m);
+  ransac.setMaxIterations(config.ransac_iterations);
+  if (!ransac.computeModel()) return std::nullopt;
+  Eigen::VectorXf best;
+  ransac.getModelCoefficients(best);
+  const Pose T(Eigen::Map<const Eigen::Matrix<float, 4, 4, Eigen::RowMajor>>(best.data()).cast<double>());
   if (!T.matrix().allFinite()) return std::nullopt;
   return T;
 }

@@ -30,6 +30,9 @@ class KdTree {
 
   /// Number of (finite) points that can be found.
   std::size_t size() const;
+  /// Their indices in the cloud, sorted so that neighbours mostly follow each other: queries at all points of
+  /// the cloud are fastest in this order, since most of what one reads the last one read as well.
+  std::span<const std::uint32_t> order() const;
   /// The nearest point closer than `max_distance` (m).
   std::optional<Neighbor> nearest(const Eigen::Vector3f& query,
                                   float max_distance = std::numeric_limits<float>::infinity()) const;
