@@ -3,6 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
 
 #include "commands.hpp"
 #include "evaluation.hpp"
@@ -15,7 +18,7 @@ struct EvalOptions {
   std::string directory;
   EvaluationInputs inputs;
   bool no_pictures = false;
-  bool no_modes = false;
+  std::string modes = "all";
   bool no_overlap = false;
 };
 
@@ -86,9 +89,30 @@ bool measured_anything(const nlohmann::json& evaluation) {
   return false;
 }
 
+std::string joined(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+Result<std::set<std::string>> modes_of(const std::string& text) {
+  if (text == "all") return mode_names();
+  std::set<std::string> modes;
+  if (text == "none") return modes;
+  std::istringstream in(text);
+  for (std::string name; std::getline(in, name, ',');) {
+    if (!mode_names().contains(name))
+      return failure("--modes: '" + name + "' is none of " + joined(mode_names()));
+    modes.insert(name);
+  }
+  return modes;
+}
+
 int run(EvalOptions& options) {
   options.inputs.pictures = !options.no_pictures;
-  options.inputs.modes = !options.no_modes;
+  const auto modes = modes_of(options.modes);
+  if (!modes) return report(modes.error(), kUsage);
+  options.inputs.modes = *modes;
   options.inputs.overlap = !options.no_overlap;
   std::error_code error;
   if (std::filesystem::is_directory(options.directory, error)) {
@@ -122,8 +146,12 @@ void add_eval(CLI::App& app, int& exit_code) {
   command->add_option("--density-radius", options->inputs.map.density_radius, "m, r_d of Eq. 4")
       ->capture_default_str();
   command->add_flag("--no-pictures", options->no_pictures, "numbers only");
-  command->add_flag("--no-modes", options->no_modes,
-                    "not the map as the other registration and placement make it: most of the time");
+  command
+      ->add_option("--modes", options->modes,
+                   "combinations of registration and placement to evaluate beside the run's own, which is "
+                   "most of the time: all, none, or some of " +
+                       joined(mode_names()))
+      ->capture_default_str();
   command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -3,12 +3,17 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/eval/metrics.hpp"
 
 namespace fleetmap::apps {
+
+/// Names of the combinations of registration and placement, see modes_json().
+std::set<std::string> mode_names();
 
 struct EvaluationInputs {
   /// The true surface in ENU of the run's origin; else that of `truth_file`, else that of DIR/truth.ply.
@@ -18,8 +23,9 @@ struct EvaluationInputs {
   eval::MapMetricsConfig map = {};
   double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
   bool pictures = true;
-  bool page = true;     ///< evaluation.html
-  bool modes = true;    ///< also register and place by the methods that the run did not use
+  bool page = true;  ///< evaluation.html
+  /// Combinations of registration and placement to evaluate beside the run's own, of mode_names().
+  std::set<std::string> modes = mode_names();
   bool overlap = true;  ///< also measure what two robots saw
 };
 

@@ -152,17 +152,30 @@ json replay_json(const ReplayedRegistrations& replayed) {
 
 }  // namespace
 
+std::set<std::string> mode_names() {
+  std::set<std::string> names;
+  for (const Combination& combination : kCombinations) names.insert(combination.name);
+  return names;
+}
+
 json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
-                const json& evaluation) {
-  if (nodes.empty()) return nullptr;
-  const registration::Method own = method_of(run);
-  const auto other =
-      own == registration::Method::paper ? registration::Method::correlation : registration::Method::paper;
-  ReplayedRegistrations replayed = register_again(run, held, other);
-  run.notes.insert(run.notes.end(), replayed.notes.begin(), replayed.notes.end());
+                const json& evaluation, const std::set<std::string>& wanted) {
+  if (nodes.empty() || wanted.empty()) return nullptr;
+  const RegistrationLogs logs = read_registration_logs(run);
+  const registration::Method own = logs.method;
+  const bool any_again = std::ranges::any_of(
+      kCombinations, [&](const Combination& c) { return c.registration != own && wanted.contains(c.name); });
+  ReplayedRegistrations replayed;
+  if (any_again) {
+    replayed = register_again(
+        logs, held,
+        own == registration::Method::paper ? registration::Method::correlation : registration::Method::paper);
+    run.notes.insert(run.notes.end(), replayed.notes.begin(), replayed.notes.end());
+  }
   const graph::Placement run_placement = held.placement;
   json modes = json::object();
   for (const Combination& combination : kCombinations) {
+    if (!wanted.contains(combination.name)) continue;
     const bool again = combination.registration != own;
     if (again && replayed.accepted + replayed.ambiguous + replayed.rejected == 0) continue;
     if (again) std::swap(held.alignments, replayed.alignments);

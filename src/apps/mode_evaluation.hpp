@@ -15,8 +15,9 @@ namespace fleetmap::apps {
 /// The method that the run did not use registers the same pairs of the same clouds again (RegistrationLog).
 /// Each has "fleet", "alignments" and "map" as in the evaluation itself; those of the graph also the
 /// judgement of the alignments and the NEES of placed nodes. Where that is how the run was made, `evaluation`
-/// is copied. Combinations whose registrations were not logged are left out, with a note. Null without truth.
+/// is copied. Combinations whose registrations were not logged are left out, with a note. Only those named in
+/// `modes` are made. Null without truth.
 nlohmann::json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
-                          const nlohmann::json& evaluation);
+                          const nlohmann::json& evaluation, const std::set<std::string>& modes);
 
 }  // namespace fleetmap::apps

@@ -48,7 +48,10 @@ class Replay {
   void add(const AgentId& agent, const store::LoggedRegistration& logged) {
     const graph::Node* target = held_.store.node(logged.target);
     const graph::Node* source = held_.store.node(logged.source);
-    if (target == nullptr || source == nullptr) return;  // of a robot whose nodes never came
+    if (target == nullptr || source == nullptr) {  // of a robot whose nodes never came
+      ++without_nodes_;
+      return;
+    }
     const double start = thread_cpu_seconds();
     const auto target_cloud = prepared(*target, logged.target_cloud);
     const auto source_cloud = prepared(*source, logged.source_cloud);
@@ -61,6 +64,7 @@ class Replay {
     result_.cpu_seconds += thread_cpu_seconds() - start;
     keep(agent, logged, registered);
   }
+  std::size_t without_nodes() const { return without_nodes_; }
 
  private:
   Result<PreparedCloud> prepared(const graph::Node& node, const Bytes& encoded) {
@@ -96,31 +100,37 @@ class Replay {
   const HeldFleet& held_;
   ReplayedRegistrations& result_;
   registration::RegistrationConfig config_;
+  std::size_t without_nodes_ = 0;
   std::map<ContentHash, PreparedCloud> clouds_;
   std::map<AgentId, std::uint32_t> next_seq_;
 };
 
 }  // namespace
 
-registration::Method method_of(const RunFolder& run) {
-  std::vector<std::string> ignored;
+RegistrationLogs read_registration_logs(const RunFolder& run) {
+  RegistrationLogs logs;
   for (const AgentFolder& agent : run.agents) {
-    for (const store::LoggedRegistration& logged : logged_by(agent, ignored)) {
-      return logged.method == registration::to_string(registration::Method::paper)
-                 ? registration::Method::paper
-                 : registration::Method::correlation;
-    }
+    std::vector<store::LoggedRegistration> logged = logged_by(agent, logs.notes);
+    if (!logged.empty() && logged.front().method == registration::to_string(registration::Method::paper))
+      logs.method = registration::Method::paper;
+    logs.by_agent.emplace_back(agent.id, std::move(logged));
   }
-  return registration::Method::correlation;
+  return logs;
 }
 
-ReplayedRegistrations register_again(const RunFolder& run, const HeldFleet& held,
+ReplayedRegistrations register_again(const RegistrationLogs& logs, const HeldFleet& held,
                                      registration::Method method) {
   ReplayedRegistrations result;
+  result.notes = logs.notes;
   Replay replay(held, method, result);
-  for (const AgentFolder& agent : run.agents) {
-    for (const store::LoggedRegistration& logged : logged_by(agent, result.notes))
-      replay.add(agent.id, logged);
+  for (const auto& [agent, logged] : logs.by_agent) {
+    for (const store::LoggedRegistration& one : logged) replay.add(agent, one);
+  }
+  if (replay.without_nodes() > 0) {
+    result.notes.push_back(
+        std::to_string(replay.without_nodes()) +
+        " logged registrations are of nodes that are not in the evaluated store; they were "
+        "not registered again");
   }
   return result;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
+#include "fleetmap/store/registration_log.hpp"
 #include "run_folder.hpp"
 
 namespace fleetmap::apps {
@@ -15,15 +17,21 @@ struct ReplayedRegistrations {
   std::vector<graph::Alignment> alignments;  ///< the accepted and ambiguous ones, named as agents name theirs
   std::size_t accepted = 0, ambiguous = 0, rejected = 0;
   double cpu_seconds = 0.0;
-  std::vector<std::string> notes;  ///< what could not be read
+  std::vector<std::string> notes;  ///< what could not be read or registered
 };
 
-/// The method that the run's agents used; `correlation` where no agent logged a registration.
-registration::Method method_of(const RunFolder& run);
+/// The registrations that a run's agents logged.
+struct RegistrationLogs {
+  /// The method that they used; `correlation` where none logged a registration.
+  registration::Method method = registration::Method::correlation;
+  std::vector<std::pair<AgentId, std::vector<store::LoggedRegistration>>> by_agent;
+  std::vector<std::string> notes;  ///< what could not be read
+};
+RegistrationLogs read_registration_logs(const RunFolder& run);
 
-/// Registers the pairs of nodes that the run's agents registered once more by `method`: the same clouds and,
-/// if the method uses it, the same prior. `held` gives the nodes. The settings are the method's defaults.
-ReplayedRegistrations register_again(const RunFolder& run, const HeldFleet& held,
+/// Registers the logged pairs of nodes once more by `method`: the same clouds and, if the method uses it, the
+/// same prior. `held` gives the nodes. The settings are the method's defaults.
+ReplayedRegistrations register_again(const RegistrationLogs& logs, const HeldFleet& held,
                                      registration::Method method);
 
 }  // namespace fleetmap::apps

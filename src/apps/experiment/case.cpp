@@ -28,6 +28,20 @@ bool wants(const config::Study& study, std::string_view part) {
          std::ranges::any_of(study.expectations, holds, &config::Expectation::metric);
 }
 
+/// The combinations <m> whose modes.<m>.* the study shows.
+std::set<std::string> wanted_modes(const config::Study& study) {
+  constexpr std::string_view kPrefix = "modes.";
+  std::set<std::string> modes;
+  const auto add = [&](const std::string& metric) {
+    if (metric.starts_with(kPrefix))
+      modes.insert(metric.substr(kPrefix.size(), metric.find('.', kPrefix.size()) - kPrefix.size()));
+  };
+  std::ranges::for_each(study.metrics, add);
+  std::ranges::for_each(study.histograms, add);
+  std::ranges::for_each(study.expectations, add, &config::Expectation::metric);
+  return modes;
+}
+
 /// The case of a study at the given value of each axis.
 Case case_at(const config::ExperimentConfig& config, const config::Study& study,
              const std::vector<std::size_t>& position, std::uint64_t seed) {
@@ -35,7 +49,7 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
   one.study = study.name;
   one.seed = seed;
   one.pictures = seed == study.seeds.front();
-  one.modes = wants(study, "modes.");
+  one.modes = wanted_modes(study);
   one.overlap = wants(study, "overlap.");
   one.base = config.base;
   one.agents = study.agents;
@@ -82,10 +96,10 @@ std::string inputs_of(const Case& one) {
 
 /// Cases with equal inputs share a run, so it must give what any of them needs.
 void share_needs(std::vector<Case>& cases) {
-  std::map<std::string, std::pair<bool, bool>> needs;
+  std::map<std::string, std::pair<std::set<std::string>, bool>> needs;
   for (const Case& one : cases) {
     auto& [modes, overlap] = needs[inputs_of(one)];
-    modes = modes || one.modes;
+    modes.insert(one.modes.begin(), one.modes.end());
     overlap = overlap || one.overlap;
   }
   for (Case& one : cases) std::tie(one.modes, one.overlap) = needs[inputs_of(one)];
@@ -130,8 +144,9 @@ Result<std::size_t> case_named(const std::vector<Case>& cases, const std::string
 Result<std::string> input_hash(const Case& one) {
   const auto inputs = config::input_fingerprint(one.base, effective(one.overrides));
   if (!inputs) return inputs;
-  const std::string text = *inputs + "\nagents " + std::to_string(one.agents) + (one.modes ? " modes" : "") +
-                           (one.overlap ? " overlap" : "");
+  std::string text = *inputs + "\nagents " + std::to_string(one.agents);
+  for (const std::string& mode : one.modes) text += " modes." + mode;
+  if (one.overlap) text += " overlap";
   return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct Case {
   std::vector<config::Override> overrides;
   bool pictures = true;  ///< of the map: drawn of the first seed only
   // What takes the evaluation long, and only some metrics need.
-  bool modes = false;    ///< the map and the fleet as either mode places them
-  bool overlap = false;  ///< the map where two robots were
+  std::set<std::string> modes = {};  ///< combinations of registration and placement, as of `fleetmap eval`
+  bool overlap = false;              ///< the map where two robots were
 };
 
 /// How many values lie in each bin; bins follow each other from 0.

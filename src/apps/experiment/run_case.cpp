@@ -118,7 +118,9 @@ Result<CaseResult> ChildEngine::operator()(const Case& one, const fs::path& dire
     return tl::unexpected(good.error());
   std::vector<std::string> evaluation_arguments{"eval", directory.string()};
   if (!one.pictures) evaluation_arguments.emplace_back("--no-pictures");
-  if (!one.modes) evaluation_arguments.emplace_back("--no-modes");
+  std::string modes;
+  for (const std::string& mode : one.modes) modes += (modes.empty() ? "" : ",") + mode;
+  evaluation_arguments.insert(evaluation_arguments.end(), {"--modes", modes.empty() ? "none" : modes});
   if (!one.overlap) evaluation_arguments.emplace_back("--no-overlap");
   const auto evaluated = run_self(evaluation_arguments, directory / "eval.log", *stop_);
   if (const Status good = check_exit(evaluated, "fleetmap eval", directory / "eval.log"); !good)
