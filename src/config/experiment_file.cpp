@@ -132,7 +132,7 @@ Axis read_axis(Section& section) {
 }
 
 std::optional<Shape> shape_named(const std::string& name) {
-  for (const Shape shape : {Shape::kFalls, Shape::kRises, Shape::kFallsLessThanLinearly})
+  for (const Shape shape : {Shape::kFalls, Shape::kRises, Shape::kFallsLessThanLinearly, Shape::kDoesNotRise})
     if (name == to_string(shape)) return shape;
   return std::nullopt;
 }
@@ -144,6 +144,7 @@ void read_expectations(Section& section, Study& study, const std::vector<MetricS
     entry.read("metric", expectation.metric);
     entry.read("over", expectation.over);
     entry.read("shape", shape);
+    entry.read("by", expectation.by);
     entry.finish();
     if (std::ranges::find(metrics, expectation.metric, &MetricSpec::name) == metrics.end())
       entry.problem("metric", "'" + expectation.metric + "' is not listed under 'metrics' of the file");
@@ -155,7 +156,12 @@ void read_expectations(Section& section, Study& study, const std::vector<MetricS
     }
     const auto known = shape_named(shape);
     if (!known)
-      entry.problem("shape", "expected falls, rises or falls_less_than_linearly, found '" + shape + "'");
+      entry.problem(
+          "shape", "expected falls, rises, falls_less_than_linearly or does_not_rise, found '" + shape + "'");
+    if (known == Shape::kDoesNotRise && !(expectation.by > 0.0))
+      entry.problem("by", "does_not_rise needs the rise that would matter, > 0 in the metric's unit");
+    if (known && known != Shape::kDoesNotRise && entry.has("by"))
+      entry.problem("by", "only does_not_rise has it");
     expectation.shape = known.value_or(Shape::kFalls);
     study.expectations.push_back(std::move(expectation));
   }
@@ -298,6 +304,8 @@ const char* to_string(Shape shape) {
       return "rises";
     case Shape::kFallsLessThanLinearly:
       return "falls_less_than_linearly";
+    case Shape::kDoesNotRise:
+      return "does_not_rise";
   }
   return "";
 }

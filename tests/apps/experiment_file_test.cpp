@@ -89,7 +89,10 @@ TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
       "      - {metric: map.rmse, over: speed, shape: falls}\n"  // 13
       "      - {metric: map.rmse, over: one, shape: drops}\n"    // 14
       "    quick: {keep: {rate: [7]}}\n"                         // 15
-      "  - {name: b, sed: 3}\n");                                // 16
+      "  - {name: b, sed: 3}\n"                                  // 16
+      "  - {name: c, agents: 2, metrics: [map.rmse], axes: [{name: x, keys: [y], values: [1, 2]}],\n"
+      "     expect: [{metric: map.rmse, over: x, shape: does_not_rise},\n"    // 18
+      "              {metric: map.rmse, over: x, shape: falls, by: 1}]}\n");  // 19
   const auto config = load();
   ASSERT_FALSE(config);
   for (const char* expected :
@@ -101,10 +104,12 @@ TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
         "experiment.yaml:11: studies[0].set: --set nonsense: expected key=value",
         "experiment.yaml:13: studies[0].expect[0].over: 'speed' is not an axis",
         "experiment.yaml:14: studies[0].expect[1].over: the axis 'one' has a single value",
-        "experiment.yaml:14: studies[0].expect[1].shape: expected falls, rises or falls_less_than_linearly, "
-        "found 'drops'",
+        "experiment.yaml:14: studies[0].expect[1].shape: expected falls, rises, falls_less_than_linearly or "
+        "does_not_rise, found 'drops'",
         "experiment.yaml:15: studies[0].quick.keep.rate: '7' is not a value of this axis",
-        "experiment.yaml:16: studies[1].sed: unknown key; did you mean 'set'?"}) {
+        "experiment.yaml:16: studies[1].sed: unknown key; did you mean 'set'?",
+        "experiment.yaml:18: studies[2].expect[0].by: does_not_rise needs the rise that would matter",
+        "experiment.yaml:19: studies[2].expect[1].by: only does_not_rise has it"}) {
     EXPECT_THAT(config.error().message, HasSubstr(expected));
   }
 }

@@ -28,7 +28,8 @@ TEST(Student, AgreesWithTables) {
 /// One study over x, its metric "m" from a function of x and seed.
 class Shapes : public ::testing::Test {
  protected:
-  ShapeCheck judge(config::Shape shape, int seeds, const std::function<double(double, int)>& metric) const {
+  ShapeCheck judge(config::Shape shape, int seeds, const std::function<double(double, int)>& metric,
+                   double by = 0.0) const {
     config::ExperimentConfig config;
     config.metrics.push_back({"m", "m", "", log_scale_, resolution_});
     config::Study study;
@@ -37,7 +38,7 @@ class Shapes : public ::testing::Test {
     for (const double x : {2.0, 3.0, 4.0, 5.0}) axis.values.push_back({std::to_string(x), x, {}, {}});
     study.axes.push_back(axis);
     for (int seed = 1; seed <= seeds; ++seed) study.seeds.push_back(static_cast<std::uint64_t>(seed));
-    study.expectations.push_back({"m", "x", shape});
+    study.expectations.push_back({"m", "x", shape, by});
     std::vector<CaseRecord> records;
     for (const config::AxisValue& value : axis.values) {
       for (int seed = 1; seed <= seeds; ++seed) {
@@ -163,6 +164,38 @@ TEST_F(Shapes, TwoEqualSlopesAreNoCertainty) {
 
 TEST_F(Shapes, FlatIsNoTrend) {
   EXPECT_EQ(judge(config::Shape::kFalls, 3, [](double, int) { return 4.0; }).verdict, Verdict::kViolated);
+}
+
+TEST_F(Shapes, DoesNotRiseAllowsWhatIsFlatAndLessThanTheRiseThatMatters) {
+  const config::Shape shape = config::Shape::kDoesNotRise;
+  const auto noisy = [](double slope, double scatter) {
+    return [slope, scatter](double x, int seed) {
+      return 4.0 + seed + slope * x + scatter * std::sin(37.0 * x * seed);
+    };
+  };
+  EXPECT_EQ(judge(shape, 5, noisy(0.0, 0.1), 0.5).verdict, Verdict::kHolds);
+  EXPECT_EQ(judge(shape, 5, noisy(-1.0, 0.1), 0.5).verdict, Verdict::kHolds);
+  // It rises by 0.3 from first to last, which 0.5 allows and 0.2 does not.
+  EXPECT_EQ(judge(shape, 5, noisy(0.1, 0.01), 0.5).verdict, Verdict::kHolds);
+  const ShapeCheck rises = judge(shape, 5, noisy(0.1, 0.01), 0.2);
+  EXPECT_EQ(rises.verdict, Verdict::kViolated);
+  EXPECT_THAT(rises.detail, HasSubstr("from 2 to 5 it rises by 0.30"));
+  EXPECT_GT(rises.p, 0.95);
+  // Seeds that scatter by twice the rise that matters cannot exclude it.
+  EXPECT_EQ(judge(shape, 3, noisy(0.0, 1.0), 1.5).verdict, Verdict::kHoldsWeakly);
+  EXPECT_EQ(judge(shape, 1, noisy(0.0, 0.0), 0.5).verdict, Verdict::kHoldsWeakly);
+}
+
+TEST_F(Shapes, DoesNotRiseIsSaidOfARiseThatMattersAsSeldomAsPSays) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise;
+  int held = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    const auto rising = [&](double x, int) { return (x == 5.0 ? 2.0 : 0.0) + noise(random); };
+    held += judge(config::Shape::kDoesNotRise, 15, rising, 2.0).verdict == Verdict::kHolds ? 1 : 0;
+  }
+  EXPECT_LE(held, 70);
+  EXPECT_GT(held, 5);
 }
 
 TEST_F(Shapes, LessThanLinearlyLiesBetweenNoGainAndAFullShare) {

@@ -41,7 +41,7 @@ struct Axis {
   std::string title = {};  ///< in plots; empty: the name
 };
 
-enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly };
+enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly, kDoesNotRise };
 const char* to_string(Shape shape);
 
 /// How a metric's mean must change along an axis, for every combination of the other axes.
@@ -49,6 +49,7 @@ struct Expectation {
   std::string metric;
   std::string over;
   Shape shape = Shape::kFalls;
+  double by = 0.0;  ///< of kDoesNotRise: a rise that matters, in the metric's unit; of log metrics of its ln
 };
 
 struct Study {

@@ -124,6 +124,26 @@ Trend check_trend(const Curve& curve, bool falling) {
   return trend;
 }
 
+Trend check_no_rise(const Curve& curve, double by) {
+  Trend trend;
+  for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
+  trend.change = trend.means.back() - trend.means.front();
+  trend.slope = slope_of(curve.x, trend.means);
+  const Residual residual = residual_of(curve);
+  const double error = residual.sigma * std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
+  trend.tolerance = by;
+  trend.p = 0.0;
+  for (std::size_t k = 1; k < trend.means.size(); ++k) {
+    const double rise = trend.means[k] - trend.means.front();
+    const double chance = error > 0.0 ? student_tail((by - rise) / error, residual.freedom) : 0.0;
+    trend.p = std::isnan(error) ? error : std::max(trend.p, chance);
+    if (rise < by || !trend.violation.empty()) continue;
+    trend.violation = "from " + short_number(curve.x.front()) + " to " + short_number(curve.x[k]) +
+                      " it rises by " + short_number(rise) + ", at most " + short_number(by) + " is expected";
+  }
+  return trend;
+}
+
 namespace {
 
 /// Only the seeds that gave the metric at every point, as logarithms if that is how it is compared.
@@ -161,7 +181,9 @@ std::string list_of(const std::vector<double>& values) {
 /// Judges one trend and, for falls_less_than_linearly, the one of the metric times x.
 void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
   const bool falling = check.expectation.shape != config::Shape::kRises;
-  const Trend trend = check_trend(curve, falling);
+  const Trend trend = check.expectation.shape == config::Shape::kDoesNotRise
+                          ? check_no_rise(curve, check.expectation.by)
+                          : check_trend(curve, falling);
   check.means = trend.means;
   if (log_scale)
     for (double& mean : check.means) mean = std::exp(mean);

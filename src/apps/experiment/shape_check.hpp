@@ -49,6 +49,11 @@ struct Trend {
 /// `falling` asks for falls; otherwise rises.
 Trend check_trend(const Curve& curve, bool falling);
 
+/// Whether a mean lies above the first by `by` or more, which is violated (a test of non-inferiority). p is
+/// the chance of these means, the largest of all points, if one of them truly rose by `by`: from the paired
+/// differences with residual_of()'s sigma.
+Trend check_no_rise(const Curve& curve, double by);
+
 enum class Verdict : std::uint8_t {
   kHolds,
   kHoldsWeakly,  ///< the means have the shape, but with these few seeds chance could have made it (p > 0.05)
