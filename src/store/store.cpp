@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "database.hpp"
-#include "file_lock.hpp"
+#include "fleetmap/core/file_lock.hpp"
 #include "item_codec.hpp"
 #include "schema.hpp"
 
@@ -222,9 +222,10 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
   state->path = path;
   state->self = self;
   state->config = config;
-  auto lock = FileLock::acquire(path);
+  auto lock = FileLock::try_lock(path.string() + ".lock", FileLock::Kind::kExclusive);
   if (!lock) return tl::unexpected(lock.error());
-  state->lock = std::move(*lock);
+  if (!*lock) return failure(path.string() + ": another process is writing this store; stop it first");
+  state->lock = std::move(**lock);
   auto db = Database::open(path, false);
   if (!db) return tl::unexpected(db.error());
   state->db.emplace(std::move(*db));

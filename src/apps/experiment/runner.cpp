@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "experiment/case_groups.hpp"
-#include "experiment/file_lock.hpp"
+#include "fleetmap/core/file_lock.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
