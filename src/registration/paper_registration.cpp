@@ -32,6 +32,7 @@ constexpr unsigned kThreads = 1;
 constexpr double kUnconstrained = 10.0;
 /// m: residuals below this are rounding of the coded points, not knowledge.
 constexpr double kLeastResidual = 0.01;
+constexpr int kMostDraws = 100'000;  // of three correspondences, until their triangles are similar
 
 Points::Ptr points_of(const cloud::PointCloud& cloud) {
   auto points = std::make_shared<Points>();
@@ -112,6 +113,16 @@ class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::Point
       partner_[static_cast<std::size_t>(match.index_query)] = static_cast<std::size_t>(match.index_match);
     }
     setInputTarget(target, indices(matches, &pcl::Correspondence::index_match));
+  }
+
+  /// As the base's, which gives up after 1000 draws; one in some thousand is good where little overlaps.
+  void getSamples(int& /*iterations*/, pcl::Indices& samples) override {
+    samples.resize(getSampleSize());
+    for (int draw = 0; draw < kMostDraws; ++draw) {
+      drawIndexSample(samples);
+      if (isSampleGood(samples)) return;
+    }
+    samples.clear();
   }
 
  protected:
