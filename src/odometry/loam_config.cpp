@@ -35,6 +35,8 @@ Status LoamConfig::validate() const {
       Bound{"angular_acceleration", angular_acceleration, 1e-3, 1000.0},
       Bound{"initial_speed", initial_speed, 1e-3, 1000.0},
       Bound{"initial_turn_rate", initial_turn_rate, 1e-3, 100.0},
+      Bound{"map_bend_speed", map_bend_speed, 1e-3, 100.0},
+      Bound{"map_bend_turn_rate", map_bend_turn_rate, 1e-3, 100.0},
       Bound{"gyro_noise", gyro_noise, 1e-5, 10.0},
       Bound{"wheel_speed_noise", wheel_speed_noise, 1e-4, 100.0},
       Bound{"wheel_yaw_noise", wheel_yaw_noise, 1e-4, 100.0},

@@ -54,9 +54,9 @@ PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
 
 /// How far the points move the translation away from the prior, against how far it was taken to be off: a
 /// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
-/// less well. Not of rotation: a gyro's bias turns all scans alike, so that points and gyro agree from scan
-/// to scan says less.
-void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance) {
+/// less well. Rotation only without a gyro: a gyro's bias turns all scans alike, so that points and gyro
+/// agree from scan to scan says less.
+void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
   const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
   if (!d.allFinite()) return;
   // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
@@ -66,6 +66,9 @@ void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& cov
   // What it shares with rotation can make a part of a square negative.
   translation_misfit_.add(std::max(0.0, misfit.head<3>().sum() + misfit.segment<3>(6).sum()),
                           told.head<3>().sum() + told.segment<3>(6).sum());
+  if (gyro) return;
+  rotation_misfit_.add(std::max(0.0, misfit.segment<3>(3).sum() + misfit.tail<3>().sum()),
+                       told.segment<3>(3).sum() + told.tail<3>().sum());
 }
 
 /// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
@@ -83,10 +86,12 @@ Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
   if (!scan.lost) {
     // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
     // motion away from it, not as both were weighed.
-    judge_prior(match, at_reference);
+    const bool gyro = scan.turn_acceleration_variance.has_value();
+    judge_prior(match, at_reference, gyro);
     Vector12d scale = Vector12d::Ones();
     scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
-    scale.segment<3>(6) = scale.head<3>();
+    if (!gyro) scale.segment<3>(3).setConstant(std::sqrt(rotation_misfit_.variance()));
+    scale.tail<6>() = scale.head<6>();
     scatter = scale.asDiagonal() * match.prior_information * scale.asDiagonal();
     scatter += match.residual_variance * match.lidar_information;
   }

@@ -30,6 +30,24 @@ double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   return longest;
 }
 
+/// What the points tell when the map may be bent within every sweep by a velocity e of these standard
+/// deviations (m/s, rad/s): a point fired at s moves with d_pose + s (d_twist + e), and e is marginalised.
+/// Without it the velocity would be measured against the map's own bend, which has no anchor: it would drift
+/// away from the way between the poses, and the map with it.
+NormalEquations with_bent_map(const NormalEquations& points, double speed, double turn_rate) {
+  Vector6d known;
+  known << Eigen::Vector3d::Constant(1.0 / square(speed)), Eigen::Vector3d::Constant(1.0 / square(turn_rate));
+  const Eigen::Matrix<double, 12, 6> coupling = points.H.rightCols<6>();
+  Matrix6d of_bend = points.H.bottomRightCorner<6, 6>();
+  of_bend.diagonal() += known;
+  const Eigen::LDLT<Matrix6d> factor(of_bend);
+  NormalEquations result;
+  result.H = points.H - coupling * factor.solve(coupling.transpose());
+  result.H = (0.5 * (result.H + result.H.transpose())).eval();
+  result.g = points.g - coupling * factor.solve(points.g.tail<6>());
+  return result;
+}
+
 }  // namespace
 
 ScanMatcher::ScanMatcher(const LoamConfig& config) : config_(config) {}
@@ -47,6 +65,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;
     lidar.g /= config_.information_deflation;
+    lidar = with_bent_map(lidar, config_.map_bend_speed, config_.map_bend_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) {
       const double range = sums_.range / std::max(1.0, sums_.weight);

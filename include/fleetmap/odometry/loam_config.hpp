@@ -36,6 +36,12 @@ struct LoamConfig {
   double initial_turn_rate = 1.0;     ///< rad/s, 1 sigma at the first scan
   bool deskew = true;                 ///< compensate the motion during a scan
 
+  /// 1 sigma by which what the points of a sweep show of its velocity may be feigned by the map: a map of
+  /// sweeps that were all bent alike agrees with the next one bent alike. Far less is said by the way from
+  /// sweep to sweep.
+  double map_bend_speed = 1.0;      ///< m/s
+  double map_bend_turn_rate = 0.5;  ///< rad/s
+
   // Optional priors; used whenever samples arrive.
   Eigen::Quaterniond q_base_imu = Eigen::Quaterniond::Identity();  ///< rotation, IMU frame to base_link
   double gyro_noise = 0.01;        ///< rad/s, 1 sigma of the mean rate over a scan, bias removed

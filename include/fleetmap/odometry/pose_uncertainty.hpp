@@ -54,7 +54,7 @@ class PoseUncertainty {
 
  private:
   void remember(const Matrix12d& at_reference);
-  void judge_prior(const MatchResult& match, const Matrix12d& covariance);
+  void judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro);
   Matrix6d pose_noise(const Matched& scan);
   Matrix6d growth(const Matched& scan, const Matrix6d& pose_noise);
 
@@ -63,7 +63,7 @@ class PoseUncertainty {
   Matrix6d stated_noise_ = Matrix6d::Zero();  ///< of the last scan
   /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
   Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
-  PriorMisfit translation_misfit_;
+  PriorMisfit translation_misfit_, rotation_misfit_;
 };
 
 }  // namespace fleetmap::odometry
