@@ -212,13 +212,15 @@ TEST(SyntheticOdometry, NoiseIsStatedByHowTheMotionKeepsToItsPrior) {
 }
 
 /// A body on rough ground does not turn evenly during a scan. A gyro tells how; without one the scan tells
-/// less, and the stated noise grows.
+/// less, and so it is stated. A velocity that follows the bend of the map errs here by 3.3 mrad and states
+/// 0.7.
 TEST(SyntheticOdometry, SwayDuringAScanIsFollowedOrStated) {
-  const Swaying calm = drive_swaying(0.0, false), seen = drive_swaying(1.2, true),
-                guessed = drive_swaying(1.2, false);
+  const Swaying seen = drive_swaying(1.2, true), guessed = drive_swaying(1.2, false);
   EXPECT_LT(seen.tilt_error, 0.7 * guessed.tilt_error);
   EXPECT_LT(seen.tilt_stated, 0.9 * guessed.tilt_stated);
-  EXPECT_GT(guessed.tilt_stated, 1.05 * calm.tilt_stated);
+  EXPECT_LT(guessed.tilt_error, 0.001);
+  EXPECT_LT(guessed.tilt_error, guessed.tilt_stated);
+  EXPECT_LT(seen.tilt_error, seen.tilt_stated);
 }
 
 }  // namespace

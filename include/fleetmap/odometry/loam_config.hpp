@@ -39,8 +39,8 @@ struct LoamConfig {
   /// 1 sigma by which what the points of a sweep show of its velocity may be feigned by the map: a map of
   /// sweeps that were all bent alike agrees with the next one bent alike. Far less is said by the way from
   /// sweep to sweep.
-  double map_bend_speed = 1.0;      ///< m/s
-  double map_bend_turn_rate = 0.5;  ///< rad/s
+  double map_bend_speed = 0.3;       ///< m/s
+  double map_bend_turn_rate = 0.15;  ///< rad/s
 
   // Optional priors; used whenever samples arrive.
   Eigen::Quaterniond q_base_imu = Eigen::Quaterniond::Identity();  ///< rotation, IMU frame to base_link
