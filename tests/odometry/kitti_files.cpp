@@ -1,7 +1,5 @@
 #include "odometry/kitti_files.hpp"
 
-#include <lzma.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -9,29 +7,12 @@
 #include <iterator>
 #include <string>
 
+#include "odometry/xz_file.hpp"
+
 namespace fleetmap::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::uint8_t> read_xz(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::vector<char> packed{std::istreambuf_iterator<char>(in), {}};
-  std::vector<std::uint8_t> plain(4u << 20);
-  std::uint64_t memory_limit = UINT64_MAX;
-  std::size_t in_at = 0, out_at = 0;
-  while (true) {
-    in_at = out_at = 0;
-    const lzma_ret status = lzma_stream_buffer_decode(
-        &memory_limit, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()), &in_at,
-        packed.size(), plain.data(), &out_at, plain.size());
-    if (status == LZMA_OK) break;
-    if (status != LZMA_BUF_ERROR || plain.size() > (64u << 20)) return {};
-    plain.resize(plain.size() * 2);
-  }
-  plain.resize(out_at);
-  return plain;
-}
 
 /// Values of the OXTS records by frame.
 std::vector<std::vector<double>> read_oxts(const fs::path& drive) {

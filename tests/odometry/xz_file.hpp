@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace fleetmap::testing {
+
+/// What an .xz file holds, at most 64 MB; empty if it cannot be read.
+std::vector<std::uint8_t> read_xz(const std::filesystem::path& file);
+
+}  // namespace fleetmap::testing
