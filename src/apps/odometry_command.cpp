@@ -1,16 +1,21 @@
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <numbers>
+#include <optional>
 
 #include "commands.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/odometry/motion_covariance.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "options.hpp"
 #include "report.hpp"
@@ -38,7 +43,45 @@ struct OdometryRun {
   double cpu_s = 0.0;
   std::size_t refused = 0;
   std::string first_refusal;
+  std::optional<Stamp> first_lost;
+  odometry::LoamCounters counters;
+  std::size_t blind = 0;  ///< scans that left a direction of the motion to the prior
+  double length = 0.0;    ///< m
+  odometry::MotionCovariance motion;
 };
+
+/// A trajectory of which more than this share is prediction is no measurement.
+constexpr double kMostLost = 0.01;
+
+/// m, and share of the length: a way that is stated less well than by both may be anywhere.
+constexpr double kVague = 1.0, kVagueShare = 0.05;
+
+/// Whether the odometry kept its way, as far as it can tell; what it lost is printed.
+bool kept_its_way(const OdometryRun& run) {
+  const odometry::LoamCounters& counters = run.counters;
+  const Matrix6d C = run.motion.since_reference();
+  const double sigma = std::sqrt(C.topLeftCorner<3, 3>().trace());
+  std::cout << "length " << run.length << " m, stated to " << sigma << " m and "
+            << std::sqrt(C.bottomRightCorner<3, 3>().trace()) * 180.0 / std::numbers::pi
+            << " deg (1 sigma) at its end\n";
+  if (run.blind > 0) {
+    std::cout << run.blind << " of " << counters.updates
+              << " scans show the motion in some directions only; there it follows from the scans before, "
+                 "gyro and wheels\n";
+  }
+  if (counters.lost > 0) {
+    std::cout << "lost " << counters.lost << " of " << counters.updates << " scans, the first "
+              << to_seconds(*run.first_lost - run.poses.front().stamp)
+              << " s after the start: the poses there are predictions\n";
+  }
+  if (counters.map_restarts > 0) {
+    std::cout << "the local map was begun anew " << counters.map_restarts
+              << " times: poses before and after do not belong together\n";
+  }
+  const bool vague = sigma > std::max(kVague, kVagueShare * run.length);
+  return counters.map_restarts == 0 && !vague &&
+         static_cast<double>(counters.lost) <= kMostLost * static_cast<double>(counters.updates);
+}
 
 Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
   odometry::Loam loam(config.odometry, config.lidar);
@@ -46,7 +89,10 @@ Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::Percept
   while (true) {
     const auto sample = reader.next();
     if (!sample) return tl::unexpected(sample.error());
-    if (!*sample) return run;
+    if (!*sample) {
+      run.counters = loam.counters();
+      return run;
+    }
     if (const auto* imu = std::get_if<sensor::Imu>(&**sample); imu != nullptr && config.odometry_uses_imu)
       loam.add_imu(*imu);
     if (const auto* wheel = std::get_if<sensor::Wheel>(&**sample);
@@ -61,7 +107,12 @@ Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::Percept
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run.cpu_s += thread_cpu_seconds() - cpu;
     if (update) {
+      if (!run.poses.empty())
+        run.length += (run.poses.back().T_w_base.inverse() * update->T_odom_base).translation().norm();
       run.poses.push_back({update->stamp, update->T_odom_base});
+      run.motion.add(update->T_odom_base, update->covariance, update->pose_noise);
+      run.blind += update->degenerate_count > 0;
+      if (update->lost && !run.first_lost) run.first_lost = update->stamp;
     } else if (run.refused++ == 0) {
       run.first_refusal = update.error().message;
     }
@@ -101,6 +152,8 @@ int run(const OdometryOptions& options) {
   for (const auto& [name, count] : (*reader)->counters().named()) {
     if (count > 0) std::cout << name << ' ' << count << '\n';
   }
+  if (!kept_its_way(*done))
+    return report({"the odometry lost its way; the trajectory is not to be relied on"}, kFailed);
   return kDone;
 }
 

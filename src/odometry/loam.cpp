@@ -25,7 +25,10 @@ constexpr double kGap = 0.35;            // s between scans from which on "it st
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
-constexpr std::size_t kAhead = 16;  // points whose cubes are fetched before they are looked up
+constexpr double kLeastUpright = 60.0;  // features, to judge by
+constexpr double kGoneShare = 0.2;  // of the usual ones: fewer are not seen from where the scans before were
+constexpr double kUprightGain = 0.2;  // over half a second
+constexpr std::size_t kAhead = 16;    // points whose cubes are fetched before they are looked up
 
 }  // namespace
 
@@ -92,6 +95,7 @@ class Loam::Pipeline {
   MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
   double half_sweep() const;
+  bool elsewhere(const MatchResult& match);
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
@@ -120,6 +124,7 @@ class Loam::Pipeline {
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
   int lost_in_a_row_ = 0;
+  double usual_upright_ = 0.0;  ///< inliers of late, see MatchResult::upright_inliers
   int in_the_past_ = 0;
   int insertions_ = 0;  ///< into this local map
   LoamCounters counters_;
@@ -254,12 +259,25 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
   return result;
 }
 
+/// The ground fits anywhere, and a few posts and walls do, too. Most of what stood upright in the last scans
+/// cannot be gone within one.
+bool Loam::Pipeline::elsewhere(const MatchResult& match) {
+  const auto upright = static_cast<double>(match.upright);
+  const auto inliers = static_cast<double>(match.upright_inliers);
+  const bool few = usual_upright_ > kLeastUpright && inliers < kGoneShare * usual_upright_;
+  const bool unfit = upright > kLeastUpright && inliers < config_.min_inlier_fraction * upright;
+  if (few || unfit) return true;
+  usual_upright_ += kUprightGain * (inliers - usual_upright_);
+  return false;
+}
+
 /// Believes the match or calls the scan lost; moves on; feeds the map.
 void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp reference,
                             OdometryUpdate& update) {
   const double dt = std::max(1e-3, to_seconds(reference - reference_));
   const auto matched = static_cast<int>(match.planes + match.edges);
-  update.lost = matched < config_.min_matches || match.inlier_fraction < config_.min_inlier_fraction;
+  update.lost = matched < config_.min_matches || match.inlier_fraction < config_.min_inlier_fraction ||
+                elsewhere(match);
   MotionState now = match.state;
   if (update.lost) now = make_prior(reference, dt).predicted();
 
@@ -300,6 +318,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
     map_.clear();
     uncertainty_.map_restarted();
     insertions_ = 0;
+    usual_upright_ = 0.0;
   }
   const Pose moved = keyframe_.inverse() * now.T_odom_base;
   const bool keyframe = moved.translation().norm() > config_.keyframe_distance ||

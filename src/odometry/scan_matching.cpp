@@ -21,6 +21,7 @@ constexpr double kAssumedDistances = 10.0;
 constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
+constexpr double kLevel = 0.7;      // upward part of the normal of what lies level, at least
 constexpr std::size_t kBlock = 16;  // features whose windows are fetched together
 
 double square(double value) { return value * value; }
@@ -100,6 +101,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   result.edges = sums_.edges;
   result.inlier_fraction =
       static_cast<double>(sums_.inliers) / static_cast<double>(std::max<std::size_t>(1, sums_.points));
+  result.upright = sums_.upright;
+  result.upright_inliers = sums_.upright_inliers;
   result.residual_variance =
       (sums_.inlier_normalised + kAssumedDistances) / (sums_.inlier_dimensions + kAssumedDistances);
   result.rms = std::sqrt(sums_.inlier_square / static_cast<double>(std::max<std::size_t>(1, sums_.inliers)));
@@ -151,9 +154,12 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     sums_.weight += weight;
     sums_.range += weight * p.norm();
     ++sums_.points;
+    const bool upright = !plane || std::abs(direction.z()) < kLevel;
+    sums_.upright += upright;
     ++(edge ? sums_.edges : sums_.planes);
     if (residual2 < 9.0 * variance) {
       ++sums_.inliers;
+      sums_.upright_inliers += upright;
       sums_.inlier_square += residual2;
       sums_.inlier_normalised += residual2 / variance;
       sums_.inlier_dimensions += plane ? 1.0 : 2.0;

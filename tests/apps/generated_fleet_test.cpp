@@ -1,15 +1,19 @@
 // The whole pipeline on a generated recording whose truth is known; needs nothing but this project.
 #include "support/generated_fleet.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/wire/topics.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/process.hpp"
+#include "support/synthetic_lidar.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap {
@@ -69,6 +73,35 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const Pose error = truth.inverse() * T_12;
   EXPECT_LT(error.translation().norm(), 0.30);
   EXPECT_LT(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 1.0);
+}
+
+/// A robot that is carried elsewhere between two scans: nothing that it sees then fits its map.
+TEST(OdometryCommand, ALostWayIsSaidAndFails) {
+  const testing::TemporaryFolder folder;
+  auto bag = recording::BagWriter::create(folder.path() / "bag");
+  ASSERT_TRUE(bag) << bag.error().message;
+  const testing::SyntheticWorld yard = testing::yard_world(), panels = testing::panel_world();
+  const bus::Topic topic = wire::topics::points();
+  for (int k = 0; k < 32; ++k) {
+    const double seconds = 0.1 * k;
+    const bool carried = k >= 12;
+    // Each scan from elsewhere, turned by about a right angle: no motion explains these.
+    const Pose there =
+        make_pose(rotation_from_rpy(0.0, 0.0, carried ? 1.6 * k : 0.0),
+                  Eigen::Vector3d(carried ? 3.0 * (k % 5) : 0.0, carried ? 20.0 + 2.5 * k : 0.0, 0.0));
+    sensor::Scan scan = make_scan(
+        carried ? panels : yard, [&](double) { return there; }, seconds, odometry::vlp16());
+    scan.stamp = stamp_from_ns(1'750'000'000'000'000'000) + from_seconds(seconds);
+    ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, wire::encode(scan)));
+  }
+  ASSERT_TRUE(bag->close());
+  testing::Process odometry({kFleetmap, "odometry", (folder.path() / "bag").string(), "--out",
+                             (folder.path() / "o.tum").string(), "--set", "lidar.translation=[0,0,0.8]"});
+  EXPECT_EQ(odometry.wait(), 1);
+  EXPECT_THAT(odometry.output(),
+              ::testing::ContainsRegex("lost [0-9]+ of 32 scans, the first 1\\.[0-9]+ s after"));
+  EXPECT_THAT(odometry.output(), ::testing::HasSubstr("the local map was begun anew"));
+  EXPECT_THAT(odometry.output(), ::testing::HasSubstr("the odometry lost its way"));
 }
 
 }  // namespace

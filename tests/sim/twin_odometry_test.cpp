@@ -75,7 +75,7 @@ struct Bounds {
   double per_cent, turn;   ///< at the end: per cent of the length, rad
   double step, step_turn;  ///< within a second: m, rad
 };
-constexpr Bounds kVlp16{0.47, 0.0046, 0.0047, 0.0016}, kNonRepeating{0.60, 0.0077, 0.0117, 0.0015};
+constexpr Bounds kVlp16{0.20, 0.0032, 0.0035, 0.0010}, kNonRepeating{0.51, 0.0055, 0.0119, 0.0011};
 
 void expect_true_to(const LidarSpec& lidar, const char* model, const Bounds& bounds) {
   for (unsigned seed = 1; seed <= testing::seeds_to_run(2); ++seed) {

@@ -23,6 +23,9 @@ struct MatchResult {
   std::size_t planes = 0;        ///< plane features with a surface in the map
   std::size_t edges = 0;         ///< edge features with an edge in the map
   double inlier_fraction = 0.0;  ///< of these, the share that lies within 3 sigma
+  /// Of the features that tell where the robot is and where it heads, all but what lies level, how many have
+  /// a surface or edge in the map, and how many of these are inliers. The ground fits wherever it is.
+  std::size_t upright = 0, upright_inliers = 0;
   /// Mean square of the inliers' distances over what they were taken to be, 1 as assumed: how much of its
   /// stated variance the scene really showed (the a posteriori variance of unit weight).
   double residual_variance = 1.0;
@@ -56,7 +59,7 @@ class ScanMatcher {
   struct Sums {
     double weight = 0, spurious = 0, range = 0, inlier_square = 0, inlier_normalised = 0,
            inlier_dimensions = 0;
-    std::size_t points = 0, inliers = 0, planes = 0, edges = 0;
+    std::size_t points = 0, inliers = 0, planes = 0, edges = 0, upright = 0, upright_inliers = 0;
   };
   static constexpr int kTimeBins = 16;
 
