@@ -48,12 +48,18 @@ std::vector<std::string> run_arguments(const Case& one, const fs::path& director
   return arguments;
 }
 
+/// The path of `key` within what lies at `path`.
+std::string below(const std::string& path, const std::string& key) {
+  std::string inner = path;
+  if (!inner.empty()) inner += '.';
+  return inner += key;
+}
+
 void add_numbers(const json& value, const std::string& path, CaseResult& result) {
   if (value.is_number()) {
     if (const double number = value.get<double>(); std::isfinite(number)) result.metrics[path] = number;
   } else if (value.is_object()) {
-    for (const auto& [key, inner] : value.items())
-      add_numbers(inner, path.empty() ? key : path + "." + key, result);
+    for (const auto& [key, inner] : value.items()) add_numbers(inner, below(path, key), result);
   } else if (value.is_array() && value.size() <= kLongestList) {
     for (std::size_t k = 0; k < value.size(); ++k)
       add_numbers(value[k], path + "[" + std::to_string(k) + "]", result);
@@ -65,7 +71,7 @@ void add_histograms(const json& value, const std::string& path, CaseResult& resu
   static const std::string kEnd = "_histogram";
   if (!value.is_object()) return;
   for (const auto& [key, inner] : value.items()) {
-    const std::string inner_path = path.empty() ? key : path + "." + key;
+    const std::string inner_path = below(path, key);
     add_histograms(inner, inner_path, result);
     if (!key.ends_with(kEnd) || !inner.is_array()) continue;
     const std::string stem = key.substr(0, key.size() - kEnd.size());
