@@ -57,6 +57,8 @@ void read_odometry(Section& top, agent::PerceptionConfig& perception) {
   section.read("deskew", loam.deskew);
   section.read("match_spacing", loam.match_spacing);
   section.read("insert_spacing", loam.insert_spacing);
+  // A map that reaches less far than the scans would leave their far points unmatched.
+  loam.map_radius = std::max(loam.map_radius, loam.max_range);
   section.read("map_radius", loam.map_radius);
   section.read("fine_resolution", loam.fine_resolution);
   section.read("coarse_resolution", loam.coarse_resolution);

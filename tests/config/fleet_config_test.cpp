@@ -87,6 +87,10 @@ TEST_F(FleetConfigTest, WrongKindGivesLineExpectationAndFinding) {
 TEST_F(FleetConfigTest, ValueOutOfItsRangeIsRefusedByTheComponent) {
   EXPECT_THAT(robot_error(kRobot + "nodes: {spacing: -1}\n"),
               HasSubstr("config.yaml:4: nodes.spacing: must"));
+  EXPECT_EQ(robot_error(kRobot + "lidar: {max_range: 100}\n"), "no error")
+      << "the map reaches as far by itself";
+  EXPECT_THAT(robot_error(kRobot + "lidar: {max_range: 100}\nodometry: {map_radius: 50}\n"),
+              HasSubstr("odometry.map_radius: must be 100.0"));
   EXPECT_THAT(robot_error(kRobot + "odometry: {deskew: true}\nlidar: {max_range: -40}\n"),
               HasSubstr("config.yaml:5: lidar.max_range: must be"));
 }
