@@ -55,6 +55,7 @@ void MotionPrior::measure_rate(int axis, double value, double sigma) {
 
 void MotionPrior::set_gyro_rate(const Eigen::Vector3d& rate, double sigma) {
   for (int axis = 0; axis < 3; ++axis) measure_rate(3 + axis, rate[axis], sigma);
+  has_gyro_rate_ = true;
 }
 
 void MotionPrior::set_forward_speed(double speed, double sigma) { measure_rate(0, speed, sigma); }

@@ -59,6 +59,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   MatchResult result;
   result.state = start;
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
+  const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
   double slack = initial_error;
   for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
     linearise(planes, edges, map, result.state, slack);
@@ -66,7 +67,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;
     lidar.g /= config_.information_deflation;
-    lidar = with_bent_map(lidar, config_.map_bend_speed, config_.map_bend_turn_rate);
+    lidar = with_bent_map(lidar, config_.map_bend_speed, bend_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) {
       const double range = sums_.range / std::max(1.0, sums_.weight);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bus/dds_domains.hpp"
 #include "fleetmap/store/store.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
@@ -29,10 +30,9 @@ class DdsFleet : public ::testing::Test {
     write_config("r2", 1, "[60, 153]", 2);
   }
 
-  /// Domains of this process, so that test runs beside each other do not meet.
-  static int domain(int offset) { return 100 + (getpid() % 25) * 4 + offset; }
+  static std::uint32_t domain(std::uint32_t offset) { return bus::testing::first_test_domain() + offset; }
 
-  void write_config(const std::string& id, int index, const std::string& frames, int seed) {
+  void write_config(const std::string& id, std::uint32_t index, const std::string& frames, int seed) {
     std::ofstream(folder_.path() / (id + ".yaml"))
         << "id: " << id << "\nfleet: [r1, r2]\ndirectory: " << (folder_.path() / id).string() << '\n'
         << "site: {origin: [49.011, 8.423, 112.8]}\n"

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <fstream>
 
+#include "bus/dds_domains.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "small_twin.hpp"
@@ -27,7 +28,7 @@ class DdsMission : public ::testing::Test {
     testing::Process world({kFleetmap, "world", twin_.path("world.yaml").string(), "--out",
                             twin_.path("site").string(), "--density", "1"});
     ASSERT_EQ(world.wait(), 0) << world.output();
-    for (const int k : {1, 2}) {
+    for (const std::uint32_t k : {1u, 2u}) {
       const std::string id = "r" + std::to_string(k);
       std::ofstream(twin_.path(id + ".yaml"))
           << "id: " << id << "\nfleet: [r1, r2]\ndirectory: " << id << "\n"
@@ -42,8 +43,7 @@ class DdsMission : public ::testing::Test {
   }
 
   static std::string qos() { return std::string(FLEETMAP_SOURCE_DIR) + "/qos"; }
-  /// Domains of this process, so that test runs beside each other do not meet.
-  static int domain(int offset) { return 60 + (getpid() % 20) * 6 + offset; }
+  static std::uint32_t domain(std::uint32_t offset) { return bus::testing::first_test_domain() + offset; }
   std::string file(const std::string& name) const { return twin_.path(name).string(); }
   /// m from where the robot's odometry began.
   double driven(const std::string& id) const {

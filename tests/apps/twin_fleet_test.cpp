@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 
+#include "bus/dds_domains.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -168,8 +169,7 @@ TEST(TwinFleet, AMissionEndsThoughThingsStandInTheWayThatNobodyDrew) {
 
 TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
   const testing::SmallTwin twin;
-  // Domains of this process, so that test runs beside each other do not meet.
-  twin.write_fleet("dds: {base_domain: " + std::to_string(60 + (getpid() % 20) * 6) +
+  twin.write_fleet("dds: {base_domain: " + std::to_string(bus::testing::first_test_domain()) +
                    ", qos: " + FLEETMAP_SOURCE_DIR + "/qos}\n");
   const std::string fleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
   const std::string config = twin.path("fleet.yaml").string();

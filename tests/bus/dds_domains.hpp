@@ -9,11 +9,11 @@
 
 namespace fleetmap::bus::testing {
 
-/// First of four DDS domains that no other test has while this process lives: whoever holds the lock of a
+/// First of six DDS domains (two radios and four robots) that no other test has while this process lives: whoever holds the lock of a
 /// file has them, and the kernel gives it back however the process ends. They stay below 100, where the ports
 /// are below those that the kernel hands out.
 inline std::uint32_t first_test_domain() {
-  constexpr std::uint32_t kGroups = 24;
+  constexpr std::uint32_t kGroups = 16;
   static const std::uint32_t mine = [] {
     const auto try_lock = [](std::uint32_t group, int how) {
       const std::string file = "/tmp/fleetmap-test-domains-" + std::to_string(group);
@@ -28,7 +28,7 @@ inline std::uint32_t first_test_domain() {
     try_lock(0, LOCK_EX);  // all taken: wait for one
     return 0U;
   }();
-  return 2 + 4 * mine;
+  return 2 + 6 * mine;
 }
 
 }  // namespace fleetmap::bus::testing

@@ -38,7 +38,7 @@ struct LoamConfig {
 
   /// 1 sigma by which what the points of a sweep show of its velocity may be feigned by the map: a map of
   /// sweeps that were all bent alike agrees with the next one bent alike. Far less is said by the way from
-  /// sweep to sweep.
+  /// sweep to sweep, and of the turn rate by a gyro, with which the second one is not used.
   double map_bend_speed = 0.3;       ///< m/s
   double map_bend_turn_rate = 0.15;  ///< rad/s
 
