@@ -9,8 +9,8 @@
 namespace fleetmap {
 
 /// An advisory lock on a file (flock). The system releases it with the object or the process, however that
-/// ends. Linux passes it on to the server of an NFS share, so it also holds between machines. On a file system
-/// without locks nothing is locked, and nothing fails.
+/// ends. Linux passes it on to the server of an NFS share, so it also holds between machines. On a file
+/// system without locks nothing is locked, and nothing fails.
 class FileLock {
  public:
   enum class Kind { kShared, kExclusive };
