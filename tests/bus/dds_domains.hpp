@@ -9,9 +9,9 @@
 
 namespace fleetmap::bus::testing {
 
-/// First of six DDS domains (two radios and four robots) that no other test has while this process lives: whoever holds the lock of a
-/// file has them, and the kernel gives it back however the process ends. They stay below 100, where the ports
-/// are below those that the kernel hands out.
+/// First of six DDS domains (two radios and four robots) that no other test has while this process lives:
+/// whoever holds the lock of a file has them, and the kernel gives it back however the process ends. They
+/// stay below 100, where the ports are below those that the kernel hands out.
 inline std::uint32_t first_test_domain() {
   constexpr std::uint32_t kGroups = 16;
   static const std::uint32_t mine = [] {

@@ -13,9 +13,10 @@ struct PaperConfig {
   float feature_voxel_m = 0.6f;   ///< m, and to this for the features
   int normal_neighbours = 16;     ///< of a point's normal
   float feature_radius_m = 3.0f;  ///< m, neighbourhood of a feature
-  /// Three correspondences are scored if the sides of their triangles in both clouds have at least this ratio.
+  /// Three correspondences are scored if the sides of their triangles in both clouds have at least this
+  /// ratio.
   double least_side_ratio = 0.9;
-  int ransac_iterations = 10'000;  ///< poses scored at most
+  int ransac_iterations = 10'000;     ///< poses scored at most
   double ransac_inlier_m = 1.0;       ///< m, farthest pair of points that supports a sampled pose
   int icp_iterations = 50;            ///< at most
   double inlier_m = 1.0;              ///< m, farthest pair of points that ICP uses and Eq. 2 counts
