@@ -132,7 +132,8 @@ Axis read_axis(Section& section) {
 }
 
 std::optional<Shape> shape_named(const std::string& name) {
-  for (const Shape shape : {Shape::kFalls, Shape::kRises, Shape::kFallsLessThanLinearly, Shape::kDoesNotRise})
+  for (const Shape shape : {Shape::kFalls, Shape::kRises, Shape::kFallsLessThanLinearly, Shape::kDoesNotRise,
+                            Shape::kDoesNotFall})
     if (name == to_string(shape)) return shape;
   return std::nullopt;
 }
@@ -157,11 +158,14 @@ void read_expectations(Section& section, Study& study, const std::vector<MetricS
     const auto known = shape_named(shape);
     if (!known)
       entry.problem(
-          "shape", "expected falls, rises, falls_less_than_linearly or does_not_rise, found '" + shape + "'");
-    if (known == Shape::kDoesNotRise && !(expectation.by > 0.0))
-      entry.problem("by", "does_not_rise needs the rise that would matter, > 0 in the metric's unit");
-    if (known && known != Shape::kDoesNotRise && entry.has("by"))
-      entry.problem("by", "only does_not_rise has it");
+          "shape",
+          "expected falls, rises, falls_less_than_linearly, does_not_rise or does_not_fall, found '" + shape +
+              "'");
+    const bool has_limit = known == Shape::kDoesNotRise || known == Shape::kDoesNotFall;
+    if (has_limit && !(expectation.by > 0.0))
+      entry.problem("by", shape + " needs the change that would matter, > 0 in the metric's unit");
+    if (known && !has_limit && entry.has("by"))
+      entry.problem("by", "only does_not_rise and does_not_fall have it");
     expectation.shape = known.value_or(Shape::kFalls);
     study.expectations.push_back(std::move(expectation));
   }
@@ -306,6 +310,8 @@ const char* to_string(Shape shape) {
       return "falls_less_than_linearly";
     case Shape::kDoesNotRise:
       return "does_not_rise";
+    case Shape::kDoesNotFall:
+      return "does_not_fall";
   }
   return "";
 }

@@ -104,12 +104,12 @@ TEST_F(ExperimentTest, ProblemsNameFileLineAndRemedy) {
         "experiment.yaml:11: studies[0].set: --set nonsense: expected key=value",
         "experiment.yaml:13: studies[0].expect[0].over: 'speed' is not an axis",
         "experiment.yaml:14: studies[0].expect[1].over: the axis 'one' has a single value",
-        "experiment.yaml:14: studies[0].expect[1].shape: expected falls, rises, falls_less_than_linearly or "
-        "does_not_rise, found 'drops'",
+        "experiment.yaml:14: studies[0].expect[1].shape: expected falls, rises, falls_less_than_linearly, "
+        "does_not_rise or does_not_fall, found 'drops'",
         "experiment.yaml:15: studies[0].quick.keep.rate: '7' is not a value of this axis",
         "experiment.yaml:16: studies[1].sed: unknown key; did you mean 'set'?",
-        "experiment.yaml:18: studies[2].expect[0].by: does_not_rise needs the rise that would matter",
-        "experiment.yaml:19: studies[2].expect[1].by: only does_not_rise has it"}) {
+        "experiment.yaml:18: studies[2].expect[0].by: does_not_rise needs the change that would matter",
+        "experiment.yaml:19: studies[2].expect[1].by: only does_not_rise and does_not_fall have it"}) {
     EXPECT_THAT(config.error().message, HasSubstr(expected));
   }
 }

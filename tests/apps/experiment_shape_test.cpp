@@ -186,6 +186,17 @@ TEST_F(Shapes, DoesNotRiseAllowsWhatIsFlatAndLessThanTheRiseThatMatters) {
   EXPECT_EQ(judge(shape, 1, noisy(0.0, 0.0), 0.5).verdict, Verdict::kHoldsWeakly);
 }
 
+TEST_F(Shapes, DoesNotFallIsItsMirrorImage) {
+  const config::Shape shape = config::Shape::kDoesNotFall;
+  const auto falling = [](double x, int seed) { return 1.0 - 0.1 * x + 0.01 * std::sin(37.0 * x * seed); };
+  EXPECT_EQ(judge(shape, 5, falling, 0.5).verdict, Verdict::kHolds);
+  const ShapeCheck check = judge(shape, 5, falling, 0.2);
+  EXPECT_EQ(check.verdict, Verdict::kViolated);
+  EXPECT_THAT(check.detail, HasSubstr("it falls by 0.2"));
+  EXPECT_LT(check.change, -0.29);
+  EXPECT_GT(check.means.front(), check.means.back());
+}
+
 TEST_F(Shapes, DoesNotRiseIsSaidOfARiseThatMattersAsSeldomAsPSays) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise;

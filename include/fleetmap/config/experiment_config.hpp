@@ -41,7 +41,7 @@ struct Axis {
   std::string title = {};  ///< in plots; empty: the name
 };
 
-enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly, kDoesNotRise };
+enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly, kDoesNotRise, kDoesNotFall };
 const char* to_string(Shape shape);
 
 /// How a metric's mean must change along an axis, for every combination of the other axes.
@@ -49,7 +49,8 @@ struct Expectation {
   std::string metric;
   std::string over;
   Shape shape = Shape::kFalls;
-  double by = 0.0;  ///< of kDoesNotRise: a rise that matters, in the metric's unit; of log metrics of its ln
+  double by = 0.0;  ///< of kDoesNotRise and kDoesNotFall: a change that matters, in the metric's unit; of log
+                    ///< metrics of its ln
 };
 
 struct Study {

@@ -25,7 +25,8 @@ void add_shapes(eval::HtmlPage& page, const std::vector<ShapeCheck>& checks) {
       "variance of all points and seeds. p is the one-sided chance of such slopes without any trend; above "
       "0.05 "
       "the shape holds weakly. falls_less_than_linearly also asks that the metric times the axis rises. "
-      "does_not_rise asks that no mean lies above the first by the stated amount or more; p is the chance of "
+      "does_not_rise asks that no mean lies above the first by the stated amount or more, does_not_fall "
+      "below; p is the chance of "
       "such means if one truly did.");
   eval::Table table{{"study", "metric", "expected", "at", "verdict", "measured"}};
   for (const ShapeCheck& check : checks) {

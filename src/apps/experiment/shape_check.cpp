@@ -144,6 +144,18 @@ Trend check_no_rise(const Curve& curve, double by) {
   return trend;
 }
 
+Trend check_no_fall(Curve curve, double by) {
+  for (std::vector<double>& row : curve.values)
+    for (double& value : row) value = -value;
+  Trend trend = check_no_rise(curve, by);
+  for (double& mean : trend.means) mean = -mean;
+  trend.change = -trend.change;
+  trend.slope = -trend.slope;
+  if (const auto at = trend.violation.find("rises"); at != std::string::npos)
+    trend.violation.replace(at, 5, "falls");
+  return trend;
+}
+
 namespace {
 
 /// Only the seeds that gave the metric at every point, as logarithms if that is how it is compared.
@@ -181,9 +193,10 @@ std::string list_of(const std::vector<double>& values) {
 /// Judges one trend and, for falls_less_than_linearly, the one of the metric times x.
 void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
   const bool falling = check.expectation.shape != config::Shape::kRises;
-  const Trend trend = check.expectation.shape == config::Shape::kDoesNotRise
-                          ? check_no_rise(curve, check.expectation.by)
-                          : check_trend(curve, falling);
+  const Trend trend =
+      check.expectation.shape == config::Shape::kDoesNotRise   ? check_no_rise(curve, check.expectation.by)
+      : check.expectation.shape == config::Shape::kDoesNotFall ? check_no_fall(curve, check.expectation.by)
+                                                               : check_trend(curve, falling);
   check.means = trend.means;
   if (log_scale)
     for (double& mean : check.means) mean = std::exp(mean);

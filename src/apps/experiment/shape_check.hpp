@@ -53,6 +53,8 @@ Trend check_trend(const Curve& curve, bool falling);
 /// the chance of these means, the largest of all points, if one of them truly rose by `by`: from the paired
 /// differences with residual_of()'s sigma.
 Trend check_no_rise(const Curve& curve, double by);
+/// The same of a fall.
+Trend check_no_fall(Curve curve, double by);
 
 enum class Verdict : std::uint8_t {
   kHolds,
