@@ -99,19 +99,33 @@ Residual residual_of(const Curve& curve) {
   return residual;
 }
 
-Trend check_trend(const Curve& curve, bool falling) {
-  const double sign = falling ? -1.0 : 1.0;
-  const std::string direction = falling ? "fall" : "rise";
+namespace {
+
+/// The means over the seeds and how they change, not judged yet.
+Trend unjudged(const Curve& curve) {
   Trend trend;
   for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
   trend.change = trend.means.back() - trend.means.front();
   trend.slope = slope_of(curve.x, trend.means);
+  return trend;
+}
+
+/// Of the difference of two means over the seeds.
+double error_of_difference(const Curve& curve, const Residual& residual) {
+  return residual.sigma * std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
+}
+
+}  // namespace
+
+Trend check_trend(const Curve& curve, bool falling) {
+  const double sign = falling ? -1.0 : 1.0;
+  const std::string direction = falling ? "fall" : "rise";
+  Trend trend = unjudged(curve);
   const Residual residual = residual_of(curve);
   trend.p = slope_chance(curve, residual, sign);
   trend.tolerance = std::isnan(residual.sigma)
                         ? residual.sigma
-                        : student_quantile(0.025, residual.freedom) * residual.sigma *
-                              std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
+                        : student_quantile(0.025, residual.freedom) * error_of_difference(curve, residual);
   if (!(sign * trend.change > 0.0)) {
     trend.violation =
         "it does not " + direction + " from first to last: the mean changes by " + short_number(trend.change);
@@ -124,35 +138,22 @@ Trend check_trend(const Curve& curve, bool falling) {
   return trend;
 }
 
-Trend check_no_rise(const Curve& curve, double by) {
-  Trend trend;
-  for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
-  trend.change = trend.means.back() - trend.means.front();
-  trend.slope = slope_of(curve.x, trend.means);
+Trend check_limit(const Curve& curve, bool falling, double by) {
+  const double sign = falling ? -1.0 : 1.0;
+  Trend trend = unjudged(curve);
   const Residual residual = residual_of(curve);
-  const double error = residual.sigma * std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
+  const double error = error_of_difference(curve, residual);
   trend.tolerance = by;
   trend.p = 0.0;
   for (std::size_t k = 1; k < trend.means.size(); ++k) {
-    const double rise = trend.means[k] - trend.means.front();
-    const double chance = error > 0.0 ? student_tail((by - rise) / error, residual.freedom) : 0.0;
+    const double change = sign * (trend.means[k] - trend.means.front());
+    const double chance = error > 0.0 ? student_tail((by - change) / error, residual.freedom) : 0.0;
     trend.p = std::isnan(error) ? error : std::max(trend.p, chance);
-    if (rise < by || !trend.violation.empty()) continue;
-    trend.violation = "from " + short_number(curve.x.front()) + " to " + short_number(curve.x[k]) +
-                      " it rises by " + short_number(rise) + ", at most " + short_number(by) + " is expected";
+    if (change < by || !trend.violation.empty()) continue;
+    trend.violation = "from " + short_number(curve.x.front()) + " to " + short_number(curve.x[k]) + " it " +
+                      (falling ? "falls" : "rises") + " by " + short_number(change) + ", at most " +
+                      short_number(by) + " is expected";
   }
-  return trend;
-}
-
-Trend check_no_fall(Curve curve, double by) {
-  for (std::vector<double>& row : curve.values)
-    for (double& value : row) value = -value;
-  Trend trend = check_no_rise(curve, by);
-  for (double& mean : trend.means) mean = -mean;
-  trend.change = -trend.change;
-  trend.slope = -trend.slope;
-  if (const auto at = trend.violation.find("rises"); at != std::string::npos)
-    trend.violation.replace(at, 5, "falls");
   return trend;
 }
 
@@ -190,13 +191,24 @@ std::string list_of(const std::vector<double>& values) {
   return text;
 }
 
+Trend judged(const Curve& curve, const config::Expectation& expectation) {
+  switch (expectation.shape) {
+    case config::Shape::kDoesNotRise:
+      return check_limit(curve, false, expectation.by);
+    case config::Shape::kDoesNotFall:
+      return check_limit(curve, true, expectation.by);
+    case config::Shape::kRises:
+      return check_trend(curve, false);
+    case config::Shape::kFalls:
+    case config::Shape::kFallsLessThanLinearly:
+      break;
+  }
+  return check_trend(curve, true);
+}
+
 /// Judges one trend and, for falls_less_than_linearly, the one of the metric times x.
 void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
-  const bool falling = check.expectation.shape != config::Shape::kRises;
-  const Trend trend =
-      check.expectation.shape == config::Shape::kDoesNotRise   ? check_no_rise(curve, check.expectation.by)
-      : check.expectation.shape == config::Shape::kDoesNotFall ? check_no_fall(curve, check.expectation.by)
-                                                               : check_trend(curve, falling);
+  const Trend trend = judged(curve, check.expectation);
   check.means = trend.means;
   if (log_scale)
     for (double& mean : check.means) mean = std::exp(mean);

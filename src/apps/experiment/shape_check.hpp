@@ -49,12 +49,10 @@ struct Trend {
 /// `falling` asks for falls; otherwise rises.
 Trend check_trend(const Curve& curve, bool falling);
 
-/// Whether a mean lies above the first by `by` or more, which is violated (a test of non-inferiority). p is
-/// the chance of these means, the largest of all points, if one of them truly rose by `by`: from the paired
-/// differences with residual_of()'s sigma.
-Trend check_no_rise(const Curve& curve, double by);
-/// The same of a fall.
-Trend check_no_fall(Curve curve, double by);
+/// Whether a mean lies above the first (`falling`: below) by `by` or more, which is violated (a test of
+/// non-inferiority). p is the chance of these means, the largest of all points, if one of them truly differed
+/// by `by`: from the paired differences with residual_of()'s sigma.
+Trend check_limit(const Curve& curve, bool falling, double by);
 
 enum class Verdict : std::uint8_t {
   kHolds,
