@@ -4,8 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "evaluation.hpp"
@@ -18,7 +18,7 @@ struct EvalOptions {
   std::string directory;
   EvaluationInputs inputs;
   bool no_pictures = false;
-  std::string modes = "all";
+  std::vector<std::string> modes{"all"};
   bool no_overlap = false;
 };
 
@@ -89,30 +89,18 @@ bool measured_anything(const nlohmann::json& evaluation) {
   return false;
 }
 
-std::string joined(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
-
-Result<std::set<std::string>> modes_of(const std::string& text) {
-  if (text == "all") return mode_names();
-  std::set<std::string> modes;
-  if (text == "none") return modes;
-  std::istringstream in(text);
-  for (std::string name; std::getline(in, name, ',');) {
-    if (!mode_names().contains(name))
-      return failure("--modes: '" + name + "' is none of " + joined(mode_names()));
-    modes.insert(name);
-  }
-  return modes;
+/// What --modes may name.
+std::set<std::string> mode_choices() {
+  std::set<std::string> choices = mode_names();
+  choices.insert({"all", "none"});
+  return choices;
 }
 
 int run(EvalOptions& options) {
   options.inputs.pictures = !options.no_pictures;
-  const auto modes = modes_of(options.modes);
-  if (!modes) return report(modes.error(), kUsage);
-  options.inputs.modes = *modes;
+  options.inputs.modes = {options.modes.begin(), options.modes.end()};
+  if (options.inputs.modes.contains("all")) options.inputs.modes = mode_names();
+  options.inputs.modes.erase("none");
   options.inputs.overlap = !options.no_overlap;
   std::error_code error;
   if (std::filesystem::is_directory(options.directory, error)) {
@@ -149,8 +137,10 @@ void add_eval(CLI::App& app, int& exit_code) {
   command
       ->add_option("--modes", options->modes,
                    "combinations of registration and placement to evaluate beside the run's own, which is "
-                   "most of the time: all, none, or some of " +
-                       joined(mode_names()))
+                   "most of the time")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(mode_choices()))
       ->capture_default_str();
   command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
   command->callback([options, &exit_code] { exit_code = run(*options); });

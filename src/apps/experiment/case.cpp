@@ -22,23 +22,28 @@ void append(std::vector<config::Override>& to, const std::vector<config::Overrid
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Every metric that the study shows or checks.
+std::vector<std::string> metrics_of(const config::Study& study) {
+  std::vector<std::string> metrics = study.metrics;
+  metrics.insert(metrics.end(), study.histograms.begin(), study.histograms.end());
+  for (const config::Expectation& expectation : study.expectations) metrics.push_back(expectation.metric);
+  return metrics;
+}
+
 bool wants(const config::Study& study, std::string_view part) {
-  const auto holds = [part](const std::string& metric) { return metric.find(part) != std::string::npos; };
-  return std::ranges::any_of(study.metrics, holds) || std::ranges::any_of(study.histograms, holds) ||
-         std::ranges::any_of(study.expectations, holds, &config::Expectation::metric);
+  return std::ranges::any_of(metrics_of(study), [part](const std::string& metric) {
+    return metric.find(part) != std::string::npos;
+  });
 }
 
 /// The combinations <m> whose modes.<m>.* the study shows.
 std::set<std::string> wanted_modes(const config::Study& study) {
   constexpr std::string_view kPrefix = "modes.";
   std::set<std::string> modes;
-  const auto add = [&](const std::string& metric) {
+  for (const std::string& metric : metrics_of(study)) {
     if (metric.starts_with(kPrefix))
       modes.insert(metric.substr(kPrefix.size(), metric.find('.', kPrefix.size()) - kPrefix.size()));
-  };
-  std::ranges::for_each(study.metrics, add);
-  std::ranges::for_each(study.histograms, add);
-  std::ranges::for_each(study.expectations, add, &config::Expectation::metric);
+  }
   return modes;
 }
 
