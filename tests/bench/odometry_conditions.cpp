@@ -236,7 +236,13 @@ std::vector<Result> run(const sim::World& world, const sim::Scene& scene, const 
   return results;
 }
 
-int print(const std::string& world_name, const Condition& how, std::uint64_t seeds, double length) {
+/// The site of one seed, for all conditions.
+struct Site {
+  std::shared_ptr<const sim::World> world;
+  std::shared_ptr<const sim::Scene> scene;
+};
+
+int print(const std::vector<Site>& sites, const Condition& how, double length) {
   const std::filesystem::path config = std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config";
   auto lidar = config::load_lidar_spec(config / "sensors" / (std::string(how.lidar) + ".yaml"));
   if (!lidar) {
@@ -246,14 +252,8 @@ int print(const std::string& world_name, const Condition& how, std::uint64_t see
   lidar->range_noise = how.noise;
   *lidar = sim::at_rate(*lidar, how.rate);
   std::vector<std::vector<Result>> all;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const auto world = config::make_world(config / "worlds" / (world_name + ".yaml"), seed);
-    const auto scene = world ? sim::Scene::create((*world)->mesh()) : tl::unexpected(world.error());
-    if (!scene) {
-      std::printf("%s\n", scene.error().message.c_str());
-      return 1;
-    }
-    all.push_back(run(**world, **scene, *lidar, how, length, seed));
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    all.push_back(run(*sites[k].world, *sites[k].scene, *lidar, how, length, k + 1));
   }
   for (std::size_t v = 0; v < std::size(kVariants); ++v) {
     Result mean, worst;
@@ -291,12 +291,24 @@ int main(int argc, char** argv) {
       world = argv[i];
     }
   }
+  std::vector<Site> sites;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const std::filesystem::path file =
+        std::filesystem::path(FLEETMAP_SOURCE_DIR) / "config/worlds" / (world + ".yaml");
+    const auto made = config::make_world(file, seed);
+    const auto scene = made ? sim::Scene::create((*made)->mesh()) : tl::unexpected(made.error());
+    if (!scene) {
+      std::printf("%s\n", scene.error().message.c_str());
+      return 1;
+    }
+    sites.push_back({*made, *scene});
+  }
   std::printf(
       "| condition | used | ATE m, mean (worst) | drift over 20 m %%, mean (worst) | lost scans | CPU ms |\n"
       "|---|---|---|---|---|---|\n");
   for (const Condition& how : kConditions) {
     if (!only.empty() && std::string(how.name).find(only) == std::string::npos) continue;
-    if (const int failed = print(world, how, seeds, length); failed != 0) return failed;
+    if (const int failed = print(sites, how, length); failed != 0) return failed;
   }
   return 0;
 }

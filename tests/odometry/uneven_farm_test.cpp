@@ -1,6 +1,7 @@
 // One robot on an uneven farm, recorded in a simulator that shares no code with this project.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "odometry/xz_file.hpp"
@@ -21,27 +23,45 @@ namespace fs = std::filesystem;
 constexpr std::size_t kColumns = 1800, kRings = 16;
 constexpr double kPeriod = 0.1;  // s, of a revolution
 
-std::vector<std::vector<double>> read_csv(const fs::path& file) {
+std::vector<Stamp> read_stamps(const fs::path& file) {
   std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);  // names
-  std::vector<std::vector<double>> rows;
-  while (std::getline(in, line)) {
-    std::istringstream fields(line);
-    std::vector<double>& row = rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(std::stod(field));
-  }
-  return rows;
+  std::vector<Stamp> stamps;
+  for (std::int64_t ns; in >> ns;) stamps.push_back(stamp_from_ns(ns));
+  return stamps;
 }
 
-/// Stamps of 19 digits do not fit a double: read as integers.
-std::vector<std::int64_t> read_stamps(const fs::path& file, bool header) {
+/// Samples of a CSV file with a line of names: `sample` makes one of the stamp and the values behind it.
+template <class Sample>
+std::vector<Sample> read_samples(const fs::path& file, Sample (*sample)(Stamp, const std::vector<double>&)) {
   std::ifstream in(file);
   std::string line;
-  if (header) std::getline(in, line);
-  std::vector<std::int64_t> stamps;
-  while (std::getline(in, line)) stamps.push_back(std::stoll(line));
-  return stamps;
+  std::getline(in, line);
+  std::vector<Sample> samples;
+  while (std::getline(in, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    std::getline(fields, field, ',');
+    const Stamp stamp = stamp_from_ns(std::stoll(field));  // 19 digits do not fit a double
+    std::vector<double> values;
+    while (std::getline(fields, field, ',')) values.push_back(std::stod(field));
+    samples.push_back(sample(stamp, values));
+  }
+  return samples;
+}
+
+sensor::Imu imu_of(Stamp stamp, const std::vector<double>& values) {
+  sensor::Imu imu;
+  imu.stamp = stamp;
+  imu.angular_velocity = {values.at(4), values.at(5), values.at(6)};  // behind the orientation
+  return imu;
+}
+
+sensor::Wheel wheel_of(Stamp stamp, const std::vector<double>& values) {
+  sensor::Wheel wheel;
+  wheel.stamp = stamp;
+  wheel.forward_speed = values.at(0);
+  wheel.yaw_rate = values.at(1);
+  return wheel;
 }
 
 struct Heard {
@@ -63,7 +83,7 @@ class UnevenFarm : public ::testing::Test {
     if (!found) GTEST_SKIP() << "uneven_farm_vlp16 is not installed";
     folder_ = *found;
     ranges_ = testing::read_xz(folder_ / "ranges_u16.bin.xz");
-    stamps_ = read_stamps(folder_ / "scan_stamps_ns.txt", false);
+    stamps_ = read_stamps(folder_ / "scan_stamps_ns.txt");
     ASSERT_EQ(ranges_.size(), stamps_.size() * kColumns * kRings * 2);
   }
 
@@ -75,7 +95,7 @@ class UnevenFarm : public ::testing::Test {
   sensor::Scan scan_at(std::size_t k, const Heard& heard, std::mt19937_64& random) const {
     std::normal_distribution<double> normal;
     sensor::Scan scan;
-    scan.stamp = stamp_from_ns(stamps_[k]);
+    scan.stamp = stamps_[k];
     scan.has_time = scan.has_ring = true;
     for (std::size_t column = 0; column < kColumns; ++column) {
       const double turn = static_cast<double>(column) / kColumns, azimuth = -2.0 * std::numbers::pi * turn;
@@ -96,65 +116,36 @@ class UnevenFarm : public ::testing::Test {
     return scan;
   }
 
-  Pose truth_at(double seconds) const {
-    const auto after = std::ranges::lower_bound(truth_stamps_, seconds);
-    const auto k = std::clamp<std::ptrdiff_t>(after - truth_stamps_.begin(), 1, std::ssize(truth_) - 1);
-    const auto i = static_cast<std::size_t>(k);
-    const double alpha = (seconds - truth_stamps_[i - 1]) / (truth_stamps_[i] - truth_stamps_[i - 1]);
-    return interpolate(truth_[i - 1], truth_[i], alpha);
-  }
-
-  void read_truth() {
-    std::ifstream in(folder_ / "truth_base_link.tum");
-    double stamp, x, y, z, qx, qy, qz, qw;
-    while (in >> stamp >> x >> y >> z >> qx >> qy >> qz >> qw) {
-      truth_stamps_.push_back(stamp);
-      truth_.push_back(make_pose(Eigen::Quaterniond(qw, qx, qy, qz), Eigen::Vector3d(x, y, z)));
-    }
-  }
-
   DriveResult drive(const Heard& heard) {
-    read_truth();
+    const auto track = eval::read_tum(folder_ / "truth_base_link.tum");
+    if (!track) {
+      ADD_FAILURE() << track.error().message;
+      return {};
+    }
     LoamConfig config;
     config.T_base_lidar.translation().z() = 0.35;
     config.deskew = heard.deskew;
     Loam loam(config, vlp16());
-    if (heard.imu) {
-      const auto stamps = read_stamps(folder_ / "imu.csv", true);
-      const auto rows = read_csv(folder_ / "imu.csv");
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        sensor::Imu imu;
-        imu.stamp = stamp_from_ns(stamps[k]);
-        imu.angular_velocity = {rows[k][5], rows[k][6], rows[k][7]};
-        imus_.push_back(imu);
-      }
-    }
-    if (heard.wheels) {
-      const auto stamps = read_stamps(folder_ / "wheel.csv", true);
-      const auto rows = read_csv(folder_ / "wheel.csv");
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        sensor::Wheel wheel;
-        wheel.stamp = stamp_from_ns(stamps[k]);
-        wheel.forward_speed = rows[k][1];
-        wheel.yaw_rate = rows[k][2];
-        wheels_.push_back(wheel);
-      }
-    }
+    std::vector<sensor::Imu> imus;
+    std::vector<sensor::Wheel> wheels;
+    if (heard.imu) imus = read_samples(folder_ / "imu.csv", imu_of);
+    if (heard.wheels) wheels = read_samples(folder_ / "wheel.csv", wheel_of);
     std::mt19937_64 random(1);
     std::vector<Pose> estimate, truth;
     std::size_t imu = 0, wheel = 0;
     for (std::size_t k = 0; k < stamps_.size(); k += heard.every) {
-      const Stamp heard_until = stamp_from_ns(stamps_[k] + 110'000'000);
-      for (; imu < imus_.size() && imus_[imu].stamp < heard_until; ++imu) loam.add_imu(imus_[imu]);
-      for (; wheel < wheels_.size() && wheels_[wheel].stamp < heard_until; ++wheel)
-        loam.add_wheel(wheels_[wheel]);
+      const Stamp heard_until = stamps_[k] + std::chrono::milliseconds(110);
+      for (; imu < imus.size() && imus[imu].stamp < heard_until; ++imu) loam.add_imu(imus[imu]);
+      for (; wheel < wheels.size() && wheels[wheel].stamp < heard_until; ++wheel)
+        loam.add_wheel(wheels[wheel]);
       const auto update = loam.add_scan(scan_at(k, heard, random));
-      if (!update) {
-        ADD_FAILURE() << update.error().message;
+      const auto T_enu_base = eval::pose_at(*track, stamps_[k]);
+      if (!update || !T_enu_base) {
+        ADD_FAILURE() << (update ? "no truth at the scan" : update.error().message);
         break;
       }
       estimate.push_back(update->T_odom_base);
-      truth.push_back(truth_at(1e-9 * static_cast<double>(stamps_[k])));
+      truth.push_back(*T_enu_base);
     }
     DriveResult result{testing::aligned_rmse(estimate, truth), testing::relative_drift(estimate, truth, 20.0),
                        loam.counters()};
@@ -167,11 +158,7 @@ class UnevenFarm : public ::testing::Test {
  private:
   fs::path folder_;
   std::vector<std::uint8_t> ranges_;
-  std::vector<std::int64_t> stamps_;
-  std::vector<double> truth_stamps_;
-  std::vector<Pose> truth_;
-  std::vector<sensor::Imu> imus_;
-  std::vector<sensor::Wheel> wheels_;
+  std::vector<Stamp> stamps_;
 };
 
 /// 84 m. A velocity that follows the bend of the map ends 1.7 m off and spins; without motion compensation

@@ -10,19 +10,22 @@ namespace fleetmap::testing {
 std::vector<std::uint8_t> read_xz(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> packed{std::istreambuf_iterator<char>(in), {}};
-  std::vector<std::uint8_t> plain(4u << 20);
-  std::uint64_t memory_limit = UINT64_MAX;
-  std::size_t in_at = 0, out_at = 0;
-  while (true) {
-    in_at = out_at = 0;
-    const lzma_ret status = lzma_stream_buffer_decode(
-        &memory_limit, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()), &in_at,
-        packed.size(), plain.data(), &out_at, plain.size());
-    if (status == LZMA_OK) break;
-    if (status != LZMA_BUF_ERROR || plain.size() > (64u << 20)) return {};
-    plain.resize(plain.size() * 2);
+  constexpr std::size_t kPiece = 1u << 20, kMost = 64u << 20;
+  std::vector<std::uint8_t> plain;
+  lzma_stream stream = LZMA_STREAM_INIT;
+  lzma_ret status = lzma_stream_decoder(&stream, UINT64_MAX, 0);
+  stream.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
+  stream.avail_in = packed.size();
+  while (status == LZMA_OK && plain.size() < kMost) {
+    const std::size_t at = plain.size();
+    plain.resize(at + kPiece);
+    stream.next_out = plain.data() + at;
+    stream.avail_out = kPiece;
+    status = lzma_code(&stream, LZMA_FINISH);
+    plain.resize(plain.size() - stream.avail_out);
   }
-  plain.resize(out_at);
+  lzma_end(&stream);
+  if (status != LZMA_STREAM_END) return {};
   return plain;
 }
 
