@@ -163,7 +163,9 @@ void add_odometry(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<OdometryOptions>();
   CLI::App* command =
       app.add_subcommand("odometry", "odometry alone: a recording in, a TUM trajectory of base_link out");
-  command->add_option("recording", options->recording, "rosbag2 folder or .db3, or KITTI raw folder")
+  command
+      ->add_option("recording", options->recording,
+                   "rosbag2 folder or .db3, KITTI folder, or a folder of scans")
       ->required();
   command->add_option("--out", options->out, "TUM file")->required()->check(some_path());
   command->add_option("-c,--config", options->config, "AGENT.yaml or FLEET.yaml for the sensors");

@@ -1,5 +1,8 @@
 #include "kitti_reader.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -7,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "checked_reader.hpp"
 #include "oxts.hpp"
@@ -29,19 +33,62 @@ std::optional<std::size_t> frame_number(const fs::path& file) {
   return number <= kMaxFrame ? std::optional(number) : std::nullopt;
 }
 
-/// Files of `folder`/data, or of `folder` itself, by frame.
-template <class Wanted>
-std::map<std::size_t, fs::path> frames_in(const fs::path& folder, const KittiConfig& config,
-                                          const Wanted& wanted) {
-  std::map<std::size_t, fs::path> frames;
+/// Where a recording of KITTI's kinds keeps what.
+struct Layout {
+  fs::path scans;
+  fs::path scan_stamps;  ///< a file; it need not be there
+  fs::path oxts;         ///< a folder, likewise
+  fs::path oxts_stamps;
+  bool motion_compensated = false;
+  bool numbered = true;  ///< files are named by their frame; else frames count in order of names
+};
+
+using Frames = std::map<std::size_t, fs::path>;
+
+bool is_oxts_file(const fs::path& file) { return file.extension() == ".txt"; }
+
+/// The scans, or the OXTS records, of `folder`/data, or of `folder` itself.
+std::vector<fs::path> files_in(const fs::path& folder, bool (*wanted)(const fs::path&)) {
+  std::vector<fs::path> files;
+  if (folder.empty()) return files;
   const fs::path place = fs::is_directory(folder / "data") ? folder / "data" : folder;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(place, error)) {
-    const auto number = frame_number(entry.path());
-    if (!number || !wanted(entry.path())) continue;
-    if (*number >= config.first_frame && *number <= config.last_frame) frames.emplace(*number, entry.path());
+    if (wanted(entry.path())) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+Frames by_frame(const std::vector<fs::path>& files, bool numbered, const KittiConfig& config) {
+  Frames frames;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto number = numbered ? frame_number(files[k]) : std::optional(k);
+    if (number && *number >= config.first_frame && *number <= config.last_frame)
+      frames.emplace(*number, files[k]);
   }
   return frames;
+}
+
+/// The layout of `path`, if it is one of KITTI's or a bare folder of scans.
+std::optional<Layout> layout_of(const fs::path& path) {
+  if (fs::is_directory(path / "velodyne_points")) {
+    return Layout{path / "velodyne_points", path / "velodyne_points" / "timestamps.txt", path / "oxts",
+                  path / "oxts" / "timestamps.txt"};
+  }
+  if (fs::is_directory(path / "velodyne"))
+    return Layout{path / "velodyne", path / "times.txt", {}, {}, /*motion_compensated=*/true};
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path folder = whole.has_filename() ? whole : whole.parent_path();
+  if (folder.filename() == "velodyne" && fs::exists(folder.parent_path() / "times.txt"))
+    return layout_of(folder.parent_path());
+  const std::vector<fs::path> scans =
+      fs::is_directory(path) ? files_in(path, is_scan_file) : std::vector<fs::path>();
+  if (scans.empty()) return std::nullopt;
+  const fs::path stamps = path / (fs::exists(path / "times.txt") ? "times.txt" : "timestamps.txt");
+  const bool numbered =
+      std::ranges::all_of(scans, [](const fs::path& scan) { return frame_number(scan).has_value(); });
+  return Layout{path, stamps, {}, {}, /*motion_compensated=*/false, numbered};
 }
 
 /// "2011-09-26 13:02:25.594360375", taken as UTC.
@@ -62,17 +109,26 @@ std::optional<Stamp> parse_timestamp(const std::string& line) {
          Duration(std::llround(second * 1e9L));
 }
 
-/// Stamp of each frame by line, or nothing when there is no timestamps.txt.
-Result<std::vector<Stamp>> read_timestamps(const fs::path& folder) {
-  const fs::path file = folder / "timestamps.txt";
+/// "1.036e-01": seconds since the recording began.
+std::optional<Stamp> parse_seconds(const std::string& line) {
+  std::istringstream words(line);
+  double seconds = 0.0;
+  std::string more;
+  if (!(words >> seconds) || words >> more || !(seconds >= 0.0 && seconds < 4e9)) return std::nullopt;
+  return Stamp(from_seconds(seconds));
+}
+
+/// Stamp of each frame by line, or nothing when there is no such file.
+Result<std::vector<Stamp>> read_timestamps(const fs::path& file) {
   std::vector<Stamp> stamps;
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     if (line.find_first_not_of(" \r\t") == std::string::npos) continue;
-    const auto stamp = parse_timestamp(line);
+    auto stamp = parse_timestamp(line);
+    if (!stamp) stamp = parse_seconds(line);
     if (!stamp) {
       return failure(file.string() + ":" + std::to_string(stamps.size() + 1) + ": '" + line.substr(0, 40) +
-                     "' is no time such as 2011-09-26 13:02:25.594360375");
+                     "' is no time such as 2011-09-26 13:02:25.594360375 or 1.036e-01 (s)");
     }
     stamps.push_back(*stamp);
   }
@@ -82,8 +138,9 @@ Result<std::vector<Stamp>> read_timestamps(const fs::path& folder) {
 class KittiReader : public CheckedReader {
  public:
   struct Files {
-    std::map<std::size_t, fs::path> scans, oxts;
+    Frames scans, oxts;
     std::vector<Stamp> scan_stamps, oxts_stamps;
+    bool motion_compensated = false;
   };
   KittiReader(std::string source, Files files, const KittiConfig& config)
       : CheckedReader(std::move(source)), config_(config), files_(std::move(files)) {
@@ -145,6 +202,8 @@ class KittiReader : public CheckedReader {
     if (!decoded) return skip(&Counters::unreadable_scan_files, decoded.error().message);
     if (!admit_points(*decoded, file.string())) return;
     decoded->scan.stamp = stamp;
+    // All points are where the scanner would have seen them at the stamp: their times are 0 and known.
+    decoded->scan.has_time = files_.motion_compensated;
     ready_.emplace_back(std::move(decoded->scan));
   }
 
@@ -163,42 +222,64 @@ class KittiReader : public CheckedReader {
   std::deque<Sample> ready_;  ///< of one frame
 };
 
-/// Stamps by timestamps.txt, or nominal ones for both.
-Status read_stamps(const fs::path& path, KittiReader::Files& files) {
-  auto scans = read_timestamps(path / "velodyne_points");
+/// Stamps by the files of the layout, or nominal ones for both.
+Status read_stamps(const Layout& layout, KittiReader::Files& files) {
+  auto scans = read_timestamps(layout.scan_stamps);
   if (!scans) return tl::unexpected(scans.error());
-  auto oxts = read_timestamps(path / "oxts");
+  auto oxts = read_timestamps(layout.oxts_stamps);
   if (!oxts) return tl::unexpected(oxts.error());
   if (scans->empty() != oxts->empty() && !files.oxts.empty()) {
     // One clock for both: the frames were triggered together.
     (scans->empty() ? *scans : *oxts) = scans->empty() ? *oxts : *scans;
   }
-  const auto short_of = [](const std::vector<Stamp>& stamps, const std::map<std::size_t, fs::path>& frames) {
+  const auto short_of = [](const std::vector<Stamp>& stamps, const Frames& frames) {
     return !stamps.empty() && !frames.empty() && frames.rbegin()->first >= stamps.size();
   };
   if (short_of(*scans, files.scans) || short_of(*oxts, files.oxts)) {
-    return failure(path.string() + ": timestamps.txt has fewer lines than there are frames");
+    return failure((short_of(*scans, files.scans) ? layout.scan_stamps : layout.oxts_stamps).string() +
+                   " has fewer lines than there are frames");
   }
   files.scan_stamps = std::move(*scans);
   files.oxts_stamps = std::move(*oxts);
   return {};
 }
 
+/// What the files do not say and is taken to be so.
+void say_what_is_assumed(const Layout& layout, const KittiReader::Files& files, const KittiConfig& config) {
+  const std::string where = layout.scans.string();
+  if (files.scan_stamps.empty()) {
+    spdlog::warn(
+        "{}: there is no {}, so frame k is taken to be of {:.4g} s * k; recording.frame_rate sets it", where,
+        layout.scan_stamps.filename().string(), 1.0 / config.nominal_rate);
+  }
+  if (!layout.numbered)
+    spdlog::warn("{}: the scans are not named by numbers and are read in the order of their names", where);
+  if (layout.motion_compensated) {
+    spdlog::info("{}: KITTI's odometry benchmark, whose scans are motion compensated already", where);
+  } else if (layout.oxts.empty()) {
+    spdlog::warn(
+        "{}: scans without times of their points; set lidar.model to the scanner that made them, and "
+        "odometry.deskew=false if they are motion compensated already",
+        where);
+  }
+}
+
 }  // namespace
 
-bool looks_like_kitti(const fs::path& path) { return fs::is_directory(path / "velodyne_points"); }
+bool looks_like_kitti(const fs::path& path) { return layout_of(path).has_value(); }
 
 Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConfig& config) {
+  const Layout layout = layout_of(path).value();
   KittiReader::Files files;
-  files.scans = frames_in(path / "velodyne_points", config, is_scan_file);
-  files.oxts =
-      frames_in(path / "oxts", config, [](const fs::path& file) { return file.extension() == ".txt"; });
+  files.motion_compensated = layout.motion_compensated;
+  files.scans = by_frame(files_in(layout.scans, is_scan_file), layout.numbered, config);
+  files.oxts = by_frame(files_in(layout.oxts, is_oxts_file), true, config);
   if (files.scans.empty()) {
-    return failure(
-        path.string() +
-        ": velodyne_points has no scan (.bin, .pcd, or either with .xz) among the frames asked for");
+    return failure(layout.scans.string() +
+                   " has no scan (.bin, .pcd, or either with .xz) among the frames asked for");
   }
-  if (auto status = read_stamps(path, files); !status) return tl::unexpected(status.error());
+  if (auto status = read_stamps(layout, files); !status) return tl::unexpected(status.error());
+  say_what_is_assumed(layout, files, config);
   return std::make_unique<KittiReader>(path.string(), std::move(files), config);
 }
 

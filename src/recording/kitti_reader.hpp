@@ -7,8 +7,10 @@
 
 namespace fleetmap::recording {
 
-/// A folder with velodyne_points.
+/// KITTI's raw layout (velodyne_points, oxts), that of its odometry benchmark (velodyne, times.txt), or a
+/// bare folder of scans.
 bool looks_like_kitti(const std::filesystem::path& path);
+/// Of a path that looks like it.
 Result<std::unique_ptr<Reader>> open_kitti(const std::filesystem::path& path, const KittiConfig& config);
 
 }  // namespace fleetmap::recording

@@ -36,8 +36,8 @@ Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const Re
                    path.filename().string() + " --dst " + path.stem().string() + "`");
   }
   return failure(path.string() +
-                 ": is neither a rosbag2 folder (metadata.yaml, .db3), nor a .db3 file, nor a KITTI raw "
-                 "folder (velodyne_points, oxts)");
+                 ": is neither a rosbag2 folder (metadata.yaml, .db3), nor a .db3 file, nor a KITTI folder "
+                 "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
 }
 
 }  // namespace fleetmap::recording

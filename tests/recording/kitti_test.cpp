@@ -147,6 +147,43 @@ TEST_F(Kitti, TimestampsAreUsedWhenThere) {
   EXPECT_THAT(refusal(folder.path()), HasSubstr("timestamps.txt has fewer lines than there are frames"));
 }
 
+TEST_F(Kitti, ItsOdometryBenchmarkHasSecondsAndCompensatedScans) {
+  for (int k = 0; k < 3; ++k) folder.write("velodyne/00000" + std::to_string(k) + ".bin", kPoints);
+  folder.write("times.txt", "0.000000e+00\n1.036224e-01\n2.072400e-01\n");
+  for (const auto& path : {folder.path(), folder.path() / "velodyne", folder.path() / "velodyne" / ""}) {
+    auto reader = open(path);
+    ASSERT_TRUE(reader) << reader.error().message;
+    const auto scans = only<sensor::Scan>(read_all(**reader));
+    ASSERT_EQ(scans.size(), 3u);
+    EXPECT_EQ(to_ns(scans[1].stamp), 103'622'400);
+    EXPECT_TRUE(scans[1].has_time) << "else azimuths would be taken for times and the motion removed again";
+    EXPECT_EQ(scans[1].points[1].time, 0.0f);
+  }
+  folder.write("times.txt", "0.0\n0.1 0.2\n0.3\n");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("times.txt:2: '0.1 0.2' is no time such as"));
+  folder.write("times.txt", "0.0\n0.1\n");
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("times.txt has fewer lines than there are frames"));
+}
+
+TEST_F(Kitti, ABareFolderOfScansIsReadInOrder) {
+  folder.write("7.bin", kPoints);
+  folder.write("12.bin", kPoints);
+  folder.write("notes.md", "no scan");
+  auto scans = only<sensor::Scan>(read());
+  ASSERT_EQ(scans.size(), 2u);
+  EXPECT_EQ(to_ns(scans[0].stamp), 700'000'000) << "frame 7 of 10 a second";
+  EXPECT_EQ(to_ns(scans[1].stamp), 1'200'000'000);
+  EXPECT_FALSE(scans[0].has_time);
+  EXPECT_EQ(counters.missing_scan_frames, 4u);
+  folder.write("site_a.bin", packed({9, 9, 9, 1}));  // no number: all count in the order of their names
+  ReaderConfig config;
+  config.kitti.nominal_rate = 5.0;
+  scans = only<sensor::Scan>(read(config));
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_EQ(to_ns(scans[2].stamp), 400'000'000);
+  EXPECT_EQ(scans[2].points[0].position, Eigen::Vector3f(9, 9, 9));
+}
+
 TEST_F(Kitti, TimestampsRunningBackwardsAreSkipped) {
   write_frames(0, 2);
   folder.write("velodyne_points/timestamps.txt",

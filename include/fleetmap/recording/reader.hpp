@@ -39,11 +39,11 @@ struct FixDegradation {
   std::uint64_t seed = 1;
 };
 
-/// KITTI raw folders.
+/// Folders of scans as KITTI keeps them.
 struct KittiConfig {
   std::size_t first_frame = 0;
   std::size_t last_frame = std::numeric_limits<std::size_t>::max();  ///< inclusive
-  double nominal_rate = 10.0;  ///< frames/s where there is no timestamps.txt; frame k is then at k / rate
+  double nominal_rate = 10.0;  ///< frames/s where no file says when; frame k is then at k / rate
   std::optional<FixDegradation> fix_degradation;
   bool wheel_yaw_rate = false;  ///< give the gyro's yaw rate as the wheels', too
 };
@@ -83,9 +83,10 @@ class Reader {
   virtual const Counters& counters() const = 0;
 };
 
-/// Opens a rosbag2 folder (sqlite3 storage), a single .db3 file, or a KITTI raw folder (velodyne_points,
-/// oxts; scans as .bin or .pcd, either also as .xz). Says what to do about other formats, compressed bags and
-/// topics that cannot be chosen.
+/// Opens a rosbag2 folder (sqlite3 storage), a single .db3 file, a KITTI folder (raw: velodyne_points and
+/// oxts; odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of
+/// scans (.bin or .pcd, as everywhere also as .xz). What such a folder does not tell is assumed with a
+/// warning. Says what to do about other formats, compressed bags and topics that cannot be chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {});
 
 }  // namespace fleetmap::recording
