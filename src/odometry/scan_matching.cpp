@@ -127,14 +127,14 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
 
   auto visit = [&](const FeaturePoint& feature, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                    bool edge) {
-    const SurfaceWindow* window = edge ? map.edge_at(q) : map.surface_at(q, sensor);
-    if (window == nullptr) return;
-    const bool plane = window->shape == Shape::kPlane;
-    const Eigen::Vector3d offset = q - window->center - window->mean.cast<double>();
-    const Eigen::Vector3d direction = window->direction.cast<double>();
+    const Surface* surface = edge ? map.edge_at(q) : map.surface_at(q, sensor);
+    if (surface == nullptr) return;
+    const bool plane = surface->shape == Shape::kPlane;
+    const Eigen::Vector3d offset = q - surface->mean;
+    const Eigen::Vector3d direction = surface->direction.cast<double>();
     const double distance2 = offset.squaredNorm();
     const double variance = (edge ? edge_variance + square(feature.noise) : return_variance) +
-                            window->thickness + distance2 * window->angle_variance;
+                            surface->thickness + distance2 * surface->angle_variance;
     const double along = direction.dot(offset);
     const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
     // Geman-McClure; the slack lets far surfaces pull while the state is still off.
@@ -145,7 +145,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     TimeBin& bin = bins_[static_cast<std::size_t>(slot)];
     if (plane) {
       add_row(bin, p, R.transpose() * direction, along, weight);
-      sums_.spurious += weight * window->angle_variance;
+      sums_.spurious += weight * surface->angle_variance;
     } else {
       const Eigen::Vector3d u = direction.unitOrthogonal();
       const Eigen::Vector3d v = direction.cross(u);

@@ -14,7 +14,7 @@ void add_panel(LocalMap& map, double x, const Eigen::Vector3d& sensor) {
   map.add_surfaces(points, sensor);
 }
 
-double plane_at(const SurfaceWindow& window) { return window.center.x() + window.mean.x(); }
+double plane_at(const Surface& surface) { return surface.mean.x(); }
 
 constexpr double kThickness = 0.04;
 const Eigen::Vector3d kFront(-5.0, 0.0, 1.0), kBehind(5.0, 0.0, 1.0);
@@ -23,7 +23,7 @@ const Eigen::Vector3d kMiddle(0.0, 0.0, 1.0);
 TEST(LocalMap, TheOtherSideOfAPanelIsAnotherSurface) {
   LocalMap map({});
   add_panel(map, 0.0, kFront);
-  const SurfaceWindow* front = map.surface_at(kMiddle, kFront);
+  const Surface* front = map.surface_at(kMiddle, kFront);
   ASSERT_NE(front, nullptr);
   EXPECT_LT(front->direction.x(), -0.99f);
   EXPECT_EQ(map.surface_at(kMiddle, kBehind), nullptr) << "nobody was there yet";
@@ -32,7 +32,7 @@ TEST(LocalMap, TheOtherSideOfAPanelIsAnotherSurface) {
   front = map.surface_at(kMiddle, kFront);
   ASSERT_NE(front, nullptr);
   EXPECT_NEAR(plane_at(*front), 0.0, 1e-4);
-  const SurfaceWindow* back = map.surface_at(kMiddle, kBehind);
+  const Surface* back = map.surface_at(kMiddle, kBehind);
   ASSERT_NE(back, nullptr);
   EXPECT_GT(back->direction.x(), 0.99f);
   EXPECT_NEAR(plane_at(*back), kThickness, 1e-4);
@@ -48,11 +48,11 @@ TEST(LocalMap, GroundThatIsPassedStaysOneSurface) {
     map.add_surfaces(points, sensor);
   };
   add_ground({-20.0, 0.0, 0.6});
-  const SurfaceWindow* before = map.surface_at(Eigen::Vector3d::Zero(), {-20.0, 0.0, 0.6});
+  const Surface* before = map.surface_at(Eigen::Vector3d::Zero(), {-20.0, 0.0, 0.6});
   ASSERT_NE(before, nullptr);
   const float count = before->count;
   add_ground({20.0, 0.0, 0.6});
-  const SurfaceWindow* after = map.surface_at(Eigen::Vector3d::Zero(), {20.0, 0.0, 0.6});
+  const Surface* after = map.surface_at(Eigen::Vector3d::Zero(), {20.0, 0.0, 0.6});
   ASSERT_NE(after, nullptr);
   EXPECT_FLOAT_EQ(after->count, std::min(2.0f * count, 250.0f));
 }
@@ -70,7 +70,7 @@ TEST(LocalMap, BothSidesAreForgottenTogether) {
   ASSERT_NE(map.surface_at(kMiddle, kFront), nullptr);
   add_panel(map, kThickness, kBehind);
   map.prune(kMiddle, 50.0);
-  const SurfaceWindow* back = map.surface_at(kMiddle, kBehind);
+  const Surface* back = map.surface_at(kMiddle, kBehind);
   ASSERT_NE(back, nullptr);
   EXPECT_NEAR(plane_at(*back), kThickness, 1e-4);
 }

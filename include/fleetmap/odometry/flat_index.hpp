@@ -19,6 +19,13 @@ inline CellKey pack_cell(std::int64_t x, std::int64_t y, std::int64_t z) {
          (static_cast<std::uint64_t>(z + kBias) & kMask);
 }
 
+inline Eigen::Vector3d unpack_cell(CellKey key) {
+  const auto axis = [key](int shift) {
+    return static_cast<double>(static_cast<std::int64_t>(key >> shift & ((1u << 21) - 1)) - (1 << 20));
+  };
+  return {axis(42), axis(21), axis(0)};
+}
+
 /// std::floor without the library call that SSE2 needs.
 inline std::int64_t fast_floor(double value) {
   const auto truncated = static_cast<std::int64_t>(value);
@@ -49,7 +56,7 @@ class FlatIndex {
 
   /// Index of `key`; a new one equals size() before the call.
   std::uint32_t insert(CellKey key) {
-    if (2 * std::size_t{size_} >= slots_.size()) grow();
+    if (4 * std::size_t{size_} >= 3 * slots_.size()) grow();
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
       Slot& slot = slots_[i];
