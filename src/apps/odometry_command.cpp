@@ -147,6 +147,9 @@ int run(const OdometryOptions& options) {
             << " ms  p50 " << ms.p50 << " ms  p99 " << ms.p99 << " ms  max " << ms.max << " ms  CPU "
             << 1e3 * done->cpu_s / static_cast<double>(done->wall_ms.size()) << " ms/scan  peak "
             << peak_megabytes() << " MB\n";
+  for (const auto& [stage, seconds] : done->counters.cpu.named())
+    std::cout << stage << ' ' << 1e3 * seconds / static_cast<double>(done->wall_ms.size()) << " ms  ";
+  std::cout << '\n';
   if (done->refused > 0)
     std::cout << "refused " << done->refused << " scans, first: " << done->first_refusal << '\n';
   for (const auto& [name, count] : (*reader)->counters().named()) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/deskew.hpp"
 #include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/local_map.hpp"
@@ -28,7 +29,6 @@ constexpr double kBiasGain = 0.02;
 constexpr double kLeastUpright = 60.0;  // features, to judge by
 constexpr double kGoneShare = 0.2;  // of the usual ones: fewer are not seen from where the scans before were
 constexpr double kUprightGain = 0.2;  // over half a second
-constexpr std::size_t kAhead = 16;    // points whose cubes are fetched before they are looked up
 
 }  // namespace
 
@@ -58,7 +58,7 @@ class Loam::Pipeline {
     if (!status_) return tl::unexpected(status_.error());
     ++counters_.scans;
     if (Status in_order = check_time(scan.stamp); !in_order) return tl::unexpected(in_order.error());
-    const Sweep& sweep = builder_.build(scan);
+    const Sweep& sweep = sort(scan);
     count_defects();
     pick_features(sweep);
     if (static_cast<int>(match_planes_.size() + match_edges_.size()) < config_.min_matches)
@@ -88,6 +88,8 @@ class Loam::Pipeline {
   Status check_time(Stamp stamp);
   tl::unexpected<Error> refuse_points(const sensor::Scan& scan);
   void count_defects();
+  const Sweep& sort(const sensor::Scan& scan);
+  const Features& extract(const Sweep& sweep);
   void pick_features(const Sweep& sweep);
   void start(const Sweep& sweep, Stamp reference, OdometryUpdate& update);
   MatchResult estimate(Stamp reference);
@@ -99,7 +101,7 @@ class Loam::Pipeline {
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
-  void describe(const Sweep& sweep, OdometryUpdate& update) const;
+  void describe(const Sweep& sweep, OdometryUpdate& update);
 
   LoamConfig config_;
   Status status_;
@@ -155,6 +157,11 @@ tl::unexpected<Error> Loam::Pipeline::refuse_points(const sensor::Scan& scan) {
                  std::to_string(config_.max_range) + " m; skipped");
 }
 
+const Sweep& Loam::Pipeline::sort(const sensor::Scan& scan) {
+  const CpuTimer timer(counters_.cpu.sweep);
+  return builder_.build(scan);
+}
+
 void Loam::Pipeline::count_defects() {
   const SweepDefects& defects = builder_.defects();
   counters_.points_non_finite += defects.non_finite;
@@ -164,23 +171,28 @@ void Loam::Pipeline::count_defects() {
   counters_.times_ignored += defects.times_ignored;
 }
 
+const Features& Loam::Pipeline::extract(const Sweep& sweep) {
+  const CpuTimer timer(counters_.cpu.features);
+  return extractor_.extract(sweep);
+}
+
 /// Evenly spread features: without thinning the nearest surfaces would outvote all others.
 void Loam::Pipeline::pick_features(const Sweep& sweep) {
-  const Features& features = extractor_.extract(sweep);
+  const Features& features = extract(sweep);
+  const CpuTimer timer(counters_.cpu.thinning);
   match_planes_.clear();
-  match_edges_.clear();
   insert_planes_.clear();
   match_thinning_.clear();
   insert_thinning_.clear();
-  for (std::size_t k = 0; k < features.planes.size(); ++k) {
-    const std::size_t ahead = std::min(k + kAhead, features.planes.size() - 1);
-    insert_thinning_.prefetch(sweep.points[features.planes[ahead]].position);
+  const auto position = [&](std::size_t k) -> const Eigen::Vector3f& {
+    return sweep.points[features.planes[k]].position;
+  };
+  insert_thinning_.for_each_first(features.planes.size(), position, [&](std::size_t k) {
     const SweepPoint& p = sweep.points[features.planes[k]];
-    if (!insert_thinning_.first_in_cube(p.position)) continue;
     const float time = config_.deskew ? p.time : 0.0f;
     insert_planes_.push_back({p.position, time});
     if (match_thinning_.first_in_cube(p.position)) match_planes_.push_back({p.position, time});
-  }
+  });
   match_edges_.assign(features.edges.begin(), features.edges.end());
   for (FeaturePoint& p : match_edges_) p.time *= config_.deskew ? 1.0f : 0.0f;
 }
@@ -199,6 +211,7 @@ void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& 
 
 /// Pose and velocity of the sweep against the map.
 MatchResult Loam::Pipeline::estimate(Stamp reference) {
+  const CpuTimer timer(counters_.cpu.matching);
   const double dt = std::max(1e-3, to_seconds(reference - reference_));
   const MotionPrior prior = make_prior(reference, dt);
   const double error =
@@ -341,6 +354,7 @@ void Loam::Pipeline::learn_gyro_bias(const MatchResult& match, Stamp reference) 
 
 void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                             const MotionState& state) {
+  const CpuTimer timer(counters_.cpu.mapping);
   const SweepMotion motion(state.twist, state.turn_acceleration);
   auto in_odom = [&](const std::vector<FeaturePoint>& features) -> std::span<const Eigen::Vector3d> {
     in_odom_.clear();
@@ -359,7 +373,8 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
   }
 }
 
-void Loam::Pipeline::describe(const Sweep& sweep, OdometryUpdate& update) const {
+void Loam::Pipeline::describe(const Sweep& sweep, OdometryUpdate& update) {
+  const CpuTimer timer(counters_.cpu.points);
   update.stamp = sweep.stamp;
   const SweepMotion motion(state_.twist, state_.turn_acceleration);
   const Eigen::Isometry3f T_stamp_reference =

@@ -5,6 +5,8 @@
 namespace fleetmap::odometry {
 namespace {
 
+/// Distance of the points that enter the coarser windows, as a share of their step.
+constexpr double kCoarseSpacing = 0.3;
 constexpr double kLineThickness = 0.1;                    // m
 const Eigen::Vector3f kNoSide = Eigen::Vector3f::Zero();  // of a line
 
@@ -16,7 +18,8 @@ LocalMap::LocalMap(const LoamConfig& config)
       coarse_(config.coarse_resolution, SurfaceGrid::Seeks::kPlanes, std::max(0.15, 4.0 * config.range_noise),
               config.coarse_noise),
       posts_(0.6 * config.fine_resolution, SurfaceGrid::Seeks::kUprightLines, kLineThickness, 0.0),
-      edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, kLineThickness, 0.0) {}
+      edges_(config.fine_resolution, SurfaceGrid::Seeks::kLines, kLineThickness, 0.0),
+      coarse_thinning_(kCoarseSpacing * config.coarse_resolution) {}
 
 void LocalMap::add_surfaces(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& sensor) {
   seen_.clear();
@@ -24,7 +27,13 @@ void LocalMap::add_surfaces(std::span<const Eigen::Vector3d> points, const Eigen
     seen_.push_back({point, (sensor - point).normalized().cast<float>()});
   }
   fine_.add(seen_);
-  coarse_.add(seen_);
+  // A coarser window has enough of a fraction of them.
+  thin_.clear();
+  coarse_thinning_.clear();
+  std::ranges::copy_if(seen_, std::back_inserter(thin_), [this](const SurfaceGrid::SeenPoint& seen) {
+    return coarse_thinning_.first_in_cube(seen.point.cast<float>());
+  });
+  coarse_.add(thin_);
   // Posts are looked for only where no plane is.
   std::erase_if(seen_, [this](const SurfaceGrid::SeenPoint& seen) { return fine_.known_plane(seen.point); });
   for (SurfaceGrid::SeenPoint& seen : seen_) seen.toward = kNoSide;

@@ -15,6 +15,9 @@ constexpr double kStepTranslation = 5e-4;  // m, a smaller step ends the iterati
 constexpr double kStepRotation = 2e-5;     // rad
 constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
 constexpr double kFinalSlack = 0.02;       // m
+/// While the slack shrinks, every so many features will do as leave this many plane points.
+constexpr std::size_t kEnoughPlanes = 600;
+constexpr std::size_t kLongestStride = 4;
 /// Distances as large as assumed that the a posteriori variance begins with: a few cannot be sure of it.
 constexpr double kAssumedDistances = 10.0;
 /// A direction is degenerate if its information is within this factor of what noisy normals feign ...
@@ -58,11 +61,13 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
                                const MotionPrior& prior, const MotionState& start, double initial_error) {
   MatchResult result;
   result.state = start;
+  looked_up_.assign(planes.size(), {});
+  const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
   const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
   double slack = initial_error;
   for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
-    linearise(planes, edges, map, result.state, slack);
+    linearise(planes, edges, map, result.state, slack, slack > kFinalSlack ? some : 1);
     NormalEquations lidar = collect();
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;
@@ -111,7 +116,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
 }
 
 void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
-                            LocalMap& map, const MotionState& state, double slack) {
+                            LocalMap& map, const MotionState& state, double slack, std::size_t stride) {
   for (TimeBin& bin : bins_) {
     bin.H.fill(0.0);
     bin.g.setZero();
@@ -124,10 +129,10 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
   const double bins_per_second = kTimeBins / (2.0 * half_span_);
   const double return_variance = square(config_.range_noise);
   const double edge_variance = square(config_.edge_noise);
+  const auto share = static_cast<double>(stride);  // each stands for so many
 
   auto visit = [&](const FeaturePoint& feature, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                   bool edge) {
-    const Surface* surface = edge ? map.edge_at(q) : map.surface_at(q, sensor);
+                   const Surface* surface, bool edge) {
     if (surface == nullptr) return;
     const bool plane = surface->shape == Shape::kPlane;
     const Eigen::Vector3d offset = q - surface->mean;
@@ -139,7 +144,7 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
     // Geman-McClure; the slack lets far surfaces pull while the state is still off.
     const double kernel = 9.0 * variance + slack * slack;
-    const double weight = square(kernel / (kernel + residual2)) / variance;
+    const double weight = share * square(kernel / (kernel + residual2)) / variance;
     const int slot =
         std::clamp(static_cast<int>((feature.time + half_span_) * bins_per_second), 0, kTimeBins - 1);
     TimeBin& bin = bins_[static_cast<std::size_t>(slot)];
@@ -166,21 +171,35 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
       sums_.inlier_dimensions += plane ? 1.0 : 2.0;
     }
   };
-  std::array<Eigen::Vector3d, kBlock> p, q;  // base_link, map frame
-  auto visit_all = [&](const std::vector<FeaturePoint>& features, bool edge) {
-    for (std::size_t begin = 0; begin < features.size(); begin += kBlock) {
-      const std::size_t count = std::min(kBlock, features.size() - begin);
-      for (std::size_t k = 0; k < count; ++k) {
-        const FeaturePoint& feature = features[begin + k];
-        p[k] = motion.at_reference(feature.position, feature.time).cast<double>();
-        q[k] = R * p[k] + t;
-      }
-      if (!edge) map.fetch_ahead(std::span(q).first(count));
-      for (std::size_t k = 0; k < count; ++k) visit(features[begin + k], p[k], q[k], edge);
-    }
+  auto in_base = [&](const FeaturePoint& feature) -> Eigen::Vector3d {
+    return motion.at_reference(feature.position, feature.time).cast<double>();
   };
-  visit_all(planes, false);
-  visit_all(edges, true);
+  std::array<Eigen::Vector3d, kBlock> p, q, unknown;  // base_link, map frame
+  for (std::size_t begin = 0; begin < planes.size(); begin += kBlock * stride) {
+    const std::size_t count = std::min(kBlock, (planes.size() - begin + stride - 1) / stride);
+    std::size_t unknowns = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k * stride;
+      p[k] = in_base(planes[i]);
+      q[k] = R * p[k] + t;
+      const CellKey cell = map.cell_of(q[k]);
+      if (looked_up_[i].plane != nullptr && looked_up_[i].cell == cell) continue;
+      looked_up_[i] = {cell, nullptr};
+      unknown[unknowns++] = q[k];
+    }
+    map.fetch_ahead(std::span(unknown).first(unknowns));
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k * stride;
+      const Surface* known = looked_up_[i].plane;
+      const Surface* surface = known != nullptr ? known : map.surface_at(q[k], sensor);
+      if (surface != nullptr && surface->shape == Shape::kPlane) looked_up_[i].plane = surface;
+      visit(planes[i], p[k], q[k], surface, false);
+    }
+  }
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    const Eigen::Vector3d at_base = in_base(edges[i]), at_map = R * at_base + t;
+    visit(edges[i], at_base, at_map, map.edge_at(at_map), true);
+  }
 }
 
 void ScanMatcher::add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base,

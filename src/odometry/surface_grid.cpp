@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace fleetmap::odometry {
 namespace {
 
 /// Windows stop taking points here: what was seen first, with the least drift, stays the anchor.
 constexpr float kMaxCount = 250.0f;
+/// A surface is fitted anew when its window has so many times the points that it was fitted to.
+constexpr float kGrown = 1.05f;
 constexpr float kMinPlaneCount = 7.0f;
 constexpr float kMinLineCount = 4.0f;
 /// Across over along variance: flatter is a plane.
@@ -21,6 +24,7 @@ constexpr double kMinExtent = 0.12;
 constexpr double kUpright = 0.9;
 /// Sine of the angle behind a plane from which on it is seen from its other side; normals err a little.
 constexpr float kBehind = 0.1f;
+constexpr float kNormalUnit = 32767.0f;
 /// Points whose windows are fetched together before they are used.
 constexpr std::size_t kBlock = 16;
 constexpr std::size_t kCorners = 8;
@@ -34,6 +38,37 @@ SurfaceGrid::SurfaceGrid(double step, Seeks seeks, double max_thickness, double 
       max_thickness_(max_thickness),
       bend2_(bend * bend) {}
 
+inline void SurfaceGrid::take(Window& window, const Eigen::Vector3f& from_middle,
+                              const Eigen::Vector3f& toward) {
+  if (window.count >= kMaxCount) return;
+  const Eigen::Vector3f& d = from_middle;
+  window.count += 1.0f;
+  window.sum += d;
+  window.toward += toward;
+  window.square[0] += d.x() * d.x();
+  window.square[1] += d.x() * d.y();
+  window.square[2] += d.x() * d.z();
+  window.square[3] += d.y() * d.y();
+  window.square[4] += d.y() * d.z();
+  window.square[5] += d.z() * d.z();
+}
+
+inline bool SurfaceGrid::seen_from_behind(const Window& window, const Eigen::Vector3f& toward) {
+  return static_cast<float>(window.normal[0]) * toward.x() +
+             static_cast<float>(window.normal[1]) * toward.y() +
+             static_cast<float>(window.normal[2]) * toward.z() <
+         -kBehind * kNormalUnit;
+}
+
+SurfaceGrid::Window& SurfaceGrid::other_side_of(Window& window) {
+  std::uint32_t& other = surfaces_[window.surface].other_side;
+  if (other == kNone) {
+    other = static_cast<std::uint32_t>(other_sides_.size());
+    other_sides_.push_back({});
+  }
+  return other_sides_[other];
+}
+
 void SurfaceGrid::add(std::span<const SeenPoint> seen) {
   for (std::size_t begin = 0; begin < seen.size(); begin += kBlock) {
     add_block(seen.subspan(begin, std::min(kBlock, seen.size() - begin)));
@@ -46,9 +81,12 @@ void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
     std::uint32_t window;
   };
   std::array<Target, kBlock * kCorners> targets;
+  std::array<Eigen::Array3d, kBlock> in_cell;  // m, from its least corner
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    const Eigen::Vector3d scaled = seen[k].point * inverse_step_;
+    const Eigen::Array3d scaled = seen[k].point.array() * inverse_step_;
     const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
+    for (int axis = 0; axis < 3; ++axis)
+      in_cell[k][axis] = step_ * (scaled[axis] - static_cast<double>(cell[axis]));
     for (std::size_t corner = 0; corner < kCorners; ++corner) {
       // Window w covers the cells w - 1 and w; its middle is the lattice point w.
       Target& target = targets[k * kCorners + corner];
@@ -62,59 +100,19 @@ void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
   for (Target& target : used) {
     target.window = index_.insert(target.cell);
     if (target.window == windows_.size()) {
-      windows_.push_back({}).cell = target.cell;
+      windows_.push_back({});
     } else {
       __builtin_prefetch(&windows_[target.window]);
     }
   }
-  for (const Target& target : used) prefetch_surface(windows_[target.window]);
   for (std::size_t k = 0; k < used.size(); ++k) {
-    const SeenPoint& point = seen[k / kCorners];
+    const Eigen::Vector3f& toward = seen[k / kCorners].toward;
+    const std::size_t corner = k % kCorners;
+    const Eigen::Array3d middle(corner & 1 ? step_ : 0.0, corner & 2 ? step_ : 0.0, corner & 4 ? step_ : 0.0);
+    const Eigen::Vector3f from_middle = (in_cell[k / kCorners] - middle).matrix().cast<float>();
     Window& window = windows_[used[k].window];
-    take(seen_from_behind(window, point.toward) ? other_side_of(window) : window, middle(used[k].cell),
-         point);
+    take(seen_from_behind(window, toward) ? other_side_of(window) : window, from_middle, toward);
   }
-}
-
-void SurfaceGrid::take(Window& window, const Eigen::Vector3d& middle, const SeenPoint& seen) {
-  if (window.count >= kMaxCount) return;
-  const Eigen::Vector3f d = (seen.point - middle).cast<float>();
-  window.count += 1.0f;
-  window.sum += d;
-  window.toward += seen.toward;
-  window.square[0] += d.x() * d.x();
-  window.square[1] += d.x() * d.y();
-  window.square[2] += d.x() * d.z();
-  window.square[3] += d.y() * d.y();
-  window.square[4] += d.y() * d.z();
-  window.square[5] += d.z() * d.z();
-}
-
-bool SurfaceGrid::seen_from_behind(const Window& window, const Eigen::Vector3f& toward) const {
-  if (seeks_ != Seeks::kPlanes || window.surface == kNone) return false;
-  const Surface& surface = surfaces_[window.surface];
-  return surface.shape == Shape::kPlane && surface.direction.dot(toward) < -kBehind;
-}
-
-SurfaceGrid::Window& SurfaceGrid::other_side_of(Window& window) {
-  std::uint32_t& other = surfaces_[window.surface].other_side;
-  if (other == kNone) {
-    other = static_cast<std::uint32_t>(other_sides_.size());
-    other_sides_.push_back({}).cell = window.cell;
-  }
-  return other_sides_[other];
-}
-
-/// Of the window whose middle is nearest.
-CellKey SurfaceGrid::cell_at(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d scaled = point * inverse_step_;
-  return pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5), fast_floor(scaled.z() + 0.5));
-}
-
-Eigen::Vector3d SurfaceGrid::middle(CellKey cell) const { return step_ * unpack_cell(cell); }
-
-void SurfaceGrid::prefetch_surface(const Window& window) const {
-  if (seeks_ == Seeks::kPlanes && window.surface != kNone) __builtin_prefetch(&surfaces_[window.surface]);
 }
 
 void SurfaceGrid::fetch_ahead(std::span<const Eigen::Vector3d> points) const {
@@ -125,36 +123,43 @@ void SurfaceGrid::fetch_ahead(std::span<const Eigen::Vector3d> points) const {
   }
   for (const Eigen::Vector3d& point : points) {
     const std::uint32_t i = index_.find(cell_at(point));
-    if (i != FlatIndex::kAbsent) prefetch_surface(windows_[i]);
+    if (i == FlatIndex::kAbsent || windows_[i].surface == kNone) continue;
+    __builtin_prefetch(&surfaces_[windows_[i].surface]);
   }
 }
 
 const Surface* SurfaceGrid::at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward) {
-  const std::uint32_t i = index_.find(cell_at(point));
+  const CellKey cell = cell_at(point);
+  const std::uint32_t i = index_.find(cell);
   if (i == FlatIndex::kAbsent) return nullptr;
   Window& window = windows_[i];
-  const Surface& surface = surface_of(window);
+  const Surface& surface = surface_of(window, cell);
   if (!seen_from_behind(window, toward)) return &surface;
-  return surface.other_side == kNone ? nullptr : &surface_of(other_sides_[surface.other_side]);
+  return surface.other_side == kNone ? nullptr : &surface_of(other_sides_[surface.other_side], cell);
 }
 
 bool SurfaceGrid::known_plane(const Eigen::Vector3d& point) const {
   const std::uint32_t i = index_.find(cell_at(point));
-  if (i == FlatIndex::kAbsent || windows_[i].surface == kNone) return false;
-  return surfaces_[windows_[i].surface].shape == Shape::kPlane;
+  return i != FlatIndex::kAbsent && windows_[i].normal != std::array<std::int16_t, 3>{};
 }
 
-const Surface& SurfaceGrid::surface_of(Window& window) {
+const Surface& SurfaceGrid::surface_of(Window& window, CellKey cell) {
   if (window.surface == kNone) {
     window.surface = static_cast<std::uint32_t>(surfaces_.size());
     surfaces_.push_back({});
   }
   Surface& surface = surfaces_[window.surface];
-  if (surface.count != window.count) fit(window, surface);
+  if (window.count > kGrown * surface.count) {
+    fit(window, cell, surface);
+    for (int axis = 0; axis < 3; ++axis) {
+      const float component = surface.shape == Shape::kPlane ? surface.direction[axis] : 0.0f;
+      window.normal[static_cast<std::size_t>(axis)] = static_cast<std::int16_t>(component * kNormalUnit);
+    }
+  }
   return surface;
 }
 
-void SurfaceGrid::fit(const Window& window, Surface& surface) const {
+void SurfaceGrid::fit(const Window& window, CellKey cell, Surface& surface) const {
   surface.count = window.count;
   surface.shape = Shape::kUnknown;
   if (window.count < (seeks_ == Seeks::kPlanes ? kMinPlaneCount : kMinLineCount)) return;
@@ -167,7 +172,7 @@ void SurfaceGrid::fit(const Window& window, Surface& surface) const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(S);
   const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(1e-7);
-  surface.mean = middle(window.cell) + mean;
+  surface.mean = step_ * unpack_cell(cell) + mean;
   const double thick2 = max_thickness_ * max_thickness_;
   const double extent2 = kMinExtent * kMinExtent * step_ * step_;
   auto settle = [&](Shape shape, int axis, double across, double along) {
@@ -205,9 +210,12 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
     window.surface = static_cast<std::uint32_t>(kept_surfaces.size() - 1);
     return &kept;
   };
+  std::vector<CellKey> cells(windows_.size());
+  index_.for_each([&](CellKey cell, std::uint32_t i) { cells[i] = cell; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < windows_.size(); ++i) {
-    if ((middle(windows_[i].cell) - center).squaredNorm() >= radius * radius) continue;
+    if ((step_ * unpack_cell(cells[i]) - center).squaredNorm() >= radius * radius) continue;
+    cells[kept] = cells[i];
     Window& window = windows_[kept++] = windows_[i];
     Surface* surface = move_surface_of(window);
     if (surface == nullptr || surface->other_side == kNone) continue;
@@ -219,8 +227,8 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
   surfaces_ = std::move(kept_surfaces);
   index_.clear();
   for (std::size_t i = 0; i < kept; ++i) {
-    index_.prefetch(windows_[std::min(i + kBlock, kept - 1)].cell);
-    index_.insert(windows_[i].cell);
+    index_.prefetch(cells[std::min(i + kBlock, kept - 1)]);
+    index_.insert(cells[i]);
   }
 }
 

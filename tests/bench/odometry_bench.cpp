@@ -1,5 +1,8 @@
-// CPU time of LOAM per scan, driving through a generated yard.
+// CPU time of LOAM per scan and of each of its stages, driving through a generated yard.
 #include <benchmark/benchmark.h>
+
+#include <map>
+#include <string>
 
 #include "fleetmap/odometry/loam.hpp"
 #include "support/synthetic_lidar.hpp"
@@ -27,11 +30,14 @@ void drive(benchmark::State& state, odometry::LidarModel model, bool rings) {
   }
   odometry::LoamConfig config;
   config.T_base_lidar = options.T_base_lidar;
+  std::map<std::string, double> stages;
   for (auto _ : state) {
     odometry::Loam loam(config, model);
     for (const sensor::Scan& scan : scans) benchmark::DoNotOptimize(loam.add_scan(scan));
+    for (const auto& [stage, seconds] : loam.counters().cpu.named()) stages[stage] += seconds;
   }
   const auto done = static_cast<double>(scans.size()) * static_cast<double>(state.iterations());
+  for (const auto& [stage, seconds] : stages) state.counters[stage + "_ms"] = 1e3 * seconds / done;
   state.counters["s_per_scan"] =
       benchmark::Counter(done, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["points"] = points / static_cast<double>(scans.size());

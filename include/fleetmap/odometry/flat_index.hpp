@@ -69,6 +69,14 @@ class FlatIndex {
     }
   }
 
+  /// `visit(key, index)` of all cells, in no particular order.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const Slot& slot : slots_) {
+      if (slot.epoch == epoch_) visit(slot.key, slot.index);
+    }
+  }
+
   /// Forgets all cells in constant time.
   void clear() {
     size_ = 0;

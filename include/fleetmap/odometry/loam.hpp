@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
@@ -44,6 +46,26 @@ struct OdometryUpdate {
   bool lost = false;
 };
 
+/// CPU of Loam's stages, s, in the order in which a scan passes them.
+struct StageTimes {
+  double sweep = 0.0;     ///< rings and times of the points
+  double features = 0.0;  ///< plane points, posts and borders
+  double thinning = 0.0;  ///< to evenly spread features
+  double matching = 0.0;  ///< with the local map
+  double mapping = 0.0;   ///< scans entering the local map, and its pruning
+  double points = 0.0;    ///< motion compensation of all returns
+
+  /// (name, s) of all.
+  std::array<std::pair<const char*, double>, 6> named() const {
+    return {{{"sweep", sweep},
+             {"features", features},
+             {"thinning", thinning},
+             {"matching", matching},
+             {"mapping", mapping},
+             {"points", points}}};
+  }
+};
+
 /// Loam's running totals since it was built.
 struct LoamCounters {
   std::uint64_t scans = 0;           ///< handed to add_scan()
@@ -60,6 +82,7 @@ struct LoamCounters {
   std::uint64_t times_ignored = 0;  ///< scans whose times cannot be theirs
   std::uint64_t imu_dropped = 0;    ///< samples: not finite, or out of order
   std::uint64_t wheel_dropped = 0;
+  StageTimes cpu;
 };
 
 /// LiDAR odometry and mapping, scan to local map. After Zhang and Singh, LOAM (RSS 2014): edge and plane

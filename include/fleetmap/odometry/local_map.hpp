@@ -6,6 +6,7 @@
 
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/surface_grid.hpp"
+#include "fleetmap/odometry/thinning.hpp"
 
 namespace fleetmap::odometry {
 
@@ -19,6 +20,8 @@ class LocalMap {
   void add_edges(std::span<const Eigen::Vector3d> points);
   /// Makes surface_at() at these points, some dozens, faster.
   void fetch_ahead(std::span<const Eigen::Vector3d> points) const { fine_.fetch_ahead(points); }
+  /// Within one cell surface_at() finds the same plane, if it finds one.
+  CellKey cell_of(const Eigen::Vector3d& point) const { return fine_.cell_at(point); }
   /// A plane or upright line near `point`: from the finer windows where they hold enough points, else from
   /// the coarser ones; null where there is none.
   const Surface* surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
@@ -30,7 +33,8 @@ class LocalMap {
 
  private:
   SurfaceGrid fine_, coarse_, posts_, edges_;
-  std::vector<SurfaceGrid::SeenPoint> seen_;  ///< keeps its memory between calls
+  Thinning coarse_thinning_;
+  std::vector<SurfaceGrid::SeenPoint> seen_, thin_;  ///< keep their memory between calls
 };
 
 }  // namespace fleetmap::odometry

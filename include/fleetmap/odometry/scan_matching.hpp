@@ -61,10 +61,17 @@ class ScanMatcher {
            inlier_dimensions = 0;
     std::size_t points = 0, inliers = 0, planes = 0, edges = 0, upright = 0, upright_inliers = 0;
   };
+  /// Where a plane feature was looked up, and the plane found there: the next iteration mostly asks for the
+  /// same.
+  struct LookedUp {
+    CellKey cell = 0;
+    const Surface* plane = nullptr;
+  };
   static constexpr int kTimeBins = 16;
 
+  /// At `state`, of every `stride`-th feature.
   void linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
-                 LocalMap& map, const MotionState& state, double slack);
+                 LocalMap& map, const MotionState& state, double slack, std::size_t stride);
   void add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base, double residual,
                double weight);
   NormalEquations collect() const;
@@ -74,6 +81,7 @@ class ScanMatcher {
   std::array<TimeBin, kTimeBins> bins_;
   double half_span_ = 0.0;
   Sums sums_;
+  std::vector<LookedUp> looked_up_;  ///< of each plane feature, during one align()
 };
 
 }  // namespace fleetmap::odometry

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -54,6 +55,12 @@ class SurfaceGrid {
   /// The surface of the window whose middle is nearest to `point`, of the side that is seen from there, or
   /// null. Valid until the next prune().
   const Surface* at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
+  /// Of the window whose middle is nearest.
+  CellKey cell_at(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d scaled = point * inverse_step_;
+    return pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5),
+                     fast_floor(scaled.z() + 0.5));
+  }
   /// Whether at() last found a plane here, of whichever side.
   bool known_plane(const Eigen::Vector3d& point) const;
   /// Forgets the windows farther than `radius` from `center`.
@@ -64,26 +71,24 @@ class SurfaceGrid {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  /// The points of one window as sums, about its middle. One cache line.
+  /// The points of one window as sums, about its middle. Adding a point touches this one cache line.
   struct alignas(64) Window {
     float count = 0.0f;
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();                           ///< of positions
     Eigen::Matrix<float, 6, 1> square = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
     Eigen::Vector3f toward = Eigen::Vector3f::Zero();  ///< sum of the directions to the sensor
     std::uint32_t surface = kNone;                     ///< index, once at() asked
-    CellKey cell = 0;
+    /// Of the plane that at() last found, times kNormalUnit; zero where it found none.
+    std::array<std::int16_t, 3> normal{};
   };
   static_assert(sizeof(Window) == 64 && sizeof(Surface) == 64);
 
-  CellKey cell_at(const Eigen::Vector3d& point) const;
-  Eigen::Vector3d middle(CellKey cell) const;
   void add_block(std::span<const SeenPoint> seen);
-  void prefetch_surface(const Window& window) const;
-  static void take(Window& window, const Eigen::Vector3d& middle, const SeenPoint& seen);
-  bool seen_from_behind(const Window& window, const Eigen::Vector3f& toward) const;
+  static void take(Window& window, const Eigen::Vector3f& from_middle, const Eigen::Vector3f& toward);
+  static bool seen_from_behind(const Window& window, const Eigen::Vector3f& toward);
   Window& other_side_of(Window& window);
-  const Surface& surface_of(Window& window);
-  void fit(const Window& window, Surface& surface) const;
+  const Surface& surface_of(Window& window, CellKey cell);
+  void fit(const Window& window, CellKey cell, Surface& surface) const;
 
   double step_, inverse_step_;
   Seeks seeks_;
