@@ -6,10 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dds_link.hpp"
 #include "executor.hpp"
+#include "onboard_link.hpp"
 #include "participant_qos.hpp"
 #include "qos_file.hpp"
+#include "radio_link.hpp"
 #include "worker.hpp"
 
 namespace fleetmap::bus {
@@ -57,13 +58,13 @@ Status DdsBusConfig::validate() const {
 
 struct DdsBus::State {
   std::shared_ptr<Executor> executor = std::make_shared<Executor>();
-  std::map<Link, std::shared_ptr<DdsLink>> links;
+  std::map<Link, std::shared_ptr<LinkEnd>> links;
   std::mutex disabled_mutex;  ///< guards disabled
   std::map<std::pair<Link, std::string>, TopicStats> disabled;
   Worker perception{executor};
   Worker background{executor};
 
-  DdsLink* link(const Topic& topic) const {
+  LinkEnd* link(const Topic& topic) const {
     const auto entry = links.find(topic.link);
     return entry == links.end() ? nullptr : entry->second.get();
   }
@@ -77,7 +78,9 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
     if (!own.enabled) continue;
     auto qos = load_qos_file(config.qos_directory, link);
     if (!qos) return tl::unexpected(qos.error());
-    auto made = DdsLink::create(link, own, config.agent, *std::move(qos), state->executor);
+    auto made = link == Link::kOnboard
+                    ? OnboardLink::create(own, config.agent, *std::move(qos), state->executor)
+                    : RadioLink::create(link, own, config.agent, *std::move(qos), state->executor);
     if (!made) return tl::unexpected(made.error());
     state->links[link] = *std::move(made);
   }

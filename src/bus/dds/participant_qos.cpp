@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <charconv>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <memory>
 #include <optional>
 #include <random>
@@ -71,26 +72,10 @@ std::uint16_t first_port(const DdsLinkConfig& config, const eprosima::fastrtps::
   return static_cast<std::uint16_t>(ports.getUnicastPort(config.domain, 0));
 }
 
-/// Fast DDS numbers the participants of a process, whatever their domain, and derives ports from the number.
-/// With ports given, the first participant of a domain on a machine is always at the first port of that
-/// domain, the next one at the port after (Fast DDS moves on while one is taken), and so on. Naming them also
-/// turns multicast off, but for what is named: onboard, so that ROS 2 nodes on this machine find this robot.
-void set_ports(const DdsLinkConfig& config, Link link, eprosima::fastdds::dds::DomainParticipantQos& qos) {
-  auto& wire = qos.wire_protocol();
-  auto& unicast = wire.builtin.metatrafficUnicastLocatorList;
-  unicast.clear();
-  unicast.push_back(to_locator({"0.0.0.0", first_port(config, wire.port)}));
-  if (link != Link::kOnboard) return;
-  const auto port = static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain));
-  wire.builtin.metatrafficMulticastLocatorList.push_back(to_locator({kDiscoveryGroup, port}));
-}
-
-void set_peers(const DdsLinkConfig& config, Link link, const std::string& own,
-               eprosima::fastdds::dds::DomainParticipantQos& qos) {
-  auto& wire = qos.wire_protocol();
-  auto& known = wire.builtin.initialPeersList;
-  if (config.peers.empty() && !known.empty()) return;
-  known.clear();
+/// Of all peers, each with the ports where its participants may be.
+std::vector<Locator_t> places_of(const DdsLinkConfig& config, const std::string& own,
+                                 const eprosima::fastrtps::rtps::PortParameters& ports) {
+  std::vector<Locator_t> places;
   for (const std::string& text : config.peers.empty() ? std::vector{own} : config.peers) {
     Peer peer = *parse_peer(text);
     const bool here = peer.address == own || peer.address.starts_with("127.");
@@ -98,16 +83,30 @@ void set_peers(const DdsLinkConfig& config, Link link, const std::string& own,
     const std::uint32_t count = peer.port != 0                      ? 1
                                 : config.participants_per_peer != 0 ? config.participants_per_peer
                                                                     : several;
-    if (peer.port == 0) peer.port = first_port(config, wire.port);
+    if (peer.port == 0) peer.port = first_port(config, ports);
     for (std::uint32_t i = 0; i < count;
-         ++i, peer.port = static_cast<std::uint16_t>(peer.port + wire.port.participantIDGain)) {
-      known.push_back(to_locator(peer));
+         ++i, peer.port = static_cast<std::uint16_t>(peer.port + ports.participantIDGain)) {
+      places.push_back(to_locator(peer));
     }
   }
-  if (link == Link::kOnboard) {
-    known.push_back(
-        to_locator({kDiscoveryGroup, static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain))}));
+  return places;
+}
+
+using Transports = std::vector<std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface>>;
+
+/// Copies, since every participant of a profile in the process gets the same descriptors.
+void restrict_to(const std::string& address, Transports& transports) {
+  for (auto& transport : transports) {
+    const auto udp = std::dynamic_pointer_cast<UDPv4TransportDescriptor>(transport);
+    if (!udp) continue;
+    const auto copy = std::make_shared<UDPv4TransportDescriptor>(*udp);
+    copy->interfaceWhiteList = {address};
+    transport = copy;
   }
+}
+
+std::string participant_name(const AgentId& agent, Link link) {
+  return "fleetmap/" + agent.str() + "/" + to_string(link);
 }
 
 }  // namespace
@@ -162,25 +161,64 @@ void leave_out_shared_memory(eprosima::fastdds::dds::DomainParticipantQos& qos) 
   });
 }
 
-void apply(const DdsLinkConfig& config, Link link, const AgentId& agent,
-           eprosima::fastdds::dds::DomainParticipantQos& qos) {
-  qos.name("fleetmap/" + agent.str() + "/" + to_string(link));
+Result<eprosima::fastdds::dds::DomainParticipantQos> participant_profile(const QosFile& file, Link link) {
+  eprosima::fastdds::dds::DomainParticipantQos qos;
+  auto* factory = eprosima::fastdds::dds::DomainParticipantFactory::get_instance();
+  if (factory->get_participant_qos_from_profile(file.registered(to_string(link)), qos) ==
+      eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK)
+    return qos;
+  return failure(file.path.string() + ": Fast DDS does not know the participant profile \"" +
+                 to_string(link) + "\" after loading it; its log says why");
+}
 
-  std::string own = config.address;
-  if (own.empty() && link == Link::kOnboard) own = kLoopback;
+/// Fast DDS numbers the participants of a process, whatever their domain, and derives ports from the number.
+/// With ports given, the first participant of a domain on a machine is always at the first port of that
+/// domain, the next one at the port after (Fast DDS moves on while one is taken), and so on. Naming them also
+/// turns multicast off, but for what is named: so that ROS 2 nodes on this machine find this robot.
+void apply_onboard(const DdsLinkConfig& config, const AgentId& agent,
+                   eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  const std::string own = own_address(config);
+  qos.name(participant_name(agent, Link::kOnboard));
   if (!config.shared_memory) leave_out_shared_memory(qos);
-  for (auto& transport : qos.transport().user_transports) {
-    const auto udp = std::dynamic_pointer_cast<UDPv4TransportDescriptor>(transport);
-    if (!udp) continue;
-    // A copy, since every participant of this profile in the process gets the same descriptor.
-    const auto copy = std::make_shared<UDPv4TransportDescriptor>(*udp);
-    if (!own.empty()) copy->interfaceWhiteList = {own};
-    transport = copy;
-  }
+  restrict_to(own, qos.transport().user_transports);
+  auto& wire = qos.wire_protocol();
+  auto& unicast = wire.builtin.metatrafficUnicastLocatorList;
+  unicast.clear();
+  unicast.push_back(to_locator({"0.0.0.0", first_port(config, wire.port)}));
+  const Locator_t group =
+      to_locator({kDiscoveryGroup, static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain))});
+  wire.builtin.metatrafficMulticastLocatorList.push_back(group);
+  wire.participant_id = unused_number();
+  auto& known = wire.builtin.initialPeersList;
+  if (config.peers.empty() && !known.empty()) return;
+  known.clear();
+  for (const Locator_t& place : places_of(config, own, wire.port)) known.push_back(place);
+  known.push_back(group);
+}
 
-  set_ports(config, link, qos);
-  if (link == Link::kOnboard) qos.wire_protocol().participant_id = unused_number();
-  set_peers(config, link, own.empty() ? kLoopback : own, qos);
+std::string own_address(const DdsLinkConfig& config) {
+  return config.address.empty() ? kLoopback : config.address;
+}
+
+eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
+    const DdsLinkConfig& config, Link link, const AgentId& agent,
+    const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes;
+  attributes.setName(participant_name(agent, link).c_str());
+  attributes.port = qos.wire_protocol().port;
+  attributes.builtin.discovery_config.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::NONE;
+  attributes.builtin.use_WriterLivelinessProtocol = false;
+  attributes.useBuiltinTransports = false;
+  attributes.userTransports = qos.transport().user_transports;
+  restrict_to(own_address(config), attributes.userTransports);
+  attributes.defaultUnicastLocatorList.push_back(
+      to_locator({"0.0.0.0", first_port(config, attributes.port)}));
+  return attributes;
+}
+
+std::vector<Locator_t> listening_places(const DdsLinkConfig& config,
+                                        const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  return places_of(config, own_address(config), qos.wire_protocol().port);
 }
 
 }  // namespace fleetmap::bus

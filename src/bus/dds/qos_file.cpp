@@ -168,4 +168,22 @@ Result<QosFile> load_qos_file(const std::filesystem::path& directory, Link link)
   return result;
 }
 
+void check_profile(const QosFile& file, const Topic& topic) {
+  if (file.profiles.contains(topic.profile)) return;
+  throw std::logic_error(file.path.string() + ": topic " + topic.name + " needs a <data_writer> and a " +
+                         "<data_reader> profile \"" + topic.profile + "\"; add them");
+}
+
+WriterPolicy writer_policy(const QosFile& file, const std::string& profile) {
+  eprosima::fastrtps::PublisherAttributes attributes;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::fillPublisherAttributes(file.registered(profile),
+                                                                            attributes);
+  WriterPolicy policy;
+  policy.best_effort =
+      attributes.qos.m_reliability.kind == eprosima::fastdds::dds::BEST_EFFORT_RELIABILITY_QOS;
+  policy.synchronous = attributes.qos.m_publishMode.kind == eprosima::fastdds::dds::SYNCHRONOUS_PUBLISH_MODE;
+  policy.depth = static_cast<std::size_t>(std::max(1, attributes.topic.historyQos.depth));
+  return policy;
+}
+
 }  // namespace fleetmap::bus

@@ -25,4 +25,15 @@ struct QosFile {
 /// name of `profiles_of(link)`. Errors name file, line, profile and remedy.
 Result<QosFile> load_qos_file(const std::filesystem::path& directory, Link link);
 
+/// Throws std::logic_error for a topic whose profile the file lacks: that is a bug.
+void check_profile(const QosFile& file, const Topic& topic);
+
+/// What a data writer profile says that a radio uses.
+struct WriterPolicy {
+  bool best_effort = true;
+  bool synchronous = true;
+  std::size_t depth = 1;  ///< messages that may wait
+};
+WriterPolicy writer_policy(const QosFile& file, const std::string& profile);
+
 }  // namespace fleetmap::bus

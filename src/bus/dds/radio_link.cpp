@@ -1,0 +1,494 @@
+#include "radio_link.hpp"
+
+#include <fastdds/rtps/history/ReaderHistory.h>
+#include <fastdds/rtps/history/WriterHistory.h>
+#include <fastdds/rtps/participant/RTPSParticipant.h>
+#include <fastdds/rtps/reader/RTPSReader.h>
+#include <fastdds/rtps/reader/ReaderListener.h>
+#include <fastdds/rtps/writer/RTPSWriter.h>
+#include <fastdds/rtps/writer/StatelessWriter.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <stdexcept>
+#include <utility>
+
+#include "fastdds/rtps/builtin/data/ReaderProxyData.h"
+#include "fastdds/rtps/builtin/data/WriterProxyData.h"
+#include "participant_qos.hpp"
+
+namespace fleetmap::bus {
+namespace {
+
+namespace rtps = eprosima::fastrtps::rtps;
+using rtps::IPLocator;
+
+constexpr auto kTick = std::chrono::milliseconds(50);
+constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
+/// Bytes of a Hello on the wire, and what part of the medium they may take while a fleet starts.
+constexpr double kHelloBits = 8.0 * 220.0;
+constexpr double kHelloRate = 100e3;                   // bit/s
+constexpr auto kFirstPause = std::chrono::seconds(1);  // until a Hello is repeated, and the spread besides
+constexpr std::size_t kMostPlaces = 256;               // strangers may name so many
+constexpr std::size_t kMostHellos = 256;               // that wait for the callback thread
+constexpr std::int16_t kHelloReader = 1, kDataReader = 2;  // entity ids
+constexpr std::uint32_t kHelloWriters = 0xff0000;          // entity ids of writers from here on
+
+rtps::EntityId_t writer_id(std::uint32_t key) {
+  constexpr std::uint8_t kUserWriterWithoutKey = 0x03;
+  rtps::EntityId_t id;
+  id.value[0] = static_cast<std::uint8_t>(key >> 16);
+  id.value[1] = static_cast<std::uint8_t>(key >> 8);
+  id.value[2] = static_cast<std::uint8_t>(key);
+  id.value[3] = kUserWriterWithoutKey;
+  return id;
+}
+
+std::uint32_t key_of(const rtps::EntityId_t& id) {
+  return static_cast<std::uint32_t>(id.value[0]) << 16 | static_cast<std::uint32_t>(id.value[1]) << 8 |
+         id.value[2];
+}
+
+/// The same on every robot: FNV-1a of name and type.
+std::uint32_t key_of(const Topic& topic) {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : topic.name + '|' + topic.type) hash = (hash ^ static_cast<std::uint8_t>(c)) * 16777619u;
+  const std::uint32_t key = (hash ^ hash >> 24) & 0xffffffu;
+  return key >= kHelloWriters ? key ^ 0x800000u : key;
+}
+
+std::string to_text(const rtps::Locator_t& locator) {
+  return IPLocator::toIPv4string(locator) + ":" + std::to_string(locator.port);
+}
+
+/// Sends one change; what a full history holds gives way.
+bool send(rtps::RTPSWriter& writer, rtps::WriterHistory& history, const Bytes& cdr, std::size_t depth) {
+  while (history.getHistorySize() >= depth && history.remove_min_change()) {
+  }
+  rtps::CacheChange_t* change =
+      writer.new_change([&cdr]() -> std::uint32_t { return payload_size(cdr); }, rtps::ALIVE);
+  if (change == nullptr) return false;
+  if (write_payload(cdr, change->serializedPayload)) return history.add_change(change);
+  writer.release_change(change);
+  return false;
+}
+
+rtps::HistoryAttributes unbounded_history() { return {rtps::DYNAMIC_RESERVE_MEMORY_MODE, 256, 0, 0}; }
+
+void without_data_sharing(rtps::EndpointAttributes& endpoint) {
+  eprosima::fastdds::dds::DataSharingQosPolicy off;
+  off.off();
+  endpoint.set_data_sharing_configuration(off);
+}
+
+}  // namespace
+
+/// What Fast DDS's threads leave for the callback thread. Its lock is never held while Fast DDS is called.
+struct RadioLink::Received {
+  struct Topic {
+    std::shared_ptr<Inbox> inbox;
+    std::function<void()> dispatch;
+  };
+  std::mutex mutex;
+  std::map<EntityKey, Topic> topics;
+  std::map<Prefix, Clock::time_point> heard;
+  std::deque<std::pair<Prefix, Bytes>> hellos;
+};
+
+class RadioLink::HelloListener final : public rtps::ReaderListener {
+ public:
+  HelloListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor)
+      : received_(std::move(received)), executor_(std::move(executor)) {}
+  void onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) override {
+    Bytes cdr;
+    const bool whole = read_payload(change->serializedPayload, cdr);
+    const Prefix sender = change->writerGUID.guidPrefix;
+    reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
+    if (!whole) return;
+    const std::scoped_lock lock(received_->mutex);
+    if (received_->hellos.size() < kMostHellos) received_->hellos.emplace_back(sender, std::move(cdr));
+  }
+
+ private:
+  const std::shared_ptr<Received> received_;
+  const std::shared_ptr<Executor> executor_;
+};
+
+class RadioLink::DataListener final : public rtps::ReaderListener {
+ public:
+  DataListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor)
+      : received_(std::move(received)), executor_(std::move(executor)) {}
+  void onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) override {
+    Bytes cdr;
+    const bool whole = read_payload(change->serializedPayload, cdr);
+    const rtps::GUID_t writer = change->writerGUID;
+    reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
+    if (!whole) return;
+    std::function<void()> dispatch;
+    {
+      const std::scoped_lock lock(received_->mutex);
+      received_->heard[writer.guidPrefix] = Clock::now();
+      const auto topic = received_->topics.find(key_of(writer.entityId));
+      if (topic == received_->topics.end()) return;
+      topic->second.inbox->put(std::move(cdr));
+      dispatch = topic->second.dispatch;
+    }
+    executor_->post(dispatch);
+  }
+
+ private:
+  const std::shared_ptr<Received> received_;
+  const std::shared_ptr<Executor> executor_;
+};
+
+class RadioLink::End final : public TopicEnd {
+ public:
+  End(RadioLink& link, const Topic& topic, std::shared_ptr<Inbox> inbox)
+      : link_(link), topic_(topic), key_(key_of(topic)), inbox_(std::move(inbox)) {
+    const auto [other, fresh] = link_.ends_.emplace(key_, this);
+    if (!fresh) {
+      throw std::logic_error("topics " + topic.name + " and " + other->second->topic_.name +
+                             " have the same entity id; give that robot another name");
+    }
+  }
+  ~End() override { link_.ends_.erase(key_); }
+
+  void open_writer() override {
+    if (writer_ != nullptr) return;
+    const WriterPolicy policy = writer_policy(link_.qos_, topic_.profile);
+    depth_ = policy.depth;
+    rtps::WriterAttributes attributes;
+    attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
+    attributes.endpoint.durabilityKind = rtps::VOLATILE;
+    attributes.endpoint.topicKind = rtps::NO_KEY;
+    attributes.mode = policy.synchronous ? rtps::SYNCHRONOUS_WRITER : rtps::ASYNCHRONOUS_WRITER;
+    without_data_sharing(attributes.endpoint);
+    history_ = std::make_unique<rtps::WriterHistory>(unbounded_history());
+    writer_ = rtps::RTPSDomain::createRTPSWriter(link_.participant_, writer_id(key_), attributes,
+                                                 link_.payloads_, history_.get());
+    if (writer_ == nullptr) throw std::logic_error("Fast DDS makes no writer of " + topic_.name);
+    for (const auto& [robot, peer] : link_.peers_) meet(robot, peer);
+  }
+  void open_reader() override {
+    if (link_.reads_.contains(key_)) return;
+    {
+      const std::scoped_lock lock(link_.received_->mutex);
+      link_.received_->topics[key_] = {inbox_, link_.dispatcher(topic_.name)};
+    }
+    link_.reads_.insert(key_);
+    for (const auto& [robot, peer] : link_.peers_) hear(robot);
+    link_.reads_changed();
+  }
+  void close_reader() override {
+    if (!link_.reads_.contains(key_)) return;
+    {
+      const std::scoped_lock lock(link_.received_->mutex);
+      link_.received_->topics.erase(key_);
+    }
+    link_.reads_.erase(key_);
+    for (const auto& [robot, peer] : link_.peers_)
+      link_.data_reader_->matched_writer_remove(writer_of(robot));
+    link_.reads_changed();
+  }
+  bool write(const Bytes& cdr) override {
+    const auto now = Clock::now();
+    bool anyone = false;
+    for (auto& [robot, peer] : link_.peers_) {
+      if (!peer.reads.contains(key_)) continue;
+      peer.told = now;
+      anyone = true;
+    }
+    return !anyone || send(*writer_, *history_, cdr, depth_);
+  }
+  DdsBus::Matches matches() const override {
+    DdsBus::Matches result;
+    for (const auto& [robot, peer] : link_.peers_) result.readers += peer.reads.contains(key_);
+    if (writer_ == nullptr) result.readers = 0;
+    if (link_.reads_.contains(key_)) result.writers = link_.peers_.size();
+    return result;
+  }
+
+  /// Sends to `robot` if it reads this topic, else no more.
+  void meet(const Prefix& robot, const Peer& peer) {
+    if (writer_ == nullptr) return;
+    if (peer.reads.contains(key_)) {
+      writer_->matched_reader_add(link_.reader_of(robot, peer));
+    } else {
+      part(robot);
+    }
+  }
+  void part(const Prefix& robot) {
+    if (writer_ != nullptr) writer_->matched_reader_remove({robot, data_reader_id()});
+  }
+  /// Hears `robot` on this topic.
+  void hear(const Prefix& robot) {
+    if (!link_.reads_.contains(key_)) return;
+    rtps::WriterProxyData data(0, 0);
+    data.guid(writer_of(robot));
+    data.topicKind(rtps::NO_KEY);
+    link_.data_reader_->matched_writer_add(data);
+  }
+  void part_from_writer(const Prefix& robot) { link_.data_reader_->matched_writer_remove(writer_of(robot)); }
+
+ private:
+  rtps::EntityId_t data_reader_id() const { return link_.data_reader_->getGuid().entityId; }
+  rtps::GUID_t writer_of(const Prefix& robot) const { return {robot, writer_id(key_)}; }
+
+  RadioLink& link_;
+  const Topic topic_;
+  const EntityKey key_;
+  const std::shared_ptr<Inbox> inbox_;
+  std::size_t depth_ = 1;
+  std::unique_ptr<rtps::WriterHistory> history_;
+  rtps::RTPSWriter* writer_ = nullptr;
+};
+
+RadioLink::RadioLink(Link link, const DdsLinkConfig& config, QosFile qos, std::shared_ptr<Executor> executor)
+    : LinkEnd(link, config, std::move(executor)),
+      qos_(std::move(qos)),
+      received_(std::make_shared<Received>()),
+      hello_listener_(std::make_unique<HelloListener>(received_, executor_)),
+      data_listener_(std::make_unique<DataListener>(received_, executor_)) {}
+
+Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsLinkConfig& config,
+                                                   const AgentId& agent, QosFile qos,
+                                                   std::shared_ptr<Executor> executor) {
+  std::shared_ptr<RadioLink> result(new RadioLink(link, config, std::move(qos), std::move(executor)));
+  if (const Status opened = result->open(agent); !opened) return tl::unexpected(opened.error());
+  result->stop_timer_ = result->executor_->add_timer(kTick, [weak = std::weak_ptr<RadioLink>(result)] {
+    if (const auto alive = weak.lock()) alive->tick();
+  });
+  return std::shared_ptr<LinkEnd>(std::move(result));
+}
+
+Status RadioLink::open(const AgentId& agent) {
+  const std::string name = to_string(link_);
+  if (Status there = check_address(config_, name); !there) return there;
+  if (Status best_effort = check_best_effort(); !best_effort) return best_effort;
+  auto profile = participant_profile(qos_, link_);
+  if (!profile) return tl::unexpected(profile.error());
+  profile_ = *std::move(profile);
+  const auto& discovery = profile_.wire_protocol().builtin.discovery_config;
+  lease_ = std::chrono::nanoseconds(discovery.leaseDuration.to_ns());
+  announcement_ = std::chrono::nanoseconds(discovery.leaseDuration_announcementperiod.to_ns());
+
+  participant_ =
+      rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent, profile_));
+  if (participant_ == nullptr) {
+    return failure(name + ": cannot join DDS domain " + std::to_string(config_.domain) + " on " +
+                   own_address(config_) + "; its log says why");
+  }
+  IPLocator::setIPv4(own_, own_address(config_));
+  own_.kind = LOCATOR_KIND_UDPv4;
+  own_.port = participant_->getRTPSParticipantAttributes().defaultUnicastLocatorList.begin()->port;
+
+  const auto reader = [this](std::int16_t entity, std::unique_ptr<rtps::ReaderHistory>& history,
+                             rtps::ReaderListener* listener) {
+    rtps::ReaderAttributes attributes;
+    attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
+    attributes.endpoint.durabilityKind = rtps::VOLATILE;
+    attributes.endpoint.topicKind = rtps::NO_KEY;
+    attributes.endpoint.setEntityID(entity);
+    without_data_sharing(attributes.endpoint);
+    history = std::make_unique<rtps::ReaderHistory>(unbounded_history());
+    return rtps::RTPSDomain::createRTPSReader(participant_, attributes, payloads_, history.get(), listener);
+  };
+  data_reader_ = reader(kDataReader, data_history_, data_listener_.get());
+  rtps::RTPSReader* hello_reader = reader(kHelloReader, hello_history_, hello_listener_.get());
+  if (data_reader_ == nullptr || hello_reader == nullptr)
+    return failure(name + ": Fast DDS is out of resources for two readers");
+  hello_reader->enableMessagesFromUnkownWriters(true);
+
+  for (const Locator& place : listening_places(config_, profile_)) {
+    if (Status added = add_place(place); !added) return added;
+  }
+  return {};
+}
+
+/// Reliable radios repair without end what does not fit; the exchange asks for what it lacks.
+Status RadioLink::check_best_effort() const {
+  for (const std::string& profile : profiles_of(link_)) {
+    if (writer_policy(qos_, profile).best_effort) continue;
+    return failure(qos_.path.string() + ": <data_writer> \"" + profile + "\" is reliable; " +
+                   to_string(link_) + " is best effort, since what is lost is asked for again");
+  }
+  return {};
+}
+
+RadioLink::~RadioLink() {
+  if (stop_timer_) stop_timer_();
+  if (participant_ == nullptr) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& place : places_) {
+      if (place->robot) say_hello(*place, /*leaves=*/true);
+    }
+  }
+  rtps::RTPSDomain::removeRTPSParticipant(participant_);
+  forget_topics();
+}
+
+std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) {
+  check_profile(qos_, topic);
+  return std::make_unique<End>(*this, topic, inbox);
+}
+
+/// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's: what goes to
+/// this machine does not take the medium.
+RadioLink::Clock::duration RadioLink::spread() const {
+  const auto elsewhere = [this](const auto& place) {
+    return !IPLocator::compareAddress(place->locator, own_) && !IPLocator::isLocal(place->locator);
+  };
+  const auto others = static_cast<double>(std::ranges::count_if(places_, elsewhere));
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(others * (others + 1.0) * kHelloBits / kHelloRate));
+}
+
+Status RadioLink::add_place(const Locator& locator) {
+  if (locator == own_ || places_.size() >= kMostPlaces) return {};
+  auto place = std::make_unique<Place>();
+  place->locator = locator;
+  place->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
+  rtps::WriterAttributes attributes;
+  attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
+  attributes.endpoint.durabilityKind = rtps::VOLATILE;
+  attributes.endpoint.topicKind = rtps::NO_KEY;
+  attributes.mode = rtps::SYNCHRONOUS_WRITER;
+  without_data_sharing(attributes.endpoint);
+  const auto number = static_cast<std::uint32_t>(places_.size());
+  place->writer = rtps::RTPSDomain::createRTPSWriter(participant_, writer_id(kHelloWriters + number),
+                                                     attributes, payloads_, place->history.get());
+  auto* writer = dynamic_cast<rtps::StatelessWriter*>(place->writer);
+  rtps::LocatorList_t there;
+  there.push_back(locator);
+  if (writer == nullptr || !writer->set_fixed_locators(there))
+    return failure(std::string(to_string(link_)) + ": Fast DDS makes no writer to " + to_text(locator));
+  places_.push_back(std::move(place));
+  return {};
+}
+
+void RadioLink::say_hello(Place& place, bool leaves) {
+  Hello hello;
+  hello.knows = place.robot.has_value();
+  hello.leaves = leaves;
+  std::copy_n(IPLocator::getIPv4(own_), hello.address.size(), hello.address.begin());
+  hello.port = static_cast<std::uint16_t>(own_.port);
+  for (const EntityKey key : reads_) {
+    if (hello.reads.size() < kMostReads) hello.reads.push_back(key);
+  }
+  send(*place.writer, *place.history, encode(hello), 1);
+  const auto now = Clock::now();
+  if (place.robot) peers_.at(*place.robot).told = now;
+  // Robots that start together would else meet in step.
+  const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
+  place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * place.pause);
+  place.pause = std::min(2 * place.pause, announcement_);
+}
+
+void RadioLink::reads_changed() {
+  for (const auto& place : places_) {
+    if (place->robot) place->next = std::min(place->next, Clock::now() + kReadsChange);
+  }
+}
+
+void RadioLink::tick() {
+  std::deque<std::pair<Prefix, Bytes>> hellos;
+  std::map<Prefix, Clock::time_point> heard;
+  {
+    const std::scoped_lock lock(received_->mutex);
+    hellos.swap(received_->hellos);
+    heard = received_->heard;
+  }
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [sender, cdr] : hellos) {
+    if (const auto hello = decode_hello(cdr)) take(sender, *hello);
+  }
+  const auto now = Clock::now();
+  const auto first = std::chrono::duration_cast<Clock::duration>(kFirstPause) + spread();
+  for (const auto& place : places_) {
+    if (place->next == Clock::time_point{}) {
+      place->pause = first;
+      place->next = now + std::chrono::duration_cast<Clock::duration>(
+                              spread() * std::uniform_real_distribution(0.0, 1.0)(random_));
+    }
+    if (place->robot) {
+      const auto last = heard.find(*place->robot);
+      if (last != heard.end() && now - last->second > lease_) {
+        spdlog::info("{}: nothing heard from {} for {:.0f} s", to_string(link_), to_text(place->locator),
+                     std::chrono::duration<double>(lease_).count());
+        forget(*place->robot);
+      } else if (now - peers_.at(*place->robot).told > announcement_) {
+        place->next = now;
+      }
+    }
+    if (now >= place->next && (!place->robot || place->next != Clock::time_point::max())) {
+      say_hello(*place);
+      if (place->robot) place->next = Clock::time_point::max();
+    }
+  }
+}
+
+void RadioLink::take(const Prefix& sender, const Hello& hello) {
+  if (hello.leaves) {
+    forget(sender);
+    return;
+  }
+  {
+    const std::scoped_lock lock(received_->mutex);
+    received_->heard[sender] = Clock::now();
+  }
+  Locator from;
+  from.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(from, hello.address.data());
+  from.port = hello.port;
+  const auto at = [&from](const auto& place) { return place->locator == from; };
+  auto place = std::ranges::find_if(places_, at);
+  if (place == places_.end()) {  // nobody that the configuration names
+    if (Status added = add_place(from); !added) spdlog::warn(added.error().message);
+    place = std::ranges::find_if(places_, at);
+    if (place == places_.end()) return;
+  }
+  if ((*place)->robot && *(*place)->robot != sender) forget(*(*place)->robot);  // it was started anew
+  Peer& peer = peers_[sender];
+  if (!(*place)->robot) {
+    spdlog::info("{}: heard {}", to_string(link_), to_text(from));
+    (*place)->robot = sender;
+    (*place)->next = Clock::time_point::max();
+  }
+  peer.locator = from;
+  peer.reads = {hello.reads.begin(), hello.reads.end()};
+  for (const auto& [key, end] : ends_) {
+    end->meet(sender, peer);
+    end->hear(sender);
+  }
+  if (!hello.knows) say_hello(**place), (*place)->next = Clock::time_point::max();
+  executor_->post([] {});  // wakes who waits for it
+}
+
+void RadioLink::forget(const Prefix& robot) {
+  if (peers_.erase(robot) == 0) return;
+  for (const auto& [key, end] : ends_) {
+    end->part(robot);
+    end->part_from_writer(robot);
+  }
+  for (const auto& place : places_) {
+    if (place->robot != robot) continue;
+    place->robot.reset();
+    place->next = {};  // as at the start
+  }
+  const std::scoped_lock lock(received_->mutex);
+  received_->heard.erase(robot);
+}
+
+rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer) const {
+  rtps::ReaderProxyData data(1, 0);
+  data.guid({robot, data_reader_->getGuid().entityId});
+  data.topicKind(rtps::NO_KEY);
+  data.add_unicast_locator(peer.locator);
+  return data;
+}
+
+}  // namespace fleetmap::bus

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <fastdds/rtps/RTPSDomain.h>
+#include <fastdds/rtps/builtin/data/ReaderProxyData.h>
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/ids.hpp"
+#include "hello.hpp"
+#include "link_end.hpp"
+#include "payload.hpp"
+#include "qos_file.hpp"
+
+namespace fleetmap::bus {
+
+/// A radio or Wi-Fi domain of the fleet: one RTPS participant without DDS discovery, best effort only.
+///
+/// DDS discovery does not fit 200 kbit/s (docs/dds.md). The fleet is known instead: its addresses from the
+/// configuration, its endpoints by name (an entity id is made from a topic's name and type, so both ends
+/// compute the same). What remains is who is there and which topics it reads: a Hello of some 200 bytes to
+/// each place where a robot may listen, answered by who does not know the sender. Whoever says nothing for
+/// the profile's lease is forgotten.
+class RadioLink final : public LinkEnd {
+ public:
+  static Result<std::shared_ptr<LinkEnd>> create(Link link, const DdsLinkConfig& config, const AgentId& agent,
+                                                 QosFile qos, std::shared_ptr<Executor> executor);
+  ~RadioLink() override;
+
+ private:
+  class End;
+  class HelloListener;
+  class DataListener;
+  struct Received;
+  using Clock = Executor::Clock;
+  using EntityKey = std::uint32_t;
+  using Prefix = eprosima::fastrtps::rtps::GuidPrefix_t;
+  using Locator = eprosima::fastrtps::rtps::Locator_t;
+
+  /// A place where a robot may listen.
+  struct Place {
+    Locator locator;
+    std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
+    eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
+    std::optional<Prefix> robot;                             ///< who was heard from there
+    Clock::time_point next{};                                ///< Hello
+    Clock::duration pause{};                                 ///< after it, while nobody answers
+  };
+  /// A robot that was heard.
+  struct Peer {
+    Locator locator;
+    std::set<EntityKey> reads;
+    Clock::time_point told{};  ///< when it last got anything from here
+  };
+
+  RadioLink(Link link, const DdsLinkConfig& config, QosFile qos, std::shared_ptr<Executor> executor);
+  std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) override;
+  Status open(const AgentId& agent);
+  Status check_best_effort() const;
+  Status add_place(const Locator& locator);
+  Clock::duration spread() const;
+  void tick();
+  void take(const Prefix& sender, const Hello& hello);
+  void forget(const Prefix& robot);
+  void say_hello(Place& place, bool leaves = false);
+  void reads_changed();
+  eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
+
+  const QosFile qos_;
+  eprosima::fastdds::dds::DomainParticipantQos profile_;
+  Clock::duration lease_{}, announcement_{};
+  const std::shared_ptr<PayloadPool> payloads_ = std::make_shared<PayloadPool>();
+  const std::shared_ptr<Received> received_;
+  std::unique_ptr<HelloListener> hello_listener_;
+  std::unique_ptr<DataListener> data_listener_;
+  std::unique_ptr<eprosima::fastrtps::rtps::ReaderHistory> hello_history_, data_history_;
+  eprosima::fastrtps::rtps::RTPSParticipant* participant_ = nullptr;
+  eprosima::fastrtps::rtps::RTPSReader* data_reader_ = nullptr;
+  std::function<void()> stop_timer_;
+  Locator own_;  ///< where this robot listens
+  std::mt19937 random_{std::random_device{}()};
+
+  // Guarded by mutex_.
+  std::vector<std::unique_ptr<Place>> places_;
+  std::map<Prefix, Peer> peers_;
+  std::map<EntityKey, End*> ends_;
+  std::set<EntityKey> reads_;
+};
+
+}  // namespace fleetmap::bus
