@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -83,39 +84,84 @@ bool kept_its_way(const OdometryRun& run) {
          static_cast<double>(counters.lost) <= kMostLost * static_cast<double>(counters.updates);
 }
 
-Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
-  odometry::Loam loam(config.odometry, config.lidar);
-  OdometryRun run;
-  while (true) {
-    const auto sample = reader.next();
-    if (!sample) return tl::unexpected(sample.error());
-    if (!*sample) {
-      run.counters = loam.counters();
-      return run;
+/// Feeds a recording's samples to the odometry. Some recordings hold a scan at its start, before what gyro
+/// and wheels saw during its sweep, so scans wait until these have passed their end.
+class OdometryFeed {
+ public:
+  explicit OdometryFeed(const agent::PerceptionConfig& config)
+      : config_(config), loam_(config.odometry, config.lidar) {}
+
+  void add(recording::Sample sample) {
+    if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
+      waiting_.push_back(std::move(*scan));
+    } else if (const auto* imu = std::get_if<sensor::Imu>(&sample);
+               imu != nullptr && config_.odometry_uses_imu) {
+      loam_.add_imu(*imu);
+      imu_ = imu->stamp;
+    } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample);
+               wheel != nullptr && config_.odometry_uses_wheel) {
+      loam_.add_wheel(*wheel);
+      wheel_ = wheel->stamp;
     }
-    if (const auto* imu = std::get_if<sensor::Imu>(&**sample); imu != nullptr && config.odometry_uses_imu)
-      loam.add_imu(*imu);
-    if (const auto* wheel = std::get_if<sensor::Wheel>(&**sample);
-        wheel != nullptr && config.odometry_uses_wheel)
-      loam.add_wheel(*wheel);
-    const auto* scan = std::get_if<sensor::Scan>(&**sample);
-    if (scan == nullptr) continue;
+    const Stamp newest = waiting_.empty() ? Stamp{} : waiting_.back().stamp;
+    while (!waiting_.empty() &&
+           (seen_through(waiting_.front()) || newest - waiting_.front().stamp > kPatience)) {
+      add_scan(waiting_.front());
+      waiting_.pop_front();
+    }
+  }
+  OdometryRun finish() {
+    for (const sensor::Scan& scan : waiting_) add_scan(scan);
+    run_.counters = loam_.counters();
+    return std::move(run_);
+  }
+
+ private:
+  /// So far may a sensor that was heard lag behind; one that lags more has stopped.
+  static constexpr Duration kPatience = std::chrono::milliseconds(250);
+
+  bool seen_through(const sensor::Scan& scan) const {
+    float last = 0.0f;
+    if (scan.has_time) {
+      for (const sensor::ScanPoint& point : scan.points) last = std::max(last, point.time);
+    }
+    const Stamp end = scan.stamp + from_seconds(static_cast<double>(last));
+    return (!imu_ || *imu_ >= end) && (!wheel_ || *wheel_ >= end);
+  }
+
+  void add_scan(const sensor::Scan& scan) {
     const double cpu = thread_cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
-    const auto update = loam.add_scan(*scan);
-    run.wall_ms.push_back(
+    const auto update = loam_.add_scan(scan);
+    run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-    run.cpu_s += thread_cpu_seconds() - cpu;
+    run_.cpu_s += thread_cpu_seconds() - cpu;
     if (update) {
-      if (!run.poses.empty())
-        run.length += (run.poses.back().T_w_base.inverse() * update->T_odom_base).translation().norm();
-      run.poses.push_back({update->stamp, update->T_odom_base});
-      run.motion.add(update->T_odom_base, update->covariance, update->pose_noise);
-      run.blind += update->degenerate_count > 0;
-      if (update->lost && !run.first_lost) run.first_lost = update->stamp;
-    } else if (run.refused++ == 0) {
-      run.first_refusal = update.error().message;
+      if (!run_.poses.empty())
+        run_.length += (run_.poses.back().T_w_base.inverse() * update->T_odom_base).translation().norm();
+      run_.poses.push_back({update->stamp, update->T_odom_base});
+      run_.motion.add(update->T_odom_base, update->covariance, update->pose_noise);
+      run_.blind += update->degenerate_count > 0;
+      if (update->lost && !run_.first_lost) run_.first_lost = update->stamp;
+    } else if (run_.refused++ == 0) {
+      run_.first_refusal = update.error().message;
     }
+  }
+
+  const agent::PerceptionConfig& config_;
+  odometry::Loam loam_;
+  OdometryRun run_;
+  std::deque<sensor::Scan> waiting_;
+  std::optional<Stamp> imu_, wheel_;  ///< last heard
+};
+
+Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
+  OdometryFeed feed(config);
+  while (true) {
+    auto sample = reader.next();
+    if (!sample) return tl::unexpected(sample.error());
+    if (!*sample) return feed.finish();
+    feed.add(std::move(**sample));
   }
 }
 

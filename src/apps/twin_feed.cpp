@@ -79,7 +79,10 @@ void TwinFeed::deliver_pending() {
       seconds_.rays += part->cpu_seconds;
       scan.points.insert(scan.points.end(), part->points.begin(), part->points.end());
     }
-    deliver_(next.member, scan, scan.stamp);
+    // As a driver does it: a sweep is sent when it ends, after what the other sensors saw meanwhile.
+    float last = 0.0f;
+    for (const sensor::ScanPoint& point : scan.points) last = std::max(last, point.time);
+    deliver_(next.member, scan, scan.stamp + from_seconds(static_cast<double>(last)));
   }
 }
 

@@ -183,7 +183,14 @@ TEST_F(QosDirectory, ADisabledLinkNeedsNoFileAndCountsWhatItDrops) {
 TEST_F(QosDirectory, AWrongConfigurationIsNamed) {
   const DdsBusConfig good = config_;
   config_.long_range.address = "192.0.2.77";
-  EXPECT_THAT(error(), HasSubstr("long_range.address: no interface of this machine has 192.0.2.77"));
+  EXPECT_THAT(error(), HasSubstr("long_range.address: no interface of this machine has 192.0.2.77 (it has lo "
+                                 "127.0.0.1"));
+  config_.long_range.address.clear();
+  config_.long_range.peers = {"127.0.0.1", "192.0.2.78"};
+  EXPECT_THAT(error(),
+              HasSubstr("long_range.address is not set, but 192.0.2.78 is another machine: give this "
+                        "robot's own address on that radio; this machine has lo 127.0.0.1"));
+  config_ = good;
   config_.long_range.address = "radio0";
   EXPECT_THAT(error(), HasSubstr("long_range.address is \"radio0\"; must be an IPv4 address"));
   config_ = good;

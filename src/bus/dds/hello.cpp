@@ -3,7 +3,9 @@
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
+#include <algorithm>
 #include <exception>
+#include <string>
 
 #include "fleetmap_links.h"
 
@@ -15,7 +17,7 @@ using eprosima::fastcdr::FastBuffer;
 
 constexpr std::uint8_t kSchema = 1;
 constexpr std::size_t kEncapsulation = 4;
-constexpr std::size_t kMostBytes = kEncapsulation + 16 + 4 * kMostReads;
+constexpr std::size_t kMostBytes = kEncapsulation + 24 + 4 * kMostReads;
 
 }  // namespace
 
@@ -24,6 +26,7 @@ Bytes encode(const Hello& hello) {
   idl.schema(kSchema);
   idl.knows(hello.knows);
   idl.leaves(hello.leaves);
+  std::ranges::copy(hello.sender.str(), idl.sender().begin());
   idl.address(hello.address);
   idl.port(hello.port);
   idl.reads(hello.reads);
@@ -50,7 +53,10 @@ std::optional<Hello> decode_hello(const Bytes& bytes) {
     return std::nullopt;
   }
   if (idl.reads().size() > kMostReads || idl.port() == 0) return std::nullopt;
-  return Hello{idl.knows(), idl.leaves(), idl.address(), idl.port(), idl.reads()};
+  const auto end = std::ranges::find(idl.sender(), 0);
+  const auto sender = AgentId::parse(std::string(idl.sender().begin(), end));
+  if (!sender) return std::nullopt;
+  return Hello{idl.knows(), idl.leaves(), *sender, idl.address(), idl.port(), idl.reads()};
 }
 
 }  // namespace fleetmap::bus

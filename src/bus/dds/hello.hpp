@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/ids.hpp"
 
 namespace fleetmap::bus {
 
@@ -13,6 +14,7 @@ namespace fleetmap::bus {
 struct Hello {
   bool knows = false;   ///< the sender knows the participant that this is for
   bool leaves = false;  ///< the sender's last message
+  AgentId sender;
   std::array<std::uint8_t, 4> address{};
   std::uint16_t port = 0;
   std::vector<std::uint32_t> reads;  ///< entity ids of topics, at most kMostReads

@@ -7,6 +7,7 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -111,6 +112,30 @@ std::string participant_name(const AgentId& agent, Link link) {
 
 }  // namespace
 
+namespace {
+
+using Interfaces = std::unique_ptr<ifaddrs, decltype(&freeifaddrs)>;
+
+/// Empty where they cannot be listed.
+Interfaces interfaces() {
+  ifaddrs* found = nullptr;
+  return {getifaddrs(&found) == 0 ? found : nullptr, &freeifaddrs};
+}
+
+/// "eth0 10.0.0.1, wlan0 192.168.1.4"
+std::string names_of(const Interfaces& all) {
+  std::string names;
+  for (const auto* entry = all.get(); entry != nullptr; entry = entry->ifa_next) {
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    char text[INET_ADDRSTRLEN] = "";
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof text);
+    names += (names.empty() ? "" : ", ") + std::string(entry->ifa_name) + " " + text;
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
 Status validate(const DdsLinkConfig& config, const std::string& link) {
   const auto wrong = [&](const std::string& what) { return failure(link + "." + what); };
   if (config.domain > kMaxDomain) {
@@ -122,6 +147,14 @@ Status validate(const DdsLinkConfig& config, const std::string& link) {
   for (const std::string& peer : config.peers) {
     if (!parse_peer(peer)) return wrong("peers has \"" + peer + "\"; must be ADDRESS or ADDRESS:PORT, IPv4");
   }
+  const bool radio = link != to_string(Link::kOnboard);
+  const auto elsewhere = [](const std::string& peer) { return !peer.starts_with("127."); };
+  if (const auto peer = std::ranges::find_if(config.peers, elsewhere);
+      radio && config.address.empty() && peer != config.peers.end()) {
+    return wrong("address is not set, but " + *peer +
+                 " is another machine: give this robot's own address on " + "that radio; this machine has " +
+                 names_of(interfaces()));
+  }
   if (config.queue_messages == 0) return wrong("queue_messages must be > 0");
   if (config.queue_bytes == 0) return wrong("queue_bytes must be > 0");
   return {};
@@ -131,10 +164,8 @@ Status check_address(const DdsLinkConfig& config, const std::string& link) {
   if (config.address.empty()) return {};
   in_addr wanted{};
   inet_pton(AF_INET, config.address.c_str(), &wanted);
-  ifaddrs* found = nullptr;
-  if (getifaddrs(&found) != 0) return failure(link + ": the network interfaces cannot be listed");
-  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> all(found, &freeifaddrs);
-  for (const auto* entry = found; entry; entry = entry->ifa_next) {
+  const Interfaces all = interfaces();
+  for (const auto* entry = all.get(); entry; entry = entry->ifa_next) {
     if (!entry->ifa_addr || entry->ifa_addr->sa_family != AF_INET) continue;
     const auto* own = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
     const bool running = (entry->ifa_flags & IFF_RUNNING) != 0;
@@ -143,8 +174,8 @@ Status check_address(const DdsLinkConfig& config, const std::string& link) {
     return failure(link + ".address: the interface " + entry->ifa_name + " of " + config.address +
                    " is down; bring it up or disable the link");
   }
-  return failure(link + ".address: no interface of this machine has " + config.address +
-                 "; correct it or disable the link");
+  return failure(link + ".address: no interface of this machine has " + config.address + " (it has " +
+                 names_of(all) + "); correct it or disable the link");
 }
 
 std::size_t shared_memory_bytes(const eprosima::fastdds::dds::DomainParticipantQos& qos) {

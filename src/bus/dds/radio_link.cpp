@@ -246,8 +246,10 @@ class RadioLink::End final : public TopicEnd {
   rtps::RTPSWriter* writer_ = nullptr;
 };
 
-RadioLink::RadioLink(Link link, const DdsLinkConfig& config, QosFile qos, std::shared_ptr<Executor> executor)
+RadioLink::RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
+                     std::shared_ptr<Executor> executor)
     : LinkEnd(link, config, std::move(executor)),
+      agent_(agent),
       qos_(std::move(qos)),
       received_(std::make_shared<Received>()),
       hello_listener_(std::make_unique<HelloListener>(received_, executor_)),
@@ -256,15 +258,15 @@ RadioLink::RadioLink(Link link, const DdsLinkConfig& config, QosFile qos, std::s
 Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsLinkConfig& config,
                                                    const AgentId& agent, QosFile qos,
                                                    std::shared_ptr<Executor> executor) {
-  std::shared_ptr<RadioLink> result(new RadioLink(link, config, std::move(qos), std::move(executor)));
-  if (const Status opened = result->open(agent); !opened) return tl::unexpected(opened.error());
+  std::shared_ptr<RadioLink> result(new RadioLink(link, config, agent, std::move(qos), std::move(executor)));
+  if (const Status opened = result->open(); !opened) return tl::unexpected(opened.error());
   result->stop_timer_ = result->executor_->add_timer(kTick, [weak = std::weak_ptr<RadioLink>(result)] {
     if (const auto alive = weak.lock()) alive->tick();
   });
   return std::shared_ptr<LinkEnd>(std::move(result));
 }
 
-Status RadioLink::open(const AgentId& agent) {
+Status RadioLink::open() {
   const std::string name = to_string(link_);
   if (Status there = check_address(config_, name); !there) return there;
   if (Status best_effort = check_best_effort(); !best_effort) return best_effort;
@@ -276,7 +278,7 @@ Status RadioLink::open(const AgentId& agent) {
   announcement_ = std::chrono::nanoseconds(discovery.leaseDuration_announcementperiod.to_ns());
 
   participant_ =
-      rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent, profile_));
+      rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent_, profile_));
   if (participant_ == nullptr) {
     return failure(name + ": cannot join DDS domain " + std::to_string(config_.domain) + " on " +
                    own_address(config_) + "; its log says why");
@@ -323,9 +325,7 @@ RadioLink::~RadioLink() {
   if (participant_ == nullptr) return;
   {
     const std::scoped_lock lock(mutex_);
-    for (const auto& place : places_) {
-      if (place->robot) say_hello(*place, /*leaves=*/true);
-    }
+    for (const auto& place : places_) say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
   }
   rtps::RTPSDomain::removeRTPSParticipant(participant_);
   forget_topics();
@@ -336,8 +336,8 @@ std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std
   return std::make_unique<End>(*this, topic, inbox);
 }
 
-/// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's: what goes to
-/// this machine does not take the medium.
+/// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's: what goes
+/// to this machine does not take the medium.
 RadioLink::Clock::duration RadioLink::spread() const {
   const auto elsewhere = [this](const auto& place) {
     return !IPLocator::compareAddress(place->locator, own_) && !IPLocator::isLocal(place->locator);
@@ -374,6 +374,7 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   Hello hello;
   hello.knows = place.robot.has_value();
   hello.leaves = leaves;
+  hello.sender = agent_;
   std::copy_n(IPLocator::getIPv4(own_), hello.address.size(), hello.address.begin());
   hello.port = static_cast<std::uint16_t>(own_.port);
   for (const EntityKey key : reads_) {
@@ -417,7 +418,8 @@ void RadioLink::tick() {
     if (place->robot) {
       const auto last = heard.find(*place->robot);
       if (last != heard.end() && now - last->second > lease_) {
-        spdlog::info("{}: nothing heard from {} for {:.0f} s", to_string(link_), to_text(place->locator),
+        spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(link_),
+                     peers_.at(*place->robot).agent.str(), to_text(place->locator),
                      std::chrono::duration<double>(lease_).count());
         forget(*place->robot);
       } else if (now - peers_.at(*place->robot).told > announcement_) {
@@ -433,6 +435,7 @@ void RadioLink::tick() {
 
 void RadioLink::take(const Prefix& sender, const Hello& hello) {
   if (hello.leaves) {
+    if (peers_.contains(sender)) spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
     forget(sender);
     return;
   }
@@ -454,10 +457,11 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   if ((*place)->robot && *(*place)->robot != sender) forget(*(*place)->robot);  // it was started anew
   Peer& peer = peers_[sender];
   if (!(*place)->robot) {
-    spdlog::info("{}: heard {}", to_string(link_), to_text(from));
+    spdlog::info("{}: heard {} at {}", to_string(link_), hello.sender.str(), to_text(from));
     (*place)->robot = sender;
     (*place)->next = Clock::time_point::max();
   }
+  peer.agent = hello.sender;
   peer.locator = from;
   peer.reads = {hello.reads.begin(), hello.reads.end()};
   for (const auto& [key, end] : ends_) {
@@ -468,7 +472,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   executor_->post([] {});  // wakes who waits for it
 }
 
-void RadioLink::forget(const Prefix& robot) {
+void RadioLink::forget(Prefix robot) {
   if (peers_.erase(robot) == 0) return;
   for (const auto& [key, end] : ends_) {
     end->part(robot);

@@ -54,24 +54,27 @@ class RadioLink final : public LinkEnd {
   };
   /// A robot that was heard.
   struct Peer {
+    AgentId agent;
     Locator locator;
     std::set<EntityKey> reads;
     Clock::time_point told{};  ///< when it last got anything from here
   };
 
-  RadioLink(Link link, const DdsLinkConfig& config, QosFile qos, std::shared_ptr<Executor> executor);
+  RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
+            std::shared_ptr<Executor> executor);
   std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) override;
-  Status open(const AgentId& agent);
+  Status open();
   Status check_best_effort() const;
   Status add_place(const Locator& locator);
   Clock::duration spread() const;
   void tick();
   void take(const Prefix& sender, const Hello& hello);
-  void forget(const Prefix& robot);
+  void forget(Prefix robot);
   void say_hello(Place& place, bool leaves = false);
   void reads_changed();
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
 
+  const AgentId agent_;
   const QosFile qos_;
   eprosima::fastdds::dds::DomainParticipantQos profile_;
   Clock::duration lease_{}, announcement_{};
