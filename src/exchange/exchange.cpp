@@ -9,6 +9,11 @@ namespace {
 using store::Put;
 
 constexpr const char* kHoldKey = "hold_orders";
+/// Datagrams per B/s of the budget that the periods of the defaults are for: each of five robots to each
+/// other.
+constexpr double kUsualLoad = 5.0 * 4.0 / 18'750.0;
+
+Duration longer(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
 }  // namespace
 
@@ -32,9 +37,22 @@ Status ExchangeConfig::validate(const AgentId& self) const {
   return {};
 }
 
+ExchangeConfig for_fleet(ExchangeConfig config) {
+  const std::size_t robots = std::max<std::size_t>(config.fleet.size(), 2);
+  const std::size_t copies = config.long_range.one_for_all ? 1 : robots - 1;
+  const double load = static_cast<double>(robots * copies) / config.long_range.fleet_bytes_per_second;
+  const double factor = std::max(1.0, load / kUsualLoad);
+  for (Duration* period :
+       {&config.status_period, &config.reconcile.digest_min_period, &config.reconcile.digest_max_period,
+        &config.reconcile.peer_timeout, &config.encounters.peer_timeout}) {
+    *period = longer(*period, factor);
+  }
+  return config;
+}
+
 Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
-  Exchange exchange(config, store, now);
+  Exchange exchange(for_fleet(config), store, now);
   const auto orders = store.meta(kHoldKey);
   if (!orders) return tl::unexpected(orders.error());
   if (*orders) exchange.holds_.load(**orders);

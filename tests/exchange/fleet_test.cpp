@@ -95,6 +95,38 @@ TEST(Fleet, keeps_the_budget_of_the_radio_in_every_window) {
   }
 }
 
+TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robots) {
+  for (const std::size_t robots : {3u, 5u, 10u, 20u}) {
+    std::vector<std::string> names;
+    for (std::size_t k = 1; k <= robots; ++k) names.push_back("r" + std::to_string(k));
+    SimFleet fleet(names, {}, 3);
+    for (const auto& name : names) fleet.start(name);
+    fleet.run_for(std::chrono::minutes(1));
+    fleet.forget_sent();
+    // Each makes a node once, so that digests come as often as they do while something changes.
+    for (const auto& name : names) fleet.add_node(name, 0.0);
+    fleet.run_for(std::chrono::minutes(4));
+    double bytes = 0.0;
+    for (const auto& sent : fleet.sent()) {
+      const bool fixed = std::holds_alternative<AgentStatus>(sent.outgoing.message) ||
+                         std::holds_alternative<Digest>(sent.outgoing.message);
+      bytes += fixed ? static_cast<double>(sent.wire_bytes) : 0.0;
+    }
+    EXPECT_LT(bytes, 0.25 * fleet.config().long_range.fleet_bytes_per_second * 240.0) << robots << " robots";
+    EXPECT_TRUE(fleet.equal_sets(robots)) << robots << " robots";
+  }
+}
+
+TEST(ForFleet, ASmallFleetOnTheUsualBudgetKeepsItsPeriods) {
+  ExchangeConfig config;
+  for (const char* name : {"r1", "r2", "r3", "r4", "r5"}) config.fleet.push_back(agent(name));
+  EXPECT_EQ(for_fleet(config).status_period, config.status_period);
+  config.long_range.fleet_bytes_per_second /= 3.0;
+  EXPECT_NEAR(to_seconds(for_fleet(config).status_period), 3.0 * to_seconds(config.status_period), 1e-6);
+  config.long_range.one_for_all = true;  // a quarter of the datagrams
+  EXPECT_EQ(for_fleet(config).status_period, config.status_period);
+}
+
 TEST(Fleet, small_messages_do_not_wait_behind_clouds) {
   SimFleet fleet({"r1", "r2"}, {}, 7, [](ExchangeConfig& config) {
     config.encounters.spacing_m = config.encounters.spacing_aligned_m = 0.0;  // as many clouds as will go

@@ -29,6 +29,8 @@ struct DdsLinkConfig {
   std::vector<std::string> peers = {};
   std::uint32_t participants_per_peer =
       0;                                ///< how many participant ids to try on a peer; 0: as the profile says
+  /// Radios: what is for all goes once, to a multicast group, if the radio carries that; all robots alike.
+  bool multicast = false;
   std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
   std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
   bool shared_memory = true;            ///< false leaves out the profile's shared memory transports
@@ -59,6 +61,8 @@ class DdsBus final : public Bus {
   /// Finishes the work item under way; work, messages and callbacks that wait are let go.
   ~DdsBus() override;
 
+  /// The system's time when the bus was made, and what has passed since: a clock that is set meanwhile stops
+  /// and repeats nothing.
   Stamp now() const override;
   void advertise(const Topic& topic) override;
   void publish(const Topic& topic, const Bytes& cdr) override;

@@ -57,6 +57,8 @@ Status DdsBusConfig::validate() const {
 }
 
 struct DdsBus::State {
+  const Stamp begun = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  const Executor::Clock::time_point begun_steady = Executor::Clock::now();
   std::shared_ptr<Executor> executor = std::make_shared<Executor>();
   std::map<Link, std::shared_ptr<LinkEnd>> links;
   std::mutex disabled_mutex;  ///< guards disabled
@@ -90,7 +92,9 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
 DdsBus::DdsBus(std::unique_ptr<State> state) : state_(std::move(state)) {}
 DdsBus::~DdsBus() = default;
 
-Stamp DdsBus::now() const { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
+Stamp DdsBus::now() const {
+  return state_->begun + std::chrono::duration_cast<Duration>(Executor::Clock::now() - state_->begun_steady);
+}
 
 void DdsBus::advertise(const Topic& topic) {
   if (auto* link = state_->link(topic)) link->advertise(topic);

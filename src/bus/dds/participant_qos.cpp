@@ -32,6 +32,7 @@ bool is_ipv4(const std::string& text) {
 }
 
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.2, 9.6.1.4.1
+constexpr const char* kFleetGroup = "239.255.77.1";     // of radios that carry multicast
 constexpr std::uint32_t kParticipantsHere = 16;         // looked for on this machine
 
 struct Peer {
@@ -236,6 +237,7 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
     const eprosima::fastdds::dds::DomainParticipantQos& qos) {
   eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes;
   attributes.setName(participant_name(agent, link).c_str());
+  attributes.participantID = unused_number();
   attributes.port = qos.wire_protocol().port;
   attributes.builtin.discovery_config.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::NONE;
   attributes.builtin.use_WriterLivelinessProtocol = false;
@@ -244,7 +246,16 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
   restrict_to(own_address(config), attributes.userTransports);
   attributes.defaultUnicastLocatorList.push_back(
       to_locator({"0.0.0.0", first_port(config, attributes.port)}));
+  if (const auto group = multicast_group(config, qos))
+    attributes.defaultMulticastLocatorList.push_back(*group);
   return attributes;
+}
+
+std::optional<Locator_t> multicast_group(const DdsLinkConfig& config,
+                                         const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  if (!config.multicast) return std::nullopt;
+  const auto port = qos.wire_protocol().port.getMulticastPort(config.domain);
+  return to_locator({kFleetGroup, static_cast<std::uint16_t>(port)});
 }
 
 std::vector<Locator_t> listening_places(const DdsLinkConfig& config,

@@ -488,10 +488,12 @@ void RadioLink::forget(Prefix robot) {
 }
 
 rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer) const {
-  rtps::ReaderProxyData data(1, 0);
+  rtps::ReaderProxyData data(1, 1);
   data.guid({robot, data_reader_->getGuid().entityId});
   data.topicKind(rtps::NO_KEY);
   data.add_unicast_locator(peer.locator);
+  // Fast DDS sends to the group instead as soon as two robots read a topic.
+  if (const auto group = multicast_group(config_, profile_)) data.add_multicast_locator(*group);
   return data;
 }
 
