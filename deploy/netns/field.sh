@@ -72,17 +72,19 @@ all_heard() {
 }
 now() { date +%s%N; }
 
-# Samples the radio each second into $worst (kbit of the worst second) while it waits for `$1` at most `$2` s.
+# Samples the radio each second into $series and $worst (kbit/s) while it waits for `$1` at most `$2` s.
 watch_radio() { # condition, seconds
-  local begin last second bytes
+  local begin last second bytes kbit
   begin=$(now) second=$begin last=$(passed radio)
-  worst=0 waited=
+  worst=0 waited= series=
   while :; do
     sleep 0.1
     if [[ -z $waited ]] && $1; then waited=$((($(now) - begin) / 1000000)); fi
     if (($(now) - second >= 1000000000)); then
       bytes=$(passed radio)
-      ((worst = (bytes - last) * 8 / 1000 > worst ? (bytes - last) * 8 / 1000 : worst))
+      kbit=$(((bytes - last) * 8000000 / ($(now) - second)))
+      worst=$((kbit > worst ? kbit : worst))
+      series+=" $kbit"
       last=$bytes second=$(now)
     fi
     (($(now) - begin < $2 * 1000000000)) || return 0
@@ -92,6 +94,7 @@ never() { false; }
 seconds_of() { [[ -n $1 ]] && echo "$(($1 / 1000)).$(($1 / 100 % 10)) s" || echo "not in time"; }
 verdict() { # holds (0 or 1), text
   echo "$scenario, $agents robots, $radio kbit/s: $2: $(((!$1)) && echo FAILED || echo ok)"
+  echo "  kbit/s, second by second:$series" >> "$out/series.txt"
   (($1))
 }
 

@@ -52,7 +52,14 @@ ExchangeConfig for_fleet(ExchangeConfig config) {
 
 Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
-  Exchange exchange(for_fleet(config), store, now);
+  const ExchangeConfig adapted = for_fleet(config);
+  Exchange exchange(adapted, store, now);
+  // A large fleet that starts at once would else tell all at once.
+  const auto place = std::ranges::find(config.fleet, store.self()) - config.fleet.begin();
+  const double share = static_cast<double>(place) / static_cast<double>(config.fleet.size());
+  exchange.next_status_ = now + longer(adapted.status_period - config.status_period, share);
+  exchange.reconcile_.begin_at(
+      now + longer(adapted.reconcile.digest_min_period - config.reconcile.digest_min_period, share));
   const auto orders = store.meta(kHoldKey);
   if (!orders) return tl::unexpected(orders.error());
   if (*orders) exchange.holds_.load(**orders);

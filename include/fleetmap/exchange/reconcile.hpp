@@ -43,6 +43,8 @@ class Reconcile {
  public:
   Reconcile(const AgentId& self, const ReconcileConfig& config);
 
+  /// No digest before.
+  void begin_at(Stamp first_digest) { next_digest_ = first_digest; }
   void on_digest(const Digest& digest, const store::Store& store, Stamp now);
   void on_heard(const AgentId& peer, Stamp now);
   /// A node or alignment was added to the store.

@@ -29,8 +29,8 @@ using rtps::IPLocator;
 constexpr auto kTick = std::chrono::milliseconds(50);
 constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
 /// Bytes of a Hello on the wire, and what part of the medium they may take while a fleet starts.
-constexpr double kHelloBits = 8.0 * 220.0;
-constexpr double kHelloRate = 100e3;                   // bit/s
+constexpr double kHelloBits = 8.0 * 250.0;
+constexpr double kHelloRate = 95e3;                    // bit/s
 constexpr auto kFirstPause = std::chrono::seconds(1);  // until a Hello is repeated, and the spread besides
 constexpr std::size_t kMostPlaces = 256;               // strangers may name so many
 constexpr std::size_t kMostHellos = 256;               // that wait for the callback thread
@@ -412,8 +412,10 @@ void RadioLink::tick() {
   for (const auto& place : places_) {
     if (place->next == Clock::time_point{}) {
       place->pause = first;
-      place->next = now + std::chrono::duration_cast<Clock::duration>(
-                              spread() * std::uniform_real_distribution(0.0, 1.0)(random_));
+      // The first Hello of a pair is answered and makes the other one needless. With this distribution of
+      // both the first ones come at a steady rate.
+      const double late = std::uniform_real_distribution(0.0, 1.0)(random_);
+      place->next = now + std::chrono::duration_cast<Clock::duration>(spread() * (1.0 - late * late));
     }
     if (place->robot) {
       const auto last = heard.find(*place->robot);
