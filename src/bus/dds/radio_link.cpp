@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -30,7 +31,8 @@ constexpr auto kTick = std::chrono::milliseconds(50);
 constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
 /// Bytes of a Hello on the wire, and what part of the medium they may take while a fleet starts.
 constexpr double kHelloBits = 8.0 * 250.0;
-constexpr double kHelloRate = 95e3;                    // bit/s
+constexpr double kHelloRate = 60e3;                    // bit/s
+constexpr double kLongestSpread = 8.0;                 // s: a fleet is to know itself within ten
 constexpr auto kFirstPause = std::chrono::seconds(1);  // until a Hello is repeated, and the spread besides
 constexpr std::size_t kMostPlaces = 256;               // strangers may name so many
 constexpr std::size_t kMostHellos = 256;               // that wait for the callback thread
@@ -343,8 +345,9 @@ RadioLink::Clock::duration RadioLink::spread() const {
     return !IPLocator::compareAddress(place->locator, own_) && !IPLocator::isLocal(place->locator);
   };
   const auto others = static_cast<double>(std::ranges::count_if(places_, elsewhere));
+  const double seconds = others * (others + 1.0) * kHelloBits / kHelloRate;
   return std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(others * (others + 1.0) * kHelloBits / kHelloRate));
+      std::chrono::duration<double>(std::min(seconds, kLongestSpread)));
 }
 
 Status RadioLink::add_place(const Locator& locator) {
@@ -412,10 +415,10 @@ void RadioLink::tick() {
   for (const auto& place : places_) {
     if (place->next == Clock::time_point{}) {
       place->pause = first;
-      // The first Hello of a pair is answered and makes the other one needless. With this distribution of
-      // both the first ones come at a steady rate.
-      const double late = std::uniform_real_distribution(0.0, 1.0)(random_);
-      place->next = now + std::chrono::duration_cast<Clock::duration>(spread() * (1.0 - late * late));
+      // The first Hello of a pair is answered and makes the other one needless, unless it was lost: so more
+      // of them are sent late.
+      const double late = std::pow(std::uniform_real_distribution(0.0, 1.0)(random_), 1.5);
+      place->next = now + std::chrono::duration_cast<Clock::duration>(spread() * (1.0 - late));
     }
     if (place->robot) {
       const auto last = heard.find(*place->robot);
