@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Agents as processes, each in a network namespace, around one radio and one Wi-Fi that they share. Root; needs iproute2
 # and a built program. Namespaces are its own and go when it ends, also when it is interrupted.
-#   deploy/netns/field.sh --agents N --scenario NAME [--radio KBIT] [--program FILE] [--out DIR]
+#   deploy/netns/field.sh --agents N --scenario NAME [--radio KBIT] [--wifi KBIT] [--program FILE] [--out DIR]
+#                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves
 # Prints a line a scenario and exits with 1 if what the scenario asserts does not hold. Bytes are those of the interface
 # behind the queue that all share, not our own counters.
 set -euo pipefail
@@ -14,13 +15,16 @@ radio=200
 wifi=15000
 program=$root/build/release/bin/fleetmap
 out=
-usage() { sed -n '2,6s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+recordings=
+usage() { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   (($# > 1)) || usage
   case $1 in
     --agents) agents=$2 ;;
     --scenario) scenario=$2 ;;
     --radio) radio=$2 ;;
+    --wifi) wifi=$2 ;;
+    --recordings) recordings=$2 ;;
     --program) program=$2 ;;
     --out) out=$2 ;;
     *) usage ;;
@@ -50,7 +54,11 @@ write_configs() {
 id: r$i
 fleet: [$(names)]
 directory: $out/r$i
-lidar: {model: vlp16}
+site: {origin: [39.0, -3.0, 600.0]}
+lidar: {model: vlp16, translation: [0.0, 0.0, 0.6], max_range: 40.0, min_range: 0.6}
+imu: {translation: [0.0, 0.0, 0.1]}
+gps: {translation: [-0.2, 0.0, 0.5]}
+nodes: {spacing: 4.0}
 dds:
   qos: $root/qos
   onboard: {domain: $((10 + i)), shared_memory: false}
@@ -61,7 +69,7 @@ YAML
 }
 
 start() { # robot number
-  in_space "robot$1" "$program" agent -c "$scratch/r$1.yaml" --exit-after-idle 0 >> "$out/r$1.log" 2>&1 &
+  in_space "robot$1" "$program" agent -c "$scratch/r$1.yaml" --exit-after-idle "${idle:-0}" >> "$out/r$1.log" 2>&1 &
   disown $!
 }
 # How many others each of the robots has heard on the radio since its log was begun anew.
@@ -87,7 +95,7 @@ watch_radio() { # condition, seconds
       series+=" $kbit"
       last=$bytes second=$(now)
     fi
-    (($(now) - begin < $2 * 1000000000)) || return 0
+    (($(now) - begin < $2 * 1000000000)) && [[ -z $waited || $scenario != map ]] || return 0
   done
 }
 never() { false; }
@@ -130,6 +138,26 @@ scenario_idle() { # what a fleet that waits costs
   watch_radio never 60
   local rate=$((($(passed radio) - before) * 8 / 60 / 1000))
   verdict $((rate * 5 < radio && worst <= 160)) "$rate kbit/s over 60 s, worst second $worst kbit/s"
+}
+
+all_ended() {
+  local i
+  for ((i = 1; i <= agents; ++i)); do [[ -z $(ip netns pids "$(space "robot$i")") ]] || return 1; done
+}
+scenario_map() { # recordings are replayed in real time; all must end with the same whole map
+  local i wifi_before maps
+  [[ -d $recordings/r$agents ]] || { echo "--recordings $recordings: has no r$agents" >&2; exit 2; }
+  idle=10
+  wifi_before=$(passed wifi)
+  all_start
+  for ((i = 1; i <= agents; ++i)); do
+    in_space "robot$i" "$program" replay -c "$scratch/r$i.yaml" "$recordings/r$i" >> "$out/replay$i.log" 2>&1 &
+    disown $!
+  done
+  watch_radio all_ended 420
+  maps=$(for ((i = 1; i <= agents; ++i)); do "$program" map info "$out/r$i/store.db" | sed -n 2p; done | sort | uniq -c)
+  verdict $([[ -n $waited && $(wc -l <<< "$maps") == 1 && $maps != *" 0 alignments"* ]] && ((worst <= 160)) && echo 1 || echo 0) \
+    "ended after $(seconds_of "$waited") with$maps; radio $((($(passed radio)) / 1000)) kB, worst second $worst kbit/s, $(dropped radio) dropped; Wi-Fi $((($(passed wifi) - wifi_before) / 1000000)) MB, $(dropped wifi) dropped"
 }
 
 declare -F "scenario_$scenario" > /dev/null || {

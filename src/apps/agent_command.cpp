@@ -26,6 +26,8 @@ constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
 /// What others get to come back and bring what is missing.
 constexpr Duration kPeerPatience = std::chrono::minutes(1);
+/// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
+constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 
 struct AgentOptions {
@@ -150,7 +152,16 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, DriveWatchdog* watchd
   // Before anything that takes time.
   if (watchdog != nullptr) watchdog->stand();
   agent.halt();
-  if (!rest_frozen) agent.freeze_rest();  // told to end
+  if (rest_frozen) return;
+  // Told to end: the last node goes to whoever is in reach, or their maps would lack what this robot's has.
+  agent.freeze_rest();
+  Stamp busy = bus.now();
+  bus.run_until(
+      [&] {
+        if (!agent.idle()) busy = bus.now();
+        return bus.now() - busy > kQuiet;
+      },
+      kFarewell);
 }
 
 /// `directory`, or with a number behind it if it holds a bag of an earlier start.

@@ -448,6 +448,13 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     const std::scoped_lock lock(received_->mutex);
     received_->heard[sender] = Clock::now();
   }
+  if (hello.sender == agent_ && namesakes_.insert(sender).second) {
+    spdlog::error(
+        "{}: another robot at {}.{}.{}.{} is named {}, too: each needs a name of its own, or their "
+        "nodes are taken for conflicts",
+        to_string(link_), hello.address[0], hello.address[1], hello.address[2], hello.address[3],
+        agent_.str());
+  }
   Locator from;
   from.kind = LOCATOR_KIND_UDPv4;
   IPLocator::setIPv4(from, hello.address.data());

@@ -94,6 +94,7 @@ class RadioLink final : public LinkEnd {
   std::map<Prefix, Peer> peers_;
   std::map<EntityKey, End*> ends_;
   std::set<EntityKey> reads_;
+  std::set<Prefix> namesakes_;  ///< told of in the log
 };
 
 }  // namespace fleetmap::bus
