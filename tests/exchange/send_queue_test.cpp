@@ -49,7 +49,9 @@ TEST(TokenBucket, refills_nothing_when_the_clock_runs_backwards) {
 }
 
 TEST(SendQueue, sends_small_messages_before_clouds_that_wait_longer) {
-  SendQueue queue({}, 2, testing::payload_size);
+  LongRangeConfig config;
+  config.burst_seconds = 0.5;
+  SendQueue queue(config, 2, testing::payload_size);
   for (auto& fragment : split_cloud(kSelf, kPeer, {kSelf, 0}, Bytes(25'000, 1)))
     queue.push(Priority::kCloud, fragment);
   queue.push(Priority::kState, Digest{kSelf, {}, {}});
@@ -115,6 +117,7 @@ TEST(SendQueue, counts_every_copy_and_header) {
 
 TEST(SendQueue, shares_the_rest_evenly_between_backfill_and_clouds) {
   LongRangeConfig config;
+  config.burst_seconds = 0.5;
   config.max_backfill = 2000;
   SendQueue queue(config, 2, testing::payload_size);
   for (std::uint32_t seq = 0; seq < 2000; ++seq) queue.push(Priority::kBackfill, node(seq), kPeer);

@@ -43,7 +43,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<(fastdds|fastrtps)/", {"src/bus/dds"}},
     {"^\"fleetmap/bus/dds_bus", {"src/bus/dds", "include/fleetmap/config", "src/config", "src/apps"}},
     {"^\"\\.\\./", {}},
-    {"^<fastcdr/", {"src/wire"}},
+    {"^<fastcdr/", {"src/wire", "src/bus/dds/hello.cpp"}},
     {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},
     {"^<pcl/", {"src/registration/paper_registration.cpp"}},
     {"^<draco/", {"src/cloud"}},
