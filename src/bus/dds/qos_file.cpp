@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <sstream>
 
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -62,10 +63,10 @@ Status prefix_transport_ids(tinyxml2::XMLElement& participant, const std::string
   for (auto* id = used ? used->FirstChildElement() : nullptr; id; id = id->NextSiblingElement()) {
     const std::string name = id->GetText();
     if (!names.transports.contains(name)) {
-      std::string message = file;
-      message += ":" + std::to_string(id->GetLineNum()) + ": no <transport_descriptor> has the id \"";
-      message += name + "\"; define it in <transport_descriptors> before its use";
-      return failure(message);
+      std::ostringstream message;
+      message << file << ':' << id->GetLineNum() << ": no <transport_descriptor> has the id \"" << name
+              << "\"; define it in <transport_descriptors> before its use";
+      return failure(message.str());
     }
     id->SetText((prefix + name).c_str());
   }
