@@ -242,7 +242,6 @@ Result<RobotConfig> read_robot(Document& document) {
   if (!top.has("id")) top.problem("id", "expected the robot's name, e.g. id: r1");
   robot.dds.agent = robot.agent.id;
   read_dds(top, robot.dds);
-  robot.agent.exchange.long_range.one_for_all = robot.dds.long_range.multicast;
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);
@@ -346,7 +345,6 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   robot.dds.agent = robot.agent.id;
   robot.dds.qos_directory = "qos";
   read_dds(top, robot.dds);
-  robot.agent.exchange.long_range.one_for_all = robot.dds.long_range.multicast;
   robot.recording = read_recording(top);
   top.has("mission");  // of no concern to the sensors
   top.finish();

@@ -304,7 +304,6 @@ void read_dds_link(Section& dds, const char* key, bus::DdsLinkConfig& link) {
   section.read("peers", link.peers);
   section.read("participants_per_peer", link.participants_per_peer);
   section.read("shared_memory", link.shared_memory);
-  section.read("multicast", link.multicast);
   section.finish();
 }
 

@@ -33,7 +33,7 @@ Status LongRangeConfig::validate() const {
 SendQueue::SendQueue(const LongRangeConfig& config, std::size_t fleet_size,
                      std::function<std::size_t(const Message&)> payload_size)
     : config_(config),
-      receivers_(config.one_for_all ? 1 : std::max<std::size_t>(fleet_size, 2) - 1),
+      receivers_(std::max<std::size_t>(fleet_size, 2) - 1),
       payload_size_(std::move(payload_size)),
       share_(config.fleet_bytes_per_second / static_cast<double>(std::max<std::size_t>(fleet_size, 1))),
       bucket_(share_, std::max(config.burst_seconds * share_, config.min_burst_bytes)) {}

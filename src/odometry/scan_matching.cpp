@@ -67,7 +67,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
   double slack = initial_error;
   for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
-    linearise(planes, edges, map, result.state, slack, slack > kFinalSlack ? some : 1);
+    const bool last = slack <= kFinalSlack || result.iterations == config_.max_iterations;
+    linearise(planes, edges, map, result.state, slack, last ? 1 : some);
     NormalEquations lidar = collect();
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -233,29 +232,6 @@ TEST_F(QosDirectory, APeerThatVanishesDoesNotHoldUpAWriter) {
     EXPECT_TRUE(
         sender->run_until([&] { return sender->matches(topic).readers == 0; }, std::chrono::seconds(60)));
   }
-}
-
-TEST_F(QosDirectory, ByMulticastEachOfSeveralHearsAMessageOnce) {
-  config_.long_range.multicast = true;
-  const Topic topic{Link::kLongRange, "fleetmap/node", "fleetmap::Node", "small"};
-  const auto sender = DdsBus::create(config_).value();
-  sender->advertise(topic);
-  std::vector<std::unique_ptr<DdsBus>> receivers;
-  std::vector<Handle> handles;
-  std::array<int, 2> heard{};
-  for (std::size_t k = 0; k < heard.size(); ++k) {
-    config_.agent = AgentId::parse("r" + std::to_string(k + 2)).value();
-    receivers.push_back(DdsBus::create(config_).value());
-    handles.push_back(receivers[k]->subscribe(topic, [&heard, k](const Bytes&) { ++heard[k]; }));
-  }
-  const auto run_all = [&](const std::function<bool()>& done) {
-    return run_both(*sender, *receivers[0],
-                    [&] { return receivers[1]->run_until(done, std::chrono::milliseconds(2)); });
-  };
-  ASSERT_TRUE(run_all([&] { return sender->matches(topic).readers == 2; }));
-  for (int n = 0; n < 5; ++n) sender->publish(topic, Bytes(100));
-  EXPECT_TRUE(run_all([&] { return heard[0] >= 5 && heard[1] >= 5; }));
-  EXPECT_EQ(heard, (std::array{5, 5}));
 }
 
 TEST_F(QosDirectory, WithoutATimeoutTheBusRunsUntilTheConditionHolds) {

@@ -123,8 +123,6 @@ TEST(ForFleet, ASmallFleetOnTheUsualBudgetKeepsItsPeriods) {
   EXPECT_EQ(for_fleet(config).status_period, config.status_period);
   config.long_range.fleet_bytes_per_second /= 3.0;
   EXPECT_NEAR(to_seconds(for_fleet(config).status_period), 3.0 * to_seconds(config.status_period), 1e-6);
-  config.long_range.one_for_all = true;  // a quarter of the datagrams
-  EXPECT_EQ(for_fleet(config).status_period, config.status_period);
 }
 
 TEST(Fleet, small_messages_do_not_wait_behind_clouds) {

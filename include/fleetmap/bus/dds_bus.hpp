@@ -28,9 +28,7 @@ struct DdsLinkConfig {
   /// as the profile says, or else this machine. Onboard the loopback's multicast group is asked as well.
   std::vector<std::string> peers = {};
   std::uint32_t participants_per_peer =
-      0;  ///< how many participant ids to try on a peer; 0: as the profile says
-  /// Radios: what is for all goes once, to a multicast group, if the radio carries that; all robots alike.
-  bool multicast = false;
+      0;                                ///< how many participant ids to try on a peer; 0: as the profile says
   std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
   std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
   bool shared_memory = true;            ///< false leaves out the profile's shared memory transports

@@ -37,8 +37,7 @@ struct LongRangeConfig {
   double small_reserve_bytes = 300;  ///< B, left by backfill and clouds so that a small message goes at once
   std::size_t overhead_bytes = 160;  ///< B a message, as captured: 28 of IP and UDP, 132 of RTPS
   bool deliver_to_one =
-      true;                  ///< a message with a recipient goes to it alone; false: every agent gets a copy
-  bool one_for_all = false;  ///< what is for all is one datagram (multicast); else one for each of the others
+      true;  ///< a message with a recipient goes to it alone; false: every agent gets a copy
   std::size_t max_small = 512;  ///< messages waiting in each of the classes safety, control, news and state
   std::size_t max_backfill = 512;   ///< messages
   std::size_t max_fragments = 512;  ///< messages
@@ -99,7 +98,7 @@ class SendQueue {
   std::optional<std::size_t> next() const;
 
   LongRangeConfig config_;
-  std::size_t receivers_;  ///< datagrams of what is for all
+  std::size_t receivers_;
   std::function<std::size_t(const Message&)> payload_size_;
   double share_;
   TokenBucket bucket_;

@@ -1,5 +1,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+
 #include <array>
 #include <map>
 #include <mutex>
@@ -74,6 +76,10 @@ struct DdsBus::State {
 
 Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());
+  // Buses of one process would else reach into each other's readers, which may be gone.
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
   auto state = std::make_unique<State>();
   for (const Link link : kLinks) {
     const DdsLinkConfig& own = config_of(config, link);

@@ -32,7 +32,6 @@ bool is_ipv4(const std::string& text) {
 }
 
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.2, 9.6.1.4.1
-constexpr const char* kFleetGroup = "239.255.77.1";     // of radios that carry multicast
 constexpr std::uint32_t kParticipantsHere = 16;         // looked for on this machine
 
 struct Peer {
@@ -246,16 +245,7 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
   restrict_to(own_address(config), attributes.userTransports);
   attributes.defaultUnicastLocatorList.push_back(
       to_locator({"0.0.0.0", first_port(config, attributes.port)}));
-  if (const auto group = multicast_group(config, qos))
-    attributes.defaultMulticastLocatorList.push_back(*group);
   return attributes;
-}
-
-std::optional<Locator_t> multicast_group(const DdsLinkConfig& config,
-                                         const eprosima::fastdds::dds::DomainParticipantQos& qos) {
-  if (!config.multicast) return std::nullopt;
-  const auto port = qos.wire_protocol().port.getMulticastPort(config.domain);
-  return to_locator({kFleetGroup, static_cast<std::uint16_t>(port)});
 }
 
 std::vector<Locator_t> listening_places(const DdsLinkConfig& config,

@@ -3,7 +3,6 @@
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,9 +31,6 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
     const eprosima::fastdds::dds::DomainParticipantQos& qos);
 /// The address that a robot has on a radio: the loopback where none is set.
 std::string own_address(const DdsLinkConfig& config);
-/// The group of a radio's domain; empty unless the configuration says multicast.
-std::optional<eprosima::fastrtps::rtps::Locator_t> multicast_group(
-    const DdsLinkConfig& config, const eprosima::fastdds::dds::DomainParticipantQos& qos);
 /// Where others may listen: the ports of each peer that `config` names, of this machine where it names none.
 std::vector<eprosima::fastrtps::rtps::Locator_t> listening_places(
     const DdsLinkConfig& config, const eprosima::fastdds::dds::DomainParticipantQos& qos);

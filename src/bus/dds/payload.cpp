@@ -7,6 +7,7 @@ namespace {
 
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
+constexpr std::uint32_t kMostBytes = 4u << 20;  // of a message on a radio
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kOptions = 3;       // last byte of the header ...
 constexpr std::uint8_t kPaddingBits = 3;  // ... whose two low bits count the padding at the end
@@ -39,13 +40,14 @@ bool read_payload(const SerializedPayload_t& payload, Bytes& cdr) {
 }
 
 bool PayloadPool::get_payload(std::uint32_t size, Change& change) {
+  if (size > kMostBytes) return false;  // a fragment may announce 4 GiB
   change.serializedPayload.reserve(size);
   change.payload_owner(this);
   return true;
 }
 
 bool PayloadPool::get_payload(Payload& data, IPayloadPool*& /*owner*/, Change& change) {
-  if (!change.serializedPayload.copy(&data, false)) return false;
+  if (data.length > kMostBytes || !change.serializedPayload.copy(&data, false)) return false;
   change.payload_owner(this);
   return true;
 }

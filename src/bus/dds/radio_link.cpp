@@ -34,8 +34,11 @@ constexpr double kHelloBits = 8.0 * 250.0;
 constexpr double kHelloRate = 60e3;                    // bit/s
 constexpr double kLongestSpread = 8.0;                 // s: a fleet is to know itself within ten
 constexpr auto kFirstPause = std::chrono::seconds(1);  // until a Hello is repeated, and the spread besides
-constexpr std::size_t kMostPlaces = 256;               // strangers may name so many
-constexpr std::size_t kMostHellos = 256;               // that wait for the callback thread
+/// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
+constexpr auto kStillThere = std::chrono::seconds(2);
+constexpr std::size_t kMostNamesakes = 16;
+constexpr std::size_t kMostPlaces = 256;                   // strangers may name so many
+constexpr std::size_t kMostHellos = 256;                   // that wait for the callback thread
 constexpr std::int16_t kHelloReader = 1, kDataReader = 2;  // entity ids
 constexpr std::uint32_t kHelloWriters = 0xff0000;          // entity ids of writers from here on
 
@@ -307,7 +310,7 @@ Status RadioLink::open() {
   hello_reader->enableMessagesFromUnkownWriters(true);
 
   for (const Locator& place : listening_places(config_, profile_)) {
-    if (Status added = add_place(place); !added) return added;
+    if (Status added = add_place(place, /*configured=*/true); !added) return added;
   }
   return {};
 }
@@ -342,7 +345,8 @@ std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std
 /// to this machine does not take the medium.
 RadioLink::Clock::duration RadioLink::spread() const {
   const auto elsewhere = [this](const auto& place) {
-    return !IPLocator::compareAddress(place->locator, own_) && !IPLocator::isLocal(place->locator);
+    return place->configured && !IPLocator::compareAddress(place->locator, own_) &&
+           !IPLocator::isLocal(place->locator);
   };
   const auto others = static_cast<double>(std::ranges::count_if(places_, elsewhere));
   const double seconds = others * (others + 1.0) * kHelloBits / kHelloRate;
@@ -350,10 +354,11 @@ RadioLink::Clock::duration RadioLink::spread() const {
       std::chrono::duration<double>(std::min(seconds, kLongestSpread)));
 }
 
-Status RadioLink::add_place(const Locator& locator) {
+Status RadioLink::add_place(const Locator& locator, bool configured) {
   if (locator == own_ || places_.size() >= kMostPlaces) return {};
   auto place = std::make_unique<Place>();
   place->locator = locator;
+  place->configured = configured;
   place->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
   rtps::WriterAttributes attributes;
   attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
@@ -361,7 +366,7 @@ Status RadioLink::add_place(const Locator& locator) {
   attributes.endpoint.topicKind = rtps::NO_KEY;
   attributes.mode = rtps::SYNCHRONOUS_WRITER;
   without_data_sharing(attributes.endpoint);
-  const auto number = static_cast<std::uint32_t>(places_.size());
+  const std::uint32_t number = ++hello_writers_ % (0xffffff - kHelloWriters);
   place->writer = rtps::RTPSDomain::createRTPSWriter(participant_, writer_id(kHelloWriters + number),
                                                      attributes, payloads_, place->history.get());
   auto* writer = dynamic_cast<rtps::StatelessWriter*>(place->writer);
@@ -385,11 +390,12 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   }
   send(*place.writer, *place.history, encode(hello), 1);
   const auto now = Clock::now();
-  if (place.robot) peers_.at(*place.robot).told = now;
+  if (place.robot) peers_.at(*place.robot).told = peers_.at(*place.robot).greeted = now;
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
   place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * place.pause);
-  place.pause = std::min(2 * place.pause, announcement_);
+  const Clock::duration least = kFirstPause;
+  place.pause = std::clamp(2 * place.pause, least, std::max(announcement_, least));
 }
 
 void RadioLink::reads_changed() {
@@ -400,78 +406,90 @@ void RadioLink::reads_changed() {
 
 void RadioLink::tick() {
   std::deque<std::pair<Prefix, Bytes>> hellos;
-  std::map<Prefix, Clock::time_point> heard;
   {
     const std::scoped_lock lock(received_->mutex);
     hellos.swap(received_->hellos);
-    heard = received_->heard;
   }
   const std::scoped_lock lock(mutex_);
   for (const auto& [sender, cdr] : hellos) {
     if (const auto hello = decode_hello(cdr)) take(sender, *hello);
   }
+  for (const Prefix& robot : silent()) forget(robot);
   const auto now = Clock::now();
-  const auto first = std::chrono::duration_cast<Clock::duration>(kFirstPause) + spread();
   for (const auto& place : places_) {
     if (place->next == Clock::time_point{}) {
-      place->pause = first;
+      place->pause = std::chrono::duration_cast<Clock::duration>(kFirstPause) + spread();
       // The first Hello of a pair is answered and makes the other one needless, unless it was lost: so more
       // of them are sent late.
       const double late = std::pow(std::uniform_real_distribution(0.0, 1.0)(random_), 1.5);
       place->next = now + std::chrono::duration_cast<Clock::duration>(spread() * (1.0 - late));
     }
     if (place->robot) {
-      const auto last = heard.find(*place->robot);
-      if (last != heard.end() && now - last->second > lease_) {
-        spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(link_),
-                     peers_.at(*place->robot).agent.str(), to_text(place->locator),
-                     std::chrono::duration<double>(lease_).count());
-        forget(*place->robot);
-      } else if (now - peers_.at(*place->robot).told > announcement_) {
-        place->next = now;
-      }
+      const Peer& peer = peers_.at(*place->robot);
+      // What it should know may have been lost.
+      if (now - peer.told > announcement_ || now - peer.greeted > lease_ / 2) place->next = now;
     }
-    if (now >= place->next && (!place->robot || place->next != Clock::time_point::max())) {
-      say_hello(*place);
-      if (place->robot) place->next = Clock::time_point::max();
-    }
+    if (place->next == Clock::time_point::max() || now < place->next) continue;
+    say_hello(*place);
+    if (place->robot) place->next = Clock::time_point::max();
   }
 }
 
+/// Who was not heard for the lease.
+std::vector<RadioLink::Prefix> RadioLink::silent() const {
+  std::vector<Prefix> robots;
+  const auto now = Clock::now();
+  const std::scoped_lock lock(received_->mutex);
+  for (const auto& [robot, peer] : peers_) {
+    const auto last = received_->heard.find(robot);
+    if (last == received_->heard.end() || now - last->second <= lease_) continue;
+    spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(link_), peer.agent.str(),
+                 to_text(peer.locator), std::chrono::duration<double>(lease_).count());
+    robots.push_back(robot);
+  }
+  return robots;
+}
+
 void RadioLink::take(const Prefix& sender, const Hello& hello) {
+  if (sender == participant_->getGuid().guidPrefix) return;
+  Locator from;
+  from.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(from, hello.address.data());
+  from.port = hello.port;
+  if (!plausible(from)) return;
   if (hello.leaves) {
-    if (peers_.contains(sender)) spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
-    forget(sender);
-    return;
+    const auto peer = peers_.find(sender);
+    if (peer == peers_.end() || peer->second.agent != hello.sender || peer->second.locator != from) return;
+    spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
+    return forget(sender);
+  }
+  if (hello.sender == agent_ && namesakes_.size() < kMostNamesakes && namesakes_.insert(sender).second) {
+    spdlog::error(
+        "{}: another robot at {} is named {}, too: each needs a name of its own, or their nodes are "
+        "taken for conflicts",
+        to_string(link_), to_text(from), agent_.str());
+  }
+  Place* place = place_at(from);
+  if (place != nullptr && place->robot && *place->robot != sender) {
+    // It was started anew; unless it is still there, and somebody only says to be at its place.
+    if (heard_lately(*place->robot)) return;
+    forget(*place->robot);
+    place = place_at(from);
+  }
+  if (place == nullptr) {  // nobody that the configuration names
+    if (Status added = add_place(from, /*configured=*/false); !added) spdlog::warn(added.error().message);
+    place = place_at(from);
+    if (place == nullptr) return;
   }
   {
     const std::scoped_lock lock(received_->mutex);
     received_->heard[sender] = Clock::now();
   }
-  if (hello.sender == agent_ && namesakes_.insert(sender).second) {
-    spdlog::error(
-        "{}: another robot at {}.{}.{}.{} is named {}, too: each needs a name of its own, or their "
-        "nodes are taken for conflicts",
-        to_string(link_), hello.address[0], hello.address[1], hello.address[2], hello.address[3],
-        agent_.str());
-  }
-  Locator from;
-  from.kind = LOCATOR_KIND_UDPv4;
-  IPLocator::setIPv4(from, hello.address.data());
-  from.port = hello.port;
-  const auto at = [&from](const auto& place) { return place->locator == from; };
-  auto place = std::ranges::find_if(places_, at);
-  if (place == places_.end()) {  // nobody that the configuration names
-    if (Status added = add_place(from); !added) spdlog::warn(added.error().message);
-    place = std::ranges::find_if(places_, at);
-    if (place == places_.end()) return;
-  }
-  if ((*place)->robot && *(*place)->robot != sender) forget(*(*place)->robot);  // it was started anew
   Peer& peer = peers_[sender];
-  if (!(*place)->robot) {
+  if (!place->robot) {
     spdlog::info("{}: heard {} at {}", to_string(link_), hello.sender.str(), to_text(from));
-    (*place)->robot = sender;
-    (*place)->next = Clock::time_point::max();
+    place->robot = sender;
+    place->next = Clock::time_point::max();
   }
   peer.agent = hello.sender;
   peer.locator = from;
@@ -480,8 +498,33 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     end->meet(sender, peer);
     end->hear(sender);
   }
-  if (!hello.knows) say_hello(**place), (*place)->next = Clock::time_point::max();
+  if (!hello.knows) {
+    say_hello(*place);
+    place->next = Clock::time_point::max();
+  } else if (peer.greeted == Clock::time_point{}) {
+    peer.greeted = Clock::now();  // by what made it know us
+  }
   executor_->post([] {});  // wakes who waits for it
+}
+
+/// A robot may say that it listens at any address; at these none does.
+bool RadioLink::plausible(const Locator& locator) const {
+  const std::uint8_t first = IPLocator::getIPv4(locator)[0];
+  constexpr std::uint8_t kMulticast = 224;
+  return first != 0 && first < kMulticast && IPLocator::isLocal(locator) == IPLocator::isLocal(own_) &&
+         locator != own_;
+}
+
+RadioLink::Place* RadioLink::place_at(const Locator& locator) {
+  const auto place =
+      std::ranges::find_if(places_, [&](const auto& other) { return other->locator == locator; });
+  return place == places_.end() ? nullptr : place->get();
+}
+
+bool RadioLink::heard_lately(const Prefix& robot) const {
+  const std::scoped_lock lock(received_->mutex);
+  const auto last = received_->heard.find(robot);
+  return last != received_->heard.end() && Clock::now() - last->second < kStillThere;
 }
 
 void RadioLink::forget(Prefix robot) {
@@ -490,22 +533,22 @@ void RadioLink::forget(Prefix robot) {
     end->part(robot);
     end->part_from_writer(robot);
   }
-  for (const auto& place : places_) {
-    if (place->robot != robot) continue;
+  std::erase_if(places_, [&](const auto& place) {
+    if (place->robot != robot) return false;
     place->robot.reset();
     place->next = {};  // as at the start
-  }
+    if (!place->configured) rtps::RTPSDomain::removeRTPSWriter(place->writer);
+    return !place->configured;
+  });
   const std::scoped_lock lock(received_->mutex);
   received_->heard.erase(robot);
 }
 
 rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer) const {
-  rtps::ReaderProxyData data(1, 1);
+  rtps::ReaderProxyData data(1, 0);
   data.guid({robot, data_reader_->getGuid().entityId});
   data.topicKind(rtps::NO_KEY);
   data.add_unicast_locator(peer.locator);
-  // Fast DDS sends to the group instead as soon as two robots read a topic.
-  if (const auto group = multicast_group(config_, profile_)) data.add_multicast_locator(*group);
   return data;
 }
 

@@ -46,6 +46,7 @@ class RadioLink final : public LinkEnd {
   /// A place where a robot may listen.
   struct Place {
     Locator locator;
+    bool configured = true;  ///< else a robot that the configuration does not name
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
@@ -57,7 +58,8 @@ class RadioLink final : public LinkEnd {
     AgentId agent;
     Locator locator;
     std::set<EntityKey> reads;
-    Clock::time_point told{};  ///< when it last got anything from here
+    Clock::time_point told{};     ///< when it last got anything from here
+    Clock::time_point greeted{};  ///< when it last got a Hello
   };
 
   RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
@@ -65,7 +67,11 @@ class RadioLink final : public LinkEnd {
   std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) override;
   Status open();
   Status check_best_effort() const;
-  Status add_place(const Locator& locator);
+  Status add_place(const Locator& locator, bool configured);
+  Place* place_at(const Locator& locator);
+  bool plausible(const Locator& locator) const;
+  bool heard_lately(const Prefix& robot) const;
+  std::vector<Prefix> silent() const;
   Clock::duration spread() const;
   void tick();
   void take(const Prefix& sender, const Hello& hello);
@@ -94,7 +100,8 @@ class RadioLink final : public LinkEnd {
   std::map<Prefix, Peer> peers_;
   std::map<EntityKey, End*> ends_;
   std::set<EntityKey> reads_;
-  std::set<Prefix> namesakes_;  ///< told of in the log
+  std::uint32_t hello_writers_ = 0;  ///< made so far
+  std::set<Prefix> namesakes_;       ///< told of in the log
 };
 
 }  // namespace fleetmap::bus
