@@ -93,7 +93,8 @@ class OdometryFeed {
 
   void add(recording::Sample sample) {
     if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
-      waiting_.push_back(std::move(*scan));
+      const Stamp end = sensor::end_of(*scan);
+      waiting_.push_back({std::move(*scan), end});
     } else if (const auto* imu = std::get_if<sensor::Imu>(&sample);
                imu != nullptr && config_.odometry_uses_imu) {
       loam_.add_imu(*imu);
@@ -103,15 +104,13 @@ class OdometryFeed {
       loam_.add_wheel(*wheel);
       wheel_ = wheel->stamp;
     }
-    const Stamp newest = waiting_.empty() ? Stamp{} : waiting_.back().stamp;
-    while (!waiting_.empty() &&
-           (seen_through(waiting_.front()) || newest - waiting_.front().stamp > kPatience)) {
-      add_scan(waiting_.front());
+    while (!waiting_.empty() && due(waiting_.front())) {
+      add_scan(waiting_.front().scan);
       waiting_.pop_front();
     }
   }
   OdometryRun finish() {
-    for (const sensor::Scan& scan : waiting_) add_scan(scan);
+    for (const Waiting& waiting : waiting_) add_scan(waiting.scan);
     run_.counters = loam_.counters();
     return std::move(run_);
   }
@@ -120,13 +119,14 @@ class OdometryFeed {
   /// So far may a sensor that was heard lag behind; one that lags more has stopped.
   static constexpr Duration kPatience = std::chrono::milliseconds(250);
 
-  bool seen_through(const sensor::Scan& scan) const {
-    float last = 0.0f;
-    if (scan.has_time) {
-      for (const sensor::ScanPoint& point : scan.points) last = std::max(last, point.time);
-    }
-    const Stamp end = scan.stamp + from_seconds(static_cast<double>(last));
-    return (!imu_ || *imu_ >= end) && (!wheel_ || *wheel_ >= end);
+  struct Waiting {
+    sensor::Scan scan;
+    Stamp end;  ///< of its sweep
+  };
+
+  bool due(const Waiting& first) const {
+    const bool seen_through = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
+    return seen_through || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
   }
 
   void add_scan(const sensor::Scan& scan) {
@@ -151,7 +151,7 @@ class OdometryFeed {
   const agent::PerceptionConfig& config_;
   odometry::Loam loam_;
   OdometryRun run_;
-  std::deque<sensor::Scan> waiting_;
+  std::deque<Waiting> waiting_;
   std::optional<Stamp> imu_, wheel_;  ///< last heard
 };
 

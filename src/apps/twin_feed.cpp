@@ -80,9 +80,7 @@ void TwinFeed::deliver_pending() {
       scan.points.insert(scan.points.end(), part->points.begin(), part->points.end());
     }
     // As a driver does it: a sweep is sent when it ends, after what the other sensors saw meanwhile.
-    float last = 0.0f;
-    for (const sensor::ScanPoint& point : scan.points) last = std::max(last, point.time);
-    deliver_(next.member, scan, scan.stamp + from_seconds(static_cast<double>(last)));
+    deliver_(next.member, scan, sensor::end_of(scan));
   }
 }
 

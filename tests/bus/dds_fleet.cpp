@@ -1,5 +1,3 @@
-#include <fastrtps/xmlparser/XMLProfileManager.h>
-
 #include <stdexcept>
 
 #include "bus/dds_domains.hpp"
@@ -16,11 +14,6 @@ constexpr auto kTurn = std::chrono::milliseconds(1);
 class DdsFleet final : public Fleet {
  public:
   explicit DdsFleet(const FleetConfig& config) {
-    // Participants of one process would otherwise hand each other messages without a socket.
-    eprosima::fastrtps::LibrarySettingsAttributes settings;
-    settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
-    eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
-
     const std::uint32_t domain = first_test_domain();
     for (std::size_t i = 0; i < config.robots; ++i) {
       DdsBusConfig robot;

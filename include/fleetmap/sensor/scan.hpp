@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -23,5 +24,14 @@ struct Scan {
   bool has_ring = false;
   std::vector<ScanPoint> points;
 };
+
+/// When the last point was fired, as far as the points say; the stamp itself if they say nothing.
+inline Stamp end_of(const Scan& scan) {
+  float last = 0.0f;
+  if (scan.has_time) {
+    for (const ScanPoint& point : scan.points) last = std::max(last, point.time);
+  }
+  return scan.stamp + from_seconds(static_cast<double>(last));
+}
 
 }  // namespace fleetmap::sensor

@@ -76,7 +76,7 @@ struct DdsBus::State {
 
 Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());
-  // Buses of one process would else reach into each other's readers, which may be gone.
+  // Buses of one process would else hand each other messages without a socket, by readers that may be gone.
   eprosima::fastrtps::LibrarySettingsAttributes settings;
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
