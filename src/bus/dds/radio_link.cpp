@@ -1,5 +1,6 @@
 #include "radio_link.hpp"
 
+#include <fastdds/rtps/builtin/data/WriterProxyData.h>
 #include <fastdds/rtps/history/ReaderHistory.h>
 #include <fastdds/rtps/history/WriterHistory.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>
@@ -17,8 +18,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fastdds/rtps/builtin/data/ReaderProxyData.h"
-#include "fastdds/rtps/builtin/data/WriterProxyData.h"
 #include "participant_qos.hpp"
 
 namespace fleetmap::bus {
@@ -29,11 +28,20 @@ using rtps::IPLocator;
 
 constexpr auto kTick = std::chrono::milliseconds(50);
 constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
-/// Bytes of a Hello on the wire, and what part of the medium they may take while a fleet starts.
-constexpr double kHelloBits = 8.0 * 250.0;
-constexpr double kHelloRate = 60e3;                    // bit/s
-constexpr double kLongestSpread = 8.0;                 // s: a fleet is to know itself within ten
-constexpr auto kFirstPause = std::chrono::seconds(1);  // until a Hello is repeated, and the spread besides
+constexpr double kHelloBits = 8.0 * 250.0;                     // on the wire
+/// What Hellos of all robots together may take of the medium, bit/s: in the mean while a fleet starts, and in
+/// any second.
+struct HelloRates {
+  double mean, most;
+};
+constexpr HelloRates rates_of(Link link) {
+  return link == Link::kLongRange ? HelloRates{60e3, 130e3} : HelloRates{600e3, 1300e3};
+}
+constexpr double kLongestSpread = 6.0;  // s: a fleet is to know itself within ten
+constexpr auto kFirstPause =
+    std::chrono::seconds(1);     // until a Hello is repeated, and a part of the spread besides
+constexpr int kQuickHellos = 5;  // with this pause: the radio loses some; then the pause doubles each time
+constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 /// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
 constexpr auto kStillThere = std::chrono::seconds(2);
 constexpr std::size_t kMostNamesakes = 16;
@@ -57,11 +65,12 @@ std::uint32_t key_of(const rtps::EntityId_t& id) {
          id.value[2];
 }
 
-/// The same on every robot: FNV-1a of name and type.
+/// The same on every robot.
 std::uint32_t key_of(const Topic& topic) {
-  std::uint32_t hash = 2166136261u;
-  for (const char c : topic.name + '|' + topic.type) hash = (hash ^ static_cast<std::uint8_t>(c)) * 16777619u;
-  const std::uint32_t key = (hash ^ hash >> 24) & 0xffffffu;
+  const std::string text = topic.name + '|' + topic.type;
+  const ContentHash hash = content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  const std::uint32_t key = static_cast<std::uint32_t>(hash[0]) << 16 |
+                            static_cast<std::uint32_t>(hash[1]) << 8 | static_cast<std::uint32_t>(hash[2]);
   return key >= kHelloWriters ? key ^ 0x800000u : key;
 }
 
@@ -83,10 +92,25 @@ bool send(rtps::RTPSWriter& writer, rtps::WriterHistory& history, const Bytes& c
 
 rtps::HistoryAttributes unbounded_history() { return {rtps::DYNAMIC_RESERVE_MEMORY_MODE, 256, 0, 0}; }
 
-void without_data_sharing(rtps::EndpointAttributes& endpoint) {
+/// What all endpoints on radios are.
+template <class Attributes>
+Attributes best_effort() {
+  Attributes attributes;
+  attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
+  attributes.endpoint.durabilityKind = rtps::VOLATILE;
+  attributes.endpoint.topicKind = rtps::NO_KEY;
   eprosima::fastdds::dds::DataSharingQosPolicy off;
   off.off();
-  endpoint.set_data_sharing_configuration(off);
+  attributes.endpoint.set_data_sharing_configuration(off);
+  return attributes;
+}
+
+/// Takes a change out of its reader's history; empty for what is no message.
+std::optional<Bytes> taken(rtps::RTPSReader& reader, const rtps::CacheChange_t* change) {
+  std::optional<Bytes> cdr(std::in_place);
+  if (!read_payload(change->serializedPayload, *cdr)) cdr.reset();
+  reader.getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
+  return cdr;
 }
 
 }  // namespace
@@ -105,21 +129,17 @@ struct RadioLink::Received {
 
 class RadioLink::HelloListener final : public rtps::ReaderListener {
  public:
-  HelloListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor)
-      : received_(std::move(received)), executor_(std::move(executor)) {}
+  explicit HelloListener(std::shared_ptr<Received> received) : received_(std::move(received)) {}
   void onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) override {
-    Bytes cdr;
-    const bool whole = read_payload(change->serializedPayload, cdr);
     const Prefix sender = change->writerGUID.guidPrefix;
-    reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
-    if (!whole) return;
+    std::optional<Bytes> cdr = taken(*reader, change);
+    if (!cdr) return;
     const std::scoped_lock lock(received_->mutex);
-    if (received_->hellos.size() < kMostHellos) received_->hellos.emplace_back(sender, std::move(cdr));
+    if (received_->hellos.size() < kMostHellos) received_->hellos.emplace_back(sender, *std::move(cdr));
   }
 
  private:
   const std::shared_ptr<Received> received_;
-  const std::shared_ptr<Executor> executor_;
 };
 
 class RadioLink::DataListener final : public rtps::ReaderListener {
@@ -127,18 +147,16 @@ class RadioLink::DataListener final : public rtps::ReaderListener {
   DataListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor)
       : received_(std::move(received)), executor_(std::move(executor)) {}
   void onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) override {
-    Bytes cdr;
-    const bool whole = read_payload(change->serializedPayload, cdr);
     const rtps::GUID_t writer = change->writerGUID;
-    reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
-    if (!whole) return;
+    std::optional<Bytes> cdr = taken(*reader, change);
+    if (!cdr) return;
     std::function<void()> dispatch;
     {
       const std::scoped_lock lock(received_->mutex);
       received_->heard[writer.guidPrefix] = Clock::now();
       const auto topic = received_->topics.find(key_of(writer.entityId));
       if (topic == received_->topics.end()) return;
-      topic->second.inbox->put(std::move(cdr));
+      topic->second.inbox->put(*std::move(cdr));
       dispatch = topic->second.dispatch;
     }
     executor_->post(dispatch);
@@ -165,12 +183,8 @@ class RadioLink::End final : public TopicEnd {
     if (writer_ != nullptr) return;
     const WriterPolicy policy = writer_policy(link_.qos_, topic_.profile);
     depth_ = policy.depth;
-    rtps::WriterAttributes attributes;
-    attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
-    attributes.endpoint.durabilityKind = rtps::VOLATILE;
-    attributes.endpoint.topicKind = rtps::NO_KEY;
+    auto attributes = best_effort<rtps::WriterAttributes>();
     attributes.mode = policy.synchronous ? rtps::SYNCHRONOUS_WRITER : rtps::ASYNCHRONOUS_WRITER;
-    without_data_sharing(attributes.endpoint);
     history_ = std::make_unique<rtps::WriterHistory>(unbounded_history());
     writer_ = rtps::RTPSDomain::createRTPSWriter(link_.participant_, writer_id(key_), attributes,
                                                  link_.payloads_, history_.get());
@@ -194,8 +208,7 @@ class RadioLink::End final : public TopicEnd {
       link_.received_->topics.erase(key_);
     }
     link_.reads_.erase(key_);
-    for (const auto& [robot, peer] : link_.peers_)
-      link_.data_reader_->matched_writer_remove(writer_of(robot));
+    for (const auto& [robot, peer] : link_.peers_) unhear(robot);
     link_.reads_changed();
   }
   bool write(const Bytes& cdr) override {
@@ -225,9 +238,6 @@ class RadioLink::End final : public TopicEnd {
       part(robot);
     }
   }
-  void part(const Prefix& robot) {
-    if (writer_ != nullptr) writer_->matched_reader_remove({robot, data_reader_id()});
-  }
   /// Hears `robot` on this topic.
   void hear(const Prefix& robot) {
     if (!link_.reads_.contains(key_)) return;
@@ -236,9 +246,16 @@ class RadioLink::End final : public TopicEnd {
     data.topicKind(rtps::NO_KEY);
     link_.data_reader_->matched_writer_add(data);
   }
-  void part_from_writer(const Prefix& robot) { link_.data_reader_->matched_writer_remove(writer_of(robot)); }
+  void forget(const Prefix& robot) {
+    part(robot);
+    unhear(robot);
+  }
 
  private:
+  void part(const Prefix& robot) {
+    if (writer_ != nullptr) writer_->matched_reader_remove({robot, data_reader_id()});
+  }
+  void unhear(const Prefix& robot) { link_.data_reader_->matched_writer_remove(writer_of(robot)); }
   rtps::EntityId_t data_reader_id() const { return link_.data_reader_->getGuid().entityId; }
   rtps::GUID_t writer_of(const Prefix& robot) const { return {robot, writer_id(key_)}; }
 
@@ -257,7 +274,7 @@ RadioLink::RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agen
       agent_(agent),
       qos_(std::move(qos)),
       received_(std::make_shared<Received>()),
-      hello_listener_(std::make_unique<HelloListener>(received_, executor_)),
+      hello_listener_(std::make_unique<HelloListener>(received_)),
       data_listener_(std::make_unique<DataListener>(received_, executor_)) {}
 
 Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsLinkConfig& config,
@@ -294,12 +311,8 @@ Status RadioLink::open() {
 
   const auto reader = [this](std::int16_t entity, std::unique_ptr<rtps::ReaderHistory>& history,
                              rtps::ReaderListener* listener) {
-    rtps::ReaderAttributes attributes;
-    attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
-    attributes.endpoint.durabilityKind = rtps::VOLATILE;
-    attributes.endpoint.topicKind = rtps::NO_KEY;
+    auto attributes = best_effort<rtps::ReaderAttributes>();
     attributes.endpoint.setEntityID(entity);
-    without_data_sharing(attributes.endpoint);
     history = std::make_unique<rtps::ReaderHistory>(unbounded_history());
     return rtps::RTPSDomain::createRTPSReader(participant_, attributes, payloads_, history.get(), listener);
   };
@@ -341,15 +354,18 @@ std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std
   return std::make_unique<End>(*this, topic, inbox);
 }
 
-/// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's: what goes
-/// to this machine does not take the medium.
-RadioLink::Clock::duration RadioLink::spread() const {
+/// Robots that share the medium with this one, as configured: what goes to this machine does not take it.
+double RadioLink::others() const {
   const auto elsewhere = [this](const auto& place) {
     return place->configured && !IPLocator::compareAddress(place->locator, own_) &&
            !IPLocator::isLocal(place->locator);
   };
-  const auto others = static_cast<double>(std::ranges::count_if(places_, elsewhere));
-  const double seconds = others * (others + 1.0) * kHelloBits / kHelloRate;
+  return static_cast<double>(std::ranges::count_if(places_, elsewhere));
+}
+
+/// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's.
+RadioLink::Clock::duration RadioLink::spread() const {
+  const double seconds = others() * (others() + 1.0) * kHelloBits / rates_of(link_).mean;
   return std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(seconds, kLongestSpread)));
 }
@@ -360,12 +376,8 @@ Status RadioLink::add_place(const Locator& locator, bool configured) {
   place->locator = locator;
   place->configured = configured;
   place->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
-  rtps::WriterAttributes attributes;
-  attributes.endpoint.reliabilityKind = rtps::BEST_EFFORT;
-  attributes.endpoint.durabilityKind = rtps::VOLATILE;
-  attributes.endpoint.topicKind = rtps::NO_KEY;
+  auto attributes = best_effort<rtps::WriterAttributes>();
   attributes.mode = rtps::SYNCHRONOUS_WRITER;
-  without_data_sharing(attributes.endpoint);
   const std::uint32_t number = ++hello_writers_ % (0xffffff - kHelloWriters);
   place->writer = rtps::RTPSDomain::createRTPSWriter(participant_, writer_id(kHelloWriters + number),
                                                      attributes, payloads_, place->history.get());
@@ -390,12 +402,17 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   }
   send(*place.writer, *place.history, encode(hello), 1);
   const auto now = Clock::now();
-  if (place.robot) peers_.at(*place.robot).told = peers_.at(*place.robot).greeted = now;
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
   place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * place.pause);
   const Clock::duration least = kFirstPause;
-  place.pause = std::clamp(2 * place.pause, least, std::max(announcement_, least));
+  if (++place.said >= kQuickHellos)
+    place.pause = std::clamp(2 * place.pause, least, std::max(announcement_, least));
+  if (!place.robot) return;
+  Peer& peer = peers_.at(*place.robot);
+  peer.told = peer.greeted = now;
+  // It has asked before: our last answer was lost, and this one may be.
+  place.next = std::exchange(place.asks_again, false) ? now + kAnswerAgain : Clock::time_point::max();
 }
 
 void RadioLink::reads_changed() {
@@ -418,20 +435,35 @@ void RadioLink::tick() {
   const auto now = Clock::now();
   for (const auto& place : places_) {
     if (place->next == Clock::time_point{}) {
-      place->pause = std::chrono::duration_cast<Clock::duration>(kFirstPause) + spread();
-      // The first Hello of a pair is answered and makes the other one needless, unless it was lost: so more
-      // of them are sent late.
-      const double late = std::pow(std::uniform_real_distribution(0.0, 1.0)(random_), 1.5);
-      place->next = now + std::chrono::duration_cast<Clock::duration>(spread() * (1.0 - late));
+      // Those that must be repeated are few.
+      place->pause = std::chrono::duration_cast<Clock::duration>(kFirstPause) + spread() / 2;
+      place->said = 0;
+      const double part = std::uniform_real_distribution(0.0, 1.0)(random_);
+      place->next = now + std::chrono::duration_cast<Clock::duration>(part * spread());
     }
     if (place->robot) {
       const Peer& peer = peers_.at(*place->robot);
       // What it should know may have been lost.
-      if (now - peer.told > announcement_ || now - peer.greeted > lease_ / 2) place->next = now;
+      if (now - peer.told > announcement_ || now - peer.greeted > lease_ / 2)
+        place->next = std::min(place->next, now);
     }
-    if (place->next == Clock::time_point::max() || now < place->next) continue;
+  }
+  say_due_hellos(now);
+}
+
+/// The longest due first, no faster than this robot's share of what Hellos may take.
+void RadioLink::say_due_hellos(Clock::time_point now) {
+  const auto pause = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>((others() + 1.0) * kHelloBits / rates_of(link_).most));
+  std::vector<Place*> due;
+  for (const auto& place : places_) {
+    if (place->next <= now) due.push_back(place.get());
+  }
+  std::ranges::sort(due, {}, &Place::next);
+  for (Place* place : due) {
+    if (now < hello_free_) return;
+    hello_free_ = std::max(hello_free_, now - kTick) + pause;
     say_hello(*place);
-    if (place->robot) place->next = Clock::time_point::max();
   }
 }
 
@@ -486,7 +518,8 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     received_->heard[sender] = Clock::now();
   }
   Peer& peer = peers_[sender];
-  if (!place->robot) {
+  const bool known = place->robot.has_value();
+  if (!known) {
     spdlog::info("{}: heard {} at {}", to_string(link_), hello.sender.str(), to_text(from));
     place->robot = sender;
     place->next = Clock::time_point::max();
@@ -499,8 +532,8 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     end->hear(sender);
   }
   if (!hello.knows) {
-    say_hello(*place);
-    place->next = Clock::time_point::max();
+    place->asks_again = known && place->next == Clock::time_point::max();  // no answer is under way
+    place->next = Clock::time_point::min();  // before those to robots that may not be there
   } else if (peer.greeted == Clock::time_point{}) {
     peer.greeted = Clock::now();  // by what made it know us
   }
@@ -529,10 +562,7 @@ bool RadioLink::heard_lately(const Prefix& robot) const {
 
 void RadioLink::forget(Prefix robot) {
   if (peers_.erase(robot) == 0) return;
-  for (const auto& [key, end] : ends_) {
-    end->part(robot);
-    end->part_from_writer(robot);
-  }
+  for (const auto& [key, end] : ends_) end->forget(robot);
   std::erase_if(places_, [&](const auto& place) {
     if (place->robot != robot) return false;
     place->robot.reset();

@@ -50,7 +50,9 @@ class RadioLink final : public LinkEnd {
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
-    Clock::time_point next{};                                ///< Hello
+    int said = 0;                                            ///< Hellos since `pause` was set out
+    bool asks_again = false;                                 ///< it did not hear our last answer
+    Clock::time_point next{};                                ///< Hello; zero: not set out yet, max: none
     Clock::duration pause{};                                 ///< after it, while nobody answers
   };
   /// A robot that was heard.
@@ -72,11 +74,13 @@ class RadioLink final : public LinkEnd {
   bool plausible(const Locator& locator) const;
   bool heard_lately(const Prefix& robot) const;
   std::vector<Prefix> silent() const;
+  double others() const;
   Clock::duration spread() const;
   void tick();
   void take(const Prefix& sender, const Hello& hello);
   void forget(Prefix robot);
   void say_hello(Place& place, bool leaves = false);
+  void say_due_hellos(Clock::time_point now);
   void reads_changed();
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
 
@@ -100,6 +104,7 @@ class RadioLink final : public LinkEnd {
   std::map<Prefix, Peer> peers_;
   std::map<EntityKey, End*> ends_;
   std::set<EntityKey> reads_;
+  Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
   std::set<Prefix> namesakes_;       ///< told of in the log
 };
