@@ -25,11 +25,12 @@ constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 /// The graph is solved for the live pose at most this often, and only if anything is new.
 constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
+constexpr Duration kStoreFailurePeriod = std::chrono::seconds(30);
 /// How long a start waits for the first global pose before it makes nodes without.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
 
 std::vector<const graph::Node*> own_nodes(const store::Store& store) {
-  return store.nodes_from({store.self(), 0, store.next_node_seq()});
+  return store.nodes_from({store.self(), 0, kEndOfSeqs});
 }
 
 store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, const Bytes& source_cloud,
@@ -43,19 +44,6 @@ store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, 
            prior.sigma_height_m, prior.up_target}};
 }
 
-/// Every start of the program has an odometry frame of its own; the first that no own node uses.
-Result<std::uint8_t> next_session(const store::Store& store, const AgentId& self) {
-  int session = 0;
-  for (const graph::Node* node : own_nodes(store)) {
-    session = std::max(session, node->session + 1);
-  }
-  if (session > std::numeric_limits<std::uint8_t>::max()) {
-    return failure(store.path().string() + ": holds 256 sessions of " + self.str() +
-                   "; export its map, then move the store away and give the robot a new id");
-  }
-  return static_cast<std::uint8_t>(session);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus& bus) {
@@ -65,27 +53,31 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (error) return failure(config.directory.string() + ": cannot be made: " + error.message());
   Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
   if (!store) return tl::unexpected(store.error());
-  const Result<std::uint8_t> session = next_session(*store, config.id);
+  Result<Sessions> sessions = Sessions::load(*store);
+  if (!sessions) return tl::unexpected(sessions.error());
+  const Result<std::uint16_t> session = sessions->begin(*store, config.draw_session);
   if (!session) return tl::unexpected(session.error());
-  Result<TrajectoryFile> odometry = TrajectoryFile::create(odometry_file(config.directory, *session));
+  Result<TrajectoryFile> odometry =
+      TrajectoryFile::create(odometry_file(config.directory, *sessions->index_of(*session)));
   if (!odometry) return tl::unexpected(odometry.error());
   Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
   if (!track) return tl::unexpected(track.error());
   Result<store::RegistrationLog> log =
       store::RegistrationLog::open(config.directory / store::kRegistrationLogFile);
   if (!log) spdlog::warn("{}; registrations of this run cannot be repeated", log.error().message);
-  std::unique_ptr<Agent> agent(
-      new Agent(config, bus, std::move(*store), *session, std::move(*odometry), std::move(*track)));
+  std::unique_ptr<Agent> agent(new Agent(config, bus, std::move(*store), std::move(*sessions), *session,
+                                         std::move(*odometry), std::move(*track)));
   if (log) agent->registration_log_.emplace(std::move(*log));
   if (const Status started = agent->start(); !started) return tl::unexpected(started.error());
   return agent;
 }
 
-Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
-             TrajectoryFile odometry_file, GlobalTrackFile global_file)
+Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessions sessions,
+             std::uint16_t session, TrajectoryFile odometry_file, GlobalTrackFile global_file)
     : config_(config),
       bus_(bus),
       store_(std::move(store)),
+      sessions_(std::move(sessions)),
       session_(session),
       odometry_file_(std::move(odometry_file)),
       global_file_(std::move(global_file)),
@@ -107,6 +99,7 @@ Status Agent::start() {
   Result<exchange::Exchange> made = exchange::Exchange::make(config_.exchange, store_, bus_.now());
   if (!made) return tl::unexpected(made.error());
   exchange_.emplace(std::move(*made));
+  exchange_->begin_session(session_);
   link_ = std::make_unique<FleetLink>(config_.id, bus_, *exchange_, [this] { on_events(); });
   perception_ = std::make_unique<Perception>(
       config_.perception, bus_, [this](Perceived&& perceived) { on_perceived(std::move(perceived)); },
@@ -130,12 +123,12 @@ Status Agent::start() {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
-    live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(); });
+    live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(session_); });
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
-  if (session_ > 0) {
+  if (const std::size_t index = *sessions_.index_of(session_); index > 0) {
     spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store",
-                 config_.id.str(), session_, store_.nodes().size(), store_.alignments().size(),
+                 config_.id.str(), index, store_.nodes().size(), store_.alignments().size(),
                  store_.submap_set().size());
   }
   return {};
@@ -176,7 +169,11 @@ void Agent::stop() {
 }
 
 void Agent::on_perceived(Perceived&& perceived) {
-  if (perception_->odometry_counters().map_restarts > map_restarts_) begin_session();
+  if (perception_->odometry_counters().map_restarts > map_restarts_) {
+    begin_session("odometry lost its way and began anew");
+  } else if (numbers_run_out()) {
+    begin_session("no number is left for another item of this session");
+  }
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
   work_.odometry += perceived.cpu_seconds;
@@ -221,29 +218,37 @@ bool Agent::worth_waiting_for_gps() {
   return false;
 }
 
-void Agent::begin_session() {
+bool Agent::numbers_run_out() const {
+  constexpr std::uint32_t kReserve = 1024;  // for what is under way
+  const std::uint32_t next = std::max(store_.next_node_seq(session_), store_.next_alignment_seq(session_));
+  return next - first_seq(session_) > kItemsPerSession - kReserve;
+}
+
+void Agent::begin_session(const char* why) {
   map_restarts_ = perception_->odometry_counters().map_restarts;
   freeze_rest();
   submap_.clear();
   recent_surroundings_.clear();
   last_perceived_.reset();
-  const Result<std::uint8_t> session = next_session(store_, config_.id);
+  const Result<std::uint16_t> session = sessions_.begin(store_, config_.draw_session);
   if (!session) return spdlog::error("{}", session.error().message);
   session_ = *session;
-  Result<TrajectoryFile> file = TrajectoryFile::create(odometry_file(config_.directory, session_));
-  if (!file) return spdlog::error("{}", file.error().message);
-  odometry_file_ = std::move(*file);
+  exchange_->begin_session(session_);
   motion_ = {};
   level_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
   session_ties_.begin(own_nodes(store_));
-  spdlog::warn("{}: odometry lost its way and began anew: session {}", config_.id.str(), session_);
+  const std::size_t index = *sessions_.index_of(session_);
+  spdlog::warn("{}: {}: session {}", config_.id.str(), why, index);
+  Result<TrajectoryFile> file = TrajectoryFile::create(odometry_file(config_.directory, index));
+  if (!file) return spdlog::error("{}", file.error().message);
+  odometry_file_ = std::move(*file);
 }
 
 void Agent::freeze_node(const Perceived& perceived) {
   const odometry::OdometryUpdate& update = perceived.odometry;
   graph::Node node;
-  node.id = {config_.id, store_.next_node_seq()};
+  node.id = {config_.id, store_.next_node_seq(session_)};
   node.session = session_;
   node.stamp = update.stamp;
   node.T_odom_base = update.T_odom_base;
@@ -279,7 +284,9 @@ void Agent::freeze_node(const Perceived& perceived) {
   submap_.clear();
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
-  if (const auto tie = session_ties_.on_own_node(node)) register_own(*tie->earlier, node, tie->prior);
+  // What came back from others may still lack its submap.
+  if (const auto tie = session_ties_.on_own_node(node); tie && store_.has_submap(tie->earlier->id))
+    register_own(*tie->earlier, node, tie->prior);
   if (config_.placement.method == graph::PlacementMethod::graph) {
     if (const auto closure = loop_closures_.on_own_node(node))
       register_own(closure->earlier, closure->later, prior_of(*closure));
@@ -456,7 +463,7 @@ void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registere
   // An ambiguous one goes to the fleet with all its modes: what others find may tell which is right.
   if (accepted || is(registration::Verdict::ambiguous)) {
     graph::Alignment alignment = alignment_of(i.id, j.id, config_.id, *registered.result);
-    alignment.seq = store_.next_alignment_seq();
+    alignment.seq = store_.next_alignment_seq(session_);
     const Result<graph::Alignment> rounded = wire::quantised(alignment);
     const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
                                            : Result<store::Put>(tl::unexpected(rounded.error()));
@@ -527,8 +534,32 @@ void Agent::handle(const exchange::ItemConflict& conflict) {
       config_.id.str(), conflict.alignment ? "alignment" : "node", to_string(conflict.id));
 }
 
+void Agent::handle(const exchange::OwnItemsElsewhere& found) {
+  spdlog::warn(
+      "{}: {} holds {} nodes and {} alignments of this robot that its own store lacks: the store was lost, "
+      "restored or replaced; they are fetched, and what is made from now on bears other numbers",
+      config_.id.str(), found.peer.str(), found.nodes, found.alignments);
+}
+
+void Agent::handle(const exchange::StrangerHeard& heard) {
+  spdlog::warn(
+      "{}: heard {}, which is not of this fleet; if it should be, name it in `fleet` of every robot's file",
+      config_.id.str(), heard.name.str());
+}
+
+void Agent::handle(const exchange::NodeAdded& added) {
+  if (added.id.agent == config_.id) session_ties_.add_earlier(*store_.node(added.id));
+}
+
 void Agent::handle(const exchange::StoreFailed& failed) {
-  spdlog::error("{}: {}", config_.id.str(), failed.error.message);
+  // A full disk refuses every item that comes.
+  ++store_failures_untold_;
+  if (store_failure_told_ && bus_.now() - *store_failure_told_ < kStoreFailurePeriod) return;
+  spdlog::error(
+      "{}: {} ({} times since this was last said); what was refused is fetched again when there is room",
+      config_.id.str(), failed.error.message, store_failures_untold_);
+  store_failure_told_ = bus_.now();
+  store_failures_untold_ = 0;
 }
 
 void Agent::handle(const exchange::AlignmentAdded& added) {

@@ -53,7 +53,7 @@ void FleetLink::tick() {
       if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
       if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
     }
-    bus_.publish(wire::topic_of(outgoing.message), wire::encode(outgoing.message));
+    bus_.publish(wire::topic_of(outgoing), wire::encode(outgoing.message));
   }
   on_events_();
 }
@@ -68,7 +68,7 @@ void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
   }
   if (moves_items(*message)) counters_.last_useful = bus_.now();
   if (moves_submaps(*message)) counters_.last_submap = bus_.now();
-  exchange_.on_message(*message, bus_.now());
+  exchange_.on_message(*message, wire::reach_of(topic.link), bus_.now());
   on_events_();
 }
 

@@ -14,7 +14,7 @@ namespace fleetmap::agent {
 struct LivePlacement::Job {
   GeoPoint origin;
   graph::PlacementConfig config;
-  NodeId newest;  ///< own
+  std::optional<NodeId> newest;  ///< of this session
   std::vector<graph::Node> nodes;
   std::vector<graph::Alignment> alignments;
   std::vector<graph::Alignment> used;
@@ -27,10 +27,12 @@ LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const sto
     : config_(config), bus_(bus), store_(store), on_used_(std::move(on_used)) {}
 
 bool LivePlacement::due() const {
-  return store_.next_node_seq() > 0 && store_.nodes().size() + store_.alignments().size() != items_;
+  const auto own = store_.nodes().lower_bound({config_.id, 0});
+  const bool has_own = own != store_.nodes().end() && own->first.agent == config_.id;
+  return has_own && store_.nodes().size() + store_.alignments().size() != items_;
 }
 
-void LivePlacement::refresh() {
+void LivePlacement::refresh(std::uint16_t session) {
   if (under_way_ || !due()) return;
   const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
   if (!origin) return;
@@ -39,7 +41,8 @@ void LivePlacement::refresh() {
   auto job = std::make_shared<Job>();
   job->origin = *origin;
   job->config = config_.placement;
-  job->newest = {config_.id, store_.next_node_seq() - 1};
+  if (const std::uint32_t next = store_.next_node_seq(session); next != first_seq(session))
+    job->newest = NodeId{config_.id, next - 1};
   job->nodes = nodes_of(store_);
   job->alignments = alignments_of(store_);
   bus_.offload(
@@ -54,8 +57,9 @@ void LivePlacement::refresh() {
 
 void LivePlacement::solve(Job& job) {
   const CpuTimer timer(job.cpu_seconds);
+  const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
   graph::Placement placement =
-      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, {&job.newest, 1});
+      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
   job.used = std::move(placement.used);
   const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {

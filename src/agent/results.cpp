@@ -41,12 +41,25 @@ std::vector<CorrectedNode> corrected_nodes(const store::Store& store, const grap
 /// Every session's odometry, moved along with its nodes.
 Status write_trajectory(const store::Store& store, const graph::Placement& placement,
                         const AgentConfig& config) {
-  std::vector<StampedPose> trajectory;
+  const Result<Sessions> sessions = Sessions::load(store);
+  if (!sessions) return tl::unexpected(sessions.error());
+  std::map<std::size_t, std::pair<graph::FrameId, Pose>> frames;  // in the order in which they began
   for (const auto& [frame, T_enu_odom] : placement.T_enu_odom) {
     if (frame.agent != config.id) continue;
-    const auto odometry = read_trajectory(odometry_file(config.directory, frame.session));
+    if (const auto index = sessions->index_of(frame.session)) {
+      frames.emplace(*index, std::pair(frame, T_enu_odom));
+    } else {
+      spdlog::warn(
+          "{}: nodes came back from other robots, its odometry was lost with the store; it is left out of "
+          "trajectory.tum",
+          to_string(frame));
+    }
+  }
+  std::vector<StampedPose> trajectory;
+  for (const auto& [index, placed] : frames) {
+    const auto& [frame, T_enu_odom] = placed;
+    const auto odometry = read_trajectory(odometry_file(config.directory, index));
     if (!odometry) {
-      // Nodes of ours that others gave back after our files were lost.
       spdlog::warn("{}; left out of trajectory.tum", odometry.error().message);
       continue;
     }
@@ -140,8 +153,7 @@ Status write_nodes(const store::Store& store, const graph::Placement& placement,
          "sigma_e_m,sigma_n_m,sigma_u_m,sigma_yaw_deg,submap_bytes,"
          "enu_x,enu_y,enu_z,enu_qx,enu_qy,enu_qz,enu_qw\n";
   for (const auto& [id, node] : store.nodes()) {
-    out << id.agent.str() << ',' << id.seq << ',' << static_cast<int>(node.session) << ','
-        << to_ns(node.stamp) << ',';
+    out << id.agent.str() << ',' << id.seq << ',' << node.session << ',' << to_ns(node.stamp) << ',';
     write_pose(out, node.T_odom_base) << ',';
     write_fix(out, node.G, site) << ',' << node.submap_bytes << ',';
     // A node that is not placed has empty columns.
@@ -156,7 +168,7 @@ Status write_nodes(const store::Store& store, const graph::Placement& placement,
   return {};
 }
 
-ContentHash hash_of_inputs(const store::Store& store, const graph::Placement& placement,
+ContentHash hash_of_inputs(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config) {
   Bytes inputs;
   const auto add = [&inputs](const auto& value) {
@@ -165,7 +177,7 @@ ContentHash hash_of_inputs(const store::Store& store, const graph::Placement& pl
   };
   add(config.voxel_m);
   add(config.centroids);
-  for (const auto& [id, T] : placement.T_enu_node) {
+  for (const auto& [id, T] : T_map_node) {
     const graph::Node* node = store.node(id);
     if (node == nullptr || !store.has_submap(id)) continue;
     for (const char c : id.agent.str()) add(c);
@@ -198,16 +210,23 @@ Result<MapFiles> copied_map(const MapFiles& other, const AgentConfig& config) {
   return files;
 }
 
-Result<MapFiles> write_map(store::Store& store, const graph::Placement& placement, const AgentConfig& config,
-                           std::span<const MapFiles> others) {
-  MapFiles files;
-  files.directory = config.directory;
-  files.made_of = hash_of_inputs(store, placement, config.map);
-  if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
-    return copied_map(*same, config);
-  const store::MergedMap map = merged_map(store, placement, config.map);
+/// Without those submaps that cannot be read.
+store::MergedMap readable_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                              const AgentConfig& config) {
+  store::MergedMap map = merged_map(store, T_map_node, config.map);
   for (const NodeId& id : map.unreadable)
     spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
+  return map;
+}
+
+Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                           const AgentConfig& config, std::span<const MapFiles> others) {
+  MapFiles files;
+  files.directory = config.directory;
+  files.made_of = hash_of_inputs(store, T_map_node, config.map);
+  if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
+    return copied_map(*same, config);
+  const store::MergedMap map = readable_map(store, T_map_node, config);
   if (!map.unreadable.empty()) files.made_of = {};  // not for others
   for (const char* name : kMapNames) {
     if (const Status written = cloud::write_cloud(config.directory / name, map.cloud); !written)
@@ -219,6 +238,17 @@ Result<MapFiles> write_map(store::Store& store, const graph::Placement& placemen
   files.points = map.cloud.size();
   files.submaps = map.submaps;
   return files;
+}
+
+/// Returns how many submaps the file shows.
+Result<std::size_t> write_part(store::Store& store, const MapPart& part, const AgentConfig& config) {
+  const std::filesystem::path file = config.directory / file_of(part);
+  const store::MergedMap map = readable_map(store, part.T_map_node, config);
+  if (const Status written = cloud::write_cloud(file, map.cloud); !written)
+    return tl::unexpected(written.error());
+  spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", config.id.str(),
+               to_string(part.frames.front()), map.submaps, file.string());
+  return map.submaps;
 }
 
 }  // namespace
@@ -300,10 +330,15 @@ graph::Placement place(const store::Store& store, const GeoPoint& origin,
   return graph::place(nodes_of(store), alignments_of(store), LocalFrame(origin), config, covariance_of);
 }
 
-store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
+std::map<NodeId, Pose> main_part(const store::Store& store, const graph::Placement& placement) {
+  auto parts = map_parts(nodes_of(store), placement);
+  return parts.empty() ? std::map<NodeId, Pose>() : std::move(parts.front().T_map_node);
+}
+
+store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                             const store::MergeConfig& config) {
   std::map<NodeId, Pose> held;
-  for (const auto& [id, T] : placement.T_enu_node) {
+  for (const auto& [id, T] : T_map_node) {
     if (store.has_submap(id)) held.emplace(id, T);
   }
   const auto load = [&store](const NodeId& id) -> Result<cloud::PointCloud> {
@@ -327,10 +362,18 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
   if (const Status kept = keep_recipe(store, config); !kept) return tl::unexpected(kept.error());
   results.placement = place(store, *origin, config.placement);
   results.not_georeferenced = graph::not_georeferenced(nodes_of(store), results.placement.components);
-  auto map = write_map(store, results.placement, config, others);
+  results.apart = map_parts(nodes_of(store), results.placement);
+  const MapPart main = results.apart.empty() ? MapPart{} : std::move(results.apart.front());
+  if (!results.apart.empty()) results.apart.erase(results.apart.begin());
+  auto map = write_map(store, main.T_map_node, config, others);
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;
+  for (const MapPart& part : results.apart) {
+    const Result<std::size_t> submaps = write_part(store, part, config);
+    if (!submaps) return tl::unexpected(submaps.error());
+    results.missing_submaps -= *submaps;
+  }
   const LocalFrame site(*origin);
   for (const Status& written :
        {write_trajectory(store, results.placement, config), write_global_poses(site, config),

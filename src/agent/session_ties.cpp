@@ -20,6 +20,12 @@ void SessionTies::begin(const std::vector<const graph::Node*>& earlier) {
   for (const graph::Node* node : earlier) earlier_[node->session].nodes.push_back(node);
 }
 
+void SessionTies::add_earlier(const graph::Node& node) {
+  Session& session = earlier_[node.session];
+  session.nodes.push_back(&node);
+  if (session.lookalikes) session.lookalikes->add(node, located(node), Lookalikes::Side::kTheirs);
+}
+
 std::optional<SessionTies::Tie> SessionTies::on_own_node(const graph::Node& node) {
   const graph::Node* earlier = nearest(node);
   const graph::Node* alike = most_alike(node);  // in any case: it remembers the places

@@ -23,8 +23,8 @@ std::optional<Stamp> parse_stamp(const std::string& text) {
 
 }  // namespace
 
-std::filesystem::path odometry_file(const std::filesystem::path& directory, unsigned session) {
-  return directory / (session == 0 ? "odometry.tum" : "odometry-" + std::to_string(session) + ".tum");
+std::filesystem::path odometry_file(const std::filesystem::path& directory, std::size_t index) {
+  return directory / (index == 0 ? "odometry.tum" : "odometry-" + std::to_string(index) + ".tum");
 }
 
 std::string tum_line(const StampedPose& pose) {

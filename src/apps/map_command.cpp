@@ -12,6 +12,7 @@
 #include "fleetmap/cloud/file_io.hpp"
 #include "map_pictures.hpp"
 #include "options.hpp"
+#include "store_summary.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -21,6 +22,7 @@ struct MapOptions {
   std::string out;
   std::optional<double> voxel;
   std::vector<double> origin_deg;
+  bool json = false;
 };
 
 std::optional<GeoPoint> configured_origin(const MapOptions& options) {
@@ -68,7 +70,17 @@ Result<OpenedMap> open_map(const MapOptions& options) {
   return OpenedMap{std::move(*store), recipe, std::move(placement)};
 }
 
+/// A summary that scripts compare: it needs no placement, so that an empty store has one, too.
+int info_json(const MapOptions& options) {
+  if (const Status meant = check_store(options.store); !meant) return report(meant.error(), kFailed);
+  const auto store = store::Store::open_read_only(options.store);
+  if (!store) return report(store.error(), kFailed);
+  std::cout << summary_of(*store).dump(2) << '\n';
+  return kDone;
+}
+
 int info(const MapOptions& options) {
+  if (options.json) return info_json(options);
   const auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   constexpr double kDegree = std::numbers::pi / 180.0;
@@ -90,7 +102,8 @@ int export_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
-  const store::MergedMap merged = agent::merged_map(map->store, map->placement, map->recipe.merge);
+  const store::MergedMap merged =
+      agent::merged_map(map->store, agent::main_part(map->store, map->placement), map->recipe.merge);
   for (const NodeId& id : merged.unreadable)
     std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
   if (const Status written = cloud::write_cloud(options.out, merged.cloud); !written)
@@ -104,7 +117,8 @@ int draw_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
-  const store::MergedMap merged = agent::merged_map(map->store, map->placement, map->recipe.merge);
+  const store::MergedMap merged =
+      agent::merged_map(map->store, agent::main_part(map->store, map->placement), map->recipe.merge);
   auto pictures = pictures_by_robot(merged);
   if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
   auto density = picture_of_density(merged.cloud, 1.0);
@@ -135,6 +149,8 @@ void add_map(CLI::App& app, int& exit_code) {
         ->delimiter(',')
         ->expected(3);
   }
+  info_command->add_flag("--json", options->json,
+                         "nodes, alignments and submaps held, by robot, and the hash of the set");
   export_command->add_option("--out", options->out, "FILE.ply or FILE.pcd")->required()->check(some_path());
   export_command->add_option(
       "--voxel", options->voxel,

@@ -66,15 +66,18 @@ void append_session(const std::vector<agent::StampedPose>& odometry, const std::
 
 std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held) {
   const graph::Placement& placement = held.placement;
-  std::map<unsigned, std::vector<Anchor>> sessions;
+  const auto begun = agent::Sessions::load(held.store);
+  if (!begun) return std::nullopt;
+  std::map<std::size_t, std::vector<Anchor>> sessions;  // in the order in which they began
   for (const auto& [id, node] : held.store.nodes()) {
     const auto placed = placement.T_enu_node.find(id);
-    if (id.agent == agent.id && placed != placement.T_enu_node.end())
-      sessions[node.session].push_back({node.stamp, placed->second * node.T_odom_base.inverse()});
+    const auto index = begun->index_of(node.session);
+    if (id.agent == agent.id && index && placed != placement.T_enu_node.end())
+      sessions[*index].push_back({node.stamp, placed->second * node.T_odom_base.inverse()});
   }
   eval::Trajectory trajectory;
-  for (const auto& [session, anchors] : sessions) {
-    const auto odometry = agent::read_trajectory(agent::odometry_file(agent.directory, session));
+  for (const auto& [index, anchors] : sessions) {
+    const auto odometry = agent::read_trajectory(agent::odometry_file(agent.directory, index));
     if (odometry) append_session(*odometry, anchors, trajectory);
   }
   if (trajectory.empty()) return std::nullopt;

@@ -163,6 +163,9 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
   json nowhere = json::array();
   for (const graph::FrameId& frame : results->not_georeferenced) nowhere.push_back(agent::to_string(frame));
   report["not_georeferenced"] = nowhere;
+  json apart = json::array();
+  for (const agent::MapPart& part : results->apart) apart.push_back(agent::file_of(part));
+  report["maps_apart"] = apart;
   json credits = json::object();
   for (const auto& [agent, credit] : results->placement.credits) {
     credits[agent.str()] = {{"used", credit.used},

@@ -40,6 +40,8 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     agent::AgentConfig& config = config_.members[k].agent;
     config.directory = out / config.id.str();
     if (origin_) config.site_origin = origin_;
+    // The same run gives the same numbers; those of a store that goes on are passed over.
+    config.draw_session = [session = std::uint16_t{0}]() mutable { return session++; };
     std::error_code error;
     if (std::filesystem::exists(config.directory / "store.db", error)) {
       return failure(config.directory.string() +

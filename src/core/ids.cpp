@@ -1,6 +1,7 @@
 #include "fleetmap/core/ids.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 namespace fleetmap {
 
@@ -14,6 +15,13 @@ Result<AgentId> AgentId::parse(std::string_view name) {
   return AgentId(std::string(name));
 }
 
-std::string to_string(const NodeId& id) { return id.agent.str() + "/" + std::to_string(id.seq); }
+std::string to_string(const NodeId& id) {
+  const std::uint16_t session = session_of(id.seq);
+  std::ostringstream text;
+  text << id.agent.str();
+  if (session > 0) text << '#' << session;
+  text << '/' << id.seq - first_seq(session);
+  return text.str();
+}
 
 }  // namespace fleetmap

@@ -54,11 +54,12 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   if (is_located) spot.position = node.G->position;
   if (!places_.emplace(node.id, spot).second) return;
   Track& track = tracks_[node.id.agent];
-  track.newest = std::max(track.newest, node.id.seq);
+  std::uint32_t& newest = track.newest[node.session];
+  newest = std::max(newest, node.id.seq);
   ties_.add(node);
   unlocated_ += !is_located;
   for (const AgentId& other : partners_of(node.id.agent)) find_tied(node.id, other, now);
-  if (node.id.seq < track.newest) search_later(node.id);
+  if (node.id.seq < newest) search_later(node.id);
   find_alike(node, now);
   if (!is_located || track.tree.insert(node.G->position) == place::BallTree::kRefused) return;
   track.ids.push_back(node.id);
@@ -410,8 +411,9 @@ bool Encounters::retryable(const NodePair& pair, const Encounter& encounter) con
 }
 
 std::uint32_t Encounters::nodes_since(const NodeId& id) const {
-  const auto track = tracks_.find(id.agent);
-  return track == tracks_.end() || track->second.newest < id.seq ? 0 : track->second.newest - id.seq;
+  const auto place = places_.find(id);
+  if (place == places_.end()) return 0;
+  return tracks_.at(id.agent).newest.at(place->second.frame.session) - id.seq;
 }
 
 bool Encounters::ripe(const NodePair& pair, const Encounter& encounter, Stamp now) const {

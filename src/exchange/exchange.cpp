@@ -12,6 +12,8 @@ constexpr const char* kHoldKey = "hold_orders";
 /// Datagrams per B/s of the budget that the periods of the defaults are for: each of five robots to each
 /// other.
 constexpr double kUsualLoad = 5.0 * 4.0 / 18'750.0;
+/// A fleet that starts gets to know itself in less.
+constexpr Duration kHellos = std::chrono::seconds(10);
 
 Duration longer(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
@@ -53,12 +55,16 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
   const ExchangeConfig adapted = for_fleet(config);
   Exchange exchange(adapted, store, now);
-  // A large fleet that starts at once would else tell all at once.
+  // A large fleet that starts at once would else tell all at once, and while its links still say Hello.
   const auto place = std::ranges::find(config.fleet, store.self()) - config.fleet.begin();
   const double share = static_cast<double>(place) / static_cast<double>(config.fleet.size());
-  exchange.next_status_ = now + longer(adapted.status_period - config.status_period, share);
+  const auto first = [&](Duration adapted_period, Duration period) {
+    const Duration spread = adapted_period - period;
+    return now + std::min(spread, kHellos) + longer(spread, share);
+  };
+  exchange.next_status_ = first(adapted.status_period, config.status_period);
   exchange.reconcile_.begin_at(
-      now + longer(adapted.reconcile.digest_min_period - config.reconcile.digest_min_period, share));
+      first(adapted.reconcile.digest_min_period, config.reconcile.digest_min_period));
   const auto orders = store.meta(kHoldKey);
   if (!orders) return tl::unexpected(orders.error());
   if (*orders) exchange.holds_.load(**orders);
@@ -89,7 +95,7 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
 Result<Put> Exchange::on_own_node(const graph::Node& node, ByteView submap, Stamp now) {
   const auto put = store_->put_node_with_submap(node, submap);
   if (!put || *put != Put::kAdded) return put;
-  queue_.push(Priority::kNews, node);
+  tell_all(Priority::kNews, node);
   reconcile_.on_item(now);
   encounters_.on_node(node, now);
   return put;
@@ -98,7 +104,7 @@ Result<Put> Exchange::on_own_node(const graph::Node& node, ByteView submap, Stam
 Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp now) {
   const auto put = store_->put_alignment(alignment);
   if (!put || *put != Put::kAdded) return put;
-  queue_.push(Priority::kNews, alignment);
+  tell_all(Priority::kNews, alignment);
   reconcile_.on_item(now);
   encounters_.on_alignment(alignment, now);
   if (alignment.best().rmse <= graph::kGoodRmse && config_.encounters.stop_when_peer_aligned) {
@@ -133,7 +139,7 @@ void Exchange::decline_cloud(const NodeId& node) { needed_.erase(node); }
 
 void Exchange::tell(MissionReport report) {
   report.from = self_;
-  queue_.push(Priority::kState, std::move(report));
+  tell_all(Priority::kState, std::move(report));
 }
 
 void Exchange::on_local_order(HoldOrder order, Stamp now) {
@@ -152,29 +158,33 @@ std::vector<Event> Exchange::take_events() { return std::exchange(events_, {}); 
 // ---- from the links
 // ------------------------------------------------------------------------------------------------
 
-bool Exchange::admit(const Message& message, Stamp now) {
+void Exchange::note_stranger(const AgentId& name) {
+  constexpr std::size_t kMost = 64;  // names cost a forger nothing
+  if (name == self_ || strangers_told_of_.size() >= kMost || !strangers_told_of_.insert(name).second) return;
+  events_.push_back(StrangerHeard{name});
+}
+
+bool Exchange::admit(const Message& message, Reach link, Stamp now) {
   const auto sender = sender_of(message);
   if (!sender) return true;  // a node or alignment: its maker is checked instead
   const bool of_fleet = member(*sender);
   // Operators are not of the fleet.
   if (*sender == self_ || (!of_fleet && !std::holds_alternative<Hold>(message))) {
     ++strangers_;
+    note_stranger(*sender);
     return false;
   }
   if (!of_fleet) return true;
   const auto recipient = recipient_of(message);
-  if (reach_of(message) == Reach::kShortRange) {
-    submap_receiver_.on_heard(*sender, now);
-  } else {
-    reconcile_.on_heard(*sender, now);
-    encounters_.on_heard(*sender, now);
-    holds_.on_heard(*sender, now);
-  }
+  if (link == Reach::kShortRange) submap_receiver_.on_heard(*sender, now);
+  reconcile_.on_heard(*sender, now);
+  encounters_.on_heard(*sender, now);
+  holds_.on_heard(*sender, now);
   return !recipient || *recipient == self_;
 }
 
-void Exchange::on_message(const Message& message, Stamp now) {
-  if (!admit(message, now)) return;
+void Exchange::on_message(const Message& message, Reach link, Stamp now) {
+  if (!admit(message, link, now)) return;
   std::visit([&](const auto& m) { handle(m, now); }, message);
 }
 
@@ -188,11 +198,17 @@ void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& 
   }
 }
 
+bool Exchange::is_forged(const AgentId& maker, std::uint32_t seq, bool held) const {
+  return maker == self_ && session_ == session_of(seq) && !held;
+}
+
 void Exchange::handle(const graph::Node& node, Stamp now) {
   if (!member(node.id.agent)) {
     ++strangers_;
     return;
   }
+  if (is_forged(node.id.agent, node.id.seq, store_->node(node.id) != nullptr))
+    return events_.push_back(ItemConflict{node.id, false});
   const auto put = store_->put_node(node);
   on_put(put, NodeAdded{node.id}, node.id, false);
   if (!put || *put != Put::kAdded) return;
@@ -205,9 +221,12 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
     ++strangers_;
     return;
   }
-  const auto put = store_->put_alignment(alignment);
+  const store::AlignmentId id{alignment.computed_by, alignment.seq};
   const NodeId name{alignment.computed_by, alignment.seq};
-  on_put(put, AlignmentAdded{{alignment.computed_by, alignment.seq}}, name, true);
+  if (is_forged(id.computed_by, id.seq, store_->alignment(id) != nullptr))
+    return events_.push_back(ItemConflict{name, true});
+  const auto put = store_->put_alignment(alignment);
+  on_put(put, AlignmentAdded{id}, name, true);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
   encounters_.on_alignment(alignment, now);
@@ -239,6 +258,23 @@ void Exchange::handle(const CloudRequest& request, Stamp now) {
   events_.push_back(CloudNeeded{request.node, request.from});
 }
 
+void Exchange::note_own_items(const Digest& digest) {
+  const auto unknown = [this](const std::vector<Range>& ranges, const store::SeqSet& held) {
+    store::SeqSet own;
+    for (const Range& range : ranges) {
+      if (range.agent == self_) own.insert(range);
+    }
+    std::uint64_t items = 0;
+    for (const Range& range : own.minus(held)) items += range.end - range.first;
+    return items;
+  };
+  const std::uint64_t nodes = unknown(digest.nodes, store_->node_set());
+  const std::uint64_t alignments = unknown(digest.alignments, store_->alignment_set());
+  if (nodes + alignments == 0) return;
+  told_of_own_items_ = true;
+  events_.push_back(OwnItemsElsewhere{digest.from, nodes, alignments});
+}
+
 void Exchange::handle(const Digest& digest, Stamp now) {
   Digest known{digest.from, {}, {}};
   const auto keep = [&](const std::vector<Range>& from, std::vector<Range>& to) {
@@ -249,6 +285,7 @@ void Exchange::handle(const Digest& digest, Stamp now) {
   keep(digest.nodes, known.nodes);
   keep(digest.alignments, known.alignments);
   reconcile_.on_digest(known, *store_, now);
+  if (!told_of_own_items_) note_own_items(known);
 }
 
 void Exchange::handle(const ItemRequest& request, Stamp) {
@@ -286,6 +323,27 @@ void Exchange::send_fragments(std::vector<CloudFragment> fragments) {
   for (CloudFragment& fragment : fragments) queue_.push(Priority::kCloud, std::move(fragment));
 }
 
+void Exchange::tell_all(Priority priority, Message message) {
+  if (!near_.empty()) to_near_.push_back(message);
+  const bool whole_fleet = near_.size() + 1 == fleet_.size();
+  if (!whole_fleet || priority == Priority::kSafety) queue_.push(priority, std::move(message));
+}
+
+void Exchange::note_near(Stamp now) {
+  std::set<AgentId> in_reach, near;
+  for (const AgentId& agent : submap_receiver_.peers_in_reach(now)) {
+    in_reach.insert(agent);
+    if (submap_receiver_.hears_us(agent, now)) near.insert(agent);
+  }
+  if (!std::ranges::includes(in_reach_, in_reach)) submap_sender_.on_newcomer();
+  in_reach_ = std::move(in_reach);
+  const bool newcomers = !std::ranges::includes(near_, near);
+  near_ = std::move(near);
+  if (near_.empty() || (!newcomers && next_near_digest_ && now < *next_near_digest_)) return;
+  next_near_digest_ = now + config_.reconcile.near_period;
+  to_near_.push_back(reconcile_.digest_of(*store_));
+}
+
 void Exchange::tick_encounters(Stamp now) {
   auto due = encounters_.tick(now);
   for (const NodePair& pair : due.withdrawn) {
@@ -307,7 +365,7 @@ void Exchange::tick_clouds(Stamp now) {
 void Exchange::tick_items(Stamp now) {
   auto due = reconcile_.tick(*store_, now);
   for (ItemRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
-  if (due.digest) queue_.push(Priority::kState, std::move(*due.digest));
+  if (due.digest) tell_all(Priority::kState, std::move(*due.digest));
 }
 
 void Exchange::tick_status(Stamp now) {
@@ -320,7 +378,7 @@ void Exchange::tick_status(Stamp now) {
   status.alignments = static_cast<std::uint32_t>(store_->alignment_set().size());
   status.submaps = static_cast<std::uint32_t>(store_->submap_set().size());
   status.backlog_bytes = static_cast<std::uint32_t>(queue_.backlog_bytes());
-  queue_.push(Priority::kState, std::move(status));
+  tell_all(Priority::kState, std::move(status));
 }
 
 void Exchange::tick_holds(Stamp now) {
@@ -333,7 +391,7 @@ void Exchange::tick_holds(Stamp now) {
   const auto driving = !drives_        ? Hold::Driving::kNoMission
                        : holds_.held() ? Hold::Driving::kHeld
                                        : Hold::Driving::kFree;
-  queue_.push(Priority::kSafety, Hold{self_, driving, std::move(*orders)});
+  tell_all(Priority::kSafety, Hold{self_, driving, std::move(*orders)});
 }
 
 void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
@@ -341,7 +399,18 @@ void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
     const auto to = recipient_of(message);
     out.push_back({Reach::kShortRange, to, std::move(message)});
   };
-  if (auto digest = submap_sender_.digest(*store_, now)) send(std::move(*digest));
+  for (Message& message : std::exchange(to_near_, {})) send(std::move(message));
+  for (Outgoing& diverted : queue_.take_for(near_)) {
+    diverted.reach = Reach::kShortRange;
+    out.push_back(std::move(diverted));
+  }
+  if (auto digest = submap_sender_.digest(*store_, submap_receiver_.peers_in_reach(now), now))
+    send(std::move(*digest));
+  if (const auto finished = submap_receiver_.finish_downloads(*store_, now)) {
+    for (const NodeId& id : *finished) events_.push_back(SubmapAdded{id});
+  } else {
+    events_.push_back(StoreFailed{finished.error()});
+  }
   for (SubmapRequest& request : submap_receiver_.tick(*store_, now)) send(std::move(request));
   for (SubmapChunk& chunk : submap_sender_.tick(*store_, now)) send(std::move(chunk));
 }
@@ -354,13 +423,15 @@ void Exchange::note_completion() {
 }
 
 std::vector<Outgoing> Exchange::tick(Stamp now) {
+  note_near(now);
   tick_holds(now);
   tick_encounters(now);
   tick_clouds(now);
   tick_items(now);
   tick_status(now);
-  std::vector<Outgoing> out = queue_.take(now);
+  std::vector<Outgoing> out;
   tick_short_range(out, now);
+  for (Outgoing& outgoing : queue_.take(now)) out.push_back(std::move(outgoing));
   note_completion();
   return out;
 }

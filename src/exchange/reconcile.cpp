@@ -40,6 +40,7 @@ Status ReconcileConfig::validate() const {
     return failure("reconcile.digest_min_period must be positive and at most digest_max_period");
   }
   if (grace < Duration::zero()) return failure("reconcile.grace must not be negative");
+  if (near_period <= Duration::zero()) return failure("reconcile.near_period must be positive");
   if (timeout <= Duration::zero() || peer_timeout <= Duration::zero()) {
     return failure("reconcile.timeout and peer_timeout must be positive");
   }
@@ -54,7 +55,7 @@ Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
 SeqSet Reconcile::accepted(const std::vector<Range>& ranges) {
   SeqSet set;
   for (const Range& range : ranges) {
-    if (range.agent.empty() || range.first >= range.end || range.end > config_.max_seq) {
+    if (range.agent.empty() || range.first >= range.end || range.end > kEndOfSeqs) {
       ++stats_.hostile;
     } else {
       set.insert(range);
@@ -161,7 +162,7 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
   return request;
 }
 
-Digest Reconcile::make_digest(const store::Store& store) {
+Digest Reconcile::digest_of(const store::Store& store) {
   Digest digest{self_, {}, {}};
   const auto nodes = store.node_set().ranges();
   const auto alignments = store.alignment_set().ranges();
@@ -176,7 +177,7 @@ Digest Reconcile::make_digest(const store::Store& store) {
 Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
   Due due;
   if (!next_digest_ || now >= *next_digest_) {
-    due.digest = make_digest(store);
+    due.digest = digest_of(store);
     ++stats_.digests_sent;
     last_digest_ = now;
     next_digest_ = now + period_;

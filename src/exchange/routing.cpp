@@ -2,11 +2,15 @@
 
 namespace fleetmap::exchange {
 
-Reach reach_of(const Message& message) {
+Reach usual_reach(const Message& message) {
   const bool is_short = std::holds_alternative<SubmapDigest>(message) ||
                         std::holds_alternative<SubmapRequest>(message) ||
                         std::holds_alternative<SubmapChunk>(message);
   return is_short ? Reach::kShortRange : Reach::kLongRange;
+}
+
+bool may_be_passed_on(const Message& message) {
+  return std::holds_alternative<graph::Node>(message) || std::holds_alternative<graph::Alignment>(message);
 }
 
 std::optional<AgentId> sender_of(const Message& message) {

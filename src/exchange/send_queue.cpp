@@ -111,6 +111,20 @@ std::size_t SendQueue::cancel_cloud(const AgentId& to, const NodeId& node) {
   return places.size();
 }
 
+std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
+  std::vector<Outgoing> taken;
+  if (peers.empty()) return taken;
+  for (std::size_t p = 0; p < kPriorities; ++p) {
+    for (auto it = waiting_[p].begin(); it != waiting_[p].end();) {
+      const auto item = it++;
+      if (!item->outgoing.to || !peers.contains(*item->outgoing.to)) continue;
+      taken.push_back(std::move(item->outgoing));
+      erase({p, item});
+    }
+  }
+  return taken;
+}
+
 std::optional<std::size_t> SendQueue::next() const {
   for (std::size_t p = 0; p < kBackfill; ++p) {
     if (!waiting_[p].empty()) return p;

@@ -18,9 +18,16 @@ Status SubmapTransferConfig::validate() const {
   if (!(burst_bytes >= kChunk) || !std::isfinite(burst_bytes)) {
     return failure("submap_transfer.burst_bytes must be at least " + std::to_string(kChunk));
   }
-  if (window_bytes < kChunk || request_bytes < kChunk) {
-    return failure("submap_transfer.window_bytes and request_bytes must be at least " +
+  if (auto status = window.validate(); !status) return status;
+  if (window.least_bytes < kChunk || request_bytes < kChunk) {
+    return failure("submap_transfer.window.least_bytes and request_bytes must be at least " +
                    std::to_string(kChunk));
+  }
+  if (first_distrust <= Duration::zero() || max_distrust < first_distrust ||
+      store_pause <= Duration::zero()) {
+    return failure(
+        "submap_transfer.first_distrust and store_pause must be positive, max_distrust at least "
+        "first_distrust");
   }
   if (digest_period <= Duration::zero() || peer_timeout <= digest_period) {
     return failure("submap_transfer.digest_period must be positive and less than peer_timeout");
@@ -40,13 +47,19 @@ std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t
   return std::min(kChunk, node.submap_bytes - chunk * kChunk);
 }
 
-void SubmapReceiver::on_heard(const AgentId& peer, Stamp now) { peers_[peer].heard = now; }
+void SubmapReceiver::on_heard(const AgentId& name, Stamp now) {
+  Peer& known = peer(name);
+  // Another place, another channel: what the link carried then tells little.
+  if (now - known.heard > config_.peer_timeout) known.window = DelayWindow(config_.window);
+  known.heard = now;
+}
 
 void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
-  Peer& peer = peers_[digest.from];
-  peer.heard = now;
+  on_heard(digest.from, now);
+  Peer& peer = this->peer(digest.from);
+  peer.hears_us = std::ranges::count(digest.hears, self_) > 0;
   for (const Range& range : digest.submaps) {
-    if (range.agent.empty() || range.first >= range.end || range.end > config_.max_seq) {
+    if (range.agent.empty() || range.first >= range.end || range.end > kEndOfSeqs) {
       ++stats_.hostile;
     } else {
       peer.holds.insert(range);
@@ -57,6 +70,10 @@ void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
 bool SubmapReceiver::in_reach(const AgentId& name, Stamp now) const {
   const auto peer = peers_.find(name);
   return peer != peers_.end() && now - peer->second.heard <= config_.peer_timeout;
+}
+
+bool SubmapReceiver::hears_us(const AgentId& name, Stamp now) const {
+  return in_reach(name, now) && peers_.at(name).hears_us;
 }
 
 bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
@@ -85,31 +102,63 @@ Duration SubmapReceiver::timeout(const Peer& peer) const {
   return std::clamp(from_seconds(peer.delay + 4.0 * peer.spread), config_.min_timeout, config_.max_timeout);
 }
 
+void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t chunk, Stamp now) {
+  peer.last_chunk = now;
+  const auto flight = download.flights.find(chunk);
+  if (flight == download.flights.end()) return;
+  const double delay = to_seconds(now - flight->second.sent);
+  if (peer.answered == 0) {
+    peer.delay = delay;
+    peer.spread = delay / 2.0;
+  }
+  peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
+  peer.delay += 0.125 * (delay - peer.delay);
+  peer.window.on_arrival(delay, flight->second.bytes);
+  peer.bytes_out -= flight->second.bytes;
+  peer.answered = std::max(peer.answered, flight->second.order);
+  download.flights.erase(flight);
+}
+
+bool SubmapReceiver::is_lost(const Flight& flight, const Peer& peer, Stamp now) const {
+  // As RACK (RFC 8985): one that was asked for later is here, and this one takes longer than they do.
+  constexpr std::uint64_t kOvertaken = 3;
+  const bool overtaken = flight.order + kOvertaken < peer.answered;
+  if (overtaken && to_seconds(now - flight.sent) > peer.delay + 4.0 * peer.spread) return true;
+  // As long as others arrive, this one may still be queued at the peer.
+  return now >= std::max(flight.deadline, peer.last_chunk + timeout(peer) / 2);
+}
+
+bool SubmapReceiver::distrusts(const AgentId& name, const NodeId& id, Stamp now) const {
+  const auto distrusted = distrusted_.find({id, name});
+  return distrusted != distrusted_.end() && now < distrusted->second.until;
+}
+
+void SubmapReceiver::on_store_failure(Stamp now) {
+  paused_until_ = now + config_.store_pause;
+  while (!downloads_.empty()) stop(downloads_.begin());
+}
+
 Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk, store::Store& store,
                                                        Stamp now) {
   const graph::Node* node = store.node(chunk.node);
   const std::uint32_t index = chunk.offset / kChunk;
   if (!node || chunk.to != self_ || chunk.total_bytes != node->submap_bytes || chunk.offset % kChunk != 0 ||
-      chunk.offset >= node->submap_bytes || chunk.payload.size() != chunk_bytes(*node, index) ||
-      distrusted_.contains({chunk.node, chunk.from})) {
+      chunk.offset >= node->submap_bytes || chunk.payload.size() != chunk_bytes(*node, index)) {
     ++stats_.hostile;
     return std::optional<NodeId>();
   }
-  Peer& peer = peers_[chunk.from];
-  peer.last_chunk = now;
-  if (const auto download = downloads_.find(chunk.node); download != downloads_.end()) {
-    const auto flight = download->second.flights.find(index);
-    if (flight != download->second.flights.end() && download->second.peer == chunk.from) {
-      const double delay = to_seconds(now - flight->second.sent);
-      peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
-      peer.delay += 0.125 * (delay - peer.delay);
-      peer.bytes_out -= flight->second.bytes;
-      download->second.flights.erase(flight);
-    }
+  const auto download = downloads_.find(chunk.node);
+  if (download == downloads_.end() || download->second.peer != chunk.from) {
+    ++stats_.unasked;
+    return std::optional<NodeId>();
   }
+  on_arrival(peer(chunk.from), download->second, index, now);
   const std::uint64_t bad_before = store.stats().bad_submaps;
   const auto put = store.put_submap_chunk(chunk.node, index, chunk.payload);
-  if (!put) return tl::unexpected(put.error());
+  if (!put) {
+    on_store_failure(now);
+    return tl::unexpected(put.error());
+  }
   if (*put == store::Put::kKnown) ++stats_.duplicates;
   if (*put == store::Put::kAdded) {
     ++stats_.chunks;
@@ -119,22 +168,44 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
   if (wrong) {
     ++stats_.bad_hash;
     sources_[chunk.node].insert(chunk.from);
-    // With one source its guilt is plain; with several the next download, from one peer alone, will tell.
-    if (sources_[chunk.node].size() == 1) distrusted_.insert({chunk.node, chunk.from});
+    // With one source its guilt is plain; with several the next download, from one peer alone, will tell. A
+    // chunk may have been forged or damaged on its way, so the peer is asked again later.
+    if (sources_[chunk.node].size() == 1) {
+      Distrust& distrust = distrusted_[{chunk.node, chunk.from}];
+      distrust.length = std::clamp(2 * distrust.length, config_.first_distrust, config_.max_distrust);
+      distrust.until = now + distrust.length;
+    }
   }
   const bool whole = *put == store::Put::kAdded && store.has_submap(chunk.node);
   if (whole || wrong) {
     sources_.erase(chunk.node);
-    if (const auto download = downloads_.find(chunk.node); download != downloads_.end()) stop(download);
+    stop(download);
   }
   if (!whole) return std::optional<NodeId>();
   ++stats_.submaps;
   return std::optional<NodeId>(chunk.node);
 }
 
+Result<std::vector<NodeId>> SubmapReceiver::finish_downloads(store::Store& store, Stamp now) {
+  std::vector<NodeId> finished;
+  if (!paused_until_ || now < *paused_until_) return finished;
+  for (const NodeId& id : store.partial_submaps()) {
+    if (!store.missing_chunks(id).empty()) continue;
+    const auto put = store.finish_download(id);
+    if (!put) {
+      on_store_failure(now);
+      return tl::unexpected(put.error());
+    }
+    if (*put == store::Put::kAdded) finished.push_back(id);
+  }
+  paused_until_.reset();
+  stats_.submaps += finished.size();
+  return finished;
+}
+
 void SubmapReceiver::stop(std::map<NodeId, Download>::iterator download) {
   // Bytes still on their way no longer count against the window.
-  Peer& peer = peers_[download->second.peer];
+  Peer& peer = this->peer(download->second.peer);
   for (const auto& [chunk, flight] : download->second.flights) peer.bytes_out -= flight.bytes;
   downloads_.erase(download);
 }
@@ -143,19 +214,18 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
   for (auto it = downloads_.begin(); it != downloads_.end();) {
     const auto current = it++;
     Download& download = current->second;
-    Peer& peer = peers_[download.peer];
+    Peer& peer = this->peer(download.peer);
     if (!in_reach(download.peer, now) || store.has_submap(current->first)) {
       stop(current);
       continue;
     }
     for (auto flight = download.flights.begin(); flight != download.flights.end();) {
-      // Chunks come in turn: as long as others arrive, this one may still be queued at the peer.
-      const Stamp deadline = std::max(flight->second.deadline, peer.last_chunk + timeout(peer) / 2);
-      if (now < deadline) {
+      if (!is_lost(flight->second, peer, now)) {
         ++flight;
         continue;
       }
       ++stats_.timeouts;
+      peer.window.on_loss(flight->second.sent, now);
       peer.bytes_out -= flight->second.bytes;
       flight = download.flights.erase(flight);
     }
@@ -176,20 +246,19 @@ std::vector<NodeId> SubmapReceiver::missing(const store::Store& store) const {
 }
 
 bool SubmapReceiver::may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const {
-  return in_reach(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusted_.contains({id, name});
+  return in_reach(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusts(name, id, now);
 }
 
 bool SubmapReceiver::has_room(Stamp now) const {
-  return std::ranges::any_of(peers_, [&](const auto& entry) {
-    return in_reach(entry.first, now) && entry.second.bytes_out + kChunk <= config_.window_bytes;
-  });
+  return std::ranges::any_of(
+      peers_, [&](const auto& entry) { return in_reach(entry.first, now) && entry.second.has_room(); });
 }
 
 bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp now) {
   if (downloads_.contains(id) || store.has_submap(id)) return false;
   const AgentId* best = nullptr;
   for (const auto& [name, peer] : peers_) {
-    if (!may_serve(name, peer, id, now) || peer.bytes_out + kChunk > config_.window_bytes) continue;
+    if (!may_serve(name, peer, id, now) || !peer.has_room()) continue;
     if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
   }
   if (!best) return false;
@@ -200,13 +269,13 @@ bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp n
 void SubmapReceiver::fill(const store::Store& store, const NodeId& id, Download& download, Stamp now,
                           std::vector<SubmapRequest>& requests) {
   const graph::Node& node = *store.node(id);
-  Peer& peer = peers_[download.peer];
+  Peer& peer = this->peer(download.peer);
   for (const std::uint32_t chunk : store.missing_chunks(id)) {
     if (download.flights.contains(chunk)) continue;
     const std::uint32_t bytes = chunk_bytes(node, chunk);
-    if (peer.bytes_out + bytes > config_.window_bytes) return;
+    if (peer.bytes_out + bytes > peer.window.bytes()) return;
     peer.bytes_out += bytes;
-    download.flights[chunk] = {bytes, now, now + timeout(peer)};
+    download.flights[chunk] = {bytes, ++peer.asked, now, now + timeout(peer)};
     const bool extends = !requests.empty() && requests.back().node == id &&
                          requests.back().to == download.peer &&
                          requests.back().offset + requests.back().length == chunk * kChunk &&
@@ -222,6 +291,7 @@ void SubmapReceiver::fill(const store::Store& store, const NodeId& id, Download&
 std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp now) {
   expire(store, now);
   std::vector<SubmapRequest> requests;
+  if (paused_until_) return requests;
   for (auto& [id, download] : downloads_) fill(store, id, download, now, requests);
   if (has_room(now) && store.submap_set().size() < store.node_set().size()) {
     for (const NodeId& id : missing(store)) {

@@ -13,10 +13,11 @@ constexpr std::size_t kMaxLoaded = 4;  // submaps in memory
 SubmapSender::SubmapSender(const AgentId& self, const SubmapTransferConfig& config)
     : self_(self), config_(config), bucket_(config.bytes_per_second, config.burst_bytes) {}
 
-std::optional<SubmapDigest> SubmapSender::digest(const store::Store& store, Stamp now) {
+std::optional<SubmapDigest> SubmapSender::digest(const store::Store& store, std::vector<AgentId> hears,
+                                                 Stamp now) {
   if (next_digest_ && now < *next_digest_) return std::nullopt;
   next_digest_ = now + config_.digest_period;
-  SubmapDigest digest{self_, {}};
+  SubmapDigest digest{self_, {}, std::move(hears)};
   const auto ranges = store.submap_set().ranges();
   for (std::size_t k = 0; k < std::min(config_.max_ranges, ranges.size()); ++k) {
     digest.submaps.push_back(ranges[(next_range_ + k) % ranges.size()]);

@@ -135,7 +135,7 @@ std::optional<graph::Node> decode_node(ByteView bytes) {
   Reader r(bytes);
   graph::Node node;
   node.id = r.id();
-  node.session = r.value<std::uint8_t>();
+  node.session = r.value<std::uint16_t>();
   node.stamp = stamp_from_ns(r.value<std::int64_t>());
   if (r.value<std::uint8_t>() != 0) {
     GlobalPose& G = node.G.emplace();

@@ -6,7 +6,7 @@ namespace fleetmap::store {
 namespace {
 
 constexpr std::int64_t kApplicationId = 0x464c4d50;  // "FLMP", in the file's header
-constexpr std::int64_t kSchemaVersion = 2;
+constexpr std::int64_t kSchemaVersion = 3;
 
 // WITHOUT ROWID keeps an item in its index; large blobs want the ordinary layout instead.
 constexpr const char* kTables = R"sql(

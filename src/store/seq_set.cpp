@@ -48,6 +48,14 @@ bool SeqSet::contains(const AgentId& agent, std::uint32_t seq) const {
   return it != found->second.begin() && std::prev(it)->second > seq;
 }
 
+std::uint32_t SeqSet::end_within(const SeqRange& range) const {
+  const auto found = intervals_.find(range.agent);
+  if (found == intervals_.end()) return range.first;
+  const auto after = found->second.lower_bound(range.end);
+  if (after == found->second.begin()) return range.first;
+  return std::clamp(std::prev(after)->second, range.first, range.end);
+}
+
 bool SeqSet::includes(const SeqSet& other) const { return other.minus(*this, 1).empty(); }
 
 std::vector<SeqRange> SeqSet::ranges() const {

@@ -51,25 +51,21 @@ bool valid(const GlobalPose& G) {
 }
 
 bool valid(const graph::Node& node, const StoreConfig& config) {
-  return !node.id.agent.empty() && node.id.seq < config.max_seq && (!node.G || valid(*node.G)) &&
+  return !node.id.agent.empty() && node.id.seq < kEndOfSeqs && (!node.G || valid(*node.G)) &&
          node.up_in_base.allFinite() && node.descriptor.size() <= graph::Node::kMaxDescriptorBytes &&
          is_pose(node.T_odom_base) && is_covariance(node.odom_covariance) &&
          node.submap_bytes <= config.max_submap_bytes;
 }
 
-bool valid(const graph::Alignment& a, const StoreConfig& config) {
+bool valid(const graph::Alignment& a) {
   return !a.computed_by.empty() && !a.i.agent.empty() && !a.j.agent.empty() && a.i != a.j &&
-         a.seq < config.max_seq && a.i.seq < config.max_seq && a.j.seq < config.max_seq && !a.modes.empty() &&
+         a.seq < kEndOfSeqs && a.i.seq < kEndOfSeqs && a.j.seq < kEndOfSeqs && !a.modes.empty() &&
          a.modes.size() <= graph::Alignment::kMaxModes &&
          std::ranges::all_of(a.modes, [](const graph::AlignmentMode& mode) { return valid(mode); });
 }
 
-std::uint32_t end_of(const SeqSet& set, const AgentId& agent) {
-  std::uint32_t end = 0;
-  for (const SeqRange& range : set.ranges()) {
-    if (range.agent == agent) end = std::max(end, range.end);
-  }
-  return end;
+SeqRange items_of(const AgentId& agent, std::uint16_t session) {
+  return {agent, first_seq(session), first_seq(session) + kItemsPerSession};
 }
 
 }  // namespace
@@ -78,7 +74,6 @@ Status StoreConfig::validate() const {
   if (max_submap_bytes == 0 || max_submap_bytes > (1u << 30)) {
     return failure("store.max_submap_bytes must be in 1 .. 2^30");
   }
-  if (max_seq == 0 || max_seq == UINT32_MAX) return failure("store.max_seq must be in 1 .. 2^32 - 2");
   return {};
 }
 
@@ -164,8 +159,7 @@ Status Store::State::load_items() {
     if (!row) return tl::unexpected(row.error());
     if (!*row) return {};
     const auto item = decode_alignment(rows->blob(2));
-    if (!item || item->computed_by.str() != rows->text(0) || item->seq != rows->integer(1) ||
-        !valid(*item, config)) {
+    if (!item || item->computed_by.str() != rows->text(0) || item->seq != rows->integer(1) || !valid(*item)) {
       return damaged("alignment");
     }
     alignment_set.insert(item->computed_by, item->seq);
@@ -183,7 +177,7 @@ Status Store::State::load_submap_names() {
     const auto agent = AgentId::parse(rows->text(0));
     const auto seq = rows->integer(1);
     const auto chunk = rows->integer(2);
-    if (!agent || seq < 0 || seq >= config.max_seq) continue;
+    if (!agent || seq < 0 || seq >= kEndOfSeqs) continue;
     const auto node = nodes.find({*agent, static_cast<std::uint32_t>(seq)});
     if (node == nodes.end()) continue;
     if (chunk < 0) {
@@ -238,7 +232,7 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
   // The process may have died between the last chunk of a download and its completion.
   for (const NodeId& id : store.partial_submaps()) {
     if (!store.missing_chunks(id).empty()) continue;
-    if (const auto put = store.finish_download(*store.node(id)); !put) return tl::unexpected(put.error());
+    if (const auto put = store.finish_download(id); !put) return tl::unexpected(put.error());
   }
   return store;
 }
@@ -305,7 +299,7 @@ Result<Put> Store::put_node_with_submap(const graph::Node& node, ByteView submap
 
 Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
   State& s = *state_;
-  if (!valid(alignment, s.config)) return s.count(Put::kInvalid);
+  if (!valid(alignment)) return s.count(Put::kInvalid);
   const AlignmentId id{alignment.computed_by, alignment.seq};
   const Bytes item = encode(alignment);
   if (const auto held = s.alignments.find(id); held != s.alignments.end()) {
@@ -367,12 +361,15 @@ Result<Put> Store::put_submap_chunk(const NodeId& id, std::uint32_t chunk, ByteV
   if (auto status = insert->run(); !status) return tl::unexpected(status.error());
   Partial& partial = s.partial(*held);
   partial.held[chunk] = true;
-  if (--partial.missing == 0) return finish_download(*held);
+  if (--partial.missing == 0) return finish_download(id);
   return s.count(Put::kAdded);
 }
 
-Result<Put> Store::finish_download(const graph::Node& node) {
+Result<Put> Store::finish_download(const NodeId& id) {
   State& s = *state_;
+  const auto partial = s.partials.find(id);
+  if (partial == s.partials.end() || partial->second.missing > 0) return s.count(Put::kInvalid);
+  const graph::Node& node = s.nodes.at(id);
   auto rows = s.db->prepare("SELECT bytes FROM submap_chunk WHERE agent = ? AND seq = ? ORDER BY chunk");
   if (!rows) return tl::unexpected(rows.error());
   rows->bind(1, node.id.agent.str()).bind(2, std::int64_t{node.id.seq});
@@ -471,8 +468,12 @@ std::vector<NodeId> Store::partial_submaps() const {
 const SeqSet& Store::node_set() const { return state_->node_set; }
 const SeqSet& Store::alignment_set() const { return state_->alignment_set; }
 const SeqSet& Store::submap_set() const { return state_->submap_set; }
-std::uint32_t Store::next_node_seq() const { return end_of(state_->node_set, state_->self); }
-std::uint32_t Store::next_alignment_seq() const { return end_of(state_->alignment_set, state_->self); }
+std::uint32_t Store::next_node_seq(std::uint16_t session) const {
+  return state_->node_set.end_within(items_of(state_->self, session));
+}
+std::uint32_t Store::next_alignment_seq(std::uint16_t session) const {
+  return state_->alignment_set.end_within(items_of(state_->self, session));
+}
 
 Result<std::optional<Bytes>> Store::meta(std::string_view key) const {
   auto rows = state_->db->prepare("SELECT value FROM meta WHERE key = ?");

@@ -74,7 +74,7 @@ AgentId FieldCheck::agent(const AgentName& octets, const char* member) {
 }
 
 std::uint32_t FieldCheck::seq(std::uint32_t value, const char* member) {
-  if (value > kMaxSeq)
+  if (value >= kEndOfSeqs)
     refuse(std::string(member) + ": sequence number " + std::to_string(value) + " is too large");
   return value;
 }
@@ -89,7 +89,7 @@ std::vector<exchange::Range> FieldCheck::ranges(const std::vector<msg::Range>& r
   std::vector<exchange::Range> out;
   for (std::size_t k = 0; k < std::min(ranges.size(), limit); ++k) {
     const auto& range = ranges[k];
-    if (range.first() > range.end() || range.end() > kMaxSeq + 1) {
+    if (range.first() > range.end() || range.end() > kEndOfSeqs) {
       refuse(std::string(member) + ": range [" + std::to_string(range.first()) + ", " +
              std::to_string(range.end()) + ") is out of order or too large");
     }

@@ -93,7 +93,6 @@ Bytes encode(const graph::Node& node) {
   out.schema(kSchemaVersion);
   out.agent(agent_name(node.id.agent));
   out.seq(node.id.seq);
-  out.session(node.session);
   out.stamp(to_ns(node.stamp));
   out.up_in_base(write_up(node.up_in_base));
   if (node.G) out.fix({write_fix(*node.G)});
@@ -113,7 +112,7 @@ Result<graph::Node> decode(ByteView cdr) {
   FieldCheck check(type_name::kNode);
   graph::Node node;
   node.id = check.node(in->agent(), in->seq(), "agent");
-  node.session = in->session();
+  node.session = session_of(node.id.seq);
   node.stamp = check.stamp(in->stamp());
   node.up_in_base = read_up(in->up_in_base(), check);
   check.require(in->fix().size() <= 1, "there is more than one fix");

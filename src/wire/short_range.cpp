@@ -11,6 +11,8 @@ Bytes encode(const exchange::SubmapDigest& digest) {
   out.schema(kSchemaVersion);
   out.sender(agent_name(digest.from));
   out.submaps(ranges(digest.submaps, kMaxSubmapRanges));
+  for (std::size_t k = 0; k < std::min(digest.hears.size(), kMaxHeard); ++k)
+    out.hears().push_back(agent_name(digest.hears[k]));
   return to_cdr(out);
 }
 
@@ -22,6 +24,9 @@ Result<exchange::SubmapDigest> decode(ByteView cdr) {
   exchange::SubmapDigest digest;
   digest.from = check.agent(in->sender(), "sender");
   digest.submaps = check.ranges(in->submaps(), kMaxSubmapRanges, "submaps");
+  check.require(in->hears().size() <= kMaxHeard, "hears: more than 255 agents");
+  for (std::size_t k = 0; k < std::min(in->hears().size(), kMaxHeard); ++k)
+    digest.hears.push_back(check.agent(in->hears()[k], "hears"));
   return check.finish(std::move(digest));
 }
 

@@ -3,16 +3,8 @@
 #include "type_names.hpp"
 
 namespace fleetmap::wire::topics {
-namespace {
 
 using bus::Link;
-
-bus::Topic to_one(Link link, const char* stem, const AgentId& recipient, const char* type,
-                  const char* profile) {
-  return {link, std::string(stem) + "/" + recipient.str(), type, profile};
-}
-
-}  // namespace
 
 bus::Topic points() { return {Link::kOnboard, "rt/points", type_name::kPointCloud2, "sensor"}; }
 bus::Topic imu() { return {Link::kOnboard, "rt/imu", type_name::kImu, "sensor"}; }
@@ -28,81 +20,98 @@ bus::Topic cmd_vel() { return {Link::kOnboard, "rt/cmd_vel", type_name::kTwist, 
 
 bus::Topic battery() { return {Link::kOnboard, "rt/battery_state", type_name::kBatteryState, "sensor"}; }
 
-bus::Topic node() { return {Link::kLongRange, "fleetmap/node", type_name::kNode, "small"}; }
-bus::Topic alignment() { return {Link::kLongRange, "fleetmap/alignment", type_name::kAlignment, "small"}; }
-bus::Topic digest() { return {Link::kLongRange, "fleetmap/digest", type_name::kDigest, "small"}; }
-bus::Topic status() { return {Link::kLongRange, "fleetmap/status", type_name::kAgentStatus, "small"}; }
-
-bus::Topic mission_report() {
-  return {Link::kLongRange, "fleetmap/mission_report", type_name::kMissionReport, "small"};
-}
-
 bus::Topic hold() { return {Link::kLongRange, "fleetmap/hold", type_name::kHold, "small"}; }
 bus::Topic hold_onboard() { return {Link::kOnboard, "fleetmap/hold", type_name::kHold, "state"}; }
-
-bus::Topic proximity_match(const AgentId& recipient) {
-  return to_one(Link::kLongRange, "fleetmap/proximity_match", recipient, type_name::kProximityMatch, "small");
-}
-bus::Topic cloud_request(const AgentId& recipient) {
-  return to_one(Link::kLongRange, "fleetmap/cloud_request", recipient, type_name::kCloudRequest, "small");
-}
-bus::Topic item_request(const AgentId& recipient) {
-  return to_one(Link::kLongRange, "fleetmap/item_request", recipient, type_name::kItemRequest, "small");
-}
-bus::Topic cloud_fragment(const AgentId& recipient) {
-  return to_one(Link::kLongRange, "fleetmap/cloud_fragment", recipient, type_name::kCloudFragment, "cloud");
-}
-
-bus::Topic submap_digest() {
-  return {Link::kShortRange, "fleetmap/submap_digest", type_name::kSubmapDigest, "control"};
-}
-bus::Topic submap_request(const AgentId& recipient) {
-  return to_one(Link::kShortRange, "fleetmap/submap_request", recipient, type_name::kSubmapRequest,
-                "control");
-}
-bus::Topic submap_chunk(const AgentId& recipient) {
-  return to_one(Link::kShortRange, "fleetmap/submap_chunk", recipient, type_name::kSubmapChunk, "bulk");
-}
 
 }  // namespace fleetmap::wire::topics
 
 namespace fleetmap::wire {
 namespace {
 
-struct TopicOf {
-  bus::Topic operator()(const graph::Node&) const { return topics::node(); }
-  bus::Topic operator()(const graph::Alignment&) const { return topics::alignment(); }
-  bus::Topic operator()(const exchange::Digest&) const { return topics::digest(); }
-  bus::Topic operator()(const exchange::AgentStatus&) const { return topics::status(); }
-  bus::Topic operator()(const exchange::MissionReport&) const { return topics::mission_report(); }
-  bus::Topic operator()(const exchange::Hold&) const { return topics::hold(); }
-  bus::Topic operator()(const exchange::SubmapDigest&) const { return topics::submap_digest(); }
-  bus::Topic operator()(const exchange::ProximityMatch& m) const { return topics::proximity_match(m.to); }
-  bus::Topic operator()(const exchange::CloudRequest& m) const { return topics::cloud_request(m.to); }
-  bus::Topic operator()(const exchange::ItemRequest& m) const { return topics::item_request(m.to); }
-  bus::Topic operator()(const exchange::CloudFragment& m) const { return topics::cloud_fragment(m.to); }
-  bus::Topic operator()(const exchange::SubmapRequest& m) const { return topics::submap_request(m.to); }
-  bus::Topic operator()(const exchange::SubmapChunk& m) const { return topics::submap_chunk(m.to); }
+using bus::Link;
+using bus::Topic;
+using exchange::Reach;
+
+/// The topics of one kind of message.
+struct Kind {
+  const char* name;
+  const char* type;
+  bool large = false;  ///< one of many pieces
 };
+
+struct KindOf {
+  Kind operator()(const graph::Node&) const { return {"fleetmap/node", type_name::kNode}; }
+  Kind operator()(const graph::Alignment&) const { return {"fleetmap/alignment", type_name::kAlignment}; }
+  Kind operator()(const exchange::Digest&) const { return {"fleetmap/digest", type_name::kDigest}; }
+  Kind operator()(const exchange::AgentStatus&) const { return {"fleetmap/status", type_name::kAgentStatus}; }
+  Kind operator()(const exchange::MissionReport&) const {
+    return {"fleetmap/mission_report", type_name::kMissionReport};
+  }
+  Kind operator()(const exchange::Hold&) const { return {"fleetmap/hold", type_name::kHold}; }
+  Kind operator()(const exchange::ProximityMatch&) const {
+    return {"fleetmap/proximity_match", type_name::kProximityMatch};
+  }
+  Kind operator()(const exchange::CloudRequest&) const {
+    return {"fleetmap/cloud_request", type_name::kCloudRequest};
+  }
+  Kind operator()(const exchange::ItemRequest&) const {
+    return {"fleetmap/item_request", type_name::kItemRequest};
+  }
+  Kind operator()(const exchange::CloudFragment&) const {
+    return {"fleetmap/cloud_fragment", type_name::kCloudFragment, true};
+  }
+  Kind operator()(const exchange::SubmapDigest&) const {
+    return {"fleetmap/submap_digest", type_name::kSubmapDigest};
+  }
+  Kind operator()(const exchange::SubmapRequest&) const {
+    return {"fleetmap/submap_request", type_name::kSubmapRequest};
+  }
+  Kind operator()(const exchange::SubmapChunk&) const {
+    return {"fleetmap/submap_chunk", type_name::kSubmapChunk, true};
+  }
+};
+
+Topic topic(const Kind& kind, Reach reach, const std::optional<AgentId>& to) {
+  const std::string name = to ? std::string(kind.name) + "/" + to->str() : kind.name;
+  if (reach == Reach::kLongRange) return {Link::kLongRange, name, kind.type, kind.large ? "cloud" : "small"};
+  return {Link::kShortRange, name, kind.type, kind.large ? "bulk" : "control"};
+}
+
+Kind kind_of(const exchange::Message& message) { return std::visit(KindOf{}, message); }
+
+/// Adds the topics on which messages like `example` arrive.
+void add_inbox(std::vector<Topic>& topics, const exchange::Message& example, const AgentId& self) {
+  const bool to_all = !exchange::recipient_of(example);
+  const bool to_one = !to_all || exchange::may_be_passed_on(example);
+  const bool over_radio = exchange::usual_reach(example) == Reach::kLongRange;
+  for (const Reach reach : {Reach::kLongRange, Reach::kShortRange}) {
+    if (reach == Reach::kLongRange && !over_radio) continue;
+    if (to_all) topics.push_back(topic(kind_of(example), reach, std::nullopt));
+    if (to_one) topics.push_back(topic(kind_of(example), reach, self));
+  }
+}
+
+template <std::size_t... Index>
+std::vector<Topic> inbox(const AgentId& self, std::index_sequence<Index...>) {
+  std::vector<Topic> topics;
+  (add_inbox(topics, exchange::Message(std::in_place_index<Index>), self), ...);
+  return topics;
+}
 
 }  // namespace
 
-bus::Topic topic_of(const exchange::Message& message) { return std::visit(TopicOf{}, message); }
+Topic topic_of(const exchange::Outgoing& outgoing) {
+  return topic(kind_of(outgoing.message), outgoing.reach, outgoing.to);
+}
 
-std::vector<bus::Topic> inbox_topics(const AgentId& self) {
-  return {topics::node(),
-          topics::alignment(),
-          topics::digest(),
-          topics::status(),
-          topics::mission_report(),
-          topics::hold(),
-          topics::proximity_match(self),
-          topics::cloud_request(self),
-          topics::item_request(self),
-          topics::cloud_fragment(self),
-          topics::submap_digest(),
-          topics::submap_request(self),
-          topics::submap_chunk(self)};
+Topic topic_of(const exchange::Message& message) {
+  return topic(kind_of(message), exchange::usual_reach(message), exchange::recipient_of(message));
+}
+
+Reach reach_of(Link link) { return link == Link::kShortRange ? Reach::kShortRange : Reach::kLongRange; }
+
+std::vector<Topic> inbox_topics(const AgentId& self) {
+  return inbox(self, std::make_index_sequence<std::variant_size_v<exchange::Message>>());
 }
 
 }  // namespace fleetmap::wire

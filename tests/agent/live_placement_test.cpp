@@ -64,7 +64,7 @@ class LivePlacementTest : public ::testing::Test {
   }
   void solve() {
     EXPECT_FALSE(live_->idle()) << "something is new";
-    live_->refresh();
+    live_->refresh(0);
     network_->run_until(network_->now() + std::chrono::seconds(2));
     EXPECT_TRUE(live_->idle());
   }
@@ -123,7 +123,7 @@ TEST_F(LivePlacementTest, FollowsTheOdometryBetweenSolutionsAndIgnoresThatOfAnot
   network_->run_until(network_->now() + std::chrono::seconds(1));
   EXPECT_TRUE(heard_.empty());
   // Nothing new, nothing solved.
-  live_->refresh();
+  live_->refresh(0);
   EXPECT_EQ(used_.size(), 1u);
 }
 

@@ -7,7 +7,7 @@ namespace {
 
 const AgentId kSelf = *AgentId::parse("r1");
 
-graph::Node node_at(std::uint32_t seq, double x, double y, std::uint8_t session = 0) {
+graph::Node node_at(std::uint32_t seq, double x, double y, std::uint16_t session = 0) {
   graph::Node node;
   node.id = {kSelf, seq};
   node.session = session;

@@ -12,6 +12,7 @@
 #include "fleetmap/agent/pass_around.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/cloud/file_io.hpp"
 #include "graph/simulated_fleet.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,15 +31,17 @@ class ResultsTest : public ::testing::Test {
     return config;
   }
   /// A node at x metres east with a few points two metres ahead of it.
-  graph::Node add_node(store::Store& store, double x, std::uint8_t session = 0) {
+  graph::Node add_node(store::Store& store, double x, std::uint16_t session = 0, bool located = true) {
     graph::Node node;
-    node.id = {kSelf, store.next_node_seq()};
+    node.id = {kSelf, store.next_node_seq(session)};
     node.session = session;
     node.stamp = stamp_from_ns(1'000'000'000 * (node.id.seq + 1));
     node.T_odom_base.translation().x() = x;
-    node.G.emplace();
-    node.G->stamp = node.stamp;
-    node.G->position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
+    if (located) {
+      node.G.emplace();
+      node.G->stamp = node.stamp;
+      node.G->position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
+    }
     SubmapBuilder builder(SubmapConfig{});
     cloud::PointCloud points;
     for (int k = 0; k < 50; ++k) points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
@@ -76,8 +79,25 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
   EXPECT_EQ(recipe->origin, *config.site_origin);
-  const auto again = merged_map(store, place(store, recipe->origin, recipe->placement), recipe->merge);
+  const auto again =
+      merged_map(store, place(store, recipe->origin, recipe->placement).T_enu_node, recipe->merge);
   EXPECT_EQ(again.cloud.size(), results->map.points);
+}
+
+TEST_F(ResultsTest, WhatNobodyCanPlaceIsAFileOfItsOwn) {
+  store::Store store = open();
+  for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
+  for (int k = 0; k < 3; ++k) add_node(store, 3.0 * k, 5, false);
+  ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
+  const auto results = write_results(store, config());
+  ASSERT_TRUE(results) << results.error().message;
+  EXPECT_EQ(results->map.submaps, 4u);
+  EXPECT_EQ(results->missing_submaps, 0u);
+  ASSERT_EQ(results->apart.size(), 1u);
+  EXPECT_EQ(results->apart.front().T_map_node.size(), 3u);
+  const auto part = cloud::read_cloud(folder_.path() / "map-r1-5.ply");
+  ASSERT_TRUE(part) << part.error().message;
+  EXPECT_GT(part->size(), 50u);
 }
 
 TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {

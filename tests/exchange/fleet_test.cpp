@@ -292,7 +292,11 @@ TEST(Fleet, refuses_strangers_and_reports_a_taken_name) {
   robot.exchange->on_message(Digest{agent("x"), {{agent("r2"), 0, 5}}, {}}, fleet.now());
   robot.exchange->on_message(Digest{agent("r1"), {{agent("r2"), 0, 5}}, {}}, fleet.now());
   robot.exchange->on_message(Digest{agent("r2"), {{agent("x"), 0, 5}}, {}}, fleet.now());
-  EXPECT_EQ(robot.exchange->stats().strangers, 4u);
+  robot.exchange->on_message(AgentStatus{agent("x"), {}, {}}, fleet.now());
+  EXPECT_EQ(robot.exchange->stats().strangers, 5u);
+  const auto told = robot.exchange->take_events();
+  ASSERT_EQ(told.size(), 1u) << "once of each";
+  EXPECT_EQ(std::get<StrangerHeard>(told[0]).name, agent("x"));
   EXPECT_TRUE(robot.exchange->complete());
   robot.exchange->on_message(testing::make_node(agent("r2"), 0, Bytes{}, 0.0, 1), fleet.now());
   robot.exchange->on_message(testing::make_node(agent("r2"), 0, Bytes{}, 0.0, 2), fleet.now());
@@ -308,6 +312,150 @@ TEST(Fleet, refuses_strangers_and_reports_a_taken_name) {
   EXPECT_EQ(robot.exchange->stats().reconcile.hostile, 2u);
   EXPECT_EQ(robot.exchange->stats().bad_requests, 1u);
   EXPECT_EQ(robot.exchange->queue().size(Priority::kBackfill), 1u);
+}
+
+/// How often this robot was told that its store lacks what others have of it.
+int warnings_of_lost_items(const SimFleet::Robot& robot) {
+  return static_cast<int>(std::ranges::count_if(
+      robot.events, [](const Event& event) { return std::holds_alternative<OwnItemsElsewhere>(event); }));
+}
+bool conflicts(const SimFleet::Robot& robot) {
+  return std::ranges::any_of(robot.events,
+                             [](const Event& event) { return std::holds_alternative<ItemConflict>(event); });
+}
+
+TEST(Fleet, a_robot_on_a_new_disk_gets_its_items_back_and_nothing_conflicts) {
+  SimFleet fleet({"r1", "r2", "r3"}, {.loss = 0.05}, 41);
+  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+  for (int k = 0; k < 17; ++k) {
+    fleet.add_node("r1", 4.0 * k);
+    fleet.run_for(std::chrono::seconds(1));
+  }
+  fleet.run_for(std::chrono::seconds(60), [&] { return fleet.equal_sets(17); });
+  ASSERT_TRUE(fleet.equal_sets(17));
+  fleet.kill("r1");
+  fleet.lose_store("r1");
+  fleet.start("r1", 4711);
+  // It has heard nobody yet, and maps.
+  for (int k = 0; k < 17; ++k) {
+    fleet.add_node("r1", -4.0 * k);
+    fleet.run_for(std::chrono::seconds(1));
+  }
+  fleet.run_for(std::chrono::seconds(180), [&] { return fleet.equal_sets(34); });
+  EXPECT_TRUE(fleet.equal_sets(34)) << fleet.robot("r1").store->nodes().size();
+  EXPECT_EQ(warnings_of_lost_items(fleet.robot("r1")), 1);
+  EXPECT_TRUE(fleet.all([](const auto& robot) { return !conflicts(robot); }));
+}
+
+TEST(Fleet, a_robot_whose_store_is_an_old_backup_gives_no_name_twice) {
+  SimFleet fleet({"r1", "r2"}, {}, 43);
+  fleet.start("r1");
+  fleet.start("r2");
+  for (int k = 0; k < 5; ++k) fleet.add_node("r1", 4.0 * k);
+  fleet.run_for(std::chrono::seconds(20), [&] { return fleet.equal_sets(5); });
+  fleet.kill("r1");
+  fleet.keep_store("r1");
+  fleet.start("r1", 2);
+  for (int k = 5; k < 9; ++k) fleet.add_node("r1", 4.0 * k);
+  fleet.run_for(std::chrono::seconds(60), [&] { return fleet.equal_sets(9); });
+  ASSERT_TRUE(fleet.equal_sets(9));
+  fleet.kill("r1");
+  fleet.put_back_store("r1");
+  fleet.start("r1", 3);
+  EXPECT_EQ(fleet.robot("r1").store->nodes().size(), 5u);
+  for (int k = 9; k < 12; ++k) fleet.add_node("r1", 4.0 * k);
+  fleet.run_for(std::chrono::seconds(120), [&] { return fleet.equal_sets(12); });
+  EXPECT_TRUE(fleet.equal_sets(12));
+  EXPECT_EQ(warnings_of_lost_items(fleet.robot("r1")), 1);
+  EXPECT_TRUE(fleet.all([](const auto& robot) { return !conflicts(robot); }));
+}
+
+/// Messages of these kinds that went over `reach`.
+template <class... Kinds>
+std::size_t sent_over(const SimFleet& fleet, Reach reach) {
+  return static_cast<std::size_t>(std::ranges::count_if(fleet.sent(), [&](const SimFleet::Sent& sent) {
+    return sent.outgoing.reach == reach && (std::holds_alternative<Kinds>(sent.outgoing.message) || ...);
+  }));
+}
+
+TEST(Fleet, what_is_for_one_robot_leaves_the_radio_to_others_when_it_is_near) {
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 51);
+  // r1 and r2 drive beside each other, r3 is out of their Wi-Fi's reach.
+  fleet.reachable = [](const AgentId& from, const AgentId& to, Reach reach) {
+    return reach == Reach::kLongRange || (from.str() != "r3" && to.str() != "r3");
+  };
+  for (const auto& name : kThree) fleet.start(name);
+  drive(fleet, {"r1", "r2"}, 30);
+  EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u);
+  EXPECT_GT((sent_over<CloudFragment>(fleet, Reach::kShortRange)), 40u);
+  EXPECT_EQ((sent_over<CloudFragment, CloudRequest, ProximityMatch>(fleet, Reach::kLongRange)), 0u);
+  fleet.run_for(std::chrono::seconds(20), [&] { return fleet.equal_sets(60); });
+  EXPECT_TRUE(fleet.equal_sets(60)) << "r3 has heard of all by radio";
+}
+
+TEST(Fleet, goes_on_over_the_short_range_when_the_radio_is_down) {
+  SimFleet fleet({"r1", "r2", "r3"}, {.loss = 0.05}, 53);
+  // r2 is within reach of both others: what r1 makes comes to r3 through it.
+  fleet.reachable = [](const AgentId& from, const AgentId& to, Reach reach) {
+    return reach == Reach::kShortRange && (from.str() == "r2" || to.str() == "r2");
+  };
+  for (const auto& name : kThree) fleet.start(name);
+  drive(fleet, kThree, 20);
+  fleet.run_for(std::chrono::seconds(60), [&] { return fleet.equal_sets(60); });
+  EXPECT_TRUE(fleet.equal_sets(60));
+  EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u);
+}
+
+TEST(Fleet, the_radio_is_silent_but_for_orders_when_the_whole_fleet_is_near) {
+  SimFleet fleet({"r1", "r2"}, {}, 57);
+  fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
+  for (const char* name : {"r1", "r2"}) fleet.start(name);
+  fleet.run_for(std::chrono::seconds(5));
+  fleet.forget_sent();
+  drive(fleet, {"r1", "r2"}, 20);
+  EXPECT_TRUE(fleet.equal_sets(40));
+  EXPECT_EQ((sent_over<graph::Node, graph::Alignment, Digest, CloudFragment, AgentStatus>(fleet,
+                                                                                          Reach::kLongRange)),
+            0u);
+  fleet.robot("r1").exchange->on_local_order({{}, {}, agent("r1"), true}, fleet.now());
+  fleet.run_for(std::chrono::seconds(5));
+  EXPECT_GT((sent_over<Hold>(fleet, Reach::kLongRange)), 0u);
+}
+
+TEST(Fleet, a_short_range_that_works_one_way_takes_nothing_from_the_radio) {
+  SimFleet fleet({"r1", "r2"}, {}, 59);
+  fleet.reachable = [](const AgentId& from, const AgentId&, Reach reach) {
+    return reach == Reach::kLongRange || from.str() == "r2";
+  };
+  for (const char* name : {"r1", "r2"}) fleet.start(name);
+  drive(fleet, {"r1", "r2"}, 30);
+  fleet.run_for(std::chrono::seconds(20), [&] { return fleet.equal_sets(60); });
+  EXPECT_TRUE(fleet.equal_sets(60));
+  EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u);
+  EXPECT_GT((sent_over<CloudFragment>(fleet, Reach::kLongRange)), 20u);
+}
+
+TEST(Fleet, takes_no_items_of_its_own_session_from_others) {
+  SimFleet fleet({"r1", "r2"}, {}, 47);
+  fleet.start("r1", 9);
+  auto& robot = fleet.robot("r1");
+  const graph::Node own = fleet.add_node("r1", 0.0);
+  robot.exchange->take_events();
+  const auto hear = [&](const Message& message) {
+    robot.exchange->on_message(message, fleet.now());
+    return robot.exchange->take_events();
+  };
+  EXPECT_TRUE(hear(own).empty()) << "an echo";
+  const auto forged = testing::make_node(agent("r1"), first_seq(9) + 9'999, Bytes{});
+  const auto events = hear(forged);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(std::get<ItemConflict>(events[0]).id, forged.id);
+  const auto alignment = testing::make_alignment(own.id, {agent("r2"), 0}, agent("r1"), first_seq(9) + 5);
+  EXPECT_EQ(hear(alignment).size(), 1u);
+  EXPECT_EQ(fleet.add_node("r1", 4.0).id.seq, own.id.seq + 1) << "its own names are still its own";
+  EXPECT_EQ(robot.store->next_alignment_seq(9), first_seq(9));
+  EXPECT_EQ(hear(testing::make_node(agent("r1"), first_seq(8), Bytes{})).size(), 1u);
+  EXPECT_EQ(robot.store->nodes().size(), 3u) << "of an earlier session: given back";
 }
 
 TEST(Fleet, configuration_names_what_is_wrong) {

@@ -38,7 +38,7 @@ SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network
   if (adjust) adjust(config_);
 }
 
-void SimFleet::start(const std::string& name) {
+void SimFleet::start(const std::string& name, std::uint16_t session) {
   Robot& robot = robots_[agent(name)];
   // Virtual time knows no power cuts, and a real disk sync for every node would take most of the test's
   // time.
@@ -50,14 +50,31 @@ void SimFleet::start(const std::string& name) {
   auto made = exchange::Exchange::make(config_, *robot.store, now_);
   if (!made) throw std::runtime_error(made.error().message);
   robot.exchange = std::make_unique<exchange::Exchange>(std::move(*made));
+  robot.session = session;
+  robot.exchange->begin_session(session);
+}
+
+void SimFleet::keep_store(const std::string& name) {
+  std::filesystem::copy_file(folder_ / (name + ".db"), folder_ / (name + ".kept"),
+                             std::filesystem::copy_options::overwrite_existing);
+}
+
+void SimFleet::put_back_store(const std::string& name) {
+  lose_store(name);
+  std::filesystem::copy_file(folder_ / (name + ".kept"), folder_ / (name + ".db"));
+}
+
+void SimFleet::lose_store(const std::string& name) {
+  for (const char* end : {".db", ".db-wal", ".db-shm"}) std::filesystem::remove(folder_ / (name + end));
 }
 
 graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size_t submap_bytes) {
   Robot& r = robot(name);
-  const std::uint32_t seq = r.store->next_node_seq();
+  const std::uint32_t seq = r.store->next_node_seq(r.session);
   const Bytes submap = random_bytes(submap_bytes, seq + 7919 * static_cast<std::uint32_t>(name.back()));
   auto node = make_node(agent(name), seq, submap, east_m, static_cast<std::uint32_t>(name.back()));
   node.G->covariance = Matrix6d::Identity();
+  node.session = r.session;
   const auto put = r.exchange->on_own_node(node, submap, now_);
   if (!put || *put != store::Put::kAdded) throw std::runtime_error("own node refused");
   return node;
@@ -66,7 +83,7 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
 void SimFleet::add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse) {
   Robot& r = robot(name);
   const auto alignment =
-      make_alignment(pair.ours, pair.theirs, agent(name), r.store->next_alignment_seq(), rmse);
+      make_alignment(pair.ours, pair.theirs, agent(name), r.store->next_alignment_seq(r.session), rmse);
   const auto put = r.exchange->on_own_alignment(alignment, now_);
   if (!put || *put != store::Put::kAdded) throw std::runtime_error("own alignment refused");
 }
@@ -82,7 +99,7 @@ void SimFleet::step() {
     const Flight flight = in_flight_.top();
     in_flight_.pop();
     const auto robot = robots_.find(flight.to);
-    if (robot != robots_.end()) robot->second.exchange->on_message(*flight.message, now_);
+    if (robot != robots_.end()) robot->second.exchange->on_message(*flight.message, flight.reach, now_);
   }
   for (auto& [name, robot] : robots_) {
     for (auto& outgoing : robot.exchange->tick(now_)) send(name, outgoing, robot);
@@ -116,7 +133,7 @@ void SimFleet::send(const AgentId& from, const exchange::Outgoing& outgoing, con
     for (int copy = 0; copy < copies; ++copy) {
       const auto delay = std::uniform_int_distribution<std::int64_t>(network_.min_delay.count(),
                                                                      network_.max_delay.count())(random_);
-      in_flight_.push({now_ + Duration(delay), order_++, to, message});
+      in_flight_.push({now_ + Duration(delay), order_++, to, outgoing.reach, message});
     }
   }
 }

@@ -41,6 +41,7 @@ class SimFleet {
   struct Robot {
     std::unique_ptr<store::Store> store;
     std::unique_ptr<exchange::Exchange> exchange;
+    std::uint16_t session = 0;
     std::vector<exchange::Event> events;
     std::map<NodeId, Bytes> clouds;  ///< made for peers
     std::vector<exchange::CloudArrived> arrived;
@@ -49,9 +50,14 @@ class SimFleet {
   SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
            const std::function<void(exchange::ExchangeConfig&)>& adjust = {});
 
-  void start(const std::string& name);
+  /// Goes on with the file that the robot left, in session `session`.
+  void start(const std::string& name, std::uint16_t session = 0);
   /// As kill -9 does: memory is gone, the file stays.
   void kill(const std::string& name) { robots_.erase(agent(name)); }
+  /// Of a robot that is not running: its file as it is now, and back to what it was then (nothing: none).
+  void keep_store(const std::string& name);
+  void put_back_store(const std::string& name);
+  void lose_store(const std::string& name);
   Robot& robot(const std::string& name) { return robots_.at(agent(name)); }
   const std::map<AgentId, Robot>& robots() const { return robots_; }
 
@@ -86,6 +92,7 @@ class SimFleet {
     Stamp at;
     std::uint64_t order;
     AgentId to;
+    exchange::Reach reach;
     std::shared_ptr<const Message> message;
     bool operator>(const Flight& other) const {
       return std::tie(at, order) > std::tie(other.at, other.order);

@@ -1,7 +1,10 @@
 #include "fleetmap/exchange/submap_transfer.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <filesystem>
 #include <random>
 
 #include "exchange/sim_fleet.hpp"
@@ -192,14 +195,107 @@ TEST(SubmapTransfer, turns_from_a_peer_that_sends_wrong_content) {
       ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
     }
   };
-  receiver.on_digest({liar, {{id.agent, 0, 1}}}, now);
+  receiver.on_digest({liar, {{id.agent, 0, 1}}, {}}, now);
   for (const auto& request : receiver.tick(store, now)) serve(request);
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
-  EXPECT_TRUE(receiver.tick(store, now).empty());  // not from this one again
-  receiver.on_digest({honest, {{id.agent, 0, 1}}}, now);
+  EXPECT_TRUE(receiver.tick(store, now).empty());  // not from this one again soon
+  receiver.on_digest({honest, {{id.agent, 0, 1}}, {}}, now);
   for (const auto& request : receiver.tick(store, now)) serve(request);
   EXPECT_EQ(store.submap(id).value(), submap);
   EXPECT_TRUE(receiver.idle(store, now));
+}
+
+TEST(SubmapTransfer, one_damaged_chunk_does_not_bar_its_source_for_ever) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), maker = agent("r2"), forger = agent("r3");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(20'000, 1);
+  const NodeId id{maker, 0};
+  ASSERT_TRUE(store.put_node(testing::make_node(maker, 0, submap)));
+  SubmapReceiver receiver(self, {});
+  Stamp now = stamp_from_ns(1'000'000'000);
+  const auto chunk_of = [&](const AgentId& from, std::uint32_t offset) {
+    SubmapChunk chunk{from, self, id, offset, 20'000, {}};
+    const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
+    chunk.payload.assign(part.begin(), part.end());
+    return chunk;
+  };
+  SubmapChunk damaged = chunk_of(maker, 0);
+  damaged.payload[7] ^= 1;
+  ASSERT_TRUE(receiver.on_chunk(damaged, store, now)) << "before anything was asked for";
+  EXPECT_EQ(receiver.stats().unasked, 1u);
+  EXPECT_EQ(store.missing_chunks(id).size(), 3u);
+
+  receiver.on_digest({maker, {{maker, 0, 1}}, {}}, now);
+  ASSERT_FALSE(receiver.tick(store, now).empty());
+  ASSERT_TRUE(receiver.on_chunk(chunk_of(forger, 0), store, now)) << "of one who was not asked";
+  EXPECT_EQ(receiver.stats().unasked, 2u);
+  ASSERT_TRUE(receiver.on_chunk(damaged, store, now)) << "in the maker's name";
+  for (const std::uint32_t offset : {8192u, 16384u}) {
+    ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
+  }
+  EXPECT_EQ(receiver.stats().bad_hash, 1u);
+  EXPECT_TRUE(receiver.tick(store, now).empty());
+  now += std::chrono::seconds(11);
+  receiver.on_digest({maker, {{maker, 0, 1}}, {}}, now);
+  ASSERT_FALSE(receiver.tick(store, now).empty()) << "it is asked again";
+  for (const std::uint32_t offset : {0u, 8192u, 16384u}) {
+    ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
+  }
+  EXPECT_EQ(store.submap(id).value(), submap);
+}
+
+/// Files cannot grow beyond so many bytes while it lives: a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(std::uintmax_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit full{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST(SubmapTransfer, completes_what_it_holds_when_the_full_disk_has_room_again) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), peer = agent("r2");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(100'000, 1);
+  const NodeId id{peer, 0};
+  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
+  SubmapTransferConfig config;
+  config.window.first_bytes = config.window.most_bytes;
+  SubmapReceiver receiver(self, config);
+  Stamp now = stamp_from_ns(1'000'000'000);
+  receiver.on_digest({peer, {{peer, 0, 1}}, {}}, now);
+  ASSERT_FALSE(receiver.tick(store, now).empty());
+  const auto hear = [&](std::uint32_t offset) {
+    SubmapChunk chunk{peer, self, id, offset, 100'000, {}};
+    const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 100'000 - offset));
+    chunk.payload.assign(part.begin(), part.end());
+    return receiver.on_chunk(chunk, store, now);
+  };
+  for (std::uint32_t offset = 0; offset + 8192 < 100'000; offset += 8192) ASSERT_TRUE(hear(offset));
+  {
+    // The last chunk still fits, the whole does not.
+    const FullDisk full(std::filesystem::file_size(folder / "store.db-wal") + 50'000);
+    EXPECT_FALSE(hear(12 * 8192));
+    EXPECT_TRUE(store.missing_chunks(id).empty());
+    EXPECT_FALSE(store.has_submap(id));
+    now += std::chrono::seconds(6);
+    EXPECT_FALSE(receiver.finish_downloads(store, now)) << "still full";
+    EXPECT_TRUE(receiver.finish_downloads(store, now)->empty()) << "not before a pause";
+    EXPECT_TRUE(receiver.tick(store, now).empty());
+  }
+  now += std::chrono::seconds(6);
+  const auto finished = receiver.finish_downloads(store, now);
+  ASSERT_TRUE(finished) << finished.error().message;
+  EXPECT_EQ(*finished, std::vector<NodeId>{id});
+  EXPECT_EQ(store.submap(id).value(), submap);
 }
 
 TEST(SubmapTransfer, refuses_and_counts_hostile_chunks_and_requests) {

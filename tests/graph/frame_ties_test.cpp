@@ -23,7 +23,7 @@ class FrameTiesTest : public ::testing::Test {
     if (agent == kA) return Pose::Identity();
     return make_pose(rotation_from_rpy(0.0, 0.0, 2.0), Eigen::Vector3d(100.0, -40.0, 3.0));
   }
-  static Node node(const AgentId& agent, std::uint32_t seq, std::uint8_t session = 0) {
+  static Node node(const AgentId& agent, std::uint32_t seq, std::uint16_t session = 0) {
     Node node;
     node.id = {agent, seq};
     node.session = session;

@@ -57,8 +57,8 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   EXPECT_EQ(held_alignment->best().covariance, alignment.best().covariance);
   EXPECT_EQ(store.meta("boots").value(), random_bytes(3, 1));
   EXPECT_EQ(store.meta("absent").value(), std::nullopt);
-  EXPECT_EQ(store.next_node_seq(), 1u);
-  EXPECT_EQ(store.next_alignment_seq(), 0u);
+  EXPECT_EQ(store.next_node_seq(0), 1u);
+  EXPECT_EQ(store.next_alignment_seq(0), 0u);
   // The same again is known, also after the round trip over the disk; something else is a conflict.
   EXPECT_EQ(store.put_node_with_submap(node, submap).value(), Put::kKnown);
   EXPECT_EQ(store.put_alignment(alignment).value(), Put::kKnown);
@@ -205,8 +205,8 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
   run_sql(folder / "foreign.db", "CREATE TABLE song(name TEXT)");
   EXPECT_THAT(refusal("foreign.db"), HasSubstr("not a fleetmap store"));
   ASSERT_TRUE(Store::open(folder / "newer.db", kSelf));
-  run_sql(folder / "newer.db", "PRAGMA user_version = 3");
-  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 3"));
+  run_sql(folder / "newer.db", "PRAGMA user_version = 4");
+  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 4"));
   ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
   EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
   EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));

@@ -94,7 +94,7 @@ TEST(HostileBytes, AnotherSchemaVersionIsRefusedNamingBoth) {
   Bytes bytes = encode(random.node());
   bytes[kHeader] = 7;
   EXPECT_EQ(refusal<graph::Node>(bytes),
-            "fleetmap::msg::Node: the sender speaks schema version 7, this program version 2; "
+            "fleetmap::msg::Node: the sender speaks schema version 7, this program version 3; "
             "run the same release on all robots");
 }
 

@@ -240,7 +240,7 @@ TEST(Wire, SizesOnTheWire) {
   EXPECT_EQ(encode(exchange::SubmapRequest{}).size(), 44u);
   const exchange::Range range{id("r1"), 0, 9};
   EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}}).size(), 24u + 3 * 16u);
-  EXPECT_EQ(encode(exchange::SubmapDigest{id("r1"), {range, range}}).size(), 20u + 2 * 16u);
+  EXPECT_EQ(encode(exchange::SubmapDigest{id("r1"), {range, range}, {id("r2")}}).size(), 24u + 2 * 16u + 8u);
   EXPECT_EQ(encode(SpherizedCloud{node_id("r1", 1), 20, 0.1, 9, Bytes(kMaxCloudPayload)}).size(),
             kMaxEncodedCloud);
 }

@@ -38,7 +38,7 @@ AgentId RandomMessages::agent() {
   return *AgentId::parse(names[integer(0, 4)]);
 }
 
-NodeId RandomMessages::node_id() { return {agent(), integer(0, kMaxSeq)}; }
+NodeId RandomMessages::node_id() { return {agent(), integer(0, kEndOfSeqs - 1)}; }
 
 Stamp RandomMessages::stamp() { return stamp_from_ns(static_cast<std::int64_t>(real(0.0, 2e18))); }
 
@@ -79,7 +79,7 @@ std::vector<exchange::Range> RandomMessages::ranges(std::uint32_t most) {
 graph::Node RandomMessages::node() {
   graph::Node node;
   node.id = node_id();
-  node.session = static_cast<std::uint8_t>(integer(0, 255));
+  node.session = session_of(node.id.seq);
   node.stamp = stamp();
   if (integer(0, 3) > 0) node.G = global_pose();
   if (node.G) node.G->stamp = node.stamp;
@@ -97,7 +97,7 @@ graph::Alignment RandomMessages::alignment() {
   alignment.i = node_id();
   alignment.j = node_id();
   alignment.computed_by = agent();
-  alignment.seq = integer(0, kMaxSeq);
+  alignment.seq = integer(0, kEndOfSeqs - 1);
   alignment.modes.resize(integer(1, graph::Alignment::kMaxModes));
   for (graph::AlignmentMode& mode : alignment.modes)
     mode = {pose(), real(0.0, 2.0), real(0.0, 1.0), real(0.0, 1.0), covariance()};
@@ -147,7 +147,7 @@ std::vector<exchange::Message> RandomMessages::one_of_each() {
           exchange::AgentStatus{agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1},
           exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
           hold(),
-          exchange::SubmapDigest{agent(), ranges(200)},
+          exchange::SubmapDigest{agent(), ranges(200), {agent(), agent()}},
           exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
           chunk()};
 }

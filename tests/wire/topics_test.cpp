@@ -16,20 +16,40 @@ TEST(Topics, EveryMessageToAnAgentReachesItsInboxAndOnlyOnce) {
   RandomMessages random(21);
   const AgentId self = *AgentId::parse("r2");
   const auto inbox = inbox_topics(self);
-  std::set<std::string> names;
-  for (const auto& topic : inbox) EXPECT_TRUE(names.insert(topic.name).second) << topic.name;
-  std::set<std::string> used;
+  std::set<std::pair<bus::Link, std::string>> names;
+  for (const auto& topic : inbox) EXPECT_TRUE(names.insert({topic.link, topic.name}).second) << topic.name;
+  std::set<std::pair<bus::Link, std::string>> used;
   for (exchange::Message message : random.one_of_each()) {
     std::visit(
         [&](auto& m) {
           if constexpr (requires { m.to; }) m.to = self;
         },
         message);
-    const bus::Topic topic = topic_of(message);
-    EXPECT_EQ(names.count(topic.name), 1u) << topic.name;
-    used.insert(topic.name);
+    const auto reach_it = [&](const bus::Topic& topic) {
+      EXPECT_EQ(names.count({topic.link, topic.name}), 1u) << topic.name;
+      used.insert({topic.link, topic.name});
+    };
+    reach_it(topic_of(message));
+    const auto to = exchange::recipient_of(message);
+    reach_it(topic_of({exchange::Reach::kShortRange, to, message}));
+    if (!exchange::may_be_passed_on(message)) continue;
+    reach_it(topic_of({exchange::Reach::kShortRange, self, message}));
+    reach_it(topic_of({exchange::Reach::kLongRange, self, message}));
   }
   EXPECT_EQ(used, names);
+}
+
+TEST(Topics, BothRadiosCarryAKindUnderOneNameWithTheirOwnProfiles) {
+  const AgentId r1 = *AgentId::parse("r1");
+  const exchange::CloudFragment fragment{r1, r1, {r1, 0}, {}, 1, 0, 1, {}};
+  const bus::Topic far = topic_of({exchange::Reach::kLongRange, r1, fragment});
+  const bus::Topic near = topic_of({exchange::Reach::kShortRange, r1, fragment});
+  EXPECT_EQ(far.name, near.name);
+  EXPECT_EQ(far.profile, "cloud");
+  EXPECT_EQ(near.profile, "bulk");
+  EXPECT_EQ(near.link, bus::Link::kShortRange);
+  EXPECT_EQ(reach_of(near.link), exchange::Reach::kShortRange);
+  EXPECT_EQ(reach_of(far.link), exchange::Reach::kLongRange);
 }
 
 TEST(Topics, AddressedMessagesOnlyReachTheirRecipient) {

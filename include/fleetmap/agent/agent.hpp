@@ -17,6 +17,7 @@
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/recent_surroundings.hpp"
 #include "fleetmap/agent/session_ties.hpp"
+#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
@@ -95,16 +96,17 @@ class Agent {
   WorkSeconds work_seconds() const;
 
  private:
-  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, std::uint8_t session,
-        TrajectoryFile odometry_file, GlobalTrackFile global_file);
+  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessions sessions,
+        std::uint16_t session, TrajectoryFile odometry_file, GlobalTrackFile global_file);
   Status start();
   /// Robots that were not heard of for long on a mission.
   std::set<AgentId> lost() const;
 
   void on_perceived(Perceived&& perceived);
   void freeze_node(const Perceived& perceived);
-  /// The odometry lost its way and began anew: what it says from now on is in another frame.
-  void begin_session();
+  /// What the odometry computes from now on is in another frame. `why` is for people.
+  void begin_session(const char* why);
+  bool numbers_run_out() const;
   void navigate();
   /// From a button on the robot.
   void on_local_hold(const Bytes& cdr);
@@ -120,8 +122,10 @@ class Agent {
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
+  void handle(const exchange::OwnItemsElsewhere& found);
+  void handle(const exchange::StrangerHeard& heard);
   void handle(const exchange::StoreFailed& failed);
-  void handle(const exchange::NodeAdded&) {}
+  void handle(const exchange::NodeAdded& added);
   void handle(const exchange::AlignmentAdded& added);
   void handle(const exchange::SubmapAdded&) {}
   void handle(const exchange::MapComplete& complete);
@@ -149,7 +153,8 @@ class Agent {
   AgentConfig config_;
   bus::Bus& bus_;
   store::Store store_;
-  std::uint8_t session_;
+  Sessions sessions_;
+  std::uint16_t session_;
   TrajectoryFile odometry_file_;
   GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
@@ -179,6 +184,8 @@ class Agent {
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
   bool rest_frozen_for_meeting_ = false;
+  std::optional<Stamp> store_failure_told_;
+  std::uint64_t store_failures_untold_ = 0;
 };
 
 }  // namespace fleetmap::agent

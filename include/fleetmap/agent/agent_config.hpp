@@ -6,6 +6,7 @@
 
 #include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/agent/perception.hpp"
+#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/exchange.hpp"
@@ -37,6 +38,7 @@ struct AgentConfig {
   graph::PlacementConfig placement;
   store::StoreConfig store;
   store::MergeConfig map;
+  Sessions::Draw draw_session = random_session;
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
 
   /// Names the component, the field and the rule that it breaks.

@@ -21,8 +21,9 @@ class LivePlacement {
   /// All outlive it, and the work under way.
   LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store, OnUsed on_used);
 
-  /// Begins a solution unless one is under way or nothing is new.
-  void refresh();
+  /// Begins a solution unless one is under way or nothing is new. `session` is the one that publish() will
+  /// tell of.
+  void refresh(std::uint16_t session);
   /// Nothing is under way, and the last solution holds all that there is.
   bool idle() const { return !under_way_ && !due(); }
   /// Of all solutions.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/agent/map_parts.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
@@ -33,9 +34,11 @@ std::vector<graph::Alignment> alignments_of(const store::Store& store);
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
                        const graph::PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 
-/// The whole map that the store holds, in ENU.
-store::MergedMap merged_map(store::Store& store, const graph::Placement& placement,
+/// The map of those nodes whose submaps the store holds, in the frame that their poses are in.
+store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                             const store::MergeConfig& config);
+/// What map.ply shows: the first of map_parts().
+std::map<NodeId, Pose> main_part(const store::Store& store, const graph::Placement& placement);
 
 /// How a map was made: what `fleetmap map export` needs to make the same one again.
 struct MapRecipe {
@@ -63,15 +66,16 @@ struct Results {
   GeoPoint origin;
   graph::Placement placement;
   MapFiles map;
+  std::vector<MapPart> apart;       ///< not in map.ply, but in file_of(part)
   std::size_t missing_submaps = 0;  ///< of nodes that are held
   /// Odometry frames of which nobody knows where on Earth they are: no G in all that is tied to them.
   std::vector<graph::FrameId> not_georeferenced;
 };
 
-/// Writes map.ply, map.pcd, trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory.
-/// Fails when there is no node yet, or a file cannot be written.
-/// Where several agents of one process hold the same set, `others` spares them to merge it again: a map made
-/// of the same is copied.
+/// Writes map.ply, map.pcd, one more file for each part of the fleet that nobody can lay onto that map,
+/// trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory. Fails when there is no
+/// node yet, or a file cannot be written. Where several agents of one process hold the same set, `others`
+/// spares them to merge it again: a map made of the same is copied.
 Result<Results> write_results(store::Store& store, const AgentConfig& config,
                               std::span<const MapFiles> others = {});
 

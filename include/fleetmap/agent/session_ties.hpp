@@ -25,6 +25,8 @@ class SessionTies {
 
   /// A session begins after those that the nodes of `earlier` are of; these must stay where they are.
   void begin(const std::vector<const graph::Node*>& earlier);
+  /// One more of an earlier session, which others gave back after our store was lost.
+  void add_earlier(const graph::Node& node);
   /// Nodes of this session, in their order. What is worth a registration, at most one a node.
   std::optional<Tie> on_own_node(const graph::Node& node);
   /// The registration of a node of this session with `earlier` was accepted.
@@ -41,7 +43,7 @@ class SessionTies {
   const graph::Node* most_alike(const graph::Node& node);
 
   exchange::EncounterConfig config_;
-  std::map<std::uint8_t, Session> earlier_;
+  std::map<std::uint16_t, Session> earlier_;
 };
 
 }  // namespace fleetmap::agent

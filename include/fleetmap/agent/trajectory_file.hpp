@@ -15,9 +15,9 @@ struct StampedPose {
   Pose T_w_base = Pose::Identity();
 };
 
-/// Where session `session` of an agent keeps O: odometry.tum, then odometry-1.tum, ...: each start of the
-/// program begins a new odometry frame.
-std::filesystem::path odometry_file(const std::filesystem::path& directory, unsigned session);
+/// Where the `index`-th session of an agent keeps O (Sessions::index_of): odometry.tum, then odometry-1.tum,
+/// ...
+std::filesystem::path odometry_file(const std::filesystem::path& directory, std::size_t index);
 
 /// "stamp_s x y z qx qy qz qw" of base_link, as `evo` reads it.
 std::string tum_line(const StampedPose& pose);

@@ -27,8 +27,10 @@ class AgentId {
   std::string name_;
 };
 
-/// A node (and so its submap and its graph vertex): the seq-th that `agent` froze, counted from 0 without
-/// gaps.
+/// A node (and so its submap and its graph vertex). `seq` holds the session of `agent` in its upper 16 bits
+/// and counts the nodes of that session in the lower ones, from 0 without gaps; alignments are numbered
+/// likewise. Each start of a robot's program draws its session at random, so that a robot whose store was
+/// lost, restored or replaced gives no name a second time.
 struct NodeId {
   AgentId agent;
   std::uint32_t seq = 0;
@@ -43,7 +45,15 @@ struct SeqRange {
   bool operator==(const SeqRange&) const = default;
 };
 
-/// "r1/17"
+inline constexpr std::uint32_t kItemsPerSession = 1u << 16;
+/// Session 65535 is never drawn: the range of its last item would have no end.
+inline constexpr std::uint32_t kEndOfSeqs = 0xffffu << 16;
+constexpr std::uint32_t first_seq(std::uint16_t session) { return std::uint32_t{session} * kItemsPerSession; }
+constexpr std::uint16_t session_of(std::uint32_t seq) {
+  return static_cast<std::uint16_t>(seq / kItemsPerSession);
+}
+
+/// "r1/17", or "r1#4711/17" in session 4711.
 std::string to_string(const NodeId& id);
 
 }  // namespace fleetmap

@@ -131,8 +131,8 @@ class Encounters {
   };
   struct Track {
     place::BallTree tree;
-    std::vector<NodeId> ids;  ///< by index in the tree
-    std::uint32_t newest = 0;
+    std::vector<NodeId> ids;                        ///< by index in the tree
+    std::map<std::uint16_t, std::uint32_t> newest;  ///< of each session
   };
   /// Where a node is, as far as redundant encounters are concerned.
   struct Spot {

@@ -82,6 +82,16 @@ struct ItemConflict {
   NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
   bool alignment = false;
 };
+/// `peer` holds items of this agent that are not in our store: it was lost, restored or replaced. Told once.
+struct OwnItemsElsewhere {
+  AgentId peer;
+  std::uint64_t nodes = 0;
+  std::uint64_t alignments = 0;
+};
+/// A robot that is not of the fleet was heard. Told once of each.
+struct StrangerHeard {
+  AgentId name;
+};
 /// The store's file failed; nothing that failed was accepted.
 struct StoreFailed {
   Error error;
@@ -91,8 +101,9 @@ struct MapComplete {
   std::size_t nodes = 0;
   std::size_t alignments = 0;
 };
-using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           MissionHeard, HoldChanged, ItemConflict, StoreFailed, MapComplete>;
+using Event =
+    std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus, MissionHeard,
+                 HoldChanged, ItemConflict, OwnItemsElsewhere, StrangerHeard, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -107,12 +118,17 @@ struct ExchangeStats {
 };
 
 /// All that one agent says to the others and hears from them, as a state machine: messages and time in,
-/// messages and events out. Call tick() at 10 Hz or more (50 Hz while submaps flow), then take_events().
+/// messages and events out. What is for one agent takes the short range if that agent is in reach, so that
+/// its bytes leave the radio to others, and goes on when the radio is down. Call tick() at 10 Hz or more (50
+/// Hz while submaps flow), then take_events().
 class Exchange {
  public:
   /// `store` outlives this. Begins from what the store holds; unfinished encounters are found again.
   static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, Stamp now);
 
+  /// From now on nobody else can have made items of this agent whose numbers are of `session`
+  /// (NodeId::seq): those that come are refused.
+  void begin_session(std::uint16_t session) { session_ = session; }
   /// An own node with its encoded submap: stored, then told to all. The node must be what the wire makes of
   /// it (decode(encode(node))), so that all agents hold equal items. kConflict: the name is taken.
   Result<store::Put> on_own_node(const graph::Node& node, ByteView submap, Stamp now);
@@ -138,7 +154,9 @@ class Exchange {
   /// The order in force for this agent; nothing if there never was one. It survives a restart.
   std::optional<HoldOrder> hold_in_force() const { return holds_.in_force(); }
 
-  void on_message(const Message& message, Stamp now);
+  /// `message` came over `link`.
+  void on_message(const Message& message, Reach link, Stamp now);
+  void on_message(const Message& message, Stamp now) { on_message(message, usual_reach(message), now); }
   std::vector<Outgoing> tick(Stamp now);
   std::vector<Event> take_events();
 
@@ -161,7 +179,11 @@ class Exchange {
  private:
   Exchange(const ExchangeConfig& config, store::Store& store, Stamp now);
   bool member(const AgentId& agent) const { return fleet_.contains(agent); }
-  bool admit(const Message& message, Stamp now);
+  bool admit(const Message& message, Reach link, Stamp now);
+  void note_stranger(const AgentId& name);
+  /// The item bears a number that only this agent gives, and has not given.
+  bool is_forged(const AgentId& maker, std::uint32_t seq, bool held) const;
+  void note_own_items(const Digest& digest);
   void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment);
 
   void handle(const graph::Node& node, Stamp now);
@@ -179,6 +201,9 @@ class Exchange {
   void handle(const SubmapChunk& chunk, Stamp now);
 
   void send_fragments(std::vector<CloudFragment> fragments);
+  /// Over the radio, and over the short range to those in reach; over that alone if they are the whole fleet.
+  void tell_all(Priority priority, Message message);
+  void note_near(Stamp now);
   void tick_encounters(Stamp now);
   void tick_clouds(Stamp now);
   void tick_items(Stamp now);
@@ -211,8 +236,15 @@ class Exchange {
   std::map<NodeId, Needed> needed_;
   AgentStatus status_;
   std::optional<Stamp> next_status_;
+  std::optional<std::uint16_t> session_;
+  std::set<AgentId> in_reach_;    ///< heard on the short range
+  std::set<AgentId> near_;        ///< on the short range, with whom messages go both ways
+  std::vector<Message> to_near_;  ///< to be sent to all of them
+  std::optional<Stamp> next_near_digest_;
+  bool told_of_own_items_ = false;
   bool was_complete_ = false;
   std::vector<Event> events_;
+  std::set<AgentId> strangers_told_of_;
   std::uint64_t strangers_ = 0;
   std::uint64_t bad_requests_ = 0;
 };

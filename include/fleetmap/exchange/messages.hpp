@@ -119,10 +119,11 @@ struct Hold {
 // ---- short range
 // ----------------------------------------------------------------------------------------------
 
-/// Which submaps `from` holds whole.
+/// Which submaps `from` holds whole, and whom it hears on this link.
 struct SubmapDigest {
   AgentId from;
   std::vector<Range> submaps;
+  std::vector<AgentId> hears;
 };
 
 /// `from` asks `to` for bytes [offset, offset + length) of an encoded submap.

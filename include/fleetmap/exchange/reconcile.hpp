@@ -16,14 +16,14 @@ namespace fleetmap::exchange {
 struct ReconcileConfig {
   Duration digest_min_period = std::chrono::seconds(4);   ///< between digests while what is held changes
   Duration digest_max_period = std::chrono::seconds(30);  ///< doubles up to this while nothing changes
+  Duration near_period = std::chrono::seconds(2);         ///< between digests over the short range
   Duration grace =
       std::chrono::milliseconds(500);  ///< an item offered is asked for only if it has not come by itself
   Duration timeout =
       std::chrono::seconds(8);  ///< of a request that brings nothing; then another agent is asked
   Duration peer_timeout = std::chrono::seconds(90);  ///< an agent not heard for so long is not asked
-  std::size_t max_ranges = 28;         ///< in each list of a digest or request, so that it fits one datagram
-  std::uint32_t max_items = 48;        ///< asked for at once of one agent
-  std::uint32_t max_seq = 10'000'000;  ///< ranges beyond are refused
+  std::size_t max_ranges = 28;   ///< in each list of a digest or request, so that it fits one datagram
+  std::uint32_t max_items = 48;  ///< asked for at once of one agent
   Status validate() const;
 };
 
@@ -34,7 +34,7 @@ struct ReconcileStats {
   std::uint64_t requests_served = 0;
   std::uint64_t items_served = 0;
   std::uint64_t timeouts = 0;
-  std::uint64_t hostile = 0;  ///< ranges that are reversed or beyond max_seq
+  std::uint64_t hostile = 0;  ///< ranges that are reversed or beyond kEndOfSeqs
 };
 
 /// Makes the sets of nodes and alignments of all agents equal, whatever was lost: agents tell from time to
@@ -63,6 +63,8 @@ class Reconcile {
   };
   Due tick(const store::Store& store, Stamp now);
 
+  /// Of what is held, as many ranges as fit; those that did not come next time.
+  Digest digest_of(const store::Store& store);
   /// Everything that any agent, but for those in `without`, has told of is held.
   bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
   /// `peer` has told that it holds all that we hold.
@@ -92,7 +94,6 @@ class Reconcile {
   store::SeqSet accepted(const std::vector<Range>& ranges);
   void settle_pending(Peer& peer, const store::Store& store, Stamp now);
   std::optional<ItemRequest> ask(const AgentId& name, Peer& peer, const store::Store& store, Stamp now);
-  Digest make_digest(const store::Store& store);
 
   AgentId self_;
   ReconcileConfig config_;

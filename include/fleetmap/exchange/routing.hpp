@@ -18,7 +18,10 @@ struct Outgoing {
   Message message;
 };
 
-Reach reach_of(const Message& message);
+/// The link of a message for which there is no choice of links, or no other in reach.
+Reach usual_reach(const Message& message);
+/// Nodes and alignments: any agent may send them, to all or to one.
+bool may_be_passed_on(const Message& message);
 /// Who sent it; nothing for nodes and alignments, which any agent may pass on.
 std::optional<AgentId> sender_of(const Message& message);
 /// Whom it is for; nothing when it is for everyone.

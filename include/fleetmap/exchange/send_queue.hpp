@@ -7,6 +7,7 @@
 #include <list>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -65,6 +66,8 @@ class SendQueue {
   void push(Priority priority, Message message, std::optional<AgentId> to = std::nullopt);
   /// Drops the fragments of the cloud of `node` for `to`; returns how many.
   std::size_t cancel_cloud(const AgentId& to, const NodeId& node);
+  /// Removes what waits for one of `peers` alone: another link takes it.
+  std::vector<Outgoing> take_for(const std::set<AgentId>& peers);
   /// What may go at `now`.
   std::vector<Outgoing> take(Stamp now);
 

@@ -9,6 +9,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/delay_window.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
 #include "fleetmap/store/store.hpp"
@@ -16,21 +17,24 @@
 namespace fleetmap::exchange {
 
 struct SubmapTransferConfig {
-  double bytes_per_second = 1'875'000;  ///< B/s that this agent sends at most: a link of 15 Mbit/s
-  double burst_bytes = 131'072;         ///< B; at least bytes_per_second times the time between two ticks
-  std::size_t overhead_bytes = 540;     ///< B a chunk: headers of its three datagrams of two IP packets each
-  /// B asked for and not yet here, of one peer: over a 15 Mbit/s link half a second of it, which is what it
-  /// took to fill the link with its queues (docs/dds.md).
-  std::uint32_t window_bytes = 1'048'576;
+  double bytes_per_second = 1'875'000;   ///< B/s that this agent sends at most: a link of 15 Mbit/s
+  double burst_bytes = 131'072;          ///< B; at least bytes_per_second times the time between two ticks
+  std::size_t overhead_bytes = 540;      ///< B a chunk: headers of its three datagrams of two IP packets each
+  DelayWindowConfig window;              ///< B asked for and not yet here, of one peer
   std::uint32_t request_bytes = 65'536;  ///< B asked for by one message at most
   Duration digest_period = std::chrono::seconds(1);
   Duration peer_timeout = std::chrono::seconds(4);        ///< s, a peer not heard for so long is out of reach
   Duration min_timeout = std::chrono::milliseconds(300);  ///< of a chunk; the measured delay raises it
   Duration max_timeout = std::chrono::seconds(3);
+  /// A peer that gave wrong content of a submap is not asked for it for so long, then twice as long, and so
+  /// on.
+  Duration first_distrust = std::chrono::seconds(10);
+  Duration max_distrust = std::chrono::minutes(5);
+  Duration store_pause =
+      std::chrono::seconds(5);  ///< nothing is asked for after the store failed (disk full)
   std::size_t max_ranges = 64;  ///< in a digest
   std::size_t max_queued_chunks =
       256;  ///< waiting for one peer; more requests are dropped and asked for again
-  std::uint32_t max_seq = 10'000'000;
   Status validate() const;
 };
 
@@ -40,6 +44,7 @@ struct SubmapReceiverStats {
   std::uint64_t duplicates = 0;  ///< held already
   std::uint64_t timeouts = 0;    ///< chunks asked for again
   std::uint64_t hostile = 0;     ///< chunks and ranges that contradict the node or the rules
+  std::uint64_t unasked = 0;     ///< chunks of what was not asked for, or of another peer
   std::uint64_t bad_hash = 0;    ///< whole submaps with the wrong content
   std::uint64_t submaps = 0;     ///< completed
 };
@@ -57,8 +62,12 @@ class SubmapReceiver {
   /// The completed submap, if `chunk` was its last. An Error is the store's.
   Result<std::optional<NodeId>> on_chunk(const SubmapChunk& chunk, store::Store& store, Stamp now);
   std::vector<SubmapRequest> tick(const store::Store& store, Stamp now);
+  /// Submaps whose chunks are all here, but which the store could not complete: tries again after a pause.
+  Result<std::vector<NodeId>> finish_downloads(store::Store& store, Stamp now);
 
   bool in_reach(const AgentId& peer, Stamp now) const;
+  /// It is in reach and has told that it hears us.
+  bool hears_us(const AgentId& peer, Stamp now) const;
   /// `peer` was heard, and told of no such submap.
   bool lacks(const AgentId& peer, const NodeId& id) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
@@ -71,22 +80,38 @@ class SubmapReceiver {
  private:
   struct Flight {
     std::uint32_t bytes = 0;
+    std::uint64_t order = 0;  ///< of all chunks asked of the peer
     Stamp sent;
     Stamp deadline;
   };
   struct Peer {
+    explicit Peer(const DelayWindowConfig& config) : window(config) {}
+    bool has_room() const { return bytes_out + store::Store::kChunkBytes <= window.bytes(); }
     store::SeqSet holds;
+    DelayWindow window;
     Stamp heard;
+    bool hears_us = false;
     std::uint64_t bytes_out = 0;  ///< asked for and not yet here
     double delay = 0.0;           ///< s, smoothed, from request to chunk
     double spread = 0.0;          ///< s, its smoothed deviation
     Stamp last_chunk;
+    std::uint64_t asked = 0;     ///< chunks
+    std::uint64_t answered = 0;  ///< the latest asked for of those that came
   };
   struct Download {
     AgentId peer;  ///< one submap comes from one peer at a time, so that a wrong one is known by its source
     std::map<std::uint32_t, Flight> flights;  ///< by chunk
   };
+  struct Distrust {
+    Stamp until;
+    Duration length = Duration::zero();
+  };
+  Peer& peer(const AgentId& name) { return peers_.try_emplace(name, config_.window).first->second; }
+  bool distrusts(const AgentId& name, const NodeId& id, Stamp now) const;
   Duration timeout(const Peer& peer) const;
+  bool is_lost(const Flight& flight, const Peer& peer, Stamp now) const;
+  void on_arrival(Peer& peer, Download& download, std::uint32_t chunk, Stamp now);
+  void on_store_failure(Stamp now);
   void expire(const store::Store& store, Stamp now);
   void stop(std::map<NodeId, Download>::iterator download);
   bool has_room(Stamp now) const;
@@ -101,8 +126,9 @@ class SubmapReceiver {
   SubmapTransferConfig config_;
   std::map<AgentId, Peer> peers_;
   std::map<NodeId, Download> downloads_;
-  std::map<NodeId, std::set<AgentId>> sources_;      ///< who has given chunks of a submap that is not whole
-  std::set<std::pair<NodeId, AgentId>> distrusted_;  ///< gave a submap with the wrong content
+  std::map<NodeId, std::set<AgentId>> sources_;  ///< who has given chunks of a submap that is not whole
+  std::map<std::pair<NodeId, AgentId>, Distrust> distrusted_;  ///< gave a submap with the wrong content
+  std::optional<Stamp> paused_until_;                          ///< the store failed
   SubmapReceiverStats stats_;
 };
 
@@ -120,7 +146,10 @@ class SubmapSender {
   SubmapSender(const AgentId& self, const SubmapTransferConfig& config);
 
   /// Sent every digest_period, so that agents in reach notice each other.
-  std::optional<SubmapDigest> digest(const store::Store& store, Stamp now);
+  /// `hears`: the agents that this one hears on the link.
+  std::optional<SubmapDigest> digest(const store::Store& store, std::vector<AgentId> hears, Stamp now);
+  /// Someone came into reach: the next digest goes at once, and is its first.
+  void on_newcomer() { next_digest_.reset(); }
   void on_request(const SubmapRequest& request, const store::Store& store);
   /// Chunks that may go at `now`. Reads from `store`; a damaged submap is dropped by it.
   std::vector<SubmapChunk> tick(store::Store& store, Stamp now);

@@ -13,7 +13,7 @@ namespace fleetmap::graph {
 /// An odometry frame: each start of an agent's program begins a new one.
 struct FrameId {
   AgentId agent;
-  std::uint8_t session = 0;  ///< counts the starts of the agent, modulo 256
+  std::uint16_t session = 0;  ///< session_of() its nodes' numbers
   auto operator<=>(const FrameId&) const = default;
 };
 
@@ -22,7 +22,7 @@ struct FrameId {
 /// same numbers.
 struct Node {
   NodeId id;
-  std::uint8_t session = 0;  ///< the odometry frame of O is that of FrameId{id.agent, session}
+  std::uint16_t session = 0;  ///< the odometry frame of O is that of FrameId{id.agent, session}
   Stamp stamp;
   /// T_enu_base at `stamp`, with covariance; none where GPS has not told, as indoors.
   std::optional<GlobalPose> G;

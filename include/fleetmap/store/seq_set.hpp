@@ -21,6 +21,8 @@ class SeqSet {
   void insert(const SeqRange& range);
   void erase(const AgentId& agent, std::uint32_t seq);
   bool contains(const AgentId& agent, std::uint32_t seq) const;
+  /// One past the greatest of `agent` in [first, end), or `first`.
+  std::uint32_t end_within(const SeqRange& range) const;
   /// Every item of `other` is in this set.
   bool includes(const SeqSet& other) const;
   bool empty() const { return intervals_.empty(); }

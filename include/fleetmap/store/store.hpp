@@ -27,7 +27,6 @@ struct AlignmentId {
 
 struct StoreConfig {
   std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
-  std::uint32_t max_seq = 10'000'000;         ///< items of one agent; larger sequence numbers are refused
   bool sync_own_items = true;  ///< own nodes and alignments survive a power cut too (one disk sync each)
   Status validate() const;
 };
@@ -90,6 +89,10 @@ class Store {
   /// completes the submap, or, if its hash is then wrong, drops all chunks and gives kInvalid.
   Result<Put> put_submap_chunk(const NodeId& id, std::uint32_t chunk, ByteView bytes);
 
+  /// Completes a submap of which all chunks are held, though the disk had no room for the whole. kInvalid as
+  /// from put_submap_chunk(), or when a chunk is missing.
+  Result<Put> finish_download(const NodeId& id);
+
   const graph::Node* node(const NodeId& id) const;  ///< null when not held
   const graph::Alignment* alignment(const AlignmentId& id) const;
   const std::map<NodeId, graph::Node>& nodes() const;
@@ -110,9 +113,9 @@ class Store {
   const SeqSet& node_set() const;
   const SeqSet& alignment_set() const;
   const SeqSet& submap_set() const;
-  /// Sequence number of the next own node and alignment.
-  std::uint32_t next_node_seq() const;
-  std::uint32_t next_alignment_seq() const;
+  /// Sequence number of the next own node and alignment of a session.
+  std::uint32_t next_node_seq(std::uint16_t session) const;
+  std::uint32_t next_alignment_seq(std::uint16_t session) const;
 
   Result<std::optional<Bytes>> meta(std::string_view key) const;
   Status set_meta(std::string_view key, ByteView value);
@@ -125,7 +128,6 @@ class Store {
   explicit Store(std::unique_ptr<State> state);
   Result<Put> insert_node(const graph::Node& node, const ByteView* submap);
   Status complete_submap(const graph::Node& node, ByteView encoded);
-  Result<Put> finish_download(const graph::Node& node);
   std::unique_ptr<State> state_;
 };
 

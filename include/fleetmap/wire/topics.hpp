@@ -4,7 +4,7 @@
 
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/ids.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/exchange/routing.hpp"
 
 /// Every topic of the system: link, name and type on the wire, and the QoS profile in qos/<link>.xml.
 namespace fleetmap::wire::topics {
@@ -24,29 +24,20 @@ bus::Topic battery();  ///< sensor::Battery
 /// exchange::Hold, from a button on the robot.
 bus::Topic hold_onboard();
 
-// ---- long range: to all
-bus::Topic node();
-bus::Topic alignment();
-bus::Topic digest();
-bus::Topic status();
-bus::Topic mission_report();
+// ---- the fleet's radios. What goes over both has the same name on both.
+/// Orders to stand still; operators publish here.
 bus::Topic hold();
-// ---- long range: to one
-bus::Topic proximity_match(const AgentId& recipient);
-bus::Topic cloud_request(const AgentId& recipient);
-bus::Topic item_request(const AgentId& recipient);
-bus::Topic cloud_fragment(const AgentId& recipient);
-// ---- short range
-bus::Topic submap_digest();
-bus::Topic submap_request(const AgentId& recipient);
-bus::Topic submap_chunk(const AgentId& recipient);
 
 }  // namespace fleetmap::wire::topics
 
 namespace fleetmap::wire {
 
-/// Where `message` is published: a topic of its recipient if it has one, else that of all.
+/// Where a message is published: on a topic of its recipient if it has one, else on that of all.
+bus::Topic topic_of(const exchange::Outgoing& outgoing);
+/// On its usual link, to the recipient that it names.
 bus::Topic topic_of(const exchange::Message& message);
+/// The link that `link` is to the exchange.
+exchange::Reach reach_of(bus::Link link);
 
 /// All topics on which messages for `self` arrive from other agents.
 std::vector<bus::Topic> inbox_topics(const AgentId& self);

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+
+namespace fleetmap::exchange {
+
+struct DelayWindowConfig {
+  double target_s = 0.25;                ///< s of queueing, above the least delay seen, that a flow may cause
+  std::uint32_t least_bytes = 16'384;    ///< B
+  std::uint32_t first_bytes = 65'536;    ///< B
+  std::uint32_t most_bytes = 1'048'576;  ///< B
+  std::uint32_t step_bytes = 8'192;      ///< B that it grows by in each round trip without queueing
+  Status validate() const;
+};
+
+/// How many bytes may be under way from one peer: LEDBAT (RFC 6817) with slow start, driven by the receiver.
+/// The bottleneck may be far from the own interface (a channel that others use, a mesh), so its rate shows
+/// only in what arrives: the window grows while requests are answered without queueing and shrinks as the
+/// queue grows, before the queue overflows.
+class DelayWindow {
+ public:
+  explicit DelayWindow(const DelayWindowConfig& config);
+
+  std::uint32_t bytes() const { return static_cast<std::uint32_t>(window_); }
+  /// `bytes` arrived `delay_s` after they were asked for.
+  void on_arrival(double delay_s, std::uint32_t bytes);
+  /// Something asked for at `asked` did not come. Losses of one round trip count once.
+  void on_loss(Stamp asked, Stamp now);
+
+ private:
+  DelayWindowConfig config_;
+  double window_;
+  double least_delay_;
+  double queueing_ = 0.0;  ///< s, smoothed, of what arrived
+  double target_;          ///< s, below what the queue was long when it last overflowed
+  bool slow_start_ = true;
+  std::optional<Stamp> halved_;
+};
+
+}  // namespace fleetmap::exchange
