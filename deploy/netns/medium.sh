@@ -7,6 +7,7 @@
 
 FIELD=fmfield$$
 SPACES=()
+declare -A GATEWAY  # of each medium: behind its queue
 
 space() { echo "$FIELD-$1"; }
 in_space() { local name=$1; shift; ip netns exec "$(space "$name")" "$@"; }
@@ -30,12 +31,15 @@ join() { # space, device, address/prefix, space, device, address/prefix
 # medium NAME NET RATE QUEUE_BYTES AGENTS: NET is the second number of its addresses
 medium() {
   local name=$1 net=$2 rate=$3 queue=$4 agents=$5 i
+  GATEWAY[$name]=10.$net.250.2
   make_space "$name-air"
   make_space "$name-ether"
   join "$name-air" out "10.$net.250.1/30" "$name-ether" in "10.$net.250.2/30"
   join "$name-ether" back "10.$net.251.1/30" "$name-air" from "10.$net.251.2/30"
   ip -n "$(space "$name-ether")" route add "10.$net.0.0/16" via "10.$net.251.2" dev back
   ip -n "$(space "$name-air")" route add default via "10.$net.250.2" dev out table 100
+  # While the medium is off, nothing finds a way around its queue.
+  ip -n "$(space "$name-air")" route add blackhole default table 100 metric 1000
   shape "$name" "$rate" "$queue"
   for ((i = 1; i <= agents; ++i)); do
     join "robot$i" "$name" "10.$net.$i.2/30" "$name-air" "robot$i" "10.$net.$i.1/30"
@@ -46,6 +50,25 @@ medium() {
 
 shape() { # medium, rate (kbit), bytes that wait at most
   tc -n "$(space "$1-air")" qdisc replace dev out root tbf rate "$2kbit" burst 3000 limit "$3"
+}
+
+off() { ip -n "$(space "$1-air")" link set out down; } # nothing passes the medium
+on() { # the route went with the link
+  ip -n "$(space "$1-air")" link set out up
+  ip -n "$(space "$1-air")" route replace default via "${GATEWAY[$1]}" dev out table 100
+}
+
+# Puts a relay (relay.py) behind the queue of a medium, or another in its place: relay MEDIUM OPTIONS...
+RELAYS=()
+relay() {
+  local name=$1 old mac
+  shift
+  for old in "${RELAYS[@]}"; do kill "$old" 2>/dev/null || true; done
+  in_space "$name-ether" sysctl -qw net.ipv4.ip_forward=0
+  mac=$(in_space "$name-air" cat /sys/class/net/from/address)
+  in_space "$name-ether" python3 "$root/deploy/netns/relay.py" in back --to-mac "$mac" "$@" &
+  RELAYS=($!)
+  disown $!
 }
 
 # Bytes that passed the queue of a medium, and packets that it dropped.

@@ -41,7 +41,7 @@ shape() { # rate, burst, limit (bytes), loss (%)
   tc -n $a qdisc replace dev va root tbf rate $1 burst $2 limit $3
   tc -n $b qdisc replace dev vb root tbf rate $1 burst $2 limit $3
   [ -z "$relay" ] || kill $relay
-  ip netns exec $m python3 "$root/tests/bus/lossy_relay.py" ma mb $4 &
+  ip netns exec $m python3 "$root/deploy/netns/relay.py" ma mb --both --loss $4 &
   relay=$!
 }
 

@@ -1,0 +1,278 @@
+# Sourced by field.sh: what happens in each scenario, and what must hold. A comment behind the name is for --list.
+
+list_scenarios() { sed -n 's/^scenario_\([a-z_]*\)() { # /\1: /p' "$root/deploy/netns/scenarios.sh" | column -t -s: -l 2; }
+
+# ---- robots
+
+names() {
+  local i list=
+  for ((i = 1; i <= agents; ++i)); do list+="${list:+, }r$i"; done
+  echo "$list"
+}
+others() { # net, own number: addresses of the other robots
+  local i list=
+  for ((i = 1; i <= agents; ++i)); do ((i == $2)) || list+="${list:+, }10.$1.$i.2"; done
+  echo "$list"
+}
+write_config() { # robot number, name, names of its fleet
+  cat > "$scratch/r$1.yaml" <<YAML
+id: $2
+fleet: [$3]
+directory: $out/r$1
+site: {origin: [39.0, -3.0, 600.0]}
+lidar: {model: vlp16, translation: [0.0, 0.0, 0.6], max_range: 40.0, min_range: 0.6}
+imu: {translation: [0.0, 0.0, 0.1]}
+gps: {translation: [-0.2, 0.0, 0.5]}
+nodes: {spacing: 4.0}
+dds:
+  qos: $root/qos
+  onboard: {domain: $((10 + $1)), shared_memory: false}
+  long_range: {domain: 1, address: 10.77.$1.2, peers: [$(others 77 "$1")]}
+  short_range: {domain: 2, address: 10.78.$1.2, peers: [$(others 78 "$1")]}
+YAML
+}
+
+start() { # robot number
+  # exec, so that the process that is noted is the agent.
+  (exec ip netns exec "$(space "robot$1")" "$program" agent -c "$scratch/r$1.yaml" --exit-after-idle "${idle:-0}" >> "$out/r$1.log" 2>&1) &
+  disown $!
+  echo $! > "$scratch/r$1.pid"
+}
+play() { # robot number: its recording
+  in_space "robot$1" "$program" replay -c "$scratch/r$1.yaml" "$recordings/r$1" >> "$out/replay$1.log" 2>&1 &
+  disown $!
+}
+crash() { kill -9 "$(cat "$scratch/r$1.pid")"; }
+all_start() { local i; for ((i = 1; i <= agents; ++i)); do start $i; done; }
+all_play() { local i; for ((i = 1; i <= agents; ++i)); do play $i; done; }
+
+need_recordings() {
+  if [[ -z $recordings ]]; then
+    recordings=$scratch/recordings
+    echo "makes recordings of a small farm (a minute)" >&2
+    "$program" run -c "$root/config/fleets/farm_small.yaml" --agents "$agents" --record "$recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
+      { tail -n 5 "$scratch/run.log" >&2; exit 2; }
+  fi
+  [[ -d $recordings/r$agents ]] || { echo "--recordings $recordings: has no r$agents" >&2; exit 2; }
+}
+
+# ---- what is waited for
+
+says() { grep -cE "$2" "$out/r$1.log" 2>/dev/null || true; } # robot number, pattern
+# How many others each of the robots has heard on the radio since its log was begun anew.
+all_heard() {
+  local i
+  for ((i = 1; i <= agents; ++i)); do (($(says $i 'long_range: heard') >= agents - 1)) || return 1; done
+}
+all_ended() {
+  local i
+  for ((i = 1; i <= agents; ++i)); do [[ -z $(ip netns pids "$(space "robot$i")") ]] || return 1; done
+}
+never() { false; }
+now() { date +%s%N; }
+
+# Waits for `$1` at most `$2` s: $waited is then ms, else empty. Samples the radio each second into $series and $worst
+# (kbit/s), and runs what $events lists ("SECONDS COMMAND").
+events=()
+watch_radio() { # condition, seconds
+  local begin last second bytes kbit due
+  begin=$(now) second=$begin last=$(passed radio)
+  worst=0 waited= series=
+  while :; do
+    sleep 0.1
+    if ((${#events[@]})); then
+      due=${events[0]%% *}
+      if (($(now) - begin >= due * 1000000000)); then
+        ${events[0]#* }
+        events=("${events[@]:1}")
+      fi
+    fi
+    if [[ -z $waited ]] && $1; then waited=$((($(now) - begin) / 1000000)); fi
+    if (($(now) - second >= 1000000000)); then
+      bytes=$(passed radio)
+      kbit=$(((bytes - last) * 8000000 / ($(now) - second)))
+      worst=$((kbit > worst ? kbit : worst))
+      series+=" $kbit"
+      last=$bytes second=$(now)
+    fi
+    (($(now) - begin < $2 * 1000000000)) && [[ -z $waited || -z ${until_then:-} ]] || return 0
+  done
+}
+
+seconds_of() { [[ -n $1 ]] && echo "$(($1 / 1000)).$(($1 / 100 % 10)) s" || echo "not in time"; }
+verdict() { # holds (0 or 1), text
+  echo "$scenario, $agents robots, $radio kbit/s${impairment[*]:+ (${impairment[*]})}: $2: $(((!$1)) && echo FAILED || echo ok)"
+  echo "$scenario, $agents robots, kbit/s on the radio, second by second:$series" >> "$out/series.txt"
+  (($1))
+}
+radio_figures() { echo "$((($(passed radio) - ${before:-0}) / 1000)) kB, worst second $worst kbit/s, $(dropped radio) packets dropped"; }
+
+# ---- knowing each other, without sensors
+
+scenario_discovery() { # all start at once
+  before=$(passed radio)
+  all_start
+  watch_radio all_heard 20
+  verdict $([[ -n $waited ]] && ((waited < 10000 && worst <= 160)) && echo 1 || echo 0) \
+    "all know all after $(seconds_of "$waited"); in 20 s $(radio_figures)"
+}
+
+scenario_restart() { # one of a fleet that knows itself is killed and started again
+  all_start
+  watch_radio all_heard 20
+  before=$(passed radio)
+  crash 1
+  : > "$out/r1.log"
+  start 1
+  watch_radio all_heard 15
+  verdict $([[ -n $waited ]] && ((waited < 10000 && worst <= 160)) && echo 1 || echo 0) \
+    "all known again after $(seconds_of "$waited"); in 15 s $(radio_figures)"
+}
+
+scenario_idle() { # what a fleet that waits costs
+  all_start
+  watch_radio all_heard 20
+  before=$(passed radio)
+  watch_radio never 60
+  local rate=$((($(passed radio) - before) * 8 / 60 / 1000))
+  verdict $((rate * 5 < radio && worst <= 160)) "$rate kbit/s over 60 s, worst second $worst kbit/s"
+}
+
+scenario_one_way() { # nothing reaches one robot for 15 s
+  relay radio --block '*,10.77.1.2' "${impairment[@]}"
+  all_start
+  watch_radio never 15
+  local deaf i known=1
+  deaf=$(says 1 'long_range: heard')
+  for ((i = 2; i <= agents; ++i)); do (($(says $i 'long_range: heard') >= agents - 2)) || known=0; done
+  relay radio --delay 0 "${impairment[@]}"
+  watch_radio all_heard 20
+  verdict $([[ -n $waited ]] && ((deaf == 0 && known && waited < 10000 && worst <= 160)) && echo 1 || echo 0) \
+    "the others knew each other meanwhile: $known; all know all $(seconds_of "$waited") after it hears again; worst second $worst kbit/s"
+}
+
+scenario_two_fleets() { # of one half of the robots each, on the same domain and addresses
+  local i half=$((agents / 2)) first= second= alive=1 own=1
+  for ((i = 1; i <= half; ++i)); do first+="${first:+, }r$i"; done
+  for ((i = half + 1; i <= agents; ++i)); do second+="${second:+, }r$i"; done
+  for ((i = 1; i <= agents; ++i)); do write_config $i "r$i" "$( ((i <= half)) && echo "$first" || echo "$second")"; done
+  before=$(passed radio)
+  all_start
+  watch_radio never 20
+  for ((i = 1; i <= agents; ++i)); do
+    kill -0 "$(cat "$scratch/r$i.pid")" 2>/dev/null || alive=0
+    (($(says $i 'is not of this fleet') > 0)) || own=0
+  done
+  verdict $((alive && own && worst <= 160)) "each names the strangers: $own; all still run: $alive; in 20 s $(radio_figures)"
+}
+
+scenario_twins() { # two robots of one name
+  write_config 2 r1 "$(names)"
+  all_start
+  named() { (($(says 1 'is named r1, too') > 0 && $(says 2 'is named r1, too') > 0)); }
+  watch_radio named 20
+  verdict $([[ -n $waited ]] && echo 1 || echo 0) "named in the log after $(seconds_of "$waited")"
+}
+
+# ---- mapping: recordings are replayed in real time, and all must end by themselves with the same whole map
+
+# What all stores hold, a line for each different content: how many, nodes, alignments, submaps.
+holdings() {
+  local i
+  for ((i = 1; i <= agents; ++i)); do
+    "$program" map info --json "$out/r$i/store.db" | python3 -c '
+import json, sys
+held = json.load(sys.stdin)
+print(held["hash"][:8], held["nodes"], "nodes", held["alignments"], "alignments", held["submaps"], "submaps")'
+  done | sort | uniq -c | sed 's/^ *//'
+}
+# Runs to the end; `$1`: further text, `$2`: 0 if something else failed.
+map_verdict() {
+  local held equal
+  idle=10 until_then=end
+  watch_radio all_ended "${patience:-420}"
+  held=$(holdings)
+  equal=$([[ $(wc -l <<< "$held") == 1 && $held =~ ([0-9]+)" nodes "([1-9][0-9]*)" alignments "([0-9]+) && ${BASH_REMATCH[1]} == "${BASH_REMATCH[3]}" ]] && echo 1 || echo 0)
+  "${check:-true}" || equal=0
+  verdict $([[ -n $waited ]] && ((equal && worst <= 160)) && echo 1 || echo 0) \
+    "ended after $(seconds_of "$waited") with $(tr '\n' ';' <<< "$held") radio $(radio_figures); Wi-Fi $(($(passed wifi) / 1000000)) MB, $(dropped wifi) dropped"
+}
+begin_map() {
+  need_recordings
+  idle=10
+  all_start
+  all_play
+}
+
+scenario_map() { # nothing goes wrong
+  begin_map
+  map_verdict
+}
+
+scenario_radio_down() { # for 60 s
+  begin_map
+  events=("20 off radio" "80 on radio")
+  map_verdict
+}
+
+scenario_kill() { # kill -9 of one while maps flow, started again 5 s later
+  begin_map
+  events=("40 crash 2" "45 start 2")
+  map_verdict
+}
+
+scenario_kill_all() { # kill -9 of all at once, started again 5 s later
+  begin_map
+  crash_all() { local i; for ((i = 1; i <= agents; ++i)); do crash $i; done; }
+  events=("50 crash_all" "55 all_start")
+  map_verdict
+}
+
+scenario_new_disk() { # one is killed, and comes back with an empty disk
+  begin_map
+  lose_disk() { crash 2; rm -rf "$out/r2"; }
+  events=("60 lose_disk" "65 start 2")
+  check() { (($(says 2 'lost, restored or replaced') == 1 && $(cat "$out"/r*.log | grep -c 'came under the name') == 0)); }
+  check=check
+  map_verdict
+}
+
+scenario_late() { # the last robot joins after a minute
+  need_recordings
+  idle=10
+  join() { start "$agents"; play "$agents"; }
+  for ((i = 1; i < agents; ++i)); do start $i; play $i; done
+  events=("60 join")
+  # The others end by themselves while they hear nobody who lacks anything, but not before they have heard of it.
+  map_verdict
+}
+
+# ---- the Wi-Fi
+
+scenario_contact() { # two robots that mapped apart meet for 20 s
+  agents=2
+  local run=$scratch/apart held begun got i
+  "$program" run -c "$root/config/fleets/farm_small.yaml" --agents 2 --set network.short_range.max_range=0.1 --set submap.voxel=0.02 --set submap.resolution=0.001 --out "$run" > "$scratch/run.log" 2>&1 || true
+  for i in 1 2; do
+    [[ -f $run/r$i/store.db ]] || { tail -n 5 "$scratch/run.log" >&2; exit 2; }
+    cp -r "$run/r$i" "$out/r$i"
+  done
+  submap_bytes() { # of both robots
+    local i
+    for i in 1 2; do "$program" map info --json "$out/r$i/store.db"; done | sed -n 's/.*"submap_bytes": \([0-9]*\).*/\1/p' | awk '{ sum += $1 } END { print sum }'
+  }
+  both_whole() { [[ $(holdings | wc -l) == 1 ]]; }
+  off wifi
+  all_start
+  watch_radio all_heard 10
+  held=$(submap_bytes)
+  on wifi
+  begun=$(passed wifi)
+  until_then=whole watch_radio both_whole 20
+  off wifi
+  got=$(($(submap_bytes) - held))
+  local time=${waited:-20000}
+  local share=$((got * 8 * 100 / wifi / time))
+  verdict $((share >= 80)) \
+    "$((got / 1000)) kB of submaps in $(seconds_of "$time"), $share % of $wifi kbit/s$([[ -z $waited ]] || echo ' (then both had all)'); $((($(passed wifi) - begun) / 1000)) kB on air, $(dropped wifi) packets dropped"
+}
