@@ -9,6 +9,7 @@ packages=(
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
   libsqlite3-dev libssl-dev liblzma-dev libembree-dev libpng-dev
   libgtest-dev libgmock-dev libbenchmark-dev
+  iproute2 procps python3
 )
 
 missing=()

@@ -40,6 +40,9 @@ while (($#)); do
 done
 declare -F "scenario_$scenario" > /dev/null || { echo "no scenario '$scenario'; there are:" >&2; list_scenarios >&2; exit 2; }
 [[ -x $program ]] || { echo "$program: is no program; build it, or name it with --program" >&2; exit 2; }
+for tool in ip tc sysctl python3; do
+  command -v "$tool" > /dev/null || { echo "skipped: needs $tool (deploy/install-dependencies.sh)"; exit 77; }
+done
 [[ $(id -u) == 0 ]] && ip netns add "$FIELD-try" 2>/dev/null ||
   { echo "skipped: needs root and network namespaces"; exit 77; }
 ip netns del "$FIELD-try"

@@ -151,6 +151,35 @@ scenario_one_way() { # nothing reaches one robot for 15 s
     "the others knew each other meanwhile: $known; all know all $(seconds_of "$waited") after it hears again; worst second $worst kbit/s"
 }
 
+# The radio's device of robot 1. The route goes with the device.
+radio_of_1() {
+  ip -n "$(space robot1)" link set radio "$1"
+  [[ $1 == down ]] || ip -n "$(space robot1)" route replace 10.77.0.0/16 via 10.77.1.1 dev radio
+}
+
+scenario_absent_interface() { # the radio of one robot comes up 8 s after its agent was started
+  radio_of_1 down
+  all_start
+  events=("8 radio_of_1 up")
+  watch_radio all_heard 30
+  verdict $([[ -n $waited ]] && ((waited < 20000 && worst <= 160 && $(says 1 'silent until it is there') > 0)) && echo 1 || echo 0) \
+    "all know all after $(seconds_of "$waited"); said: $(says 1 'silent until it is there')"
+}
+
+scenario_address_gone() { # the radio of one robot loses its address for 80 s, longer than the lease
+  lose_address() { ip -n "$(space robot1)" addr flush dev radio; }
+  regain_address() {
+    ip -n "$(space robot1)" addr add 10.77.1.2/30 dev radio
+    radio_of_1 up
+  }
+  all_start
+  events=("5 lose_address" "85 regain_address")
+  heard_again() { (($(says 2 'long_range: heard r1') >= 2)); }
+  watch_radio heard_again 110
+  verdict $([[ -n $waited ]] && ((waited < 100000 && worst <= 160 && $(says 1 'silent until it is there') > 0)) && echo 1 || echo 0) \
+    "said: $(says 1 'silent until it is there'); heard again after $(seconds_of "$waited")"
+}
+
 scenario_two_fleets() { # of one half of the robots each, on the same domain and addresses
   local i half=$((agents / 2)) first= second= alive=1 own=1
   for ((i = 1; i <= half; ++i)); do first+="${first:+, }r$i"; done
@@ -206,6 +235,13 @@ begin_map() {
 
 scenario_map() { # nothing goes wrong
   begin_map
+  map_verdict
+}
+
+scenario_apart() { # no Wi-Fi until the recordings end: all but the submaps takes the radio
+  off wifi
+  begin_map
+  events=("125 on wifi")
   map_verdict
 }
 

@@ -11,7 +11,7 @@ using store::Put;
 constexpr const char* kHoldKey = "hold_orders";
 /// Datagrams per B/s of the budget that the periods of the defaults are for: each of five robots to each
 /// other.
-constexpr double kUsualLoad = 5.0 * 4.0 / 18'750.0;
+constexpr double kUsualLoad = 5.0 * 4.0 / 18'125.0;
 /// A fleet that starts gets to know itself in less.
 constexpr Duration kHellos = std::chrono::seconds(10);
 

@@ -133,7 +133,7 @@ TEST(HoldOrders, SpreadThroughAFleetThatLosesMessagesAndOutliveARestart) {
   for (const auto& sent : fleet.sent()) {
     if (std::holds_alternative<Hold>(sent.outgoing.message)) bytes += static_cast<double>(sent.wire_bytes);
   }
-  EXPECT_LT(bytes / 60.0, 0.01 * 18'750 * 3) << "to repeat them costs next to nothing";
+  EXPECT_LT(bytes / 60.0, 0.01 * 18'125 * 3) << "to repeat them costs next to nothing";
   EXPECT_GT(bytes, 0.0);
 }
 

@@ -117,6 +117,7 @@ TEST(SendQueue, counts_every_copy_and_header) {
 
 TEST(SendQueue, shares_the_rest_evenly_between_backfill_and_clouds) {
   LongRangeConfig config;
+  config.fleet_bytes_per_second = 20'000;
   config.burst_seconds = 0.5;
   config.max_backfill = 2000;
   SendQueue queue(config, 2, testing::payload_size);

@@ -36,7 +36,7 @@ struct ExchangeConfig {
 
 /// The periods as they are for a fleet of this size on this budget. A status or digest goes to every other
 /// robot, so what is fixed grows with the square of the fleet, and clouds get what it leaves. Where it would
-/// take more than it does of five robots on 150 kbit/s, it comes less often, and a silent robot is asked for
+/// take more than it does of five robots on 145 kbit/s, it comes less often, and a silent robot is asked for
 /// longer.
 ExchangeConfig for_fleet(ExchangeConfig config);
 

@@ -30,13 +30,14 @@ enum class Priority : std::uint8_t {
 inline constexpr std::size_t kPriorities = 6;
 
 struct LongRangeConfig {
-  /// B/s that all agents together send: 150 kbit/s. With the Hellos of the links and Ethernet headers, which
-  /// nobody counts here, the wire then carries less than 160 of the radio's 200 kbit/s (docs/dds.md).
-  double fleet_bytes_per_second = 18'750;
+  /// B/s that all agents together send: 145 kbit/s. Since a burst of each robot may fall into the same
+  /// second, the wire then carries less than 160 of the radio's 200 kbit/s in any second (docs/dds.md).
+  double fleet_bytes_per_second = 18'125;
   double burst_seconds = 0.2;        ///< s, a share's worth of bytes that may go at once after silence
   double min_burst_bytes = 1400;     ///< B, at least one full fragment with its headers
   double small_reserve_bytes = 300;  ///< B, left by backfill and clouds so that a small message goes at once
-  std::size_t overhead_bytes = 160;  ///< B a message, as captured: 28 of IP and UDP, 132 of RTPS
+  std::size_t overhead_bytes =
+      174;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 132 of RTPS
   bool deliver_to_one =
       true;  ///< a message with a recipient goes to it alone; false: every agent gets a copy
   std::size_t max_small = 512;  ///< messages waiting in each of the classes safety, control, news and state

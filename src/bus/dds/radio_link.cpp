@@ -44,6 +44,8 @@ constexpr int kQuickHellos = 5;  // with this pause: the radio loses some; then 
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 /// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
 constexpr auto kStillThere = std::chrono::seconds(2);
+constexpr auto kAddressPeriod = std::chrono::seconds(1);
+constexpr auto kNeverHeard = std::chrono::seconds(30);  // then it is said
 constexpr std::size_t kMostNamesakes = 16;
 constexpr std::size_t kMostPlaces = 256;                   // strangers may name so many
 constexpr std::size_t kMostHellos = 256;                   // that wait for the callback thread
@@ -180,7 +182,8 @@ class RadioLink::End final : public TopicEnd {
   ~End() override { link_.ends_.erase(key_); }
 
   void open_writer() override {
-    if (writer_ != nullptr) return;
+    if (writer_ != nullptr || link_.participant_ == nullptr)
+      return;  // else with the first message after it joins
     const WriterPolicy policy = writer_policy(link_.qos_, topic_.profile);
     depth_ = policy.depth;
     auto attributes = best_effort<rtps::WriterAttributes>();
@@ -281,16 +284,21 @@ Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsLinkConfi
                                                    const AgentId& agent, QosFile qos,
                                                    std::shared_ptr<Executor> executor) {
   std::shared_ptr<RadioLink> result(new RadioLink(link, config, agent, std::move(qos), std::move(executor)));
-  if (const Status opened = result->open(); !opened) return tl::unexpected(opened.error());
+  if (const Status prepared = result->prepare(); !prepared) return tl::unexpected(prepared.error());
+  if (const Status there = check_address(config, to_string(link)); !there) {
+    // A radio that is switched on later must not keep the robot from mapping.
+    result->warning_ = there.error().message + "; the link is silent until it is there";
+    result->address_there_ = false;
+  } else if (const Status joined = result->join(); !joined) {
+    return tl::unexpected(joined.error());
+  }
   result->stop_timer_ = result->executor_->add_timer(kTick, [weak = std::weak_ptr<RadioLink>(result)] {
     if (const auto alive = weak.lock()) alive->tick();
   });
   return std::shared_ptr<LinkEnd>(std::move(result));
 }
 
-Status RadioLink::open() {
-  const std::string name = to_string(link_);
-  if (Status there = check_address(config_, name); !there) return there;
+Status RadioLink::prepare() {
   if (Status best_effort = check_best_effort(); !best_effort) return best_effort;
   auto profile = participant_profile(qos_, link_);
   if (!profile) return tl::unexpected(profile.error());
@@ -298,7 +306,11 @@ Status RadioLink::open() {
   const auto& discovery = profile_.wire_protocol().builtin.discovery_config;
   lease_ = std::chrono::nanoseconds(discovery.leaseDuration.to_ns());
   announcement_ = std::chrono::nanoseconds(discovery.leaseDuration_announcementperiod.to_ns());
+  return {};
+}
 
+Status RadioLink::join() {
+  const std::string name = to_string(link_);
   participant_ =
       rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent_, profile_));
   if (participant_ == nullptr) {
@@ -340,13 +352,14 @@ Status RadioLink::check_best_effort() const {
 
 RadioLink::~RadioLink() {
   if (stop_timer_) stop_timer_();
-  if (participant_ == nullptr) return;
-  {
-    const std::scoped_lock lock(mutex_);
-    for (const auto& place : places_) say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
+  if (participant_ != nullptr) {
+    {
+      const std::scoped_lock lock(mutex_);
+      for (const auto& place : places_) say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
+    }
+    rtps::RTPSDomain::removeRTPSParticipant(participant_);
   }
-  rtps::RTPSDomain::removeRTPSParticipant(participant_);
-  forget_topics();
+  forget_topics();  // whose ends refer to members of this
 }
 
 std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) {
@@ -355,12 +368,14 @@ std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std
 }
 
 /// Robots that share the medium with this one, as configured: what goes to this machine does not take it.
+bool RadioLink::elsewhere(const Place& place) const {
+  return place.configured && !IPLocator::compareAddress(place.locator, own_) &&
+         !IPLocator::isLocal(place.locator);
+}
+
 double RadioLink::others() const {
-  const auto elsewhere = [this](const auto& place) {
-    return place->configured && !IPLocator::compareAddress(place->locator, own_) &&
-           !IPLocator::isLocal(place->locator);
-  };
-  return static_cast<double>(std::ranges::count_if(places_, elsewhere));
+  return static_cast<double>(
+      std::ranges::count_if(places_, [this](const auto& place) { return elsewhere(*place); }));
 }
 
 /// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's.
@@ -428,6 +443,8 @@ void RadioLink::tick() {
     hellos.swap(received_->hellos);
   }
   const std::scoped_lock lock(mutex_);
+  watch_address(Clock::now());
+  if (participant_ == nullptr) return;
   for (const auto& [sender, cdr] : hellos) {
     if (const auto hello = decode_hello(cdr)) take(sender, *hello);
   }
@@ -448,7 +465,41 @@ void RadioLink::tick() {
         place->next = std::min(place->next, now);
     }
   }
+  name_who_was_never_heard(now);
   say_due_hellos(now);
+}
+
+/// Joins once the own address is there, and says when it comes and goes: sockets are bound to it and outlive
+/// its absence.
+void RadioLink::watch_address(Clock::time_point now) {
+  if (now < next_look_) return;
+  next_look_ = now + kAddressPeriod;
+  const Status there = check_address(config_, to_string(link_));
+  if (there && participant_ == nullptr) {
+    if (const Status joined = join(); !joined) return spdlog::error("{}", joined.error().message);
+  }
+  if (there.has_value() == address_there_) return;
+  address_there_ = there.has_value();
+  if (there) {
+    spdlog::info("{}: {} is there", to_string(link_), own_address(config_));
+  } else {
+    spdlog::warn("{}; the link is silent until it is there", there.error().message);
+  }
+}
+
+/// On the radio all should hear each other, on the Wi-Fi nobody may be near.
+void RadioLink::name_who_was_never_heard(Clock::time_point now) {
+  if (link_ != Link::kLongRange || now - opened_ < kNeverHeard) return;
+  for (const auto& place : places_) {
+    if (place->heard || !elsewhere(*place)) continue;
+    place->heard = true;  // said once
+    spdlog::warn(
+        "{}: nobody heard at {} in {:.0f} s: is that robot on, is this its address, and has its file the "
+        "same "
+        "dds.{}.domain?",
+        to_string(link_), to_text(place->locator), std::chrono::duration<double>(kNeverHeard).count(),
+        to_string(link_));
+  }
 }
 
 /// The longest due first, no faster than this robot's share of what Hellos may take.
@@ -522,6 +573,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   if (!known) {
     spdlog::info("{}: heard {} at {}", to_string(link_), hello.sender.str(), to_text(from));
     place->robot = sender;
+    place->heard = true;
     place->next = Clock::time_point::max();
   }
   peer.agent = hello.sender;

@@ -50,6 +50,7 @@ class RadioLink final : public LinkEnd {
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
+    bool heard = false;                                      ///< ever, or the log says that it was not
     int said = 0;                                            ///< Hellos since `pause` was set out
     bool asks_again = false;                                 ///< it did not hear our last answer
     Clock::time_point next{};                                ///< Hello; zero: not set out yet, max: none
@@ -67,13 +68,18 @@ class RadioLink final : public LinkEnd {
   RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
             std::shared_ptr<Executor> executor);
   std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) override;
-  Status open();
+  /// What configuration and profiles say.
+  Status prepare();
+  /// The own address must be there.
+  Status join();
+  void watch_address(Clock::time_point now);
   Status check_best_effort() const;
   Status add_place(const Locator& locator, bool configured);
   Place* place_at(const Locator& locator);
   bool plausible(const Locator& locator) const;
   bool heard_lately(const Prefix& robot) const;
   std::vector<Prefix> silent() const;
+  bool elsewhere(const Place& place) const;
   double others() const;
   Clock::duration spread() const;
   void tick();
@@ -81,6 +87,7 @@ class RadioLink final : public LinkEnd {
   void forget(Prefix robot);
   void say_hello(Place& place, bool leaves = false);
   void say_due_hellos(Clock::time_point now);
+  void name_who_was_never_heard(Clock::time_point now);
   void reads_changed();
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
 
@@ -104,6 +111,9 @@ class RadioLink final : public LinkEnd {
   std::map<Prefix, Peer> peers_;
   std::map<EntityKey, End*> ends_;
   std::set<EntityKey> reads_;
+  const Clock::time_point opened_ = Clock::now();
+  Clock::time_point next_look_{};    ///< at the own address
+  bool address_there_ = true;        ///< or the log says that it is not
   Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
   std::set<Prefix> namesakes_;       ///< told of in the log
