@@ -64,9 +64,11 @@ relay() {
   local name=$1 old mac
   shift
   for old in "${RELAYS[@]}"; do kill "$old" 2>/dev/null || true; done
+  while [[ -n $(ip netns pids "$(space "$name-ether")") ]]; do sleep 0.1; done
   in_space "$name-ether" sysctl -qw net.ipv4.ip_forward=0
   mac=$(in_space "$name-air" cat /sys/class/net/from/address)
-  in_space "$name-ether" python3 "$root/deploy/netns/relay.py" in back --to-mac "$mac" "$@" &
+  # exec, so that the process that is noted is the relay.
+  (exec ip netns exec "$(space "$name-ether")" python3 "$root/deploy/netns/relay.py" in back --to-mac "$mac" "$@") &
   RELAYS=($!)
   disown $!
 }

@@ -64,8 +64,9 @@ all_heard() {
   local i
   for ((i = 1; i <= agents; ++i)); do (($(says $i 'long_range: heard') >= agents - 1)) || return 1; done
 }
-all_ended() {
+all_ended() { # and have begun
   local i
+  (($(now) - ${all_begun:=$(now)} > 5000000000)) || return 1
   for ((i = 1; i <= agents; ++i)); do [[ -z $(ip netns pids "$(space "robot$i")") ]] || return 1; done
 }
 never() { false; }
@@ -122,9 +123,14 @@ scenario_restart() { # one of a fleet that knows itself is killed and started ag
   watch_radio all_heard 20
   before=$(passed radio)
   crash 1
-  : > "$out/r1.log"
+  for ((i = 1; i <= agents; ++i)); do : > "$out/r$i.log"; done
   start 1
-  watch_radio all_heard 15
+  known_again() { # each other has heard it anew, and it has heard them
+    local i
+    (($(says 1 'long_range: heard') >= agents - 1)) || return 1
+    for ((i = 2; i <= agents; ++i)); do (($(says $i 'long_range: heard r1 ') > 0)) || return 1; done
+  }
+  watch_radio known_again 15
   verdict $([[ -n $waited ]] && ((waited < 10000 && worst <= 160)) && echo 1 || echo 0) \
     "all known again after $(seconds_of "$waited"); in 15 s $(radio_figures)"
 }
@@ -174,7 +180,7 @@ scenario_address_gone() { # the radio of one robot loses its address for 80 s, l
   }
   all_start
   events=("5 lose_address" "85 regain_address")
-  heard_again() { (($(says 2 'long_range: heard r1') >= 2)); }
+  heard_again() { (($(says 2 'long_range: heard r1 ') >= 2)); }
   watch_radio heard_again 110
   verdict $([[ -n $waited ]] && ((waited < 100000 && worst <= 160 && $(says 1 'silent until it is there') > 0)) && echo 1 || echo 0) \
     "said: $(says 1 'silent until it is there'); heard again after $(seconds_of "$waited")"
@@ -209,19 +215,19 @@ scenario_twins() { # two robots of one name
 holdings() {
   local i
   for ((i = 1; i <= agents; ++i)); do
-    "$program" map info --json "$out/r$i/store.db" | python3 -c '
+    { "$program" map info --json "$out/r$i/store.db" 2> /dev/null || echo '{}'; } | python3 -c '
 import json, sys
 held = json.load(sys.stdin)
-print(held["hash"][:8], held["nodes"], "nodes", held["alignments"], "alignments", held["submaps"], "submaps")'
+print(*([held["hash"][:8], held["nodes"], "nodes", held["alignments"], "alignments", held["submaps"], "submaps"] if held else ["no store"]))'
   done | sort | uniq -c | sed 's/^ *//'
 }
-# Runs to the end; `$1`: further text, `$2`: 0 if something else failed.
+# Runs to the end; `check`, if set, names a command that must hold, too.
 map_verdict() {
   local held equal
   idle=10 until_then=end
   watch_radio all_ended "${patience:-420}"
   held=$(holdings)
-  equal=$([[ $(wc -l <<< "$held") == 1 && $held =~ ([0-9]+)" nodes "([1-9][0-9]*)" alignments "([0-9]+) && ${BASH_REMATCH[1]} == "${BASH_REMATCH[3]}" ]] && echo 1 || echo 0)
+  equal=$([[ $(wc -l <<< "$held") == 1 && $held == "$agents "* && $held =~ ([0-9]+)" nodes "([1-9][0-9]*)" alignments "([0-9]+) && ${BASH_REMATCH[1]} == "${BASH_REMATCH[3]}" ]] && echo 1 || echo 0)
   "${check:-true}" || equal=0
   verdict $([[ -n $waited ]] && ((equal && worst <= 160)) && echo 1 || echo 0) \
     "ended after $(seconds_of "$waited") with $(tr '\n' ';' <<< "$held") radio $(radio_figures); Wi-Fi $(($(passed wifi) / 1000000)) MB, $(dropped wifi) dropped"
@@ -276,9 +282,9 @@ scenario_new_disk() { # one is killed, and comes back with an empty disk
 scenario_late() { # the last robot joins after a minute
   need_recordings
   idle=10
-  join() { start "$agents"; play "$agents"; }
+  come() { start "$agents"; play "$agents"; }
   for ((i = 1; i < agents; ++i)); do start $i; play $i; done
-  events=("60 join")
+  events=("60 come")
   # The others end by themselves while they hear nobody who lacks anything, but not before they have heard of it.
   map_verdict
 }
@@ -297,7 +303,11 @@ scenario_contact() { # two robots that mapped apart meet for 20 s
     local i
     for i in 1 2; do "$program" map info --json "$out/r$i/store.db"; done | sed -n 's/.*"submap_bytes": \([0-9]*\).*/\1/p' | awk '{ sum += $1 } END { print sum }'
   }
-  both_whole() { [[ $(holdings | wc -l) == 1 ]]; }
+  both_whole() { # opening stores takes a robot's time, too: once a second
+    (($(now) - ${looked:=0} > 1000000000)) || return 1
+    looked=$(now)
+    [[ $(holdings) == "2 "* ]]
+  }
   off wifi
   all_start
   watch_radio all_heard 10

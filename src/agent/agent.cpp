@@ -25,6 +25,8 @@ constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 /// The graph is solved for the live pose at most this often, and only if anything is new.
 constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
+/// A session whose number was given before, or is said to be, gives way at most so often.
+constexpr Duration kSessionPause = std::chrono::minutes(1);
 constexpr Duration kStoreFailurePeriod = std::chrono::seconds(30);
 /// How long a start waits for the first global pose before it makes nodes without.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
@@ -44,6 +46,20 @@ store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, 
            prior.sigma_height_m, prior.up_target}};
 }
 
+/// An odometry that a lost store has left must not be written over: its nodes may come back from others.
+Result<TrajectoryFile> begin_odometry(const std::filesystem::path& directory, std::size_t index) {
+  const std::filesystem::path file = odometry_file(directory, index);
+  std::error_code error;
+  for (int k = 1; std::filesystem::exists(file, error); ++k) {
+    const std::filesystem::path aside = file.string() + ".before-" + std::to_string(k);
+    if (std::filesystem::exists(aside, error)) continue;
+    std::filesystem::rename(file, aside, error);
+    if (error) return failure(file.string() + ": cannot be moved aside: " + error.message());
+    spdlog::warn("{}: is of a store that was lost or replaced; it is {} now", file.string(), aside.string());
+  }
+  return TrajectoryFile::create(file);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus& bus) {
@@ -57,8 +73,7 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (!sessions) return tl::unexpected(sessions.error());
   const Result<std::uint16_t> session = sessions->begin(*store, config.draw_session);
   if (!session) return tl::unexpected(session.error());
-  Result<TrajectoryFile> odometry =
-      TrajectoryFile::create(odometry_file(config.directory, *sessions->index_of(*session)));
+  Result<TrajectoryFile> odometry = begin_odometry(config.directory, *sessions->index_of(*session));
   if (!odometry) return tl::unexpected(odometry.error());
   Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
   if (!track) return tl::unexpected(track.error());
@@ -127,9 +142,9 @@ Status Agent::start() {
   }
   status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
   if (const std::size_t index = *sessions_.index_of(session_); index > 0) {
-    spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store",
+    spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store, as {}",
                  config_.id.str(), index, store_.nodes().size(), store_.alignments().size(),
-                 store_.submap_set().size());
+                 store_.submap_set().size(), to_string(graph::FrameId{config_.id, session_}));
   }
   return {};
 }
@@ -170,7 +185,8 @@ void Agent::stop() {
 
 void Agent::on_perceived(Perceived&& perceived) {
   if (perception_->odometry_counters().map_restarts > map_restarts_) {
-    begin_session("odometry lost its way and began anew");
+    // Until it can begin, nothing may enter the frame of the session before.
+    if (!begin_session("odometry lost its way and began anew")) return;
   } else if (numbers_run_out()) {
     begin_session("no number is left for another item of this session");
   }
@@ -224,14 +240,18 @@ bool Agent::numbers_run_out() const {
   return next - first_seq(session_) > kItemsPerSession - kReserve;
 }
 
-void Agent::begin_session(const char* why) {
-  map_restarts_ = perception_->odometry_counters().map_restarts;
+bool Agent::begin_session(const char* why) {
   freeze_rest();
   submap_.clear();
   recent_surroundings_.clear();
   last_perceived_.reset();
   const Result<std::uint16_t> session = sessions_.begin(store_, config_.draw_session);
-  if (!session) return spdlog::error("{}", session.error().message);
+  if (!session) {
+    handle(exchange::StoreFailed{session.error()});
+    return false;
+  }
+  map_restarts_ = perception_->odometry_counters().map_restarts;
+  session_begun_ = bus_.now();
   session_ = *session;
   exchange_->begin_session(session_);
   motion_ = {};
@@ -239,10 +259,15 @@ void Agent::begin_session(const char* why) {
   node_generator_ = place::NodeGenerator(config_.nodes);
   session_ties_.begin(own_nodes(store_));
   const std::size_t index = *sessions_.index_of(session_);
-  spdlog::warn("{}: {}: session {}", config_.id.str(), why, index);
-  Result<TrajectoryFile> file = TrajectoryFile::create(odometry_file(config_.directory, index));
-  if (!file) return spdlog::error("{}", file.error().message);
-  odometry_file_ = std::move(*file);
+  spdlog::warn("{}: {}: session {} ({})", config_.id.str(), why, index,
+               to_string(graph::FrameId{config_.id, session_}));
+  Result<TrajectoryFile> file = begin_odometry(config_.directory, index);
+  if (file) {
+    odometry_file_ = std::move(*file);
+  } else {
+    spdlog::error("{}", file.error().message);
+  }
+  return true;
 }
 
 void Agent::freeze_node(const Perceived& perceived) {
@@ -530,15 +555,21 @@ void Agent::handle(const exchange::PeerStatus& status) {
 
 void Agent::handle(const exchange::ItemConflict& conflict) {
   spdlog::error(
-      "{}: another {} came under the name {}; two robots with one id, or one whose store was deleted",
+      "{}: another {} came under the name {} and was refused: two robots with one id, or a forged one",
       config_.id.str(), conflict.alignment ? "alignment" : "node", to_string(conflict.id));
 }
 
 void Agent::handle(const exchange::OwnItemsElsewhere& found) {
   spdlog::warn(
       "{}: {} holds {} nodes and {} alignments of this robot that its own store lacks: the store was lost, "
-      "restored or replaced; they are fetched, and what is made from now on bears other numbers",
+      "restored or replaced (they are fetched, and new ones bear other numbers), or another robot bears this "
+      "name",
       config_.id.str(), found.peer.str(), found.nodes, found.alignments);
+}
+
+void Agent::handle(const exchange::SessionTaken& taken) {
+  if (bus_.now() - session_begun_ < kSessionPause) return;
+  begin_session(("its number was given before: " + taken.peer.str() + " holds items of it").c_str());
 }
 
 void Agent::handle(const exchange::StrangerHeard& heard) {

@@ -40,7 +40,7 @@ std::vector<MapPart> map_parts(std::span<const graph::Node> nodes, const graph::
 std::string file_of(const MapPart& part) {
   const graph::FrameId& first = part.frames.front();
   std::string name = "map-" + first.agent.str();
-  if (first.session > 0) name.append("-").append(std::to_string(first.session));
+  if (first.session > 0) name.append(".").append(std::to_string(first.session));
   return name.append(".ply");
 }
 

@@ -240,6 +240,15 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
   return files;
 }
 
+/// Those of an earlier run: who was nowhere then may be on the map now.
+void remove_parts(const std::filesystem::path& directory) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("map-") && name.ends_with(".ply")) std::filesystem::remove(entry.path(), error);
+  }
+}
+
 /// Returns how many submaps the file shows.
 Result<std::size_t> write_part(store::Store& store, const MapPart& part, const AgentConfig& config) {
   const std::filesystem::path file = config.directory / file_of(part);
@@ -369,6 +378,7 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;
+  remove_parts(config.directory);
   for (const MapPart& part : results.apart) {
     const Result<std::size_t> submaps = write_part(store, part, config);
     if (!submaps) return tl::unexpected(submaps.error());

@@ -7,21 +7,26 @@
 namespace fleetmap::exchange {
 namespace {
 
-// A queue that is shorter than the target overflows again and again, and LEDBAT would live on losses. So the
-// target stays below the delay at which it last overflowed, and comes back slowly, since queues and their
-// other users change.
+// A queue shorter than the target overflows before LEDBAT reacts. The target is therefore set to 0.7 of the
+// queueing delay at the loss and recovers by 0.5 % a round trip.
 constexpr double kBelowOverflow = 0.7;
-constexpr double kLeastTarget = 0.02;  // s
-constexpr double kRecovery = 0.005;    // a round trip
+constexpr double kLeastTarget = 0.05;  // s: two ticks of both ends and some
+constexpr double kRecovery = 0.005;
+/// A loss below this share of the target was not made by the queue.
+constexpr double kQueueLoss = 0.3;
+constexpr double kAfterQueueLoss = 0.5, kAfterOtherLoss = 0.9;  // what is left of the window
+/// The least delay is that of the last one to two of these: a path may become slower for good.
+constexpr Duration kBaseHistory = std::chrono::minutes(1);
 
 }  // namespace
 
 Status DelayWindowConfig::validate() const {
-  if (!(target_s > 0.0) || !std::isfinite(target_s))
-    return failure("submap_transfer.window.target_s must be positive");
+  if (!(target_s >= kLeastTarget) || !std::isfinite(target_s))
+    return failure("submap_transfer.window.target_s must be at least 0.05");
   if (step_bytes == 0 || least_bytes < step_bytes || first_bytes < least_bytes || most_bytes < first_bytes) {
     return failure(
-        "submap_transfer.window: step_bytes, least_bytes, first_bytes and most_bytes must not decrease");
+        "short_range.window_bytes must be at least " + std::to_string(first_bytes) +
+        ", and submap_transfer.window's step_bytes, least_bytes and first_bytes must not decrease");
   }
   return {};
 }
@@ -30,11 +35,17 @@ DelayWindow::DelayWindow(const DelayWindowConfig& config)
     : config_(config),
       window_(config.first_bytes),
       least_delay_(std::numeric_limits<double>::infinity()),
+      older_least_delay_(least_delay_),
       target_(config.target_s) {}
 
-void DelayWindow::on_arrival(double delay_s, std::uint32_t bytes) {
+void DelayWindow::on_arrival(double delay_s, std::uint32_t bytes, Stamp now) {
+  if (!history_begun_ || now - *history_begun_ > kBaseHistory) {
+    older_least_delay_ = least_delay_;
+    least_delay_ = delay_s;
+    history_begun_ = now;
+  }
   least_delay_ = std::min(least_delay_, delay_s);
-  const double queueing = delay_s - least_delay_;
+  const double queueing = delay_s - std::min(least_delay_, older_least_delay_);
   const double rounds = bytes / window_;
   queueing_ += std::min(rounds, 1.0) * (queueing - queueing_);
   const double off_target = 1.0 - queueing / target_;
@@ -49,8 +60,9 @@ void DelayWindow::on_loss(Stamp asked, Stamp now) {
   slow_start_ = false;
   if (halved_ && asked <= *halved_) return;  // sent before the window was halved
   halved_ = now;
-  window_ = std::max<double>(window_ / 2.0, config_.least_bytes);
-  target_ = std::clamp(kBelowOverflow * queueing_, kLeastTarget, target_);
+  const bool overflowed = queueing_ > kQueueLoss * target_;
+  window_ = std::max<double>(window_ * (overflowed ? kAfterQueueLoss : kAfterOtherLoss), config_.least_bytes);
+  if (overflowed) target_ = std::clamp(kBelowOverflow * queueing_, kLeastTarget, target_);
 }
 
 }  // namespace fleetmap::exchange

@@ -177,9 +177,12 @@ bool Exchange::admit(const Message& message, Reach link, Stamp now) {
   if (!of_fleet) return true;
   const auto recipient = recipient_of(message);
   if (link == Reach::kShortRange) submap_receiver_.on_heard(*sender, now);
-  reconcile_.on_heard(*sender, now);
-  encounters_.on_heard(*sender, now);
   holds_.on_heard(*sender, now);
+  // Who is heard there but does not hear us cannot be asked for anything.
+  if (link == Reach::kLongRange || submap_receiver_.hears_us(*sender, now)) {
+    reconcile_.on_heard(*sender, now);
+    encounters_.on_heard(*sender, now);
+  }
   return !recipient || *recipient == self_;
 }
 
@@ -188,8 +191,10 @@ void Exchange::on_message(const Message& message, Reach link, Stamp now) {
   std::visit([&](const auto& m) { handle(m, now); }, message);
 }
 
-void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& id, bool alignment) {
+void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& id, bool alignment,
+                      Stamp now) {
   if (!put) {
+    reconcile_.on_store_failure(now);
     events_.push_back(StoreFailed{put.error()});
   } else if (*put == Put::kAdded) {
     events_.push_back(added);
@@ -210,7 +215,7 @@ void Exchange::handle(const graph::Node& node, Stamp now) {
   if (is_forged(node.id.agent, node.id.seq, store_->node(node.id) != nullptr))
     return events_.push_back(ItemConflict{node.id, false});
   const auto put = store_->put_node(node);
-  on_put(put, NodeAdded{node.id}, node.id, false);
+  on_put(put, NodeAdded{node.id}, node.id, false, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
   encounters_.on_node(node, now);
@@ -226,7 +231,7 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
   if (is_forged(id.computed_by, id.seq, store_->alignment(id) != nullptr))
     return events_.push_back(ItemConflict{name, true});
   const auto put = store_->put_alignment(alignment);
-  on_put(put, AlignmentAdded{id}, name, true);
+  on_put(put, AlignmentAdded{id}, name, true, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
   encounters_.on_alignment(alignment, now);
@@ -268,6 +273,22 @@ void Exchange::note_own_items(const Digest& digest) {
     for (const Range& range : own.minus(held)) items += range.end - range.first;
     return items;
   };
+  const auto of_session = [this](const Range& range) {
+    return session_ && range.agent == self_ && range.first < first_seq(*session_) + kItemsPerSession &&
+           range.end > first_seq(*session_);
+  };
+  const auto beyond = [&](const Range& range, std::uint32_t next) {
+    return of_session(range) && range.end > next && range.end <= first_seq(*session_) + kItemsPerSession;
+  };
+  if (session_ &&
+      (std::ranges::any_of(digest.nodes,
+                           [&](const Range& r) { return beyond(r, store_->next_node_seq(*session_)); }) ||
+       std::ranges::any_of(digest.alignments, [&](const Range& r) {
+         return beyond(r, store_->next_alignment_seq(*session_));
+       }))) {
+    events_.push_back(SessionTaken{digest.from});
+  }
+  if (told_of_own_items_) return;
   const std::uint64_t nodes = unknown(digest.nodes, store_->node_set());
   const std::uint64_t alignments = unknown(digest.alignments, store_->alignment_set());
   if (nodes + alignments == 0) return;
@@ -285,7 +306,7 @@ void Exchange::handle(const Digest& digest, Stamp now) {
   keep(digest.nodes, known.nodes);
   keep(digest.alignments, known.alignments);
   reconcile_.on_digest(known, *store_, now);
-  if (!told_of_own_items_) note_own_items(known);
+  note_own_items(known);
 }
 
 void Exchange::handle(const ItemRequest& request, Stamp) {
@@ -333,7 +354,7 @@ void Exchange::note_near(Stamp now) {
   std::set<AgentId> in_reach, near;
   for (const AgentId& agent : submap_receiver_.peers_in_reach(now)) {
     in_reach.insert(agent);
-    if (submap_receiver_.hears_us(agent, now)) near.insert(agent);
+    if (submap_receiver_.is_near(agent, now)) near.insert(agent);
   }
   if (!std::ranges::includes(in_reach_, in_reach)) submap_sender_.on_newcomer();
   in_reach_ = std::move(in_reach);
@@ -341,7 +362,7 @@ void Exchange::note_near(Stamp now) {
   near_ = std::move(near);
   if (near_.empty() || (!newcomers && next_near_digest_ && now < *next_near_digest_)) return;
   next_near_digest_ = now + config_.reconcile.near_period;
-  to_near_.push_back(reconcile_.digest_of(*store_));
+  to_near_.push_back(reconcile_.near_digest(*store_));
 }
 
 void Exchange::tick_encounters(Stamp now) {
@@ -406,11 +427,9 @@ void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
   }
   if (auto digest = submap_sender_.digest(*store_, submap_receiver_.peers_in_reach(now), now))
     send(std::move(*digest));
-  if (const auto finished = submap_receiver_.finish_downloads(*store_, now)) {
-    for (const NodeId& id : *finished) events_.push_back(SubmapAdded{id});
-  } else {
-    events_.push_back(StoreFailed{finished.error()});
-  }
+  const auto finished = submap_receiver_.finish_downloads(*store_, now);
+  for (const NodeId& id : finished.submaps) events_.push_back(SubmapAdded{id});
+  if (finished.failure) events_.push_back(StoreFailed{*finished.failure});
   for (SubmapRequest& request : submap_receiver_.tick(*store_, now)) send(std::move(request));
   for (SubmapChunk& chunk : submap_sender_.tick(*store_, now)) send(std::move(chunk));
 }

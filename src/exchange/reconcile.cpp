@@ -40,7 +40,10 @@ Status ReconcileConfig::validate() const {
     return failure("reconcile.digest_min_period must be positive and at most digest_max_period");
   }
   if (grace < Duration::zero()) return failure("reconcile.grace must not be negative");
-  if (near_period <= Duration::zero()) return failure("reconcile.near_period must be positive");
+  if (near_period <= Duration::zero() || store_pause <= Duration::zero() || max_store_pause < store_pause) {
+    return failure(
+        "reconcile.near_period and store_pause must be positive, max_store_pause at least store_pause");
+  }
   if (timeout <= Duration::zero() || peer_timeout <= Duration::zero()) {
     return failure("reconcile.timeout and peer_timeout must be positive");
   }
@@ -66,7 +69,18 @@ SeqSet Reconcile::accepted(const std::vector<Range>& ranges) {
 
 void Reconcile::on_heard(const AgentId& peer, Stamp now) { peers_[peer].heard = now; }
 
+void Reconcile::on_store_failure(Stamp now) {
+  if (paused_until_ && now < *paused_until_) return;
+  store_pause_ = std::clamp(2 * store_pause_, config_.store_pause, config_.max_store_pause);
+  paused_until_ = now + store_pause_;
+}
+
 void Reconcile::on_item(Stamp now) {
+  store_pause_ = Duration::zero();
+  hurry(now);
+}
+
+void Reconcile::hurry(Stamp now) {
   period_ = config_.digest_min_period;
   if (last_digest_)
     next_digest_ = std::min(next_digest_.value_or(now), std::max(now, *last_digest_ + period_));
@@ -88,7 +102,14 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   peer.offer.lacking = lacking;
   peer.resting_until = now;
   // Whoever lacks something hears our digest soon.
-  if (!nodes.includes(store.node_set()) || !alignments.includes(store.alignment_set())) on_item(now);
+  // A digest that had no room for all its ranges is judged with those before it.
+  const auto lacks = [this](const std::vector<Range>& ranges, const SeqSet& told, const SeqSet& offered,
+                            const SeqSet& held) {
+    return !(ranges.size() < config_.max_ranges ? told : offered).includes(held);
+  };
+  if (lacks(digest.nodes, nodes, peer.offer.nodes, store.node_set()) ||
+      lacks(digest.alignments, alignments, peer.offer.alignments, store.alignment_set()))
+    hurry(now);
 }
 
 Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Store& store) {
@@ -140,6 +161,7 @@ void Reconcile::settle_pending(Peer& peer, const store::Store& store, Stamp now)
 std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const store::Store& store,
                                           Stamp now) {
   const Offer& offer = peer.offer;
+  if (paused_until_ && now < *paused_until_) return {};
   if (peer.pending || !offer.lacking || now < offer.since + config_.grace || now < peer.resting_until)
     return {};
   if (now - peer.heard > config_.peer_timeout) return {};
@@ -162,22 +184,22 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
   return request;
 }
 
-Digest Reconcile::digest_of(const store::Store& store) {
+Digest Reconcile::digest_of(const store::Store& store, std::size_t& next_range) const {
   Digest digest{self_, {}, {}};
   const auto nodes = store.node_set().ranges();
   const auto alignments = store.alignment_set().ranges();
-  digest.nodes = window(nodes, next_range_, config_.max_ranges);
-  digest.alignments = window(alignments, next_range_, config_.max_ranges);
-  next_range_ = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
-                    ? (next_range_ + config_.max_ranges) % std::max(nodes.size(), alignments.size())
-                    : 0;
+  digest.nodes = window(nodes, next_range, config_.max_ranges);
+  digest.alignments = window(alignments, next_range, config_.max_ranges);
+  next_range = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
+                   ? (next_range + config_.max_ranges) % std::max(nodes.size(), alignments.size())
+                   : 0;
   return digest;
 }
 
 Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
   Due due;
   if (!next_digest_ || now >= *next_digest_) {
-    due.digest = digest_of(store);
+    due.digest = digest_of(store, next_range_);
     ++stats_.digests_sent;
     last_digest_ = now;
     next_digest_ = now + period_;

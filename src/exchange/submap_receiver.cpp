@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 static_assert(kChunk == SubmapChunk::kMaxPayload);
+/// A download of which nothing came for so many of the longest timeouts is given up.
+constexpr int kSilentTimeouts = 3;
 
 }  // namespace
 
@@ -50,7 +52,10 @@ std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t
 void SubmapReceiver::on_heard(const AgentId& name, Stamp now) {
   Peer& known = peer(name);
   // Another place, another channel: what the link carried then tells little.
-  if (now - known.heard > config_.peer_timeout) known.window = DelayWindow(config_.window);
+  if (now - known.heard > config_.peer_timeout) {
+    known.window = DelayWindow(config_.window);
+    known.hears_us = false;
+  }
   known.heard = now;
 }
 
@@ -58,6 +63,9 @@ void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
   on_heard(digest.from, now);
   Peer& peer = this->peer(digest.from);
   peer.hears_us = std::ranges::count(digest.hears, self_) > 0;
+  if (peer.hears_us) peer.heard_by_it.push_back(now);
+  while (!peer.heard_by_it.empty() && now - peer.heard_by_it.front() > config_.peer_timeout)
+    peer.heard_by_it.pop_front();
   for (const Range& range : digest.submaps) {
     if (range.agent.empty() || range.first >= range.end || range.end > kEndOfSeqs) {
       ++stats_.hostile;
@@ -74,6 +82,15 @@ bool SubmapReceiver::in_reach(const AgentId& name, Stamp now) const {
 
 bool SubmapReceiver::hears_us(const AgentId& name, Stamp now) const {
   return in_reach(name, now) && peers_.at(name).hears_us;
+}
+
+bool SubmapReceiver::is_near(const AgentId& name, Stamp now) const {
+  if (!hears_us(name, now)) return false;
+  const auto expected =
+      static_cast<double>(config_.peer_timeout.count()) / static_cast<double>(config_.digest_period.count());
+  const auto came = std::ranges::count_if(peers_.at(name).heard_by_it,
+                                          [&](Stamp heard) { return now - heard <= config_.peer_timeout; });
+  return static_cast<double>(came) >= 0.6 * expected;
 }
 
 bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
@@ -103,7 +120,7 @@ Duration SubmapReceiver::timeout(const Peer& peer) const {
 }
 
 void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t chunk, Stamp now) {
-  peer.last_chunk = now;
+  peer.last_chunk = download.last_arrival = now;
   const auto flight = download.flights.find(chunk);
   if (flight == download.flights.end()) return;
   const double delay = to_seconds(now - flight->second.sent);
@@ -113,7 +130,7 @@ void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t ch
   }
   peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
   peer.delay += 0.125 * (delay - peer.delay);
-  peer.window.on_arrival(delay, flight->second.bytes);
+  peer.window.on_arrival(delay, flight->second.bytes, now);
   peer.bytes_out -= flight->second.bytes;
   peer.answered = std::max(peer.answered, flight->second.order);
   download.flights.erase(flight);
@@ -131,6 +148,12 @@ bool SubmapReceiver::is_lost(const Flight& flight, const Peer& peer, Stamp now) 
 bool SubmapReceiver::distrusts(const AgentId& name, const NodeId& id, Stamp now) const {
   const auto distrusted = distrusted_.find({id, name});
   return distrusted != distrusted_.end() && now < distrusted->second.until;
+}
+
+void SubmapReceiver::distrust(const AgentId& name, const NodeId& id, Stamp now) {
+  Distrust& distrust = distrusted_[{id, name}];
+  distrust.length = std::clamp(2 * distrust.length, config_.first_distrust, config_.max_distrust);
+  distrust.until = now + distrust.length;
 }
 
 void SubmapReceiver::on_store_failure(Stamp now) {
@@ -170,11 +193,7 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
     sources_[chunk.node].insert(chunk.from);
     // With one source its guilt is plain; with several the next download, from one peer alone, will tell. A
     // chunk may have been forged or damaged on its way, so the peer is asked again later.
-    if (sources_[chunk.node].size() == 1) {
-      Distrust& distrust = distrusted_[{chunk.node, chunk.from}];
-      distrust.length = std::clamp(2 * distrust.length, config_.first_distrust, config_.max_distrust);
-      distrust.until = now + distrust.length;
-    }
+    if (sources_[chunk.node].size() == 1) distrust(chunk.from, chunk.node, now);
   }
   const bool whole = *put == store::Put::kAdded && store.has_submap(chunk.node);
   if (whole || wrong) {
@@ -182,24 +201,31 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
     stop(download);
   }
   if (!whole) return std::optional<NodeId>();
+  std::erase_if(distrusted_, [&](const auto& entry) { return entry.first.first == chunk.node; });
   ++stats_.submaps;
   return std::optional<NodeId>(chunk.node);
 }
 
-Result<std::vector<NodeId>> SubmapReceiver::finish_downloads(store::Store& store, Stamp now) {
-  std::vector<NodeId> finished;
+SubmapReceiver::Finished SubmapReceiver::finish_downloads(store::Store& store, Stamp now) {
+  Finished finished;
   if (!paused_until_ || now < *paused_until_) return finished;
+  paused_until_.reset();
   for (const NodeId& id : store.partial_submaps()) {
     if (!store.missing_chunks(id).empty()) continue;
     const auto put = store.finish_download(id);
     if (!put) {
       on_store_failure(now);
-      return tl::unexpected(put.error());
+      finished.failure = put.error();
+      return finished;
     }
-    if (*put == store::Put::kAdded) finished.push_back(id);
+    sources_.erase(id);
+    if (*put == store::Put::kAdded) {
+      finished.submaps.push_back(id);
+      ++stats_.submaps;
+    } else {
+      ++stats_.bad_hash;
+    }
   }
-  paused_until_.reset();
-  stats_.submaps += finished.size();
   return finished;
 }
 
@@ -215,7 +241,10 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
     const auto current = it++;
     Download& download = current->second;
     Peer& peer = this->peer(download.peer);
-    if (!in_reach(download.peer, now) || store.has_submap(current->first)) {
+    const bool silent = now - download.last_arrival > kSilentTimeouts * config_.max_timeout;
+    // It may have lost the submap, or not hear us: another may have it.
+    if (silent) distrust(download.peer, current->first, now);
+    if (silent || !in_reach(download.peer, now) || store.has_submap(current->first)) {
       stop(current);
       continue;
     }
@@ -246,7 +275,7 @@ std::vector<NodeId> SubmapReceiver::missing(const store::Store& store) const {
 }
 
 bool SubmapReceiver::may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const {
-  return in_reach(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusts(name, id, now);
+  return hears_us(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusts(name, id, now);
 }
 
 bool SubmapReceiver::has_room(Stamp now) const {
@@ -262,7 +291,7 @@ bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp n
     if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
   }
   if (!best) return false;
-  downloads_[id].peer = *best;
+  downloads_[id] = {*best, now, {}};
   return true;
 }
 

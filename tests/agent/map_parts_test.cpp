@@ -40,7 +40,7 @@ TEST_F(MapPartsTest, WhatNobodyCanLayOntoTheMapIsAPartOfItsOwn) {
   EXPECT_EQ(parts[1].T_map_node.size(), 9u);
   EXPECT_FALSE(parts[1].georeferenced);
   EXPECT_EQ(file_of(parts[1]), "map-r2.ply");
-  EXPECT_EQ(file_of(parts[2]), "map-r3-7.ply");
+  EXPECT_EQ(file_of(parts[2]), "map-r3.7.ply");
 }
 
 TEST_F(MapPartsTest, WithoutAnyGpsTheLargestComponentIsTheMap) {

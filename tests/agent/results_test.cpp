@@ -95,7 +95,7 @@ TEST_F(ResultsTest, WhatNobodyCanPlaceIsAFileOfItsOwn) {
   EXPECT_EQ(results->missing_submaps, 0u);
   ASSERT_EQ(results->apart.size(), 1u);
   EXPECT_EQ(results->apart.front().T_map_node.size(), 3u);
-  const auto part = cloud::read_cloud(folder_.path() / "map-r1-5.ply");
+  const auto part = cloud::read_cloud(folder_.path() / "map-r1.5.ply");
   ASSERT_TRUE(part) << part.error().message;
   EXPECT_GT(part->size(), 50u);
 }

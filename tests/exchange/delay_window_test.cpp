@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <random>
 
 namespace fleetmap::exchange {
 namespace {
@@ -14,9 +15,10 @@ struct Bottleneck {
   double rate;
   double queue;
   double delay;
-  double used = 0.0;        ///< share of the rate over the second half of the time
-  double lost = 0.0;        ///< share of the chunks
-  double standing_s = 0.0;  ///< mean s that a chunk waited in the queue, over the second half
+  double random_loss = 0.0;  ///< of the chunks, without any queue
+  double used = 0.0;         ///< share of the rate over the second half of the time
+  double lost = 0.0;         ///< share of the chunks
+  double standing_s = 0.0;   ///< mean s that a chunk waited in the queue, over the second half
 
   void run(DelayWindow& window, double seconds) {
     constexpr std::uint32_t kChunk = 8192;
@@ -25,6 +27,7 @@ struct Bottleneck {
       bool lost;
     };
     std::deque<Flight> flights;
+    std::mt19937 random(1);
     double busy_until = 0.0, waited = 0.0;
     int delivered = 0, sent = 0, dropped = 0;
     for (double now = 0.0; now < seconds; now += 0.005) {
@@ -34,7 +37,7 @@ struct Bottleneck {
         if (flight.lost) {
           window.on_loss(at(flight.asked), at(now));
         } else {
-          window.on_arrival(now - flight.asked, kChunk);
+          window.on_arrival(now - flight.asked, kChunk, at(now));
           delivered += now > seconds / 2;
         }
       }
@@ -48,7 +51,8 @@ struct Bottleneck {
         }
         busy_until = std::max(busy_until, now) + kChunk / rate;
         if (now > seconds / 2) waited += busy_until - now;
-        flights.push_back({now, busy_until + delay, false});
+        const bool lost_on_air = std::uniform_real_distribution(0.0, 1.0)(random) < random_loss;
+        flights.push_back({now, busy_until + delay, lost_on_air});
       }
       std::ranges::sort(flights, {}, &Flight::arrives);
     }
@@ -73,23 +77,46 @@ TEST(DelayWindow, FillsLinksOfAnyRateWithoutOverflowingThem) {
   }
 }
 
+TEST(DelayWindow, GoesOnWhereARadioLosesWithoutAQueue) {
+  for (const double loss : {0.01, 0.03, 0.06}) {
+    DelayWindow window{DelayWindowConfig{}};
+    Bottleneck link{15.0 * 125'000.0, 150'000.0, 0.03, loss};
+    link.run(window, 20.0);
+    EXPECT_GT(link.used, 0.75) << loss;
+  }
+}
+
+TEST(DelayWindow, FollowsAPathThatBecomesSlower) {
+  DelayWindow window{DelayWindowConfig{}};
+  const auto arrive = [&](double from, double until, double delay) {
+    for (double now = from; now < until; now += 0.02) window.on_arrival(delay, 8192, Bottleneck::at(now));
+  };
+  arrive(0.0, 10.0, 0.02);
+  arrive(10.0, 200.0, 0.4);
+  EXPECT_GT(window.bytes(), 500'000u) << "0.4 s is now what it takes without any queue";
+}
+
 TEST(DelayWindow, HalvesOnceForAllLossesOfOneRoundTrip) {
   DelayWindow window{DelayWindowConfig{}};
   const Stamp asked = Stamp{} + from_seconds(10.0);
+  window.on_arrival(0.02, 1, asked);
+  for (int k = 0; k < 3000; ++k) window.on_arrival(0.3, 8192, asked);  // down to the least
+  const std::uint32_t full = 65'536;
+  while (window.bytes() < full) window.on_arrival(0.2, 8192, asked);
   window.on_loss(asked, asked + from_seconds(1.0));
   window.on_loss(asked + from_seconds(0.5), asked + from_seconds(1.5));
-  EXPECT_EQ(window.bytes(), 32'768u);
+  EXPECT_NEAR(window.bytes(), full / 2, 200);
   window.on_loss(asked + from_seconds(1.6), asked + from_seconds(2.6));
-  EXPECT_EQ(window.bytes(), 16'384u);
+  EXPECT_NEAR(window.bytes(), full / 4, 200);
   window.on_loss(asked + from_seconds(3.0), asked + from_seconds(4.0));
   EXPECT_EQ(window.bytes(), 16'384u) << "never less than two chunks";
 }
 
 TEST(DelayWindow, GrowsNoLargerThanAllowedAndGivesWayToAQueueOfOthers) {
   DelayWindow window{DelayWindowConfig{}};
-  for (int k = 0; k < 1000; ++k) window.on_arrival(0.02, 8192);
+  for (int k = 0; k < 1000; ++k) window.on_arrival(0.02, 8192, Stamp{});
   EXPECT_EQ(window.bytes(), 1'048'576u);
-  for (int k = 0; k < 20'000; ++k) window.on_arrival(0.6, 8192);
+  for (int k = 0; k < 20'000; ++k) window.on_arrival(0.6, 8192, Stamp{});
   EXPECT_LT(window.bytes(), 100'000u);
 }
 

@@ -439,6 +439,7 @@ TEST(Fleet, a_short_range_that_works_one_way_takes_nothing_from_the_radio) {
   EXPECT_TRUE(fleet.equal_sets(60));
   EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u);
   EXPECT_GT((sent_over<CloudFragment>(fleet, Reach::kLongRange)), 20u);
+  EXPECT_EQ((sent_over<CloudFragment, CloudRequest, ProximityMatch>(fleet, Reach::kShortRange)), 0u);
 }
 
 TEST(Fleet, takes_no_items_of_its_own_session_from_others) {

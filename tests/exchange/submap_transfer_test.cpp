@@ -195,11 +195,11 @@ TEST(SubmapTransfer, turns_from_a_peer_that_sends_wrong_content) {
       ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
     }
   };
-  receiver.on_digest({liar, {{id.agent, 0, 1}}, {}}, now);
+  receiver.on_digest({liar, {{id.agent, 0, 1}}, {self}}, now);
   for (const auto& request : receiver.tick(store, now)) serve(request);
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
   EXPECT_TRUE(receiver.tick(store, now).empty());  // not from this one again soon
-  receiver.on_digest({honest, {{id.agent, 0, 1}}, {}}, now);
+  receiver.on_digest({honest, {{id.agent, 0, 1}}, {self}}, now);
   for (const auto& request : receiver.tick(store, now)) serve(request);
   EXPECT_EQ(store.submap(id).value(), submap);
   EXPECT_TRUE(receiver.idle(store, now));
@@ -226,7 +226,7 @@ TEST(SubmapTransfer, one_damaged_chunk_does_not_bar_its_source_for_ever) {
   EXPECT_EQ(receiver.stats().unasked, 1u);
   EXPECT_EQ(store.missing_chunks(id).size(), 3u);
 
-  receiver.on_digest({maker, {{maker, 0, 1}}, {}}, now);
+  receiver.on_digest({maker, {{maker, 0, 1}}, {self}}, now);
   ASSERT_FALSE(receiver.tick(store, now).empty());
   ASSERT_TRUE(receiver.on_chunk(chunk_of(forger, 0), store, now)) << "of one who was not asked";
   EXPECT_EQ(receiver.stats().unasked, 2u);
@@ -237,7 +237,7 @@ TEST(SubmapTransfer, one_damaged_chunk_does_not_bar_its_source_for_ever) {
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
   EXPECT_TRUE(receiver.tick(store, now).empty());
   now += std::chrono::seconds(11);
-  receiver.on_digest({maker, {{maker, 0, 1}}, {}}, now);
+  receiver.on_digest({maker, {{maker, 0, 1}}, {self}}, now);
   ASSERT_FALSE(receiver.tick(store, now).empty()) << "it is asked again";
   for (const std::uint32_t offset : {0u, 8192u, 16384u}) {
     ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
@@ -271,7 +271,7 @@ TEST(SubmapTransfer, completes_what_it_holds_when_the_full_disk_has_room_again) 
   config.window.first_bytes = config.window.most_bytes;
   SubmapReceiver receiver(self, config);
   Stamp now = stamp_from_ns(1'000'000'000);
-  receiver.on_digest({peer, {{peer, 0, 1}}, {}}, now);
+  receiver.on_digest({peer, {{peer, 0, 1}}, {self}}, now);
   ASSERT_FALSE(receiver.tick(store, now).empty());
   const auto hear = [&](std::uint32_t offset) {
     SubmapChunk chunk{peer, self, id, offset, 100'000, {}};
@@ -287,14 +287,14 @@ TEST(SubmapTransfer, completes_what_it_holds_when_the_full_disk_has_room_again) 
     EXPECT_TRUE(store.missing_chunks(id).empty());
     EXPECT_FALSE(store.has_submap(id));
     now += std::chrono::seconds(6);
-    EXPECT_FALSE(receiver.finish_downloads(store, now)) << "still full";
-    EXPECT_TRUE(receiver.finish_downloads(store, now)->empty()) << "not before a pause";
+    EXPECT_TRUE(receiver.finish_downloads(store, now).failure) << "still full";
+    EXPECT_FALSE(receiver.finish_downloads(store, now).failure) << "not before a pause";
     EXPECT_TRUE(receiver.tick(store, now).empty());
   }
   now += std::chrono::seconds(6);
   const auto finished = receiver.finish_downloads(store, now);
-  ASSERT_TRUE(finished) << finished.error().message;
-  EXPECT_EQ(*finished, std::vector<NodeId>{id});
+  ASSERT_FALSE(finished.failure) << finished.failure->message;
+  EXPECT_EQ(finished.submaps, std::vector<NodeId>{id});
   EXPECT_EQ(store.submap(id).value(), submap);
 }
 

@@ -104,8 +104,9 @@ class Agent {
 
   void on_perceived(Perceived&& perceived);
   void freeze_node(const Perceived& perceived);
-  /// What the odometry computes from now on is in another frame. `why` is for people.
-  void begin_session(const char* why);
+  /// What the odometry computes from now on is in another frame. `why` is for people. False: the store
+  /// failed.
+  bool begin_session(const char* why);
   bool numbers_run_out() const;
   void navigate();
   /// From a button on the robot.
@@ -123,6 +124,7 @@ class Agent {
   void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
   void handle(const exchange::OwnItemsElsewhere& found);
+  void handle(const exchange::SessionTaken& taken);
   void handle(const exchange::StrangerHeard& heard);
   void handle(const exchange::StoreFailed& failed);
   void handle(const exchange::NodeAdded& added);
@@ -184,6 +186,7 @@ class Agent {
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
   bool rest_frozen_for_meeting_ = false;
+  Stamp session_begun_{};  ///< if it was not with the program's start
   std::optional<Stamp> store_failure_told_;
   std::uint64_t store_failures_untold_ = 0;
 };

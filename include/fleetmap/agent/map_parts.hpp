@@ -22,7 +22,7 @@ struct MapPart {
 /// in the first would be a guess.
 std::vector<MapPart> map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement);
 
-/// "map-r2.ply", or "map-r2-4711.ply" of session 4711: of a part that is not the first.
+/// "map-r2.ply", or "map-r2.4711.ply" of session 4711: of a part that is not the first.
 std::string file_of(const MapPart& part);
 
 }  // namespace fleetmap::agent

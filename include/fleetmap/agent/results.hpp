@@ -18,7 +18,7 @@
 
 namespace fleetmap::agent {
 
-/// "r1", or "r1#2" for the odometry frame of its third start.
+/// "r1", or "r1#4711" for the odometry frame of session 4711.
 std::string to_string(const graph::FrameId& frame);
 
 /// The origin of ENU: `configured`, else the position of the least node id held that has a G, so that agents

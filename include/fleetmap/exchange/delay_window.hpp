@@ -27,16 +27,20 @@ class DelayWindow {
 
   std::uint32_t bytes() const { return static_cast<std::uint32_t>(window_); }
   /// `bytes` arrived `delay_s` after they were asked for.
-  void on_arrival(double delay_s, std::uint32_t bytes);
-  /// Something asked for at `asked` did not come. Losses of one round trip count once.
+  void on_arrival(double delay_s, std::uint32_t bytes, Stamp now);
+  /// Something asked for at `asked` did not come. Losses of one round trip count once. The window is halved
+  /// if there was a queue that may have overflowed, else it shrinks by a tenth: radios lose without
+  /// congestion, too.
   void on_loss(Stamp asked, Stamp now);
 
  private:
   DelayWindowConfig config_;
   double window_;
-  double least_delay_;
+  double least_delay_;        ///< s, since history_begun_
+  double older_least_delay_;  ///< s, of the history before
+  std::optional<Stamp> history_begun_;
   double queueing_ = 0.0;  ///< s, smoothed, of what arrived
-  double target_;          ///< s, below what the queue was long when it last overflowed
+  double target_;          ///< s, current target: at most config.target_s, lowered at losses by a full queue
   bool slow_start_ = true;
   std::optional<Stamp> halved_;
 };

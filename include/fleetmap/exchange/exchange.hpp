@@ -76,8 +76,8 @@ struct MissionHeard {
 struct HoldChanged {
   HoldOrder order;
 };
-/// Another item came under a name that is taken; it was refused. Two robots with one name, or a store that
-/// was lost.
+/// An item with a taken name and another content was refused: a session number drawn twice, a forged item, or
+/// damage.
 struct ItemConflict {
   NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
   bool alignment = false;
@@ -87,6 +87,10 @@ struct OwnItemsElsewhere {
   AgentId peer;
   std::uint64_t nodes = 0;
   std::uint64_t alignments = 0;
+};
+/// `peer` holds items of the running session that this agent has not made: its number was drawn before.
+struct SessionTaken {
+  AgentId peer;
 };
 /// A robot that is not of the fleet was heard. Told once of each.
 struct StrangerHeard {
@@ -101,9 +105,9 @@ struct MapComplete {
   std::size_t nodes = 0;
   std::size_t alignments = 0;
 };
-using Event =
-    std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus, MissionHeard,
-                 HoldChanged, ItemConflict, OwnItemsElsewhere, StrangerHeard, StoreFailed, MapComplete>;
+using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
+                           MissionHeard, HoldChanged, ItemConflict, OwnItemsElsewhere, SessionTaken,
+                           StrangerHeard, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -118,16 +122,16 @@ struct ExchangeStats {
 };
 
 /// All that one agent says to the others and hears from them, as a state machine: messages and time in,
-/// messages and events out. What is for one agent takes the short range if that agent is in reach, so that
-/// its bytes leave the radio to others, and goes on when the radio is down. Call tick() at 10 Hz or more (50
+/// messages and events out. A message for one agent is sent over the short range if each of the two hears
+/// the other there (near_), else over the radio. Call tick() at 10 Hz or more (50
 /// Hz while submaps flow), then take_events().
 class Exchange {
  public:
   /// `store` outlives this. Begins from what the store holds; unfinished encounters are found again.
   static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, Stamp now);
 
-  /// From now on nobody else can have made items of this agent whose numbers are of `session`
-  /// (NodeId::seq): those that come are refused.
+  /// Sets the running session. Items of this agent that bear its number and are not in the store are refused
+  /// from now on (ItemConflict).
   void begin_session(std::uint16_t session) { session_ = session; }
   /// An own node with its encoded submap: stored, then told to all. The node must be what the wire makes of
   /// it (decode(encode(node))), so that all agents hold equal items. kConflict: the name is taken.
@@ -184,7 +188,7 @@ class Exchange {
   /// The item bears a number that only this agent gives, and has not given.
   bool is_forged(const AgentId& maker, std::uint32_t seq, bool held) const;
   void note_own_items(const Digest& digest);
-  void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment);
+  void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment, Stamp now);
 
   void handle(const graph::Node& node, Stamp now);
   void handle(const graph::Alignment& alignment, Stamp now);

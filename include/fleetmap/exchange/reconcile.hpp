@@ -21,6 +21,9 @@ struct ReconcileConfig {
       std::chrono::milliseconds(500);  ///< an item offered is asked for only if it has not come by itself
   Duration timeout =
       std::chrono::seconds(8);  ///< of a request that brings nothing; then another agent is asked
+  Duration store_pause =
+      std::chrono::seconds(10);  ///< nothing is asked for after the store failed, then twice as long, ...
+  Duration max_store_pause = std::chrono::minutes(2);
   Duration peer_timeout = std::chrono::seconds(90);  ///< an agent not heard for so long is not asked
   std::size_t max_ranges = 28;   ///< in each list of a digest or request, so that it fits one datagram
   std::uint32_t max_items = 48;  ///< asked for at once of one agent
@@ -63,8 +66,10 @@ class Reconcile {
   };
   Due tick(const store::Store& store, Stamp now);
 
-  /// Of what is held, as many ranges as fit; those that did not come next time.
-  Digest digest_of(const store::Store& store);
+  /// For those in reach on the short range: of what is held, as many ranges as fit; the others next time.
+  Digest near_digest(const store::Store& store) { return digest_of(store, next_near_range_); }
+  /// An item that came could not be stored: others would go on sending what nobody can keep.
+  void on_store_failure(Stamp now);
   /// Everything that any agent, but for those in `without`, has told of is held.
   bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
   /// `peer` has told that it holds all that we hold.
@@ -93,6 +98,9 @@ class Reconcile {
   };
   store::SeqSet accepted(const std::vector<Range>& ranges);
   void settle_pending(Peer& peer, const store::Store& store, Stamp now);
+  /// The next digest comes soon.
+  void hurry(Stamp now);
+  Digest digest_of(const store::Store& store, std::size_t& next_range) const;
   std::optional<ItemRequest> ask(const AgentId& name, Peer& peer, const store::Store& store, Stamp now);
 
   AgentId self_;
@@ -101,7 +109,10 @@ class Reconcile {
   Duration period_;
   std::optional<Stamp> next_digest_;
   std::optional<Stamp> last_digest_;
-  std::size_t next_range_ = 0;  ///< where the next digest begins when not all ranges fit
+  std::size_t next_range_ = 0;       ///< where the next digest begins when not all ranges fit
+  std::size_t next_near_range_ = 0;  ///< likewise over the short range
+  Duration store_pause_ = Duration::zero();
+  std::optional<Stamp> paused_until_;
   ReconcileStats stats_;
 };
 

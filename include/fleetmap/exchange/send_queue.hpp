@@ -54,7 +54,7 @@ struct SendQueueStats {
   std::uint64_t wire_bytes = 0;                      ///< sent, with overhead, times receivers
 };
 
-/// Waits in for the long-range link. Every agent has a fixed share of the fleet's budget, so the sum over the
+/// Queue of the long-range link. Every agent has a fixed share of the fleet's budget, so the sum over the
 /// fleet stays within it without any talk: in T seconds at most budget * T + the sum of the bursts.
 class SendQueue {
  public:
@@ -67,7 +67,7 @@ class SendQueue {
   void push(Priority priority, Message message, std::optional<AgentId> to = std::nullopt);
   /// Drops the fragments of the cloud of `node` for `to`; returns how many.
   std::size_t cancel_cloud(const AgentId& to, const NodeId& node);
-  /// Removes what waits for one of `peers` alone: another link takes it.
+  /// Removes and returns the messages addressed to one of `peers`, to be sent over another link.
   std::vector<Outgoing> take_for(const std::set<AgentId>& peers);
   /// What may go at `now`.
   std::vector<Outgoing> take(Stamp now);

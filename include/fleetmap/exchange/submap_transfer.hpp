@@ -63,11 +63,17 @@ class SubmapReceiver {
   Result<std::optional<NodeId>> on_chunk(const SubmapChunk& chunk, store::Store& store, Stamp now);
   std::vector<SubmapRequest> tick(const store::Store& store, Stamp now);
   /// Submaps whose chunks are all here, but which the store could not complete: tries again after a pause.
-  Result<std::vector<NodeId>> finish_downloads(store::Store& store, Stamp now);
+  struct Finished {
+    std::vector<NodeId> submaps;
+    std::optional<Error> failure;  ///< of the store
+  };
+  Finished finish_downloads(store::Store& store, Stamp now);
 
   bool in_reach(const AgentId& peer, Stamp now) const;
-  /// It is in reach and has told that it hears us.
+  /// It is in reach, and its last digest named us as heard.
   bool hears_us(const AgentId& peer, Stamp now) const;
+  /// Most of its digests of the last peer_timeout came and named us: what is sent over this link arrives.
+  bool is_near(const AgentId& peer, Stamp now) const;
   /// `peer` was heard, and told of no such submap.
   bool lacks(const AgentId& peer, const NodeId& id) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
@@ -91,15 +97,17 @@ class SubmapReceiver {
     DelayWindow window;
     Stamp heard;
     bool hears_us = false;
-    std::uint64_t bytes_out = 0;  ///< asked for and not yet here
-    double delay = 0.0;           ///< s, smoothed, from request to chunk
-    double spread = 0.0;          ///< s, its smoothed deviation
+    std::deque<Stamp> heard_by_it;  ///< digests of the last peer_timeout that named us
+    std::uint64_t bytes_out = 0;    ///< asked for and not yet here
+    double delay = 0.0;             ///< s, smoothed, from request to chunk
+    double spread = 0.0;            ///< s, its smoothed deviation
     Stamp last_chunk;
     std::uint64_t asked = 0;     ///< chunks
     std::uint64_t answered = 0;  ///< the latest asked for of those that came
   };
   struct Download {
     AgentId peer;  ///< one submap comes from one peer at a time, so that a wrong one is known by its source
+    Stamp last_arrival;                       ///< or when it was begun
     std::map<std::uint32_t, Flight> flights;  ///< by chunk
   };
   struct Distrust {
@@ -112,6 +120,7 @@ class SubmapReceiver {
   bool is_lost(const Flight& flight, const Peer& peer, Stamp now) const;
   void on_arrival(Peer& peer, Download& download, std::uint32_t chunk, Stamp now);
   void on_store_failure(Stamp now);
+  void distrust(const AgentId& name, const NodeId& id, Stamp now);
   void expire(const store::Store& store, Stamp now);
   void stop(std::map<NodeId, Download>::iterator download);
   bool has_room(Stamp now) const;
@@ -148,7 +157,7 @@ class SubmapSender {
   /// Sent every digest_period, so that agents in reach notice each other.
   /// `hears`: the agents that this one hears on the link.
   std::optional<SubmapDigest> digest(const store::Store& store, std::vector<AgentId> hears, Stamp now);
-  /// Someone came into reach: the next digest goes at once, and is its first.
+  /// A peer came into reach: the next digest is sent at the next tick instead of after digest_period.
   void on_newcomer() { next_digest_.reset(); }
   void on_request(const SubmapRequest& request, const store::Store& store);
   /// Chunks that may go at `now`. Reads from `store`; a damaged submap is dropped by it.

@@ -45,6 +45,7 @@ constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 /// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
 constexpr auto kStillThere = std::chrono::seconds(2);
 constexpr auto kAddressPeriod = std::chrono::seconds(1);
+constexpr auto kJoinPause = std::chrono::seconds(30);   // after it failed
 constexpr auto kNeverHeard = std::chrono::seconds(30);  // then it is said
 constexpr std::size_t kMostNamesakes = 16;
 constexpr std::size_t kMostPlaces = 256;                   // strangers may name so many
@@ -310,6 +311,18 @@ Status RadioLink::prepare() {
 }
 
 Status RadioLink::join() {
+  const Status joined = make_entities();
+  if (!joined && participant_ != nullptr) {
+    rtps::RTPSDomain::removeRTPSParticipant(participant_);
+    participant_ = nullptr;
+    data_reader_ = nullptr;
+    places_.clear();
+  }
+  opened_ = Clock::now();
+  return joined;
+}
+
+Status RadioLink::make_entities() {
   const std::string name = to_string(link_);
   participant_ =
       rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent_, profile_));
@@ -355,7 +368,8 @@ RadioLink::~RadioLink() {
   if (participant_ != nullptr) {
     {
       const std::scoped_lock lock(mutex_);
-      for (const auto& place : places_) say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
+      for (const auto& place : places_)
+        say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
     }
     rtps::RTPSDomain::removeRTPSParticipant(participant_);
   }
@@ -476,7 +490,10 @@ void RadioLink::watch_address(Clock::time_point now) {
   next_look_ = now + kAddressPeriod;
   const Status there = check_address(config_, to_string(link_));
   if (there && participant_ == nullptr) {
-    if (const Status joined = join(); !joined) return spdlog::error("{}", joined.error().message);
+    if (const Status joined = join(); !joined) {
+      next_look_ = now + kJoinPause;
+      return spdlog::error("{}", joined.error().message);
+    }
   }
   if (there.has_value() == address_there_) return;
   address_there_ = there.has_value();
@@ -584,7 +601,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     end->hear(sender);
   }
   if (!hello.knows) {
-    place->asks_again = known && place->next == Clock::time_point::max();  // no answer is under way
+    if (known && place->next == Clock::time_point::max()) place->asks_again = true;  // no answer is under way
     place->next = Clock::time_point::min();  // before those to robots that may not be there
   } else if (peer.greeted == Clock::time_point{}) {
     peer.greeted = Clock::now();  // by what made it know us

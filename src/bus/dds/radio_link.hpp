@@ -50,11 +50,11 @@ class RadioLink final : public LinkEnd {
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
-    bool heard = false;                                      ///< ever, or the log says that it was not
-    int said = 0;                                            ///< Hellos since `pause` was set out
-    bool asks_again = false;                                 ///< it did not hear our last answer
-    Clock::time_point next{};                                ///< Hello; zero: not set out yet, max: none
-    Clock::duration pause{};                                 ///< after it, while nobody answers
+    bool heard = false;        ///< a robot was heard here, or the warning was logged
+    int said = 0;              ///< Hellos since `pause` was set out
+    bool asks_again = false;   ///< it did not hear our last answer
+    Clock::time_point next{};  ///< Hello; zero: not set out yet, max: none
+    Clock::duration pause{};   ///< after it, while nobody answers
   };
   /// A robot that was heard.
   struct Peer {
@@ -72,6 +72,7 @@ class RadioLink final : public LinkEnd {
   Status prepare();
   /// The own address must be there.
   Status join();
+  Status make_entities();
   void watch_address(Clock::time_point now);
   Status check_best_effort() const;
   Status add_place(const Locator& locator, bool configured);
@@ -111,9 +112,9 @@ class RadioLink final : public LinkEnd {
   std::map<Prefix, Peer> peers_;
   std::map<EntityKey, End*> ends_;
   std::set<EntityKey> reads_;
-  const Clock::time_point opened_ = Clock::now();
+  Clock::time_point opened_{};       ///< joined
   Clock::time_point next_look_{};    ///< at the own address
-  bool address_there_ = true;        ///< or the log says that it is not
+  bool address_there_ = true;        ///< at the last look; a change is logged
   Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
   std::set<Prefix> namesakes_;       ///< told of in the log
