@@ -12,8 +12,8 @@ namespace {
 constexpr double kBelowOverflow = 0.7;
 constexpr double kLeastTarget = 0.05;  // s: two ticks of both ends and some
 constexpr double kRecovery = 0.005;
-/// A loss below this share of the target was not made by the queue.
-constexpr double kQueueLoss = 0.3;
+/// s. A loss while chunks waited less was not made by a queue: so much the ticks of both ends make.
+constexpr double kQueueLoss = 0.035;
 constexpr double kAfterQueueLoss = 0.5, kAfterOtherLoss = 0.9;  // what is left of the window
 /// The least delay is that of the last one to two of these: a path may become slower for good.
 constexpr Duration kBaseHistory = std::chrono::minutes(1);
@@ -60,7 +60,7 @@ void DelayWindow::on_loss(Stamp asked, Stamp now) {
   slow_start_ = false;
   if (halved_ && asked <= *halved_) return;  // sent before the window was halved
   halved_ = now;
-  const bool overflowed = queueing_ > kQueueLoss * target_;
+  const bool overflowed = queueing_ > kQueueLoss;
   window_ = std::max<double>(window_ * (overflowed ? kAfterQueueLoss : kAfterOtherLoss), config_.least_bytes);
   if (overflowed) target_ = std::clamp(kBelowOverflow * queueing_, kLeastTarget, target_);
 }

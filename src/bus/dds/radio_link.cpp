@@ -39,7 +39,8 @@ constexpr HelloRates rates_of(Link link) {
 }
 constexpr double kLongestSpread = 6.0;  // s: a fleet is to know itself within ten
 constexpr auto kFirstPause =
-    std::chrono::seconds(1);     // until a Hello is repeated, and a part of the spread besides
+    std::chrono::seconds(1);  // until a Hello is repeated, and a part of the spread besides
+constexpr auto kLongestPause = std::chrono::seconds(2);  // and a second for each other robot
 constexpr int kQuickHellos = 5;  // with this pause: the radio loses some; then the pause doubles each time
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 /// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
@@ -434,9 +435,12 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
   place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * place.pause);
+  // In a small fleet a robot that comes into reach again is to be known within ten seconds.
   const Clock::duration least = kFirstPause;
-  if (++place.said >= kQuickHellos)
-    place.pause = std::clamp(2 * place.pause, least, std::max(announcement_, least));
+  const Clock::duration most = std::min<Clock::duration>(
+      announcement_,
+      kLongestPause + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(others())));
+  if (++place.said >= kQuickHellos) place.pause = std::clamp(2 * place.pause, least, std::max(most, least));
   if (!place.robot) return;
   Peer& peer = peers_.at(*place.robot);
   peer.told = peer.greeted = now;
