@@ -157,6 +157,8 @@ class Agent {
   store::Store store_;
   Sessions sessions_;
   std::uint16_t session_;
+  bool told_of_missing_gps_ = false;
+  bool rest_frozen_for_meeting_ = false;
   TrajectoryFile odometry_file_;
   GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
@@ -176,7 +178,6 @@ class Agent {
   std::vector<double> scan_seconds_;
   WorkSeconds work_;                            ///< without the placement's
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
-  bool told_of_missing_gps_ = false;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
   std::unique_ptr<Navigator> navigator_;
@@ -185,7 +186,6 @@ class Agent {
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
-  bool rest_frozen_for_meeting_ = false;
   Stamp session_begun_{};  ///< if it was not with the program's start
   std::optional<Stamp> store_failure_told_;
   std::uint64_t store_failures_untold_ = 0;
