@@ -7,20 +7,21 @@
 
 namespace fleetmap::agent {
 
-std::vector<MapPart> map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement) {
+MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement) {
   const auto nowhere = graph::not_georeferenced(nodes, placement.components);
   const std::set<graph::FrameId> floating(nowhere.begin(), nowhere.end());
-  std::vector<MapPart> parts(1);
-  parts.front().georeferenced = true;
+  MapParts parts;
+  parts.main.georeferenced = true;
   for (const std::vector<graph::FrameId>& component : placement.components) {
     if (floating.contains(component.front())) {
-      parts.push_back({component, {}, false});
+      parts.apart.push_back({component, {}, false});
     } else {
-      parts.front().frames.insert(parts.front().frames.end(), component.begin(), component.end());
+      parts.main.frames.insert(parts.main.frames.end(), component.begin(), component.end());
     }
   }
   std::map<graph::FrameId, MapPart*> part_of;
-  for (MapPart& part : parts) {
+  for (const graph::FrameId& frame : parts.main.frames) part_of[frame] = &parts.main;
+  for (MapPart& part : parts.apart) {
     for (const graph::FrameId& frame : part.frames) part_of[frame] = &part;
   }
   for (const graph::Node& node : nodes) {
@@ -29,10 +30,11 @@ std::vector<MapPart> map_parts(std::span<const graph::Node> nodes, const graph::
     if (placed != placement.T_enu_node.end() && part != part_of.end())
       part->second->T_map_node.emplace(placed->first, placed->second);
   }
-  if (parts.front().frames.empty()) {
-    parts.erase(parts.begin());
+  if (parts.main.frames.empty() && !parts.apart.empty()) {
     const auto size = [](const MapPart& part) { return part.T_map_node.size(); };
-    if (!parts.empty()) std::iter_swap(parts.begin(), std::ranges::max_element(parts, {}, size));
+    const auto largest = std::ranges::max_element(parts.apart, {}, size);
+    parts.main = std::move(*largest);
+    parts.apart.erase(largest);
   }
   return parts;
 }

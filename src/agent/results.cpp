@@ -339,9 +339,9 @@ graph::Placement place(const store::Store& store, const GeoPoint& origin,
   return graph::place(nodes_of(store), alignments_of(store), LocalFrame(origin), config, covariance_of);
 }
 
-std::map<NodeId, Pose> main_part(const store::Store& store, const graph::Placement& placement) {
-  auto parts = map_parts(nodes_of(store), placement);
-  return parts.empty() ? std::map<NodeId, Pose>() : std::move(parts.front().T_map_node);
+store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
+                          const store::MergeConfig& config) {
+  return merged_map(store, map_parts(nodes_of(store), placement).main.T_map_node, config);
 }
 
 store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
@@ -371,10 +371,9 @@ Result<Results> write_results(store::Store& store, const AgentConfig& config,
   if (const Status kept = keep_recipe(store, config); !kept) return tl::unexpected(kept.error());
   results.placement = place(store, *origin, config.placement);
   results.not_georeferenced = graph::not_georeferenced(nodes_of(store), results.placement.components);
-  results.apart = map_parts(nodes_of(store), results.placement);
-  const MapPart main = results.apart.empty() ? MapPart{} : std::move(results.apart.front());
-  if (!results.apart.empty()) results.apart.erase(results.apart.begin());
-  auto map = write_map(store, main.T_map_node, config, others);
+  MapParts parts = map_parts(nodes_of(store), results.placement);
+  results.apart = std::move(parts.apart);
+  auto map = write_map(store, parts.main.T_map_node, config, others);
   if (!map) return tl::unexpected(map.error());
   results.map = std::move(*map);
   results.missing_submaps = store.nodes().size() - results.map.submaps;

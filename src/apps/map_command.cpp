@@ -102,8 +102,7 @@ int export_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
-  const store::MergedMap merged =
-      agent::merged_map(map->store, agent::main_part(map->store, map->placement), map->recipe.merge);
+  const store::MergedMap merged = agent::main_map(map->store, map->placement, map->recipe.merge);
   for (const NodeId& id : merged.unreadable)
     std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
   if (const Status written = cloud::write_cloud(options.out, merged.cloud); !written)
@@ -117,8 +116,7 @@ int draw_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
-  const store::MergedMap merged =
-      agent::merged_map(map->store, agent::main_part(map->store, map->placement), map->recipe.merge);
+  const store::MergedMap merged = agent::main_map(map->store, map->placement, map->recipe.merge);
   auto pictures = pictures_by_robot(merged);
   if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
   auto density = picture_of_density(merged.cloud, 1.0);

@@ -187,7 +187,7 @@ Result<HeldFleet> open_held(const std::filesystem::path& store_file) {
 }
 
 store::MergedMap map_with_sources(HeldFleet& held) {
-  return agent::merged_map(held.store, agent::main_part(held.store, held.placement), held.recipe.merge);
+  return agent::main_map(held.store, held.placement, held.recipe.merge);
 }
 
 Result<cloud::PointCloud> truth_cloud(const fs::path& file, double points_per_m2) {

@@ -273,19 +273,14 @@ void Exchange::note_own_items(const Digest& digest) {
     for (const Range& range : own.minus(held)) items += range.end - range.first;
     return items;
   };
-  const auto of_session = [this](const Range& range) {
-    return session_ && range.agent == self_ && range.first < first_seq(*session_) + kItemsPerSession &&
-           range.end > first_seq(*session_);
+  const auto beyond = [this](const std::vector<Range>& ranges, std::uint32_t next) {
+    const std::uint32_t end = first_seq(*session_) + kItemsPerSession;
+    return std::ranges::any_of(ranges, [&](const Range& range) {
+      return range.agent == self_ && range.first < range.end && range.end > next && range.end <= end;
+    });
   };
-  const auto beyond = [&](const Range& range, std::uint32_t next) {
-    return of_session(range) && range.end > next && range.end <= first_seq(*session_) + kItemsPerSession;
-  };
-  if (session_ &&
-      (std::ranges::any_of(digest.nodes,
-                           [&](const Range& r) { return beyond(r, store_->next_node_seq(*session_)); }) ||
-       std::ranges::any_of(digest.alignments, [&](const Range& r) {
-         return beyond(r, store_->next_alignment_seq(*session_));
-       }))) {
+  if (session_ && (beyond(digest.nodes, store_->next_node_seq(*session_)) ||
+                   beyond(digest.alignments, store_->next_alignment_seq(*session_)))) {
     events_.push_back(SessionTaken{digest.from});
   }
   if (told_of_own_items_) return;

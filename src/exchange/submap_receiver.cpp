@@ -201,9 +201,13 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
     stop(download);
   }
   if (!whole) return std::optional<NodeId>();
-  std::erase_if(distrusted_, [&](const auto& entry) { return entry.first.first == chunk.node; });
-  ++stats_.submaps;
+  on_whole(chunk.node);
   return std::optional<NodeId>(chunk.node);
+}
+
+void SubmapReceiver::on_whole(const NodeId& id) {
+  std::erase_if(distrusted_, [&](const auto& entry) { return entry.first.first == id; });
+  ++stats_.submaps;
 }
 
 SubmapReceiver::Finished SubmapReceiver::finish_downloads(store::Store& store, Stamp now) {
@@ -221,7 +225,7 @@ SubmapReceiver::Finished SubmapReceiver::finish_downloads(store::Store& store, S
     sources_.erase(id);
     if (*put == store::Put::kAdded) {
       finished.submaps.push_back(id);
-      ++stats_.submaps;
+      on_whole(id);
     } else {
       ++stats_.bad_hash;
     }

@@ -20,7 +20,7 @@ bus::Topic cmd_vel() { return {Link::kOnboard, "rt/cmd_vel", type_name::kTwist, 
 
 bus::Topic battery() { return {Link::kOnboard, "rt/battery_state", type_name::kBatteryState, "sensor"}; }
 
-bus::Topic hold() { return {Link::kLongRange, "fleetmap/hold", type_name::kHold, "small"}; }
+bus::Topic hold() { return topic_of(exchange::Message(exchange::Hold{})); }
 bus::Topic hold_onboard() { return {Link::kOnboard, "fleetmap/hold", type_name::kHold, "state"}; }
 
 }  // namespace fleetmap::wire::topics

@@ -34,13 +34,13 @@ TEST_F(MapPartsTest, WhatNobodyCanLayOntoTheMapIsAPartOfItsOwn) {
   add("r5", 0, 4, false);
   placement_.components = {{{id("r1"), 0}, {id("r5"), 0}}, {{id("r2"), 0}}, {{id("r3"), 7}}, {{id("r4"), 0}}};
   const auto parts = map_parts(nodes_, placement_);
-  ASSERT_EQ(parts.size(), 3u);
-  EXPECT_TRUE(parts[0].georeferenced);
-  EXPECT_EQ(parts[0].T_map_node.size(), 3u + 4u + 1u) << "r5 is tied to r1, r4 has GPS";
-  EXPECT_EQ(parts[1].T_map_node.size(), 9u);
-  EXPECT_FALSE(parts[1].georeferenced);
-  EXPECT_EQ(file_of(parts[1]), "map-r2.ply");
-  EXPECT_EQ(file_of(parts[2]), "map-r3.7.ply");
+  ASSERT_EQ(parts.apart.size(), 2u);
+  EXPECT_TRUE(parts.main.georeferenced);
+  EXPECT_EQ(parts.main.T_map_node.size(), 3u + 4u + 1u) << "r5 is tied to r1, r4 has GPS";
+  EXPECT_EQ(parts.apart[0].T_map_node.size(), 9u);
+  EXPECT_FALSE(parts.apart[0].georeferenced);
+  EXPECT_EQ(file_of(parts.apart[0]), "map-r2.ply");
+  EXPECT_EQ(file_of(parts.apart[1]), "map-r3.7.ply");
 }
 
 TEST_F(MapPartsTest, WithoutAnyGpsTheLargestComponentIsTheMap) {
@@ -49,18 +49,19 @@ TEST_F(MapPartsTest, WithoutAnyGpsTheLargestComponentIsTheMap) {
   add("r3", 0, 2, false);
   placement_.components = {{{id("r1"), 0}}, {{id("r2"), 0}}, {{id("r3"), 0}}};
   const auto parts = map_parts(nodes_, placement_);
-  ASSERT_EQ(parts.size(), 3u);
-  EXPECT_EQ(parts[0].frames, std::vector<FrameId>({{id("r2"), 0}}));
-  EXPECT_EQ(parts[0].T_map_node.size(), 9u);
-  EXPECT_FALSE(parts[0].georeferenced);
+  ASSERT_EQ(parts.apart.size(), 2u);
+  EXPECT_EQ(parts.main.frames, std::vector<FrameId>({{id("r2"), 0}}));
+  EXPECT_EQ(parts.main.T_map_node.size(), 9u);
+  EXPECT_FALSE(parts.main.georeferenced);
 }
 
 TEST_F(MapPartsTest, ANodeThatIsNotPlacedIsInNoPart) {
   add("r1", 0, 2, true);
   placement_.components = {{{id("r1"), 0}}};
   placement_.T_enu_node.erase({id("r1"), 1});
-  EXPECT_EQ(map_parts(nodes_, placement_).front().T_map_node.size(), 1u);
-  EXPECT_TRUE(map_parts({}, {}).empty());
+  EXPECT_EQ(map_parts(nodes_, placement_).main.T_map_node.size(), 1u);
+  EXPECT_TRUE(map_parts({}, {}).main.frames.empty());
+  EXPECT_TRUE(map_parts({}, {}).apart.empty());
 }
 
 }  // namespace

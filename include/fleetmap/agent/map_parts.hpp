@@ -17,12 +17,16 @@ struct MapPart {
   bool georeferenced = false;
 };
 
-/// First what map.ply shows: all that is georeferenced, which ENU ties together even where no alignment does.
-/// If nothing is, the component with most nodes. Each other component is a part of its own, since its place
-/// in the first would be a guess.
-std::vector<MapPart> map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement);
+struct MapParts {
+  /// What map.ply shows: all that is georeferenced, which ENU ties together even where no alignment does. If
+  /// nothing is, the component with most nodes.
+  MapPart main;
+  /// Each other component, since its place in the main part would be a guess.
+  std::vector<MapPart> apart;
+};
+MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement);
 
-/// "map-r2.ply", or "map-r2.4711.ply" of session 4711: of a part that is not the first.
+/// "map-r2.ply", or "map-r2.4711.ply" of session 4711: of a part that is not the main one.
 std::string file_of(const MapPart& part);
 
 }  // namespace fleetmap::agent

@@ -37,8 +37,9 @@ graph::Placement place(const store::Store& store, const GeoPoint& origin,
 /// The map of those nodes whose submaps the store holds, in the frame that their poses are in.
 store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                             const store::MergeConfig& config);
-/// What map.ply shows: the first of map_parts().
-std::map<NodeId, Pose> main_part(const store::Store& store, const graph::Placement& placement);
+/// What map.ply shows: MapParts::main.
+store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
+                          const store::MergeConfig& config);
 
 /// How a map was made: what `fleetmap map export` needs to make the same one again.
 struct MapRecipe {

@@ -123,8 +123,8 @@ struct ExchangeStats {
 
 /// All that one agent says to the others and hears from them, as a state machine: messages and time in,
 /// messages and events out. A message for one agent is sent over the short range if each of the two hears
-/// the other there (near_), else over the radio. Call tick() at 10 Hz or more (50
-/// Hz while submaps flow), then take_events().
+/// the other there (near_), else over the radio. Call tick() at 10 Hz or more (50 Hz while submaps flow),
+/// then take_events().
 class Exchange {
  public:
   /// `store` outlives this. Begins from what the store holds; unfinished encounters are found again.

@@ -119,6 +119,7 @@ class SubmapReceiver {
   Duration timeout(const Peer& peer) const;
   bool is_lost(const Flight& flight, const Peer& peer, Stamp now) const;
   void on_arrival(Peer& peer, Download& download, std::uint32_t chunk, Stamp now);
+  void on_whole(const NodeId& id);
   void on_store_failure(Stamp now);
   void distrust(const AgentId& name, const NodeId& id, Stamp now);
   void expire(const store::Store& store, Stamp now);

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -515,9 +514,8 @@ void RadioLink::name_who_was_never_heard(Clock::time_point now) {
     if (place->heard || !elsewhere(*place)) continue;
     place->heard = true;  // said once
     spdlog::warn(
-        "{}: nobody heard at {} in {:.0f} s: is that robot on, is this its address, and has its file the "
-        "same "
-        "dds.{}.domain?",
+        "{}: nobody heard at {} in {:.0f} s: is that robot on, is this its address, and has its file "
+        "the same dds.{}.domain?",
         to_string(link_), to_text(place->locator), std::chrono::duration<double>(kNeverHeard).count(),
         to_string(link_));
   }
