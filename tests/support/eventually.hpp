@@ -9,7 +9,7 @@ namespace fleetmap::testing {
 
 /// Tests `condition` again until it holds; false after `patience`. For what shows only in the files of
 /// another process, which notifies nobody.
-inline bool eventually(const std::function<bool()>& condition, std::chrono::minutes patience) {
+inline bool eventually(const std::function<bool()>& condition, std::chrono::seconds patience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   std::mutex mutex;
   std::condition_variable never;

@@ -15,9 +15,9 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-constexpr std::uint8_t kSchema = 1;
+constexpr std::uint8_t kSchema = 2;
 constexpr std::size_t kEncapsulation = 4;
-constexpr std::size_t kMostBytes = kEncapsulation + 24 + 4 * kMostReads;
+constexpr std::size_t kMostBytes = kEncapsulation + 36 + 4 * kMostReads;
 
 }  // namespace
 

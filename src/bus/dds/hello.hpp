@@ -12,8 +12,8 @@ namespace fleetmap::bus {
 
 /// fleetmap::msg::Hello, by which robots find each other on a radio.
 struct Hello {
-  bool knows = false;   ///< the sender knows the participant that this is for
-  bool leaves = false;  ///< the sender's last message
+  std::array<std::uint8_t, 12> knows{};  ///< RTPS prefix of whom the sender knows at this place; zero: nobody
+  bool leaves = false;                   ///< the sender's last message
   AgentId sender;
   std::array<std::uint8_t, 4> address{};
   std::uint16_t port = 0;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -421,7 +422,7 @@ Status RadioLink::add_place(const Locator& locator, bool configured) {
 
 void RadioLink::say_hello(Place& place, bool leaves) {
   Hello hello;
-  hello.knows = place.robot.has_value();
+  if (place.robot) std::copy_n(place.robot->value, hello.knows.size(), hello.knows.begin());
   hello.leaves = leaves;
   hello.sender = agent_;
   std::copy_n(IPLocator::getIPv4(own_), hello.address.size(), hello.address.begin());
@@ -443,6 +444,7 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   if (!place.robot) return;
   Peer& peer = peers_.at(*place.robot);
   peer.told = peer.greeted = now;
+  if (place.mistakes_us) return;
   // It has asked before: our last answer was lost, and this one may be.
   place.next = std::exchange(place.asks_again, false) ? now + kAnswerAgain : Clock::time_point::max();
 }
@@ -572,10 +574,12 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
         to_string(link_), to_text(from), agent_.str());
   }
   Place* place = place_at(from);
+  bool replaced = false;
   if (place != nullptr && place->robot && *place->robot != sender) {
     // It was started anew; unless it is still there, and somebody only says to be at its place.
     if (heard_lately(*place->robot)) return;
     forget(*place->robot);
+    replaced = true;
     place = place_at(from);
   }
   if (place == nullptr) {  // nobody that the configuration names
@@ -602,7 +606,10 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     end->meet(sender, peer);
     end->hear(sender);
   }
-  if (!hello.knows) {
+  const Prefix& own = participant_->getGuid().guidPrefix;
+  const bool knows_us = std::ranges::equal(hello.knows, own.value);
+  place->mistakes_us = !knows_us && std::ranges::any_of(hello.knows, std::identity{});
+  if (!knows_us || replaced) {
     if (known && place->next == Clock::time_point::max()) place->asks_again = true;  // no answer is under way
     place->next = Clock::time_point::min();  // before those to robots that may not be there
   } else if (peer.greeted == Clock::time_point{}) {

@@ -53,6 +53,7 @@ class RadioLink final : public LinkEnd {
     bool heard = false;        ///< a robot was heard here, or the warning was logged
     int said = 0;              ///< Hellos since `pause` was set out
     bool asks_again = false;   ///< it did not hear our last answer
+    bool mistakes_us = false;  ///< it knows who was at our place before: Hellos go on until it knows us
     Clock::time_point next{};  ///< Hello; zero: not set out yet, max: none
     Clock::duration pause{};   ///< after it, while nobody answers
   };
