@@ -3,6 +3,10 @@
 # python3 and a built program. Namespaces are its own and go when it ends, also when it is interrupted.
 #   deploy/netns/field.sh --scenario NAME [--agents N] [--radio KBIT] [--wifi KBIT] [--program FILE] [--out DIR]
 #                         [--loss PERCENT] [--delay MS] [--jitter MS] [--duplicate PERCENT]   of the radio's datagrams
+#                         [--wifi-loss PERCENT] [--wifi-delay MS] [--wifi-jitter MS]          of the Wi-Fi's
+#                         [--trace FILE]       what each pair of robots had in the field (deploy/netns/link_trace.py)
+#                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
+#                                              of this agent's file; single keys
 #                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves;
 #                                              those of a small farm are made where it is not given
 #   deploy/netns/field.sh --list
@@ -21,7 +25,14 @@ program=$root/build/release/bin/fleetmap
 out=
 recordings=
 impairment=()
-usage() { sed -n '2,11s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+wifi_impairment=()
+trace=
+qos=$root/qos
+robot=
+settings=()
+patience=420
+seed=1
+usage() { sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   [[ $1 != --list ]] || { list_scenarios; exit 0; }
   (($# > 1)) || usage
@@ -34,6 +45,13 @@ while (($#)); do
     --program) program=$2 ;;
     --out) out=$2 ;;
     --loss | --delay | --jitter | --duplicate) impairment+=("$1" "$2") ;;
+    --wifi-loss | --wifi-delay | --wifi-jitter | --wifi-duplicate) wifi_impairment+=("--${1#--wifi-}" "$2") ;;
+    --trace) trace=$2 ;;
+    --qos) qos=$2 ;;
+    --robot) robot=$2 ;;
+    --set) settings+=(--set "$2") ;;
+    --patience) patience=$2 ;;
+    --seed) seed=$2 ;;
     *) usage ;;
   esac
   shift 2
@@ -58,6 +76,11 @@ trap 'exit 130' INT TERM
 for ((i = 1; i <= agents; ++i)); do make_space "robot$i"; done
 medium radio 77 "$radio" 30000 "$agents"
 medium wifi 78 "$wifi" 100000 "$agents"
+if [[ -n $trace ]]; then
+  impairment+=(--trace "$trace" --link long_range --names "$(addresses 77)")
+  wifi_impairment+=(--trace "$trace" --link short_range --names "$(addresses 78)")
+fi
 ((${#impairment[@]} == 0)) || relay radio "${impairment[@]}"
+((${#wifi_impairment[@]} == 0)) || relay wifi "${wifi_impairment[@]}"
 for ((i = 1; i <= agents; ++i)); do write_config $i "r$i" "$(names)"; done
 "scenario_$scenario"

@@ -59,18 +59,22 @@ on() { # the route went with the link
 }
 
 # Puts a relay (relay.py) behind the queue of a medium, or another in its place: relay MEDIUM OPTIONS...
-RELAYS=()
+declare -A RELAYS=()
 relay() {
-  local name=$1 old mac
+  local name=$1 mac
   shift
-  for old in "${RELAYS[@]}"; do kill "$old" 2>/dev/null || true; done
+  [[ -z ${RELAYS[$name]:-} ]] || kill "${RELAYS[$name]}" 2>/dev/null || true
   while [[ -n $(ip netns pids "$(space "$name-ether")") ]]; do sleep 0.1; done
   in_space "$name-ether" sysctl -qw net.ipv4.ip_forward=0
   mac=$(in_space "$name-air" cat /sys/class/net/from/address)
   # exec, so that the process that is noted is the relay.
-  (exec ip netns exec "$(space "$name-ether")" python3 "$root/deploy/netns/relay.py" in back --to-mac "$mac" "$@") &
-  RELAYS=($!)
+  (exec ip netns exec "$(space "$name-ether")" python3 "$root/deploy/netns/relay.py" in back --to-mac "$mac" --seed "$seed" "$@") &
+  RELAYS[$name]=$!
   disown $!
+}
+begin_traces() { # of the relays that have one
+  local name
+  for name in "${!RELAYS[@]}"; do kill -USR1 "${RELAYS[$name]}"; done
 }
 
 # Bytes that passed the queue of a medium, and packets that it dropped.

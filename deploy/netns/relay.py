@@ -2,23 +2,30 @@
 """Forwards frames from one interface to another and loses, delays, reorders or doubles some: for kernels without netem.
 
     relay.py FROM TO [--both] [--to-mac MAC] [--loss PERCENT] [--duplicate PERCENT]
-                     [--delay MS] [--jitter MS] [--block SOURCE,DESTINATION]...
+                     [--delay MS] [--jitter MS] [--seed N] [--block SOURCE,DESTINATION]...
+                     [--trace FILE --link LINK --names NAME=ADDRESS,...]
 
 --both      also from TO to FROM
 --to-mac    puts this destination address on what it forwards (FROM and TO are then ends of routes, not of a bridge)
 --jitter    each datagram waits up to so many ms more, so that datagrams overtake each other
 --block     loses all from SOURCE to DESTINATION; * is any address
+--trace     what each pair of robots had in the field, as docs/dds.md says: of that link, beginning with SIGUSR1
 
 Only IPv4 UDP is lost, delayed or doubled. UDP checksums are set to "none", since veth leaves them to a card that is
 not there.
 """
 
 import argparse
+import errno
 import heapq
 import random
 import select
+import signal
 import socket
+import sys
 import time
+
+import link_trace
 
 ETH_P_ALL = 3
 PACKET_OUTGOING = 4
@@ -33,7 +40,10 @@ def parse():
     parser.add_argument("--to-mac")
     for name in ("--loss", "--duplicate", "--delay", "--jitter"):
         parser.add_argument(name, type=float, default=0.0)
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--block", action="append", default=[])
+    for name in ("--trace", "--link", "--names"):
+        parser.add_argument(name)
     return parser.parse_args()
 
 
@@ -62,6 +72,17 @@ class Relay:
         self.mac = bytes.fromhex(options.to_mac.replace(":", "")) if options.to_mac else None
         self.waiting = []  # (when, order, socket, frame)
         self.order = 0
+        self.pairs = {}  # (source, destination): their trace
+        self.begun = None
+        if options.trace:
+            names = dict(pair.split("=") for pair in options.names.split(","))
+            self.pairs = link_trace.load(options.trace, options.link, names)
+
+    def begin(self):
+        self.begun = time.monotonic()
+
+    def traced(self, frame):
+        return self.pairs.get((socket.inet_ntoa(frame[26:30]), socket.inet_ntoa(frame[30:34])))
 
     def is_blocked(self, frame):
         source, destination = socket.inet_ntoa(frame[26:30]), socket.inet_ntoa(frame[30:34])
@@ -75,9 +96,15 @@ class Relay:
             return
         if self.is_blocked(frame) or random.random() * 100 < self.options.loss:
             return
+        now, passes, later = time.monotonic(), True, 0.0
+        pair = self.traced(frame)
+        if pair:
+            passes, later = pair.passes(len(frame), now, now - self.begun if self.begun else 0.0)
+        if not passes:
+            return
         frame = without_checksum(frame)
         for _ in range(2 if random.random() * 100 < self.options.duplicate else 1):
-            wait = (self.options.delay + random.random() * self.options.jitter) / 1000
+            wait = later + (self.options.delay + random.random() * self.options.jitter) / 1000
             self.order += 1
             heapq.heappush(self.waiting, (time.monotonic() + wait, self.order, to, frame))
 
@@ -92,16 +119,23 @@ class Relay:
 
 def main():
     options = parse()
-    random.seed(1)
+    random.seed(options.seed)
     ends = {open_interface(options.source): None}
     sink = open_interface(options.sink)
     ends[next(iter(ends))] = sink
     if options.both:
         ends[sink] = next(iter(ends))
-    relay = Relay(options)
+    try:
+        relay = Relay(options)
+    except (OSError, ValueError) as error:
+        sys.exit(f"relay: {error}")
+    signal.signal(signal.SIGUSR1, lambda *_: relay.begin())
     while True:
         for end in select.select(list(ends), [], [], relay.pause())[0]:
-            frame, address = end.recvfrom(65536)
+            try:
+                frame, address = end.recvfrom(65536)
+            except OSError as error:
+                sys.exit(None if error.errno == errno.ENETDOWN else f"relay: {error}")  # the field is being removed
             if address[2] != PACKET_OUTGOING:
                 relay.take(frame, ends[end])
         relay.send_due()

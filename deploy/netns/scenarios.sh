@@ -14,6 +14,16 @@ others() { # net, own number: addresses of the other robots
   for ((i = 1; i <= agents; ++i)); do ((i == $2)) || list+="${list:+, }10.$1.$i.2"; done
   echo "$list"
 }
+addresses() { # net: r1=10.NET.1.2,r2=...
+  local i list=
+  for ((i = 1; i <= agents; ++i)); do list+="${list:+,}r$i=10.$1.$i.2"; done
+  echo "$list"
+}
+dds_of() { # robot number
+  echo "{qos: $qos, onboard: {domain: $((10 + $1)), shared_memory: false}," \
+    "long_range: {domain: 1, address: 10.77.$1.2, peers: [$(others 77 "$1")]}," \
+    "short_range: {domain: 2, address: 10.78.$1.2, peers: [$(others 78 "$1")]}}"
+}
 write_config() { # robot number, name, names of its fleet
   cat > "$scratch/r$1.yaml" <<YAML
 id: $2
@@ -24,17 +34,20 @@ lidar: {model: vlp16, translation: [0.0, 0.0, 0.6], max_range: 40.0, min_range: 
 imu: {translation: [0.0, 0.0, 0.1]}
 gps: {translation: [-0.2, 0.0, 0.5]}
 nodes: {spacing: 4.0}
-dds:
-  qos: $root/qos
-  onboard: {domain: $((10 + $1)), shared_memory: false}
-  long_range: {domain: 1, address: 10.77.$1.2, peers: [$(others 77 "$1")]}
-  short_range: {domain: 2, address: 10.78.$1.2, peers: [$(others 78 "$1")]}
+dds: $(dds_of "$1")
 YAML
+}
+configuration() { # robot number: $configured are the arguments that tell its configuration
+  configured=(-c "$scratch/r$1.yaml" "${settings[@]}")
+  [[ -z $robot ]] || configured=(-c "$robot" --set "id=r$1" --set "fleet=[$(names)]" --set "directory=$out/r$1"
+    --set "dds=$(dds_of "$1")" "${settings[@]}")
 }
 
 start() { # robot number
+  local configured
+  configuration "$1"
   # exec, so that the process that is noted is the agent.
-  (exec ip netns exec "$(space "robot$1")" "$program" agent -c "$scratch/r$1.yaml" --exit-after-idle "${idle:-0}" >> "$out/r$1.log" 2>&1) &
+  (exec ip netns exec "$(space "robot$1")" "$program" agent "${configured[@]}" --exit-after-idle "${idle:-0}" >> "$out/r$1.log" 2>&1) &
   disown $!
   echo $! > "$scratch/r$1.pid"
 }
@@ -46,7 +59,9 @@ keep_logs() { # and begin them anew, so that `says` counts what comes from now o
   done
 }
 play() { # robot number: its recording
-  in_space "robot$1" "$program" replay -c "$scratch/r$1.yaml" "$recordings/r$1" >> "$out/replay$1.log" 2>&1 &
+  local configured
+  configuration "$1"
+  in_space "robot$1" "$program" replay "${configured[@]}" "$recordings/r$1" >> "$out/replay$1.log" 2>&1 &
   disown $!
 }
 crash() {
@@ -85,8 +100,9 @@ never() { false; }
 now() { date +%s%N; }
 
 # Waits for `$1` at most `$2` s: $waited is then ms, else empty. Samples the radio each second into $series and $worst
-# (kbit/s), and runs what $events lists ("SECONDS COMMAND").
+# (kbit/s; $highest is that of all watches), and runs what $events lists ("SECONDS COMMAND").
 events=()
+highest=0
 watch_radio() { # condition, seconds
   local begin last second bytes kbit due
   begin=$(now) second=$begin last=$(passed radio)
@@ -105,6 +121,7 @@ watch_radio() { # condition, seconds
       bytes=$(passed radio)
       kbit=$(((bytes - last) * 8000000 / ($(now) - second)))
       worst=$((kbit > worst ? kbit : worst))
+      highest=$((kbit > highest ? kbit : highest))
       series+=" $kbit"
       last=$bytes second=$(now)
     fi
@@ -133,7 +150,7 @@ scenario_discovery() { # all start at once
 }
 
 scenario_restart() { # each robot of a fleet that knows itself is killed and started again at once
-  local killed slowest=0 highest=0 in_time=1 until_then=
+  local killed slowest=0 in_time=1 until_then=
   known_again() { # each other has heard it anew, and it has heard them
     local i
     (($(says "$killed" 'long_range: heard') >= agents - 1)) || return 1
@@ -143,7 +160,7 @@ scenario_restart() { # each robot of a fleet that knows itself is killed and sta
   }
   all_start
   watch_radio all_heard 20
-  before=$(passed radio)
+  before=$(passed radio) highest=0
   for ((killed = 1; killed <= agents; ++killed)); do
     crash "$killed"
     keep_logs
@@ -152,7 +169,6 @@ scenario_restart() { # each robot of a fleet that knows itself is killed and sta
     watch_radio known_again 15
     until_then=
     slowest=$((${waited:-15000} > slowest ? ${waited:-15000} : slowest))
-    highest=$((worst > highest ? worst : highest))
     [[ -n $waited ]] || in_time=0
   done
   worst=$highest
@@ -250,7 +266,7 @@ print(*([held["hash"][:8], held["nodes"], "nodes", held["alignments"], "alignmen
 map_verdict() {
   local held equal
   idle=10 until_then=end
-  watch_radio all_ended "${patience:-420}"
+  watch_radio all_ended "$patience"
   held=$(holdings)
   equal=$([[ $(wc -l <<< "$held") == 1 && $held == "$agents "* && $held =~ ([0-9]+)" nodes "([1-9][0-9]*)" alignments "([0-9]+) && ${BASH_REMATCH[1]} == "${BASH_REMATCH[3]}" ]] && echo 1 || echo 0)
   "${check:-true}" || equal=0
@@ -313,6 +329,34 @@ scenario_late() { # the last robot joins after a minute
   # The others end by themselves while they hear nobody who lacks anything, but not before they have heard of it.
   map_verdict
 }
+
+# What `fleetmap trial` measures: field.json, and no verdict on how good it is.
+scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
+  local known ended held i bytes_before
+  need_recordings
+  idle=10
+  all_start
+  until_then=known watch_radio all_heard 60
+  known=$waited
+  all_play
+  begin_traces
+  until_then=end watch_radio all_ended "$patience"
+  ended=$waited
+  # Those that still wait for something end now; they write what they have.
+  for ((i = 1; i <= agents; ++i)); do kill -TERM "$(cat "$scratch/r$i.pid")" 2> /dev/null || true; done
+  watch_radio all_ended 0
+  until_then=end watch_radio all_ended 60
+  held=$(holdings)
+  cat > "$out/field.json" <<JSON
+{"all_know_s": $(json_seconds "$known"), "ended_s": $(json_seconds "$ended"), "worst_kbit_s": $highest,
+ "equal": $([[ $(wc -l <<< "$held") == 1 && $held == "$agents "* ]] && echo 1 || echo 0),
+ "radio_kb": $(($(passed radio) / 1000)), "radio_dropped": $(dropped radio),
+ "wifi_mb": $(($(passed wifi) / 1000000)), "wifi_dropped": $(dropped wifi)}
+JSON
+  worst=$highest
+  echo "trial, $agents robots, $radio kbit/s: $(tr '\n' ';' <<< "$held") $(radio_figures)"
+}
+json_seconds() { [[ -n $1 ]] && echo "$(($1 / 1000)).$(printf %03d $(($1 % 1000)))" || echo null; }
 
 # ---- the Wi-Fi
 

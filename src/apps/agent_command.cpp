@@ -12,6 +12,7 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/wire/topics.hpp"
+#include "link_log.hpp"
 #include "live_bus.hpp"
 #include "mission_setup.hpp"
 #include "options.hpp"
@@ -29,6 +30,7 @@ constexpr Duration kPeerPatience = std::chrono::minutes(1);
 /// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
 constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
+constexpr Duration kTrafficPeriod = std::chrono::seconds(1), kNodesPeriod = std::chrono::milliseconds(50);
 
 struct AgentOptions {
   std::string config;
@@ -138,9 +140,14 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
   return settled ? silence > patience : silence > patience + kPeerPatience;
 }
 
-void run_until_done(bus::DdsBus& bus, agent::Agent& agent, DriveWatchdog* watchdog, double exit_after_idle) {
+void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWatchdog* watchdog,
+                    double exit_after_idle) {
   const std::atomic<bool>& stop = stop_on_signals();
   const bus::Handle report = bus.every(kReportPeriod, [&] { print_progress(agent, bus); });
+  const bus::Handle traffic = bus.every(kTrafficPeriod, [&] {
+    log.add_traffic(bus.take_heard_traffic(), agent.asked_for_submaps(), bus.now());
+  });
+  const bus::Handle nodes = bus.every(kNodesPeriod, [&] { log.add_nodes(agent.store().nodes(), bus.now()); });
   bus::Handle check;
   bool rest_frozen = false;
   if (exit_after_idle > 0.0) {
@@ -209,6 +216,8 @@ int run(const AgentOptions& options) {
   if (!bus) return report(bus.error(), kBadConfiguration);
   auto agent = agent::Agent::create(config->agent, **bus);
   if (!agent) return report(agent.error(), kFailed);
+  auto log = LinkLog::open(config->agent.directory, config->agent.id);
+  if (!log) return report(log.error(), kFailed);
   std::unique_ptr<SensorRecorder> recorder;
   if (!options.record.empty()) {
     auto made = SensorRecorder::create(free_folder(options.record), config->agent.perception.topics, **bus);
@@ -219,7 +228,7 @@ int run(const AgentOptions& options) {
                (config->agent.directory / "store.db").string());
   std::optional<DriveWatchdog> watchdog;
   if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
-  run_until_done(**bus, **agent, watchdog ? &*watchdog : nullptr, options.exit_after_idle);
+  run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, options.exit_after_idle);
   if (recorder) {
     if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
   }

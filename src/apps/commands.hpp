@@ -19,6 +19,7 @@ void add_replay(CLI::App& app, int& exit_code);
 void add_odometry(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 void add_experiment(CLI::App& app, int& exit_code);
+void add_trial(CLI::App& app, int& exit_code);
 void add_check_config(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 void add_world(CLI::App& app, int& exit_code);

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   add_plan(app, exit_code);
   add_eval(app, exit_code);
   add_experiment(app, exit_code);
+  add_trial(app, exit_code);
   add_check_config(app, exit_code);
   try {
     app.parse(argc, argv);

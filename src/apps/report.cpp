@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/eval/html_page.hpp"
@@ -107,6 +109,31 @@ json completion_json(const Completion& completion) {
                                      {"why", row.why.empty() ? "no robot was left to drive it" : row.why}});
   }
   return all;
+}
+
+/// What went and came over the radios by kind of message, to all and to single robots together.
+json topics_json(const std::vector<bus::TopicStats>& stats) {
+  constexpr std::string_view kOurs = "fleetmap/";
+  std::map<std::pair<std::string, std::string>, bus::TopicStats> kinds;
+  for (const bus::TopicStats& topic : stats) {
+    if (topic.link == bus::Link::kOnboard || !topic.topic.starts_with(kOurs)) continue;
+    const std::string kind = topic.topic.substr(kOurs.size());
+    bus::TopicStats& sum = kinds[{bus::to_string(topic.link), kind.substr(0, kind.find('/'))}];
+    sum.sent_messages += topic.sent_messages;
+    sum.sent_bytes += topic.sent_bytes;
+    sum.received_messages += topic.received_messages;
+    sum.received_bytes += topic.received_bytes;
+  }
+  json rows = json::array();
+  for (const auto& [name, sum] : kinds) {
+    rows.push_back({{"link", name.first},
+                    {"kind", name.second},
+                    {"sent_messages", sum.sent_messages},
+                    {"sent_bytes", sum.sent_bytes},
+                    {"received_messages", sum.received_messages},
+                    {"received_bytes", sum.received_bytes}});
+  }
+  return rows;
 }
 
 /// Messages that the bus itself let go, by topic; empty when all went well.
@@ -268,7 +295,9 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
                     const agent::Results* results) {
-  return write_text(directory / "report.json", agent_report(agent, results).dump(2) + "\n");
+  json report = agent_report(agent, results);
+  report["topics"] = topics_json(agent.bus_stats());
+  return write_text(directory / "report.json", report.dump(2) + "\n");
 }
 
 }  // namespace fleetmap::apps

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "field_section.hpp"
 #include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/sensor_file.hpp"
 #include "fleetmap/config/world_config.hpp"
@@ -165,6 +166,7 @@ Result<FleetConfig> read_fleet(Document& document) {
   read_network(top, fleet.network, fleet.blackouts);
   top.read("settle_time", fleet.settle_time);
   fleet.twin = read_twin(top);
+  fleet.field = read_field(top);
   const LoopbackDomains domains = read_loopback(top);
   const YAML::Node& root = document.root();
   const YAML::Node defaults = root["defaults"];

@@ -98,6 +98,14 @@ bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
   return known != peers_.end() && !known->second.holds.contains(id.agent, id.seq);
 }
 
+std::vector<AgentId> SubmapReceiver::asked() const {
+  std::vector<AgentId> names;
+  for (const auto& [name, peer] : peers_) {
+    if (peer.bytes_out > 0) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<AgentId> SubmapReceiver::peers_in_reach(Stamp now) const {
   std::vector<AgentId> names;
   for (const auto& [name, peer] : peers_) {

@@ -85,6 +85,8 @@ class Agent {
   store::Store& store() { return store_; }
   const Perception& perception() const { return *perception_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
+  /// Whom submaps are fetched from at this moment.
+  std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const RegistrationCounters& registrations() const { return registrations_; }

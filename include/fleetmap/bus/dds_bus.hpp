@@ -44,6 +44,17 @@ struct DdsBusConfig {
   Status validate() const;
 };
 
+/// What came from one robot over one radio in some time.
+struct HeardTraffic {
+  Link link = Link::kLongRange;
+  AgentId from;
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;  ///< on the wire, by wire_bytes()
+  std::uint64_t lost = 0;   ///< messages that its writers numbered and that did not come, or came overtaken
+  /// Mean from its publishing to here, by the clocks of both machines.
+  Duration delay = Duration::zero();
+};
+
 /// A robot's Bus over Fast DDS: a participant per enabled link.
 ///
 /// The thread that is in `run` or `run_until` is the bus's callback thread. Messages that arrive meanwhile or
@@ -92,6 +103,9 @@ class DdsBus final : public Bus {
     std::size_t writers = 0;  ///< that our reader has found
   };
   Matches matches(const Topic& topic) const;
+
+  /// What came over the radios since the last call, of each robot that sent anything.
+  std::vector<HeardTraffic> take_heard_traffic();
 
   /// What the links run without because this machine has not enough of it, with the remedy.
   std::vector<std::string> warnings() const;

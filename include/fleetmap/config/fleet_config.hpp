@@ -9,6 +9,7 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/config/field_config.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/planning/mission_config.hpp"
 #include "fleetmap/recording/reader.hpp"
@@ -97,6 +98,7 @@ struct FleetConfig {
   std::optional<TwinConfig> twin;
   bus::LocalNetworkConfig network;
   std::vector<RadioBlackout> blackouts;
+  FieldConfig field;
   /// Leaves the first `count` robots, as if the file named no more.
   void keep_first(std::size_t count);
   double settle_time = 120.0;  ///< s of virtual time that the exchange may take after the last sensor sample

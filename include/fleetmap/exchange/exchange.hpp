@@ -177,6 +177,8 @@ class Exchange {
   const SendQueue& queue() const { return queue_; }
   /// Agents whose short-range link was heard of late.
   std::vector<AgentId> peers_in_reach(Stamp now) const { return submap_receiver_.peers_in_reach(now); }
+  /// Whom submaps are fetched from at this moment.
+  std::vector<AgentId> asked_for_submaps() const { return submap_receiver_.asked(); }
   /// Of these, those with whom nothing is left to be exchanged: both hold the same submaps.
   std::vector<AgentId> even_with(Stamp now) const { return submap_receiver_.even_with(*store_, now); }
 

@@ -77,6 +77,8 @@ class SubmapReceiver {
   /// `peer` was heard, and told of no such submap.
   bool lacks(const AgentId& peer, const NodeId& id) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
+  /// Peers that chunks are under way from.
+  std::vector<AgentId> asked() const;
   /// Peers in reach that told of all submaps held here and of no others.
   std::vector<AgentId> even_with(const store::Store& store, Stamp now) const;
   /// Nothing is under way, and no peer in reach has what we lack.

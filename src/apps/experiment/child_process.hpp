@@ -22,6 +22,11 @@ struct ChildExit {
 /// outlives this process.
 Result<ChildExit> run_self(const std::vector<std::string>& arguments, const std::filesystem::path& log,
                            const std::atomic<bool>& stop);
+/// The same of another program or script; once asked to end it has as long as it takes it to clean up.
+Result<ChildExit> run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                              const std::filesystem::path& log, const std::atomic<bool>& stop);
+/// Fails, with the last words of its log, where a child crashed or called itself failed.
+Status check_exit(const Result<ChildExit>& ended, const std::string& what, const std::filesystem::path& log);
 
 /// The last lines of a log, for a message.
 std::string tail_of(const std::filesystem::path& log, std::size_t lines);

@@ -14,23 +14,6 @@ using nlohmann::json;
 
 constexpr std::size_t kLongestList = 8;  ///< longer lists are data, not metrics
 
-/// A crash, or an end that the child itself calls failed; both with its last words.
-Status check_exit(const Result<ChildExit>& ended, const std::string& what, const fs::path& log) {
-  if (!ended) return tl::unexpected(ended.error());
-  if (ended->code == 0) return {};
-  const std::string how = ended->signalled ? "was ended by signal " + std::to_string(ended->code - 128)
-                                           : "exited with " + std::to_string(ended->code);
-  return failure(what + " " + how + ":\n" + tail_of(log, 6));
-}
-
-Result<json> read_json(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return failure(file.filename().string() + " was not written");
-  json content = json::parse(in, nullptr, false);
-  if (content.is_discarded()) return failure(file.filename().string() + " is not JSON");
-  return content;
-}
-
 std::vector<std::string> run_arguments(const Case& one, const fs::path& directory, unsigned threads) {
   std::vector<std::string> arguments{"run",
                                      "-c",
@@ -106,6 +89,14 @@ void find_pictures(const fs::path& directory, CaseResult& result) {
 }
 
 }  // namespace
+
+Result<json> read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return failure(file.filename().string() + " was not written");
+  json content = json::parse(in, nullptr, false);
+  if (content.is_discarded()) return failure(file.filename().string() + " is not JSON");
+  return content;
+}
 
 CaseResult gather(const json& report, const json& evaluation) {
   CaseResult result;

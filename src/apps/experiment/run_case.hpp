@@ -20,6 +20,9 @@ class ChildEngine {
   unsigned threads_;
 };
 
+/// A file that a child has written. Fails with its name.
+Result<nlohmann::json> read_json(const std::filesystem::path& file);
+
 /// What a run (report.json) and its evaluation (evaluation.json) say, as one flat set: numbers by their
 /// dotted path ("map.rmse", "map.f1[0]"; the evaluation as it is, of the report what experiments compare),
 /// lists named "histogram" with the "bin" beside them, pictures by kind.

@@ -155,6 +155,12 @@ std::vector<TopicStats> DdsBus::stats() const {
   return all;
 }
 
+std::vector<HeardTraffic> DdsBus::take_heard_traffic() {
+  std::vector<HeardTraffic> all;
+  for (const auto& [link, made] : state_->links) made->take_heard_traffic(all);
+  return all;
+}
+
 void DdsBus::post(std::function<void()> callback) { state_->executor->post(std::move(callback)); }
 
 void DdsBus::run() {

@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fleetmap/bus/wire_overhead.hpp"
 #include "participant_qos.hpp"
 
 namespace fleetmap::bus {
@@ -117,6 +118,13 @@ std::optional<Bytes> taken(rtps::RTPSReader& reader, const rtps::CacheChange_t* 
   return cdr;
 }
 
+/// By the clocks of the machine that set the stamp and of this one.
+Duration since(const rtps::Time_t& stamp) {
+  rtps::Time_t now;
+  rtps::Time_t::now(now);
+  return Duration(now.to_ns() - stamp.to_ns());
+}
+
 }  // namespace
 
 /// What Fast DDS's threads leave for the callback thread. Its lock is never held while Fast DDS is called.
@@ -125,9 +133,14 @@ struct RadioLink::Received {
     std::shared_ptr<Inbox> inbox;
     std::function<void()> dispatch;
   };
+  struct Robot {
+    Clock::time_point heard;
+    std::map<EntityKey, std::uint64_t> numbers;  ///< of the last message of each of its writers
+    HeardTraffic traffic;                        ///< since it was last asked for; `delay` is their sum
+  };
   std::mutex mutex;
   std::map<EntityKey, Topic> topics;
-  std::map<Prefix, Clock::time_point> heard;
+  std::map<Prefix, Robot> robots;
   std::deque<std::pair<Prefix, Bytes>> hellos;
 };
 
@@ -152,12 +165,16 @@ class RadioLink::DataListener final : public rtps::ReaderListener {
       : received_(std::move(received)), executor_(std::move(executor)) {}
   void onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) override {
     const rtps::GUID_t writer = change->writerGUID;
+    const std::uint64_t number = change->sequenceNumber.to64long();
+    const Duration delay = since(change->sourceTimestamp);
     std::optional<Bytes> cdr = taken(*reader, change);
     if (!cdr) return;
     std::function<void()> dispatch;
     {
       const std::scoped_lock lock(received_->mutex);
-      received_->heard[writer.guidPrefix] = Clock::now();
+      Received::Robot& robot = received_->robots[writer.guidPrefix];
+      robot.heard = Clock::now();
+      count(robot, key_of(writer.entityId), number, cdr->size(), delay);
       const auto topic = received_->topics.find(key_of(writer.entityId));
       if (topic == received_->topics.end()) return;
       topic->second.inbox->put(*std::move(cdr));
@@ -167,6 +184,16 @@ class RadioLink::DataListener final : public rtps::ReaderListener {
   }
 
  private:
+  static void count(Received::Robot& robot, EntityKey writer, std::uint64_t number, std::size_t payload,
+                    Duration delay) {
+    const auto [last, first] = robot.numbers.try_emplace(writer, number);
+    if (!first && number > last->second) robot.traffic.lost += number - last->second - 1;
+    last->second = number;
+    ++robot.traffic.messages;
+    robot.traffic.bytes += wire_bytes(payload);
+    robot.traffic.delay += delay;
+  }
+
   const std::shared_ptr<Received> received_;
   const std::shared_ptr<Executor> executor_;
 };
@@ -545,8 +572,8 @@ std::vector<RadioLink::Prefix> RadioLink::silent() const {
   const auto now = Clock::now();
   const std::scoped_lock lock(received_->mutex);
   for (const auto& [robot, peer] : peers_) {
-    const auto last = received_->heard.find(robot);
-    if (last == received_->heard.end() || now - last->second <= lease_) continue;
+    const auto last = received_->robots.find(robot);
+    if (last == received_->robots.end() || now - last->second.heard <= lease_) continue;
     spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(link_), peer.agent.str(),
                  to_text(peer.locator), std::chrono::duration<double>(lease_).count());
     robots.push_back(robot);
@@ -589,7 +616,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   }
   {
     const std::scoped_lock lock(received_->mutex);
-    received_->heard[sender] = Clock::now();
+    received_->robots[sender].heard = Clock::now();
   }
   Peer& peer = peers_[sender];
   const bool known = place->robot.has_value();
@@ -634,8 +661,21 @@ RadioLink::Place* RadioLink::place_at(const Locator& locator) {
 
 bool RadioLink::heard_lately(const Prefix& robot) const {
   const std::scoped_lock lock(received_->mutex);
-  const auto last = received_->heard.find(robot);
-  return last != received_->heard.end() && Clock::now() - last->second < kStillThere;
+  const auto last = received_->robots.find(robot);
+  return last != received_->robots.end() && Clock::now() - last->second.heard < kStillThere;
+}
+
+void RadioLink::take_heard_traffic(std::vector<HeardTraffic>& all) {
+  const std::scoped_lock lock(mutex_);
+  const std::scoped_lock received(received_->mutex);
+  for (auto& [prefix, robot] : received_->robots) {
+    const auto peer = peers_.find(prefix);
+    if (peer == peers_.end() || robot.traffic.messages == 0) continue;
+    HeardTraffic& traffic = all.emplace_back(std::exchange(robot.traffic, {}));
+    traffic.link = link_;
+    traffic.from = peer->second.agent;
+    traffic.delay /= static_cast<std::int64_t>(traffic.messages);
+  }
 }
 
 void RadioLink::forget(Prefix robot) {
@@ -649,7 +689,7 @@ void RadioLink::forget(Prefix robot) {
     return !place->configured;
   });
   const std::scoped_lock lock(received_->mutex);
-  received_->heard.erase(robot);
+  received_->robots.erase(robot);
 }
 
 rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer) const {

@@ -32,6 +32,7 @@ class RadioLink final : public LinkEnd {
   static Result<std::shared_ptr<LinkEnd>> create(Link link, const DdsLinkConfig& config, const AgentId& agent,
                                                  QosFile qos, std::shared_ptr<Executor> executor);
   ~RadioLink() override;
+  void take_heard_traffic(std::vector<HeardTraffic>& all) override;
 
  private:
   class End;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "experiment/case.hpp"
+
+namespace fleetmap::apps {
+
+/// What the commands that run a grid of cases have in common: `experiment` in the twin, `trial` on
+/// interfaces.
+struct GridOptions {
+  std::string config;
+  std::string out;
+  std::vector<std::string> set;
+  bool quick = false;
+  bool keep = false;
+  bool any_build = false;
+  bool list = false;
+  bool report = false;
+  std::string one_case;  ///< its name; empty: all
+  unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+};
+
+/// Adds all options but the file's and the number of jobs.
+void add_grid_options(CLI::App& command, GridOptions& options);
+
+using MakeEngine = std::function<experiment::Engine(const std::atomic<bool>& stop)>;
+
+/// Runs, lists or reports the cases of the file. Returns the exit code.
+int run_grid(const GridOptions& options, const MakeEngine& make_engine);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,102 @@
+#include "link_log.hpp"
+
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
+constexpr const char* kNodesHeader = "time_ns,node";
+constexpr std::uintmax_t kMostTraceBytes = 32u << 20;
+/// In a large fleet robots say something every few seconds on the radio; on the Wi-Fi each second.
+constexpr Duration kSilence = std::chrono::seconds(30), kSilenceNear = std::chrono::seconds(5);
+
+}  // namespace
+
+Result<LinkLog::File> LinkLog::open_file(const std::filesystem::path& path, const char* header) {
+  std::error_code none;
+  const bool begins = !std::filesystem::exists(path, none) || std::filesystem::file_size(path, none) == 0;
+  File file{path, std::ofstream(path, std::ios::app)};
+  if (begins) file.out << header << '\n';
+  file.out.flush();
+  if (!file.out) return failure(path.string() + ": cannot be written; is the disk full?");
+  return file;
+}
+
+Result<LinkLog> LinkLog::open(const std::filesystem::path& directory, const AgentId& self) {
+  LinkLog log(self);
+  auto trace = open_file(directory / "link_trace.csv", kTraceHeader);
+  if (!trace) return tl::unexpected(trace.error());
+  auto nodes = open_file(directory / "node_times.csv", kNodesHeader);
+  if (!nodes) return tl::unexpected(nodes.error());
+  log.trace_ = *std::move(trace);
+  log.nodes_ = *std::move(nodes);
+  return log;
+}
+
+void LinkLog::File::flush() {
+  out.flush();
+  if (out) return;
+  if (!std::exchange(failed, true))
+    spdlog::warn("{}: cannot be written, lines are missing; is the disk full?", path.string());
+  out.clear();
+}
+
+/// The one before stays beside it.
+void LinkLog::begin_anew_when_full() {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(trace_.path, none);
+  if (none || size < kMostTraceBytes) return;
+  trace_.out.close();
+  std::filesystem::rename(trace_.path, trace_.path.string() + ".before", none);
+  if (auto begun = open_file(trace_.path, kTraceHeader)) trace_ = *std::move(begun);
+}
+
+void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& heard,
+                          const std::vector<AgentId>& fetched_from, Stamp now) {
+  const Stamp before = std::exchange(written_, now);
+  const auto fetched_before = std::exchange(fetched_from_, {fetched_from.begin(), fetched_from.end()});
+  if (before == Stamp{}) return;  // of what time these came is not known
+  begin_anew_when_full();
+  for (const bus::HeardTraffic& traffic : heard) {
+    // Whoever was waited for at both ends of the second has sent as much as the link carries.
+    const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
+                      fetched_from_.contains(traffic.from);
+    add_row(traffic, to_seconds(now - before), full, now);
+    heard_[{traffic.link, traffic.from}] = now;
+  }
+  add_silent(now);
+  trace_.flush();
+}
+
+void LinkLog::add_row(const bus::HeardTraffic& traffic, double seconds, bool full, Stamp now) {
+  const double kbit_s = 8e-3 * static_cast<double>(traffic.bytes) / seconds;
+  const auto lost = static_cast<double>(traffic.lost);
+  trace_.out << fmt::format("{:.1f},{},{},{},{},{:.1f},{:.1f},{:.1f},{}\n", to_seconds(now),
+                            bus::to_string(traffic.link), traffic.from.str(), self_.str(),
+                            full ? fmt::format("{:.1f}", kbit_s) : "", 1e3 * to_seconds(traffic.delay),
+                            100.0 * lost / (lost + static_cast<double>(traffic.messages)), kbit_s,
+                            traffic.messages);
+}
+
+/// A row is of the time after the robot's last one.
+void LinkLog::add_silent(Stamp now) {
+  std::erase_if(heard_, [&](const auto& entry) {
+    const auto& [source, last] = entry;
+    if (now - last < (source.first == bus::Link::kShortRange ? kSilenceNear : kSilence)) return false;
+    trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(last) + 1.0,
+                              bus::to_string(source.first), source.second.str(), self_.str());
+    return true;
+  });
+}
+
+void LinkLog::add_nodes(const std::map<NodeId, graph::Node>& nodes, Stamp now) {
+  if (nodes.size() == held_.size()) return;
+  for (const auto& [id, node] : nodes) {
+    if (held_.insert(id).second) nodes_.out << to_ns(now) << ',' << to_string(id) << '\n';
+  }
+  nodes_.flush();
+}
+
+}  // namespace fleetmap::apps

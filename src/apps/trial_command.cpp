@@ -1,0 +1,56 @@
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "experiment/field_engine.hpp"
+#include "grid_command.hpp"
+#include "options.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct TrialOptions {
+  GridOptions grid;
+  std::string traces;
+  std::string script = FLEETMAP_FIELD_SCRIPT;
+};
+
+int run(TrialOptions options) {
+  std::error_code error;
+  if (!fs::exists(options.script, error)) {
+    return report(
+        {options.script + ": does not exist; give deploy/netns/field.sh of the source tree as --field"},
+        kUsage);
+  }
+  if (!options.traces.empty())
+    options.grid.set.push_back("field.trace=" + fs::absolute(options.traces).string());
+  return run_grid(options.grid, [&](const std::atomic<bool>& stop) {
+    return experiment::FieldEngine(options.script, options.grid.out, stop);
+  });
+}
+
+}  // namespace
+
+void add_trial(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<TrialOptions>();
+  CLI::App* command = app.add_subcommand(
+      "trial",
+      "runs robots as processes in network namespaces over a grid of QoS profiles, settings "
+      "and links, one after another in real time, and reports what came of it; root");
+  command->add_option("file", options->grid.config, "TRIAL.yaml: as an experiment, with keys of `field`")
+      ->required();
+  command
+      ->add_option(
+          "--traces", options->traces,
+          "CSV of what links had in the field: time_s, link, from, to, kbit_s, ms, loss_percent; robots' "
+          "own are link_trace.csv")
+      ->check(CLI::ExistingFile);
+  command->add_option("--field", options->script, "deploy/netns/field.sh");
+  options->grid.jobs = 1;  // each needs the machine for itself
+  add_grid_options(*command, options->grid);
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace fleetmap::apps
