@@ -4,6 +4,7 @@
 #   deploy/netns/field.sh --scenario NAME [--agents N] [--radio KBIT] [--wifi KBIT] [--program FILE] [--out DIR]
 #                         [--loss PERCENT] [--delay MS] [--jitter MS] [--duplicate PERCENT]   of the radio's datagrams
 #                         [--wifi-loss PERCENT] [--wifi-delay MS] [--wifi-jitter MS]          of the Wi-Fi's
+#                         [--wifi-from S] [--patience S] [--seed N]   of scenario trial, after the recordings began
 #                         [--trace FILE]       what each pair of robots had in the field (deploy/netns/link_trace.py)
 #                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
 #                                              of this agent's file; single keys
@@ -32,7 +33,8 @@ robot=
 settings=()
 patience=420
 seed=1
-usage() { sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+wifi_from=0
+usage() { sed -n '2,16s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   [[ $1 != --list ]] || { list_scenarios; exit 0; }
   (($# > 1)) || usage
@@ -52,6 +54,7 @@ while (($#)); do
     --set) settings+=(--set "$2") ;;
     --patience) patience=$2 ;;
     --seed) seed=$2 ;;
+    --wifi-from) wifi_from=$2 ;;
     *) usage ;;
   esac
   shift 2

@@ -334,12 +334,14 @@ scenario_late() { # the last robot joins after a minute
 scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
   local known ended held i bytes_before
   need_recordings
-  idle=10
+  idle=30 # encounters ripen for 20 s, also those of two others
+  if ((wifi_from > 0)); then off wifi; fi
   all_start
   until_then=known watch_radio all_heard 60
   known=$waited
   all_play
   begin_traces
+  if ((wifi_from > 0)); then events=("$wifi_from on wifi"); fi
   until_then=end watch_radio all_ended "$patience"
   ended=$waited
   # Those that still wait for something end now; they write what they have.

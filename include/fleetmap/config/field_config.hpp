@@ -25,6 +25,7 @@ struct FieldConfig {
   std::filesystem::path robot;       ///< AGENT.yaml of the robots' sensors; empty: those of the twin
   std::filesystem::path recordings;  ///< holds r1, r2, ...; empty: those of the fleet's twin, made once
   std::filesystem::path truth;       ///< holds NAME/truth.tum of them; empty: the twin's, or unknown
+  double wifi_from = 0.0;            ///< s after the recordings began; before, there is no Wi-Fi
   double patience = 420.0;           ///< s until robots that have not finished are stopped
   std::uint64_t seed = 1;            ///< of what is lost
 
