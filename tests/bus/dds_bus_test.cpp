@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "bus/dds_domains.hpp"
+#include "fleetmap/bus/wire_overhead.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
@@ -243,6 +244,29 @@ TEST_F(QosDirectory, APeerThatVanishesDoesNotHoldUpAWriter) {
     EXPECT_TRUE(
         sender->run_until([&] { return sender->matches(topic).readers == 0; }, std::chrono::seconds(60)));
   }
+}
+
+TEST_F(QosDirectory, WhatCameFromEachRobotIsCountedOnce) {
+  const Topic topic{Link::kLongRange, "node", "Node", "small"};
+  const auto sender = DdsBus::create(config_).value();
+  sender->advertise(topic);
+  config_.agent = AgentId::parse("r2").value();
+  const auto receiver = DdsBus::create(config_).value();
+  int came = 0;
+  const Handle handle = receiver->subscribe(topic, [&](const Bytes&) { ++came; });
+  ASSERT_TRUE(run_both(*sender, *receiver, [&] { return sender->matches(topic).readers == 1; }));
+  for (int n = 0; n < 10; ++n) sender->publish(topic, Bytes(200));
+  ASSERT_TRUE(run_both(*sender, *receiver, [&] { return came == 10; }));
+  const auto heard = receiver->take_heard_traffic();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].link, Link::kLongRange);
+  EXPECT_EQ(heard[0].from.str(), "r1");
+  EXPECT_EQ(heard[0].messages, 10u);
+  EXPECT_EQ(heard[0].bytes, 10 * wire_bytes(200));
+  EXPECT_EQ(heard[0].lost, 0u);
+  EXPECT_GT(heard[0].delay, Duration::zero());
+  EXPECT_LT(heard[0].delay, std::chrono::seconds(10));
+  EXPECT_TRUE(receiver->take_heard_traffic().empty()) << "since the last call nothing came";
 }
 
 TEST_F(QosDirectory, WithoutATimeoutTheBusRunsUntilTheConditionHolds) {
