@@ -26,6 +26,8 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   Handle subscribe(const Topic& topic, Bus::OnMessage on_message);
   DdsBus::Matches matches(const Topic& topic) const;
   void add_stats(std::vector<TopicStats>& all) const;
+  /// What a radio heard.
+  virtual RadioSurvey survey() const { return {}; }
   /// What the profile asks for and this machine has not; empty if all is there.
   const std::string& warning() const { return warning_; }
 
