@@ -250,6 +250,36 @@ scenario_twins() { # two robots of one name
   verdict $([[ -n $waited ]] && echo 1 || echo 0) "named in the log after $(seconds_of "$waited")"
 }
 
+scenario_check() { # check-config --network beside agents of which one has another voxel, one another domain, one is off
+  ((agents >= 4)) || { echo "check: needs 4 agents" >&2; exit 2; }
+  local found=1 pattern
+  check_network() {
+    local code=0
+    in_space robot1 "$program" check-config --network --seconds 5 "$scratch/r1.yaml" \
+      > "$out/check.txt" 2> "$out/check.log" || code=$?
+    echo $code > "$out/check.code"
+  }
+  checked() { [[ -s $out/check.code ]]; }
+  sed -i 's/^nodes:/submap: {voxel: 0.2}\nnodes:/' "$scratch/r2.yaml"
+  sed -i 's/long_range: {domain: 1,/long_range: {domain: 3,/' "$scratch/r3.yaml"
+  start 1
+  start 2
+  start 3
+  watch_radio never 3
+  before=$(passed radio)
+  check_network &
+  until_then=end watch_radio checked 30
+  for pattern in '^  r2 .*10\.77\.2\.2:7660 .*heard after' "r2's submaps have voxels of 0.20 m, ours 0.10 m" \
+    'heard r3 on domain 3: its file has dds.long_range.domain: 3, this one 1' '^  r4 .*never heard' \
+    '^  r1 .*own agent' '10\.77\.4\.2:7660 .*nobody heard'; do
+    grep -qE "$pattern" "$out/check.txt" || { found=0 && echo "not said: $pattern" >&2; }
+  done
+  (($(says 2 'heard check at .* \(an operator') > 0 && $(says 2 'check leaves') > 0)) || found=0
+  ((found)) || cat "$out/check.txt" >&2
+  verdict $((found && $(cat "$out/check.code") == 1 && worst <= 160)) \
+    "says all of it: $found, exit code $(cat "$out/check.code"), after $(seconds_of "$waited"); $(radio_figures)"
+}
+
 # ---- mapping: recordings are replayed in real time, and all must end by themselves with the same whole map
 
 # What all stores hold, a line for each different content: how many, nodes, alignments, submaps.

@@ -12,6 +12,7 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "mission_setup.hpp"
+#include "network_check.hpp"
 #include "options.hpp"
 #include "twin_setup.hpp"
 
@@ -22,6 +23,8 @@ struct CheckOptions {
   std::string file;
   std::vector<std::string> set;
   std::optional<std::size_t> agents;
+  bool network = false;
+  NetworkCheckOptions radios;
 };
 
 /// What there is to say of a valid fleet: of one of the twin that its world can be built and its mission
@@ -45,6 +48,8 @@ Result<std::string> check_robot(const std::string& file, const std::vector<confi
   auto robot = config::load_robot(file, overrides);
   if (!robot) return tl::unexpected(robot.error());
   if (const Status planned = plan_mission(*robot); !planned) return tl::unexpected(planned.error());
+  for (const std::string& warning : config::peer_warnings(robot->dds, robot->agent.exchange.fleet.size()))
+    std::cerr << file << ": warning: " << warning << '\n';
   if (!robot->mission) return std::string("a valid agent configuration");
   const planning::FleetPlan& plan = *robot->agent.navigator->plan;
   std::ostringstream text;
@@ -81,9 +86,22 @@ Result<std::string> check(const std::string& file, const std::vector<config::Ove
   return check_robot(file, overrides);
 }
 
+int run_network_check(const CheckOptions& options, const std::vector<config::Override>& overrides) {
+  const auto kind = config::check(options.file, overrides);
+  if (!kind) return report(kind.error(), kBadConfiguration);
+  if (*kind != config::FileKind::kRobot)
+    return report({options.file + ": --network needs the file of one robot"}, kUsage);
+  const auto robot = config::load_robot(options.file, overrides);
+  if (!robot) return report(robot.error(), kBadConfiguration);
+  const auto fine = check_network(*robot, options.radios);
+  if (!fine) return report(fine.error(), kFailed);
+  return *fine ? kDone : kFailed;
+}
+
 int run(const CheckOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
+  if (options.network) return run_network_check(options, *overrides);
   const auto checked = check(options.file, *overrides, options.agents);
   if (!checked) return report(checked.error(), kBadConfiguration);
   std::cout << options.file << ": " << *checked << '\n';
@@ -102,6 +120,17 @@ void add_check_config(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false);
   command->add_option("--agents", options->agents, "only the first N agents of a fleet's file")
       ->check(whole_number(1));
+  CLI::Option* network = command->add_flag(
+      "--network", options->network,
+      "a robot's file: listens on its radios and says who is heard, who is not and what differs; 1 if so");
+  command->add_option("--seconds", options->radios.seconds, "s, to listen")
+      ->needs(network)
+      ->check(positive_number());
+  command
+      ->add_option("--domains", options->radios.domains,
+                   "FIRST LAST: DDS domains in which robots that are not heard are looked for")
+      ->needs(network)
+      ->check(CLI::Range(0, 230));
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

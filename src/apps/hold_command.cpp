@@ -40,14 +40,6 @@ struct Fleet {
   bus::DdsBusConfig dds;
 };
 
-/// A name that no robot has.
-AgentId operator_name(const std::vector<AgentId>& robots) {
-  AgentId name = *AgentId::parse("operator");
-  for (int k = 1; std::ranges::find(robots, name) != robots.end(); ++k)
-    name = *AgentId::parse("op-" + std::to_string(k));
-  return name;
-}
-
 Result<Fleet> fleet_of(const HoldOptions& options, const std::vector<config::Override>& overrides) {
   const auto kind = config::check(options.config, overrides);
   if (!kind) return tl::unexpected(kind.error());
@@ -65,7 +57,8 @@ Result<Fleet> fleet_of(const HoldOptions& options, const std::vector<config::Ove
   } else {
     return failure(options.config + ": is no robot's and no fleet's configuration");
   }
-  fleet.dds.agent = operator_name(fleet.robots);
+  fleet.dds.agent = free_name("operator", fleet.robots);
+  fleet.dds.settings.reset();
   fleet.dds.onboard.enabled = false;
   fleet.dds.short_range.enabled = false;
   bus::DdsLinkConfig& radio = fleet.dds.long_range;

@@ -227,6 +227,7 @@ Result<FleetConfig> read_fleet(Document& document) {
   }
   for (FleetConfig::Member& member : fleet.members) {
     member.agent.exchange.fleet = names;
+    member.dds.settings = fleet_settings(member.agent);
     member.agent.directory = ".";  // the run puts its own folder here; the rest is checked
     if (const Status valid = member.agent.validate(); !valid) {
       return failure(document.name() + ": agent " + member.agent.id.str() + ": " + valid.error().message);
@@ -260,6 +261,7 @@ Result<RobotConfig> read_robot(Document& document) {
   if (const Status valid = robot.agent.validate(); !valid) {
     return failure(document.name() + ": " + valid.error().message);
   }
+  robot.dds.settings = fleet_settings(robot.agent);
   return robot;
 }
 
@@ -269,7 +271,10 @@ void FleetConfig::keep_first(std::size_t count) {
   members.resize(std::min(count, members.size()));
   std::vector<AgentId> names;
   for (const Member& member : members) names.push_back(member.agent.id);
-  for (Member& member : members) member.agent.exchange.fleet = names;
+  for (Member& member : members) {
+    member.agent.exchange.fleet = names;
+    member.dds.settings = fleet_settings(member.agent);
+  }
 }
 
 Result<Override> parse_override(const std::string& text) {

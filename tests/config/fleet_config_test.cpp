@@ -167,6 +167,41 @@ TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
               HasSubstr("--set lidar=[1: the value is not valid YAML"));
 }
 
+TEST_F(FleetConfigTest, WhatRobotsMustHaveAlikeGoesToTheRadios) {
+  const auto settings = [&](const std::string& lines, const std::string& fleet = "[r1, r2]") {
+    const auto robot = load_robot(write("id: r1\nfleet: " + fleet + "\ndirectory: out\n" + lines), {});
+    return robot.value().dds.settings.value();
+  };
+  const bus::FleetSettings own = settings("");
+  EXPECT_EQ(own.submap_voxel, 1000);
+  EXPECT_EQ(own.map_voxel, 1000);
+  // What may differ, does.
+  EXPECT_EQ(settings("lidar: {model: os1-64}\ndds: {onboard: {domain: 7}}\n", "[r2, r1]"), own);
+  EXPECT_NE(settings("", "[r1, r2, r3]").fleet, own.fleet);
+  EXPECT_NE(settings("", "[r1, r3]").fleet, own.fleet);
+  EXPECT_EQ(settings("submap: {voxel: 0.2}\n").submap_voxel, 2000);
+  EXPECT_EQ(settings("map: {voxel: 0.05}\n").map_voxel, 500);
+  EXPECT_NE(settings("site: {origin: [39.0, -3.0, 600.0]}\n").placement, own.placement);
+  EXPECT_NE(settings("mode: paper\n").placement, own.placement);
+}
+
+TEST_F(FleetConfigTest, PeersThatCannotBeAllOfTheFleetAreAWarning) {
+  bus::DdsBusConfig dds;
+  EXPECT_THAT(peer_warnings(dds, 4), ::testing::IsEmpty());  // all on this machine
+  dds.short_range.enabled = false;
+  dds.long_range.address = "10.0.0.1";
+  dds.long_range.peers = {"10.0.0.2", "10.0.0.3", "10.0.0.2"};
+  EXPECT_THAT(peer_warnings(dds, 3), ::testing::IsEmpty());
+  EXPECT_THAT(peer_warnings(dds, 4),
+              ::testing::ElementsAre(HasSubstr("dds.long_range.peers names 2 of the 3 other robots")));
+  dds.long_range.peers.push_back("10.0.0.1");  // where any number may be
+  EXPECT_THAT(peer_warnings(dds, 4), ::testing::IsEmpty());
+  dds.long_range.peers.clear();
+  EXPECT_THAT(peer_warnings(dds, 2), ::testing::SizeIs(1));
+  dds.long_range.enabled = false;
+  EXPECT_THAT(peer_warnings(dds, 2), ::testing::IsEmpty());
+}
+
 TEST_F(FleetConfigTest, OverrideTextIsKeyEqualsValue) {
   EXPECT_EQ(parse_override("a.b=c=d")->value, "c=d");
   EXPECT_FALSE(parse_override("a.b"));

@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/fleet_settings.hpp"
+#include "fleetmap/bus/radio_survey.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 
@@ -28,7 +31,9 @@ struct DdsLinkConfig {
   /// as the profile says, or else this machine. Onboard the loopback's multicast group is asked as well.
   std::vector<std::string> peers = {};
   std::uint32_t participants_per_peer =
-      0;                                ///< how many participant ids to try on a peer; 0: as the profile says
+      0;  ///< how many participant ids to try on a peer; 0: as the profile says
+  /// On radios: DDS domains in whose ports others are looked for besides, at the addresses of `peers`.
+  std::vector<std::uint32_t> other_domains = {};
   std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
   std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
   bool shared_memory = true;            ///< false leaves out the profile's shared memory transports
@@ -40,9 +45,14 @@ struct DdsBusConfig {
   DdsLinkConfig onboard{.domain = 0};
   DdsLinkConfig long_range{.domain = 1};
   DdsLinkConfig short_range{.domain = 2};
+  std::optional<FleetSettings> settings = {};  ///< of a robot, that others compare with theirs
+  /// On radios: listens, but not at a robot's port (the first of its address), and finds others faster.
+  bool observes = false;
   /// Names the field and the rule that it breaks.
   Status validate() const;
 };
+/// The settings of one of its links.
+const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link);
 
 /// What came from one robot over one radio in some time.
 struct HeardTraffic {
@@ -59,9 +69,9 @@ struct HeardTraffic {
 ///
 /// The thread that is in `run` or `run_until` is the bus's callback thread. Messages that arrive meanwhile or
 /// before wait in bounded queues. Members may be called from that thread, or from any one thread while nobody
-/// runs the bus (to wire components up); `post`, `stop`, `publish`, `matches` and `stats` from any thread. A
-/// topic that names a profile which its link's file lacks, or one name with two types, is a bug and throws
-/// std::logic_error.
+/// runs the bus (to wire components up); `post`, `stop`, `publish`, `matches`, `survey` and `stats` from any
+/// thread. A topic that names a profile which its link's file lacks, or one name with two types, is a bug and
+/// throws std::logic_error.
 class DdsBus final : public Bus {
  public:
   /// Fails with file, line, profile and remedy if the profiles are not as they should be, and with link and
@@ -106,6 +116,8 @@ class DdsBus final : public Bus {
 
   /// What came over the radios since the last call, of each robot that sent anything.
   std::vector<HeardTraffic> take_heard_traffic();
+  /// Who was heard on a radio, from any thread. Empty onboard and on a link that is not enabled.
+  RadioSurvey survey(Link link) const;
 
   /// What the links run without because this machine has not enough of it, with the remedy.
   std::vector<std::string> warnings() const;

@@ -118,6 +118,12 @@ Result<FleetConfig> fleet_of(const std::vector<std::pair<AgentId, std::filesyste
 Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& file,
                                  const std::vector<Override>& overrides);
 
+/// What the other robots must have alike, of a robot's configuration.
+bus::FleetSettings fleet_settings(const agent::AgentConfig& config);
+/// A sentence for each radio whose `peers` are fewer than the other robots of a fleet of `robots`. None where
+/// peers are on this machine, since any number may be there.
+std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds, std::size_t robots);
+
 enum class FileKind { kRobot, kFleet, kWorld, kSensor, kExperiment };
 /// Loads `file` as what its keys say it is: agents, studies, kind, a LiDAR's pattern, or else one robot's.
 /// Worlds are not built and fleets not planned. Overrides are for robots and fleets only.

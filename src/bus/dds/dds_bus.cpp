@@ -21,6 +21,15 @@ namespace {
 constexpr std::array kLinks = {Link::kOnboard, Link::kLongRange, Link::kShortRange};
 constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
 
+}  // namespace
+
+const std::vector<std::string>& profiles_of(Link link) {
+  static const std::vector<std::string> onboard = {"sensor", "state"};
+  static const std::vector<std::string> long_range = {"small", "cloud"};
+  static const std::vector<std::string> short_range = {"control", "bulk"};
+  return link == Link::kOnboard ? onboard : link == Link::kLongRange ? long_range : short_range;
+}
+
 const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
   switch (link) {
     case Link::kLongRange:
@@ -31,15 +40,6 @@ const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
       break;
   }
   return config.onboard;
-}
-
-}  // namespace
-
-const std::vector<std::string>& profiles_of(Link link) {
-  static const std::vector<std::string> onboard = {"sensor", "state"};
-  static const std::vector<std::string> long_range = {"small", "cloud"};
-  static const std::vector<std::string> short_range = {"control", "bulk"};
-  return link == Link::kOnboard ? onboard : link == Link::kLongRange ? long_range : short_range;
 }
 
 Status DdsBusConfig::validate() const {
@@ -88,7 +88,7 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
     if (!qos) return tl::unexpected(qos.error());
     auto made = link == Link::kOnboard
                     ? OnboardLink::create(own, config.agent, *std::move(qos), state->executor)
-                    : RadioLink::create(link, own, config.agent, *std::move(qos), state->executor);
+                    : RadioLink::create(link, config, *std::move(qos), state->executor);
     if (!made) return tl::unexpected(made.error());
     state->links[link] = *std::move(made);
   }
@@ -145,6 +145,11 @@ std::vector<std::string> DdsBus::warnings() const {
     if (!link->warning().empty()) all.push_back(link->warning());
   }
   return all;
+}
+
+RadioSurvey DdsBus::survey(Link link) const {
+  const auto entry = state_->links.find(link);
+  return entry == state_->links.end() ? RadioSurvey{} : entry->second->survey();
 }
 
 std::vector<TopicStats> DdsBus::stats() const {

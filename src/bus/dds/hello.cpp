@@ -15,9 +15,18 @@ namespace {
 using eprosima::fastcdr::Cdr;
 using eprosima::fastcdr::FastBuffer;
 
-constexpr std::uint8_t kSchema = 2;
+constexpr std::uint8_t kSchema = 3;
+constexpr std::uint8_t kFirstWithHead = 2;
 constexpr std::size_t kEncapsulation = 4;
-constexpr std::size_t kMostBytes = kEncapsulation + 36 + 4 * kMostReads;
+constexpr std::size_t kHead = kEncapsulation + 28;  // to `port`, in every version
+constexpr std::size_t kMostBytes = kEncapsulation + 44 + 4 * kMostReads;
+
+template <class Name>
+std::optional<AgentId> parse_name(const Name& name) {
+  const auto end = std::find(std::begin(name), std::end(name), 0);
+  const auto parsed = AgentId::parse(std::string(std::begin(name), end));
+  return parsed ? std::optional(*parsed) : std::nullopt;
+}
 
 }  // namespace
 
@@ -29,6 +38,14 @@ Bytes encode(const Hello& hello) {
   std::ranges::copy(hello.sender.str(), idl.sender().begin());
   idl.address(hello.address);
   idl.port(hello.port);
+  idl.link(static_cast<std::uint8_t>(hello.link));
+  if (hello.settings) {
+    idl.fleet(hello.settings->fleet);
+    idl.wire_schema(hello.settings->wire_schema);
+    idl.submap_voxel(hello.settings->submap_voxel);
+    idl.map_voxel(hello.settings->map_voxel);
+    idl.placement(hello.settings->placement);
+  }
   idl.reads(hello.reads);
   Bytes bytes(kEncapsulation + msg::Hello::getCdrSerializedSize(idl));
   FastBuffer buffer(reinterpret_cast<char*>(bytes.data()), bytes.size());
@@ -53,10 +70,41 @@ std::optional<Hello> decode_hello(const Bytes& bytes) {
     return std::nullopt;
   }
   if (idl.reads().size() > kMostReads || idl.port() == 0) return std::nullopt;
-  const auto end = std::ranges::find(idl.sender(), 0);
-  const auto sender = AgentId::parse(std::string(idl.sender().begin(), end));
-  if (!sender) return std::nullopt;
-  return Hello{idl.knows(), idl.leaves(), *sender, idl.address(), idl.port(), idl.reads()};
+  const auto sender = parse_name(idl.sender());
+  const auto link = static_cast<Link>(idl.link());
+  if (!sender || (link != Link::kLongRange && link != Link::kShortRange)) return std::nullopt;
+  Hello hello{idl.knows(), idl.leaves(), *sender, idl.address(), idl.port(), std::nullopt, link, idl.reads()};
+  if (idl.wire_schema() != 0) {
+    hello.settings = FleetSettings{.wire_schema = idl.wire_schema(),
+                                   .fleet = idl.fleet(),
+                                   .submap_voxel = idl.submap_voxel(),
+                                   .map_voxel = idl.map_voxel(),
+                                   .placement = idl.placement()};
+  }
+  return hello;
+}
+
+std::optional<OtherHello> decode_other_hello(const Bytes& bytes) {
+  if (bytes.size() < kHead || bytes[kEncapsulation] == kSchema || bytes[kEncapsulation] < kFirstWithHead)
+    return std::nullopt;
+  OtherHello hello;
+  hello.version = bytes[kEncapsulation];
+  try {
+    FastBuffer buffer(reinterpret_cast<char*>(const_cast<std::uint8_t*>(bytes.data())), bytes.size());
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    cdr.read_encapsulation();
+    std::uint8_t schema = 0;
+    std::array<std::uint8_t, 12> knows{};
+    bool leaves = false;
+    std::array<std::uint8_t, AgentId::kMaxLength> name{};
+    cdr >> schema >> knows >> leaves >> name >> hello.address >> hello.port;
+    const auto sender = parse_name(name);
+    if (!sender || hello.port == 0) return std::nullopt;
+    hello.sender = *sender;
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  return hello;
 }
 
 }  // namespace fleetmap::bus

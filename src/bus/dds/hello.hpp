@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/fleet_settings.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 
@@ -17,12 +19,24 @@ struct Hello {
   AgentId sender;
   std::array<std::uint8_t, 4> address{};
   std::uint16_t port = 0;
-  std::vector<std::uint32_t> reads;  ///< entity ids of topics, at most kMostReads
+  std::optional<FleetSettings> settings;  ///< empty: an operator's program
+  Link link = Link::kLongRange;           ///< that the sender uses here
+  std::vector<std::uint32_t> reads;       ///< entity ids of topics, at most kMostReads
 };
 inline constexpr std::size_t kMostReads = 64;
+
+/// A Hello that another version of fleetmap sent: what it has in common with this one's.
+struct OtherHello {
+  std::uint8_t version = 0;
+  AgentId sender;
+  std::array<std::uint8_t, 4> address{};
+  std::uint16_t port = 0;
+};
 
 Bytes encode(const Hello& hello);
 /// Empty for what is no Hello of this version.
 std::optional<Hello> decode_hello(const Bytes& cdr);
+/// Empty for a Hello of this version, and for what is none.
+std::optional<OtherHello> decode_other_hello(const Bytes& cdr);
 
 }  // namespace fleetmap::bus

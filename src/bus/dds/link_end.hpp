@@ -28,6 +28,8 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   void add_stats(std::vector<TopicStats>& all) const;
   /// Appends what came from each robot since the last call. Only radios tell robots apart.
   virtual void take_heard_traffic(std::vector<HeardTraffic>&) {}
+  /// What a radio heard.
+  virtual RadioSurvey survey() const { return {}; }
   /// What the profile asks for and this machine has not; empty if all is there.
   const std::string& warning() const { return warning_; }
 

@@ -22,6 +22,7 @@ using eprosima::fastdds::rtps::SharedMemTransportDescriptor;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
+using eprosima::fastrtps::rtps::PortParameters;
 
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kMaxDomain = 230;  // ports above are beyond 65535, where Fast DDS ends the process
@@ -33,6 +34,7 @@ bool is_ipv4(const std::string& text) {
 
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.2, 9.6.1.4.1
 constexpr std::uint32_t kParticipantsHere = 16;         // looked for on this machine
+constexpr std::uint32_t kParticipantsElsewhere = 4;     // on it, in other domains
 
 struct Peer {
   std::string address;
@@ -69,13 +71,22 @@ int unused_number() {
   return static_cast<int>(kFirst + next++ % kNumbers);
 }
 
-std::uint16_t first_port(const DdsLinkConfig& config, const eprosima::fastrtps::rtps::PortParameters& ports) {
-  return static_cast<std::uint16_t>(ports.getUnicastPort(config.domain, 0));
+std::uint16_t first_port(std::uint32_t domain, const PortParameters& ports) {
+  return static_cast<std::uint16_t>(ports.getUnicastPort(domain, 0));
+}
+
+/// `count` participants at `first` and the ports after.
+void add_places(const Peer& first, std::uint32_t count, const PortParameters& ports,
+                std::vector<Locator_t>& places) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t port = first.port + i * ports.participantIDGain;
+    places.push_back(to_locator({first.address, static_cast<std::uint16_t>(port)}));
+  }
 }
 
 /// Of all peers, each with the ports where its participants may be.
 std::vector<Locator_t> places_of(const DdsLinkConfig& config, const std::string& own,
-                                 const eprosima::fastrtps::rtps::PortParameters& ports) {
+                                 const PortParameters& ports) {
   std::vector<Locator_t> places;
   for (const std::string& text : config.peers.empty() ? std::vector{own} : config.peers) {
     Peer peer = *parse_peer(text);
@@ -84,10 +95,11 @@ std::vector<Locator_t> places_of(const DdsLinkConfig& config, const std::string&
     const std::uint32_t count = peer.port != 0                      ? 1
                                 : config.participants_per_peer != 0 ? config.participants_per_peer
                                                                     : several;
-    if (peer.port == 0) peer.port = first_port(config, ports);
-    for (std::uint32_t i = 0; i < count;
-         ++i, peer.port = static_cast<std::uint16_t>(peer.port + ports.participantIDGain)) {
-      places.push_back(to_locator(peer));
+    if (peer.port == 0) peer.port = first_port(config.domain, ports);
+    add_places(peer, count, ports, places);
+    for (const std::uint32_t domain : config.other_domains) {
+      if (domain == config.domain) continue;
+      add_places({peer.address, first_port(domain, ports)}, here ? kParticipantsElsewhere : 1, ports, places);
     }
   }
   return places;
@@ -143,6 +155,9 @@ Status validate(const DdsLinkConfig& config, const std::string& link) {
   }
   if (!config.address.empty() && !is_ipv4(config.address)) {
     return wrong("address is \"" + config.address + "\"; must be an IPv4 address of this machine, or empty");
+  }
+  for (const std::uint32_t domain : config.other_domains) {
+    if (domain > kMaxDomain) return wrong("other_domains has " + std::to_string(domain) + "; at most 230");
   }
   for (const std::string& peer : config.peers) {
     if (!parse_peer(peer)) return wrong("peers has \"" + peer + "\"; must be ADDRESS or ADDRESS:PORT, IPv4");
@@ -215,7 +230,7 @@ void apply_onboard(const DdsLinkConfig& config, const AgentId& agent,
   auto& wire = qos.wire_protocol();
   auto& unicast = wire.builtin.metatrafficUnicastLocatorList;
   unicast.clear();
-  unicast.push_back(to_locator({"0.0.0.0", first_port(config, wire.port)}));
+  unicast.push_back(to_locator({"0.0.0.0", first_port(config.domain, wire.port)}));
   const Locator_t group =
       to_locator({kDiscoveryGroup, static_cast<std::uint16_t>(wire.port.getMulticastPort(config.domain))});
   wire.builtin.metatrafficMulticastLocatorList.push_back(group);
@@ -232,7 +247,7 @@ std::string own_address(const DdsLinkConfig& config) {
 }
 
 eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
-    const DdsLinkConfig& config, Link link, const AgentId& agent,
+    const DdsLinkConfig& config, Link link, const AgentId& agent, bool observes,
     const eprosima::fastdds::dds::DomainParticipantQos& qos) {
   eprosima::fastrtps::rtps::RTPSParticipantAttributes attributes;
   attributes.setName(participant_name(agent, link).c_str());
@@ -243,9 +258,16 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
   attributes.useBuiltinTransports = false;
   attributes.userTransports = qos.transport().user_transports;
   restrict_to(own_address(config), attributes.userTransports);
-  attributes.defaultUnicastLocatorList.push_back(
-      to_locator({"0.0.0.0", first_port(config, attributes.port)}));
+  const int port =
+      first_port(config.domain, attributes.port) + (observes ? attributes.port.participantIDGain : 0);
+  attributes.defaultUnicastLocatorList.push_back(to_locator({"0.0.0.0", static_cast<std::uint16_t>(port)}));
   return attributes;
+}
+
+std::uint32_t domain_of(std::uint32_t port, const eprosima::fastdds::dds::DomainParticipantQos& qos) {
+  const auto& ports = qos.wire_protocol().port;
+  const std::uint32_t first = ports.getUnicastPort(0, 0);
+  return port < first || ports.domainIDGain == 0 ? 0 : (port - first) / ports.domainIDGain;
 }
 
 std::vector<Locator_t> listening_places(const DdsLinkConfig& config,

@@ -25,10 +25,13 @@ Result<eprosima::fastdds::dds::DomainParticipantQos> participant_profile(const Q
 void apply_onboard(const DdsLinkConfig& config, const AgentId& agent,
                    eprosima::fastdds::dds::DomainParticipantQos& qos);
 
-/// A participant on a radio: the profile's transports on the own address, and no discovery.
+/// A participant on a radio: the profile's transports on the own address, and no discovery. An observer
+/// leaves the first port to the robot.
 eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
-    const DdsLinkConfig& config, Link link, const AgentId& agent,
+    const DdsLinkConfig& config, Link link, const AgentId& agent, bool observes,
     const eprosima::fastdds::dds::DomainParticipantQos& qos);
+/// The DDS domain that a port belongs to.
+std::uint32_t domain_of(std::uint32_t port, const eprosima::fastdds::dds::DomainParticipantQos& qos);
 /// The address that a robot has on a radio: the loopback where none is set.
 std::string own_address(const DdsLinkConfig& config);
 /// Where others may listen: the ports of each peer that `config` names, of this machine where it names none.

@@ -29,14 +29,14 @@ using rtps::IPLocator;
 
 constexpr auto kTick = std::chrono::milliseconds(50);
 constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
-constexpr double kHelloBits = 8.0 * 250.0;                     // on the wire
+constexpr double kHelloBits = 8.0 * 260.0;                     // on the wire
 /// What Hellos of all robots together may take of the medium, bit/s: in the mean while a fleet starts, and in
 /// any second.
 struct HelloRates {
   double mean, most;
 };
 constexpr HelloRates rates_of(Link link) {
-  return link == Link::kLongRange ? HelloRates{60e3, 130e3} : HelloRates{600e3, 1300e3};
+  return link == Link::kLongRange ? HelloRates{62e3, 135e3} : HelloRates{620e3, 1350e3};
 }
 constexpr double kLongestSpread = 6.0;  // s: a fleet is to know itself within ten
 constexpr auto kFirstPause =
@@ -50,6 +50,7 @@ constexpr auto kAddressPeriod = std::chrono::seconds(1);
 constexpr auto kJoinPause = std::chrono::seconds(30);   // after it failed
 constexpr auto kNeverHeard = std::chrono::seconds(30);  // then it is said
 constexpr std::size_t kMostNamesakes = 16;
+constexpr std::size_t kMostWarnings = 128;                 // about others
 constexpr std::size_t kMostPlaces = 256;                   // strangers may name so many
 constexpr std::size_t kMostHellos = 256;                   // that wait for the callback thread
 constexpr std::int16_t kHelloReader = 1, kDataReader = 2;  // entity ids
@@ -300,21 +301,21 @@ class RadioLink::End final : public TopicEnd {
   rtps::RTPSWriter* writer_ = nullptr;
 };
 
-RadioLink::RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
-                     std::shared_ptr<Executor> executor)
-    : LinkEnd(link, config, std::move(executor)),
-      agent_(agent),
+RadioLink::RadioLink(Link link, const DdsBusConfig& config, QosFile qos, std::shared_ptr<Executor> executor)
+    : LinkEnd(link, config_of(config, link), std::move(executor)),
+      agent_(config.agent),
+      settings_(config.settings),
+      observes_(config.observes),
       qos_(std::move(qos)),
       received_(std::make_shared<Received>()),
       hello_listener_(std::make_unique<HelloListener>(received_)),
       data_listener_(std::make_unique<DataListener>(received_, executor_)) {}
 
-Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsLinkConfig& config,
-                                                   const AgentId& agent, QosFile qos,
+Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsBusConfig& config, QosFile qos,
                                                    std::shared_ptr<Executor> executor) {
-  std::shared_ptr<RadioLink> result(new RadioLink(link, config, agent, std::move(qos), std::move(executor)));
+  std::shared_ptr<RadioLink> result(new RadioLink(link, config, std::move(qos), std::move(executor)));
   if (const Status prepared = result->prepare(); !prepared) return tl::unexpected(prepared.error());
-  if (const Status there = check_address(config, to_string(link)); !there) {
+  if (const Status there = check_address(result->config_, to_string(link)); !there) {
     // A radio that is switched on later must not keep the robot from mapping.
     result->warning_ = there.error().message + "; the link is silent until it is there";
     result->address_there_ = false;
@@ -352,8 +353,8 @@ Status RadioLink::join() {
 
 Status RadioLink::make_entities() {
   const std::string name = to_string(link_);
-  participant_ =
-      rtps::RTPSDomain::createParticipant(config_.domain, radio_attributes(config_, link_, agent_, profile_));
+  participant_ = rtps::RTPSDomain::createParticipant(
+      config_.domain, radio_attributes(config_, link_, agent_, observes_, profile_));
   if (participant_ == nullptr) {
     return failure(name + ": cannot join DDS domain " + std::to_string(config_.domain) + " on " +
                    own_address(config_) + "; its log says why");
@@ -396,8 +397,10 @@ RadioLink::~RadioLink() {
   if (participant_ != nullptr) {
     {
       const std::scoped_lock lock(mutex_);
-      for (const auto& place : places_)
-        say_hello(*place, /*leaves=*/true);  // who was not heard may have heard
+      for (const auto& place : places_) {
+        // Who was not heard may have heard; an observer has more places than a radio takes at once.
+        if (place->robot || !observes_) say_hello(*place, /*leaves=*/true);
+      }
     }
     rtps::RTPSDomain::removeRTPSParticipant(participant_);
   }
@@ -415,20 +418,24 @@ bool RadioLink::elsewhere(const Place& place) const {
          !IPLocator::isLocal(place.locator);
 }
 
+/// Robots that say Hello as this one does: all others while a fleet starts. An observer comes to one that may
+/// be using the radio, and takes a quarter of what Hellos may take.
 double RadioLink::others() const {
+  if (observes_) return 3.0;
   return static_cast<double>(
       std::ranges::count_if(places_, [this](const auto& place) { return elsewhere(*place); }));
 }
 
 /// Over which the Hellos of a fleet that starts at once are spread, each robot's to each other's.
 RadioLink::Clock::duration RadioLink::spread() const {
+  if (observes_) return {};
   const double seconds = others() * (others() + 1.0) * kHelloBits / rates_of(link_).mean;
   return std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(seconds, kLongestSpread)));
 }
 
 Status RadioLink::add_place(const Locator& locator, bool configured) {
-  if (locator == own_ || places_.size() >= kMostPlaces) return {};
+  if (locator == own_ || (!configured && places_.size() >= kMostPlaces)) return {};
   auto place = std::make_unique<Place>();
   place->locator = locator;
   place->configured = configured;
@@ -454,6 +461,8 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   hello.sender = agent_;
   std::copy_n(IPLocator::getIPv4(own_), hello.address.size(), hello.address.begin());
   hello.port = static_cast<std::uint16_t>(own_.port);
+  hello.settings = settings_;
+  hello.link = link_;
   for (const EntityKey key : reads_) {
     if (hello.reads.size() < kMostReads) hello.reads.push_back(key);
   }
@@ -492,7 +501,11 @@ void RadioLink::tick() {
   watch_address(Clock::now());
   if (participant_ == nullptr) return;
   for (const auto& [sender, cdr] : hellos) {
-    if (const auto hello = decode_hello(cdr)) take(sender, *hello);
+    if (const auto hello = decode_hello(cdr)) {
+      take(sender, *hello);
+    } else {
+      take_other(cdr);
+    }
   }
   for (const Prefix& robot : silent()) forget(robot);
   const auto now = Clock::now();
@@ -538,10 +551,10 @@ void RadioLink::watch_address(Clock::time_point now) {
 
 /// On the radio all should hear each other, on the Wi-Fi nobody may be near.
 void RadioLink::name_who_was_never_heard(Clock::time_point now) {
-  if (link_ != Link::kLongRange || now - opened_ < kNeverHeard) return;
+  if (link_ != Link::kLongRange || observes_ || now - opened_ < kNeverHeard) return;
   for (const auto& place : places_) {
-    if (place->heard || !elsewhere(*place)) continue;
-    place->heard = true;  // said once
+    if (place->heard || place->told || !elsewhere(*place)) continue;
+    place->told = true;
     spdlog::warn(
         "{}: nobody heard at {} in {:.0f} s: is that robot on, is this its address, and has its file "
         "the same dds.{}.domain?",
@@ -588,13 +601,21 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   IPLocator::setIPv4(from, hello.address.data());
   from.port = hello.port;
   if (!plausible(from)) return;
+  if (hello.link != link_) {
+    if (!hello.settings) return;  // a program of an operator that tries domains
+    return refuse(from, hello.sender.str() + " has its " + to_string(hello.link) + " here: give dds." +
+                            to_string(link_) + ".domain and dds." + to_string(hello.link) +
+                            ".domain the same numbers in every file");
+  }
   if (hello.leaves) {
     const auto peer = peers_.find(sender);
     if (peer == peers_.end() || peer->second.agent != hello.sender || peer->second.locator != from) return;
     spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
     return forget(sender);
   }
-  if (hello.sender == agent_ && namesakes_.size() < kMostNamesakes && namesakes_.insert(sender).second) {
+  const bool both_robots = hello.settings.has_value() == settings_.has_value();  // not an operator's program
+  if (hello.sender == agent_ && both_robots && namesakes_.size() < kMostNamesakes &&
+      namesakes_.insert(sender).second) {
     spdlog::error(
         "{}: another robot at {} is named {}, too: each needs a name of its own, or their nodes are "
         "taken for conflicts",
@@ -621,11 +642,14 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   Peer& peer = peers_[sender];
   const bool known = place->robot.has_value();
   if (!known) {
-    spdlog::info("{}: heard {} at {}", to_string(link_), hello.sender.str(), to_text(from));
+    spdlog::info("{}: heard {} at {}{}", to_string(link_), hello.sender.str(), to_text(from),
+                 settings_ && !hello.settings ? " (an operator's program)" : "");
     place->robot = sender;
-    place->heard = true;
+    place->heard = place->heard || hello.settings;
     place->next = Clock::time_point::max();
   }
+  note(hello, from);
+  compare(hello);
   peer.agent = hello.sender;
   peer.locator = from;
   peer.reads = {hello.reads.begin(), hello.reads.end()};
@@ -643,6 +667,71 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
     peer.greeted = Clock::now();  // by what made it know us
   }
   executor_->post([] {});  // wakes who waits for it
+}
+
+/// For survey().
+void RadioLink::note(const Hello& hello, const Locator& from) {
+  const std::string place = to_text(from);
+  const auto known = std::ranges::find_if(heard_, [&](const RadioSurvey::Robot& robot) {
+    return robot.agent == hello.sender && robot.place == place;
+  });
+  if (known != heard_.end()) {
+    known->settings = hello.settings;
+  } else if (heard_.size() < kMostPlaces) {
+    const bool here = IPLocator::compareAddress(from, own_) || IPLocator::isLocal(from);
+    heard_.push_back({hello.sender, place, here, domain_of(from.port, profile_),
+                      std::chrono::duration_cast<Duration>(Clock::now() - opened_), hello.settings});
+  }
+}
+
+bool RadioLink::first_time(const std::string& warning) {
+  return warnings_.size() < kMostWarnings && warnings_.insert(warning).second;
+}
+
+/// Once per robot and difference.
+void RadioLink::compare(const Hello& hello) {
+  if (!settings_ || !hello.settings) return;
+  for (const std::string& difference : differences(hello.sender.str(), *hello.settings, *settings_)) {
+    if (first_time(difference)) spdlog::warn("{}: {}", to_string(link_), difference);
+  }
+}
+
+/// A robot with which no exchange is possible.
+void RadioLink::refuse(const Locator& from, const std::string& why) {
+  if (Place* place = place_at(from)) place->heard = true;
+  if (!first_time(to_text(from) + why)) return;
+  refused_.push_back(to_text(from) + ": " + why);
+  spdlog::warn("{}: {}", to_string(link_), refused_.back());
+}
+
+/// Once per address.
+void RadioLink::take_other(const Bytes& cdr) {
+  const auto hello = decode_other_hello(cdr);
+  if (!hello) return;
+  Locator from;
+  from.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(from, hello->address.data());
+  from.port = hello->port;
+  if (!plausible(from)) return;
+  refuse(from, hello->sender.str() + " runs another version of fleetmap (its Hello is of version " +
+                   std::to_string(hello->version) + "): install the same on all robots");
+}
+
+RadioSurvey RadioLink::survey() const {
+  const std::scoped_lock lock(mutex_);
+  RadioSurvey survey;
+  if (participant_ == nullptr || !address_there_) {
+    const Status there = check_address(config_, to_string(link_));
+    survey.problem =
+        there ? std::string(to_string(link_)) + ": not joined; the log says why" : there.error().message;
+  }
+  survey.robots = heard_;
+  survey.places = places_.size();
+  for (const auto& place : places_) {
+    if (elsewhere(*place) && !place->heard) survey.silent.push_back(to_text(place->locator));
+  }
+  survey.notices = refused_;
+  return survey;
 }
 
 /// A robot may say that it listens at any address; at these none does.

@@ -29,10 +29,11 @@ namespace fleetmap::bus {
 /// the profile's lease is forgotten.
 class RadioLink final : public LinkEnd {
  public:
-  static Result<std::shared_ptr<LinkEnd>> create(Link link, const DdsLinkConfig& config, const AgentId& agent,
-                                                 QosFile qos, std::shared_ptr<Executor> executor);
+  static Result<std::shared_ptr<LinkEnd>> create(Link link, const DdsBusConfig& config, QosFile qos,
+                                                 std::shared_ptr<Executor> executor);
   ~RadioLink() override;
   void take_heard_traffic(std::vector<HeardTraffic>& all) override;
+  RadioSurvey survey() const override;
 
  private:
   class End;
@@ -51,9 +52,10 @@ class RadioLink final : public LinkEnd {
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
-    bool heard = false;        ///< a robot was heard here, or the warning was logged
-    int said = 0;              ///< Hellos since `pause` was set out
-    bool asks_again = false;   ///< it did not hear our last answer
+    bool heard = false;                                      ///< a robot was heard here, of whatever version
+    bool told = false;                                       ///< that none was
+    int said = 0;                                            ///< Hellos since `pause` was set out
+    bool asks_again = false;                                 ///< it did not hear our last answer
     bool mistakes_us = false;  ///< it knows who was at our place before: Hellos go on until it knows us
     Clock::time_point next{};  ///< Hello; zero: not set out yet, max: none
     Clock::duration pause{};   ///< after it, while nobody answers
@@ -67,8 +69,7 @@ class RadioLink final : public LinkEnd {
     Clock::time_point greeted{};  ///< when it last got a Hello
   };
 
-  RadioLink(Link link, const DdsLinkConfig& config, const AgentId& agent, QosFile qos,
-            std::shared_ptr<Executor> executor);
+  RadioLink(Link link, const DdsBusConfig& config, QosFile qos, std::shared_ptr<Executor> executor);
   std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) override;
   /// What configuration and profiles say.
   Status prepare();
@@ -87,6 +88,11 @@ class RadioLink final : public LinkEnd {
   Clock::duration spread() const;
   void tick();
   void take(const Prefix& sender, const Hello& hello);
+  void take_other(const Bytes& cdr);
+  void note(const Hello& hello, const Locator& from);
+  void compare(const Hello& hello);
+  bool first_time(const std::string& warning);
+  void refuse(const Locator& from, const std::string& why);
   void forget(Prefix robot);
   void say_hello(Place& place, bool leaves = false);
   void say_due_hellos(Clock::time_point now);
@@ -95,6 +101,8 @@ class RadioLink final : public LinkEnd {
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
 
   const AgentId agent_;
+  const std::optional<FleetSettings> settings_;
+  const bool observes_;
   const QosFile qos_;
   eprosima::fastdds::dds::DomainParticipantQos profile_;
   Clock::duration lease_{}, announcement_{};
@@ -120,6 +128,9 @@ class RadioLink final : public LinkEnd {
   Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
   std::set<Prefix> namesakes_;       ///< told of in the log
+  std::set<std::string> warnings_;   ///< about others, in the log once each
+  std::vector<RadioSurvey::Robot> heard_;
+  std::vector<std::string> refused_;
 };
 
 }  // namespace fleetmap::bus

@@ -1,0 +1,86 @@
+// What of a robot's configuration must agree with that of the others.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/wire/messages.hpp"
+
+namespace fleetmap::config {
+namespace {
+
+std::uint32_t hash_of(const Bytes& bytes) {
+  const ContentHash hash = content_hash(bytes);
+  return static_cast<std::uint32_t>(hash[0]) << 24 | static_cast<std::uint32_t>(hash[1]) << 16 |
+         static_cast<std::uint32_t>(hash[2]) << 8 | hash[3];
+}
+
+std::uint32_t hash_of(std::vector<AgentId> fleet) {
+  std::ranges::sort(fleet);
+  Bytes names;
+  for (const AgentId& robot : fleet) {
+    const std::string& name = robot.str();
+    names.insert(names.end(), name.begin(), name.end());
+    names.push_back(0);
+  }
+  return hash_of(names);
+}
+
+/// Of what agent::keep_recipe() keeps, but for the voxel.
+std::uint16_t hash_of_placement(const agent::AgentConfig& config) {
+  constexpr double kNone = std::numeric_limits<double>::max();
+  const GeoPoint origin = config.site_origin.value_or(GeoPoint{kNone, kNone, kNone});
+  Bytes bytes;
+  for (const double value :
+       {origin.latitude, origin.longitude, origin.altitude, config.map.centroids ? 1.0 : 0.0,
+        config.placement.method == graph::PlacementMethod::graph ? 1.0 : 0.0,
+        config.placement.fleet.gps_correlation_time}) {
+    const auto* first = reinterpret_cast<const std::uint8_t*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof(value));
+  }
+  return static_cast<std::uint16_t>(hash_of(bytes));
+}
+
+std::uint16_t tenths_of_mm(double metres) {
+  return static_cast<std::uint16_t>(
+      std::clamp(std::round(metres * 1e4), 0.0, double{std::numeric_limits<std::uint16_t>::max()}));
+}
+
+bool on_this_machine(const std::string& peer, const bus::DdsLinkConfig& link) {
+  return peer.starts_with("127.") || (!link.address.empty() && peer == link.address);
+}
+
+}  // namespace
+
+bus::FleetSettings fleet_settings(const agent::AgentConfig& config) {
+  return {.wire_schema = wire::kSchemaVersion,
+          .fleet = hash_of(config.exchange.fleet),
+          .submap_voxel = tenths_of_mm(config.submap.voxel),
+          .map_voxel = tenths_of_mm(config.map.voxel_m),
+          .placement = hash_of_placement(config)};
+}
+
+std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds, std::size_t robots) {
+  std::vector<std::string> warnings;
+  for (const bus::Link link : {bus::Link::kLongRange, bus::Link::kShortRange}) {
+    const bus::DdsLinkConfig& radio = bus::config_of(dds, link);
+    if (!radio.enabled || radio.participants_per_peer > 1) continue;
+    const bool elsewhere = !radio.address.empty() && !radio.address.starts_with("127.");
+    std::set<std::string> peers;
+    bool several_here = false;
+    for (const std::string& peer : radio.peers) {
+      several_here = several_here || on_this_machine(peer, radio);
+      peers.insert(peer);
+    }
+    if (!elsewhere || several_here || peers.size() + 1 >= robots) continue;
+    warnings.push_back(std::string("dds.") + bus::to_string(link) + ".peers names " +
+                       std::to_string(peers.size()) + " of the " + std::to_string(robots - 1) +
+                       " other robots of the fleet; who is not named is found only if its own file names "
+                       "this robot: give the address of each");
+  }
+  return warnings;
+}
+
+}  // namespace fleetmap::config
