@@ -1,5 +1,5 @@
-# Sourced by the entry points: robot i is 10.NET.i.2 as in deploy/netns, a medium is 10.NET.250.2; the radio's NET is 77,
-# the Wi-Fi's 78.
+# Sourced by the entry points: robot i is 10.NET.i.2 as in deploy/netns, a medium is 10.NET.250.2;
+# the radio's NET is 77, the Wi-Fi's 78.
 
 # Frames that a medium shall carry go to this address, which it takes when its queue is ready. Before that, and while it
 # is stopped, they are lost: a medium that forwarded earlier would also tell robots the direct way (ICMP redirect).

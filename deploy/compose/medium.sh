@@ -4,7 +4,7 @@
 #   robots --- device --> out --[queue]--> in --> device --- robots
 #                                          in --[relay.py]--> back --> from --> device --- robots   (with impairments)
 #
-# NET, KBIT and QUEUE_BYTES say which medium it is; LOSS, DELAY, JITTER and DUPLICATE are options of relay.py.
+# NET, KBIT and QUEUE_BYTES say which medium it is; RELAY holds options of relay.py, which runs if one is not 0.
 set -euo pipefail
 root=/fleetmap
 . "$root/deploy/compose/addresses.sh"
@@ -28,15 +28,13 @@ ip rule add iif "$device" lookup 100
 shape "" "$KBIT" "$QUEUE_BYTES"
 
 process=(sleep infinity)
-if [[ "${LOSS:-0} ${DELAY:-0} ${JITTER:-0} ${DUPLICATE:-0}" != "0 0 0 0" ]]; then
+if [[ $RELAY =~ [1-9] ]]; then
   pair back from
   ip rule add iif in blackhole # relay.py takes the frames from there
-  process=(python3 "$root/deploy/netns/relay.py" in back --to-mac "$(mac_of from)"
-    --loss "${LOSS:-0}" --delay "${DELAY:-0}" --jitter "${JITTER:-0}" --duplicate "${DUPLICATE:-0}")
+  process=(python3 "$root/deploy/netns/relay.py" in back --to-mac "$(mac_of from)" $RELAY)
 fi
 trap 'exit 0' TERM INT
 "${process[@]}" &
 ip link set "$device" address "$MEDIUM_MAC"
-echo "$KBIT kbit/s, queue of $QUEUE_BYTES bytes; loss ${LOSS:-0} %, delay ${DELAY:-0} ms," \
-  "jitter ${JITTER:-0} ms, duplicate ${DUPLICATE:-0} %"
+echo "$KBIT kbit/s, queue of $QUEUE_BYTES bytes, relay $RELAY"
 wait $!

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Entry point of the container of robot NUMBER: robot.sh NUMBER. All for other robots goes through the media; the agent
-# keeps its store and map in /out/rNUMBER. If there is a recording /recordings/rNUMBER it is replayed, and the agent ends
-# by itself when nothing happened for 10 s.
+# Entry point of a robot's container: robot.sh NUMBER ROBOTS_OF_THE_FLEET. All for other robots goes through the media;
+# the agent keeps its store and map in /out/rNUMBER. If there is a recording /recordings/rNUMBER it is replayed, and the
+# agent ends by itself when nothing happened for 10 s.
 set -euo pipefail
 number=$1
 root=/fleetmap
-agents=$AGENTS
+agents=$2
 out=/out
 scratch=/run
 . "$root/deploy/compose/addresses.sh"
