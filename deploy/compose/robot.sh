@@ -8,6 +8,7 @@ root=/fleetmap
 agents=$2
 out=/out
 scratch=/run
+qos=$root/qos
 . "$root/deploy/compose/addresses.sh"
 . "$root/deploy/netns/scenarios.sh"
 
