@@ -49,7 +49,7 @@ medium() {
 }
 
 shape() { # medium, rate (kbit), bytes that wait at most
-  tc -n "$(space "$1-air")" qdisc replace dev out root tbf rate "$2kbit" burst 3000 limit "$3"
+  in_space "$1-air" tc qdisc replace dev out root tbf rate "$2kbit" burst 3000 limit "$3"
 }
 
 off() { ip -n "$(space "$1-air")" link set out down; } # nothing passes the medium
@@ -79,7 +79,7 @@ begin_traces() { # of the relays that have one
 
 # Bytes that passed the queue of a medium, and packets that it dropped.
 passed() { in_space "$1-air" cat /sys/class/net/out/statistics/tx_bytes; }
-dropped() { tc -n "$(space "$1-air")" -s qdisc show dev out | sed -n 's/.*dropped \([0-9]*\).*/\1/p'; }
+dropped() { in_space "$1-air" tc -s qdisc show dev out | sed -n 's/.*dropped \([0-9]*\).*/\1/p'; }
 
 remove_spaces() {
   local name pid
