@@ -280,6 +280,63 @@ scenario_check() { # check-config --network beside agents of which one has anoth
     "says all of it: $found, exit code $(cat "$out/check.code"), after $(seconds_of "$waited"); $(radio_figures)"
 }
 
+# A hub instead of the routed medium: what one robot sends reaches all, as on a radio with one channel. There is no Wi-Fi.
+scenario_multicast() { # 30 s of mapping with one datagram for all, beside one for each robot
+  local i with bytes=() nodes=()
+  need_recordings
+  hub
+  off wifi
+  for with in false true; do
+    for ((i = 1; i <= agents; ++i)); do
+      rm -rf "$out/r$i"
+      write_config $i "r$i" "$(names)"
+      sed -i "s/long_range: {[^}]*}/long_range: {domain: 1, address: 10.79.0.$i, multicast: $with, peers: [$(hub_others $i)]}/" "$scratch/r$i.yaml"
+    done
+    all_start
+    until_then=known watch_radio all_heard 20
+    bytes+=($((-$(sent_to_hub))))
+    all_play
+    watch_radio never 30
+    bytes[-1]=$((${bytes[-1]} + $(sent_to_hub)))
+    for ((i = 1; i <= agents; ++i)); do kill -TERM "$(cat "$scratch/r$i.pid")"; done
+    until_then=gone watch_radio all_gone 30
+    nodes+=("$("$program" map info --json "$out/r1/store.db" | sed -n 's/^  "nodes": \([0-9]*\).*/\1/p')")
+    for ((i = 1; i <= agents; ++i)); do
+      pkill -9 -f "replay -c $scratch/r$i.yaml" || true
+      mv "$out/r$i.log" "$out/r$i.$with.log"
+    done
+  done
+  verdict $((nodes[1] >= nodes[0] - agents && bytes[1] * 10 < bytes[0] * 8)) \
+    "all robots send $((bytes[0] / 1000)) kB with a datagram for each and $((bytes[1] / 1000)) kB with one for all; r1 holds ${nodes[0]} and ${nodes[1]} nodes"
+}
+all_gone() {
+  local i
+  for ((i = 1; i <= agents; ++i)); do [[ ! -e /proc/$(cat "$scratch/r$i.pid") ]] || return 1; done
+}
+hub() {
+  local i
+  make_space hub
+  ip -n "$(space hub)" link add hub type bridge mcast_snooping 0
+  ip -n "$(space hub)" link set hub up
+  for ((i = 1; i <= agents; ++i)); do
+    ip link add hub netns "$(space "robot$i")" type veth peer name "robot$i" netns "$(space hub)"
+    ip -n "$(space "robot$i")" addr add "10.79.0.$i/24" dev hub
+    ip -n "$(space "robot$i")" link set hub up
+    ip -n "$(space hub)" link set "robot$i" master hub
+    ip -n "$(space hub)" link set "robot$i" up
+  done
+}
+hub_others() { # own number
+  local i list=
+  for ((i = 1; i <= agents; ++i)); do ((i == $1)) || list+="${list:+, }10.79.0.$i"; done
+  echo "$list"
+}
+sent_to_hub() { # bytes, of all robots
+  local i sum=0
+  for ((i = 1; i <= agents; ++i)); do sum=$((sum + $(in_space "robot$i" cat /sys/class/net/hub/statistics/tx_bytes))); done
+  echo $sum
+}
+
 # ---- mapping: recordings are replayed in real time, and all must end by themselves with the same whole map
 
 # What all stores hold, a line for each different content: how many, nodes, alignments, submaps.

@@ -245,6 +245,7 @@ Result<RobotConfig> read_robot(Document& document) {
   if (!top.has("id")) top.problem("id", "expected the robot's name, e.g. id: r1");
   robot.dds.agent = robot.agent.id;
   read_dds(top, robot.dds);
+  robot.agent.exchange.long_range.multicast = robot.dds.long_range.multicast;
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);

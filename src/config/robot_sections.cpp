@@ -303,6 +303,7 @@ void read_dds_link(Section& dds, const char* key, bus::DdsLinkConfig& link) {
   section.read("address", link.address);
   section.read("peers", link.peers);
   section.read("participants_per_peer", link.participants_per_peer);
+  section.read("multicast", link.multicast);
   section.read("shared_memory", link.shared_memory);
   section.finish();
 }

@@ -33,7 +33,7 @@ Status LongRangeConfig::validate() const {
 SendQueue::SendQueue(const LongRangeConfig& config, std::size_t fleet_size,
                      std::function<std::size_t(const Message&)> payload_size)
     : config_(config),
-      receivers_(std::max<std::size_t>(fleet_size, 2) - 1),
+      copies_(config.copies(fleet_size)),
       payload_size_(std::move(payload_size)),
       share_(config.fleet_bytes_per_second / static_cast<double>(std::max<std::size_t>(fleet_size, 1))),
       bucket_(share_, std::max(config.burst_seconds * share_, config.min_burst_bytes)) {}
@@ -63,7 +63,7 @@ SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
 }
 
 std::size_t SendQueue::wire_bytes(const Message& message, const std::optional<AgentId>& to) const {
-  const std::size_t copies = to && config_.deliver_to_one ? 1 : receivers_;
+  const std::size_t copies = to && config_.deliver_to_one ? 1 : copies_;
   return (payload_size_(message) + config_.overhead_bytes) * copies;
 }
 

@@ -113,6 +113,8 @@ TEST(SendQueue, counts_every_copy_and_header) {
   EXPECT_DOUBLE_EQ(queue.share_bytes_per_second(), 4000.0);
   config.deliver_to_one = false;
   EXPECT_EQ(SendQueue(config, 5, testing::payload_size).wire_bytes(node(0), kPeer), 4u * 260u);
+  config.multicast = true;
+  EXPECT_EQ(SendQueue(config, 5, testing::payload_size).wire_bytes(node(0), std::nullopt), 260u);
 }
 
 TEST(SendQueue, shares_the_rest_evenly_between_backfill_and_clouds) {

@@ -32,6 +32,9 @@ struct DdsLinkConfig {
   std::vector<std::string> peers = {};
   std::uint32_t participants_per_peer =
       0;  ///< how many participant ids to try on a peer; 0: as the profile says
+  /// On radios: what is for all goes out once, to a multicast group; false: a datagram for each robot. All
+  /// robots must have it alike, and the medium must carry multicast between them.
+  bool multicast = false;
   /// On radios: DDS domains in whose ports others are looked for besides, at the addresses of `peers`.
   std::vector<std::uint32_t> other_domains = {};
   std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way

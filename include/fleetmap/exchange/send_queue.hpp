@@ -40,10 +40,15 @@ struct LongRangeConfig {
       174;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 132 of RTPS
   bool deliver_to_one =
       true;  ///< a message with a recipient goes to it alone; false: every agent gets a copy
+  bool multicast = false;  ///< a message to all is one on the medium; false: one for each other agent
   std::size_t max_small = 512;  ///< messages waiting in each of the classes safety, control, news and state
   std::size_t max_backfill = 512;   ///< messages
   std::size_t max_fragments = 512;  ///< messages
   Status validate() const;
+  /// How often a message to all crosses the medium.
+  std::size_t copies(std::size_t fleet_size) const {
+    return multicast || fleet_size < 2 ? 1 : fleet_size - 1;
+  }
 };
 
 struct SendQueueStats {
@@ -102,7 +107,7 @@ class SendQueue {
   std::optional<std::size_t> next() const;
 
   LongRangeConfig config_;
-  std::size_t receivers_;
+  std::size_t copies_;  ///< of a message to all
   std::function<std::size_t(const Message&)> payload_size_;
   double share_;
   TokenBucket bucket_;

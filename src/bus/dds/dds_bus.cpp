@@ -44,6 +44,7 @@ const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
 
 Status DdsBusConfig::validate() const {
   if (agent.empty()) return failure("agent must have a name");
+  if (onboard.multicast) return failure("onboard.multicast is for radios; leave it out");
   for (const Link link : kLinks) {
     const DdsLinkConfig& own = config_of(*this, link);
     if (!own.enabled) continue;

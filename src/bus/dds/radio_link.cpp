@@ -367,6 +367,11 @@ Status RadioLink::make_entities() {
                              rtps::ReaderListener* listener) {
     auto attributes = best_effort<rtps::ReaderAttributes>();
     attributes.endpoint.setEntityID(entity);
+    if (config_.multicast && entity == kDataReader) {
+      attributes.endpoint.unicastLocatorList =
+          participant_->getRTPSParticipantAttributes().defaultUnicastLocatorList;
+      attributes.endpoint.multicastLocatorList.push_back(group());
+    }
     history = std::make_unique<rtps::ReaderHistory>(unbounded_history());
     return rtps::RTPSDomain::createRTPSReader(participant_, attributes, payloads_, history.get(), listener);
   };
@@ -782,11 +787,24 @@ void RadioLink::forget(Prefix robot) {
 }
 
 rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer) const {
-  rtps::ReaderProxyData data(1, 0);
+  rtps::ReaderProxyData data(1, config_.multicast ? 1 : 0);
   data.guid({robot, data_reader_->getGuid().entityId});
   data.topicKind(rtps::NO_KEY);
   data.add_unicast_locator(peer.locator);
+  // Fast DDS takes it once two readers of a topic have it.
+  if (config_.multicast) data.add_multicast_locator(group());
   return data;
+}
+
+/// Where robots of this link listen besides: the group and port that RTPS has for data. A group of our own at
+/// the port of discovery would not be heard, since that socket is bound to discovery's group.
+RadioLink::Locator RadioLink::group() const {
+  Locator locator;
+  locator.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(locator, 239, 255, 0, 1);
+  const auto& ports = profile_.wire_protocol().port;
+  locator.port = ports.portBase + ports.domainIDGain * config_.domain + ports.offsetd2;
+  return locator;
 }
 
 }  // namespace fleetmap::bus

@@ -99,6 +99,7 @@ class RadioLink final : public LinkEnd {
   void name_who_was_never_heard(Clock::time_point now);
   void reads_changed();
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
+  Locator group() const;
 
   const AgentId agent_;
   const std::optional<FleetSettings> settings_;
