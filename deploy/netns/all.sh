@@ -22,12 +22,12 @@ for agents in 3 4 6 10 20; do field --scenario discovery --agents "$agents" "$@"
 for agents in 4 10; do field --scenario discovery --agents "$agents" --loss 20 "$@"; done
 field --scenario discovery --loss 10 --delay 300 --jitter 100 --duplicate 5 "$@"
 for agents in 4 10; do field --scenario restart --agents "$agents" "$@"; done
-for scenario in idle one_way absent_interface address_gone two_fleets twins; do field --scenario "$scenario" "$@"; done
+for scenario in idle one_way absent_interface address_gone two_fleets twins check; do field --scenario "$scenario" "$@"; done
 for kbit in 15000 4000 2000; do field --scenario contact --wifi "$kbit" "$@"; done
 
 "$program" run -c "$here/../../config/fleets/farm_small.yaml" --agents 4 --record "$scratch/recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
   { tail -n 5 "$scratch/run.log" >&2; exit 2; }
-for scenario in map apart radio_down kill kill_all new_disk late; do
+for scenario in multicast map apart radio_down kill kill_all new_disk late; do
   field --scenario "$scenario" --recordings "$scratch/recordings" "$@"
 done
 echo "$failed scenarios failed"
