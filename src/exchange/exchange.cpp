@@ -41,7 +41,8 @@ Status ExchangeConfig::validate(const AgentId& self) const {
 
 ExchangeConfig for_fleet(ExchangeConfig config) {
   const std::size_t robots = std::max<std::size_t>(config.fleet.size(), 2);
-  const double load = static_cast<double>(robots * config.long_range.copies(robots)) / config.long_range.fleet_bytes_per_second;
+  const double load = static_cast<double>(robots * config.long_range.copies(robots)) /
+                      config.long_range.fleet_bytes_per_second;
   const double factor = std::max(1.0, load / kUsualLoad);
   for (Duration* period :
        {&config.status_period, &config.reconcile.digest_min_period, &config.reconcile.digest_max_period,

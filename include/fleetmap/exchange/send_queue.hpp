@@ -39,7 +39,7 @@ struct LongRangeConfig {
   std::size_t overhead_bytes =
       174;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 132 of RTPS
   bool deliver_to_one =
-      true;  ///< a message with a recipient goes to it alone; false: every agent gets a copy
+      true;                ///< a message with a recipient goes to it alone; false: every agent gets a copy
   bool multicast = false;  ///< a message to all is one on the medium; false: one for each other agent
   std::size_t max_small = 512;  ///< messages waiting in each of the classes safety, control, news and state
   std::size_t max_backfill = 512;   ///< messages
