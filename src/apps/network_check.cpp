@@ -169,10 +169,10 @@ Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions
     const auto& missing = check.missing();
     if (!heard.settings || heard.domain == own || std::ranges::find(missing, heard.agent) == missing.end())
       continue;
-    const std::string domain = std::to_string(heard.domain);
-    check.add_problem("heard " + heard.agent.str() + " on domain " + domain +
-                      ": its file has dds.long_range.domain: " + domain + ", this one " +
-                      std::to_string(own));
+    std::ostringstream problem;
+    problem << "heard " << heard.agent.str() << " on domain " << heard.domain
+            << ": its file has dds.long_range.domain: " << heard.domain << ", this one " << own;
+    check.add_problem(problem.str());
   }
   return {};
 }

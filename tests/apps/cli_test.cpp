@@ -178,7 +178,8 @@ TEST_F(CommandLine, RegisterTakesThePapersMethodWhichHasNoPrior) {
       "ply\nformat ascii 1.0\nelement vertex 2500\nproperty float x\nproperty float y\nproperty float "
       "z\nend_header\n";
   for (int k = 0; k < 2500; ++k) {
-    const double x = 0.6 * (k % 50), y = 0.6 * (k / 50);
+    const int column = k % 50, row = k / 50;
+    const double x = 0.6 * column, y = 0.6 * row;
     ply += std::to_string(x) + " " + std::to_string(y) + " " +
            std::to_string(2.0 * std::sin(0.4 * x) * std::cos(0.3 * y) + 0.05 * x) + "\n";
   }

@@ -10,7 +10,6 @@ namespace {
 
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// r1 makes three nodes, of which r2 gets two after 0.1 and 2 s; r2 makes one, which r1 gets after 0.5 s.
 class FieldMeasures : public ::testing::Test {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
@@ -144,8 +145,9 @@ TEST_P(MissingProfile, IsNamed) {
     SetUp();
     replace(file, std::string("<") + kind + " profile_name=\"" + name + "\"",
             std::string("<") + kind + " profile_name=\"another\"");
-    EXPECT_THAT(error(),
-                HasSubstr(file + ": no <" + kind + " profile_name=\"" + name + "\">; add that profile"));
+    std::ostringstream missing;
+    missing << file << ": no <" << kind << " profile_name=\"" << name << "\">; add that profile";
+    EXPECT_THAT(error(), HasSubstr(missing.str()));
   }
 }
 
