@@ -41,6 +41,7 @@ class RadioLink final : public LinkEnd {
   class DataListener;
   struct Received;
   using Clock = Executor::Clock;
+  static constexpr Clock::duration kTick = std::chrono::milliseconds(50);
   using EntityKey = std::uint32_t;
   using Prefix = eprosima::fastrtps::rtps::GuidPrefix_t;
   using Locator = eprosima::fastrtps::rtps::Locator_t;
@@ -85,7 +86,9 @@ class RadioLink final : public LinkEnd {
   std::vector<Prefix> silent() const;
   bool elsewhere(const Place& place) const;
   double others() const;
+  double hello_time(double rate) const;
   Clock::duration spread() const;
+  Clock::duration first_pause() const;
   void tick();
   void take(const Prefix& sender, const Hello& hello);
   void take_other(const Bytes& cdr);
