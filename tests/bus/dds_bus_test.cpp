@@ -315,7 +315,7 @@ class GroupListener {
 /// r1 tells r2 and r3 twenty times; returns how many datagrams went to the group.
 class Multicast : public QosDirectory {
  protected:
-  int tell_two(bool multicast) {
+  int tell_two(bool multicast, bool third_has_it) {
     config_.long_range.multicast = multicast;
     const Topic topic{Link::kLongRange, "node", "Node", "small"};
     const auto sender = DdsBus::create(config_).value();
@@ -323,6 +323,7 @@ class Multicast : public QosDirectory {
     config_.agent = AgentId::parse("r2").value();
     const auto second = DdsBus::create(config_).value();
     config_.agent = AgentId::parse("r3").value();
+    config_.long_range.multicast = third_has_it;
     const auto third = DdsBus::create(config_).value();
     int at_second = 0, at_third = 0;
     const Handle first_handle = second->subscribe(topic, [&](const Bytes&) { ++at_second; });
@@ -349,9 +350,11 @@ class Multicast : public QosDirectory {
   }
 };
 
-TEST_F(Multicast, WhatIsForAllIsOneDatagram) { EXPECT_EQ(tell_two(true), 21); }
+TEST_F(Multicast, WhatIsForAllIsOneDatagram) { EXPECT_EQ(tell_two(true, true), 21); }
 
-TEST_F(Multicast, WithoutItEachGetsItsOwn) { EXPECT_EQ(tell_two(false), 0); }
+TEST_F(Multicast, WithoutItEachGetsItsOwn) { EXPECT_EQ(tell_two(false, false), 0); }
+
+TEST_F(Multicast, ARobotWithoutItGetsItsOwn) { EXPECT_EQ(tell_two(true, false), 0); }
 
 TEST_F(QosDirectory, WithoutATimeoutTheBusRunsUntilTheConditionHolds) {
   auto bus = DdsBus::create(config_);

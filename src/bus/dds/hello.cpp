@@ -19,7 +19,7 @@ constexpr std::uint8_t kSchema = 3;
 constexpr std::uint8_t kFirstWithHead = 2;
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kHead = kEncapsulation + 28;  // to `port`, in every version
-constexpr std::size_t kMostBytes = kEncapsulation + 44 + 4 * kMostReads;
+constexpr std::size_t kMostBytes = kEncapsulation + 48 + 4 * kMostReads;
 
 template <class Name>
 std::optional<AgentId> parse_name(const Name& name) {
@@ -39,6 +39,7 @@ Bytes encode(const Hello& hello) {
   idl.address(hello.address);
   idl.port(hello.port);
   idl.link(static_cast<std::uint8_t>(hello.link));
+  idl.multicast(hello.multicast);
   if (hello.settings) {
     idl.fleet(hello.settings->fleet);
     idl.wire_schema(hello.settings->wire_schema);
@@ -73,7 +74,8 @@ std::optional<Hello> decode_hello(const Bytes& bytes) {
   const auto sender = parse_name(idl.sender());
   const auto link = static_cast<Link>(idl.link());
   if (!sender || (link != Link::kLongRange && link != Link::kShortRange)) return std::nullopt;
-  Hello hello{idl.knows(), idl.leaves(), *sender, idl.address(), idl.port(), std::nullopt, link, idl.reads()};
+  Hello hello{idl.knows(),  idl.leaves(), *sender,         idl.address(), idl.port(),
+              std::nullopt, link,         idl.multicast(), idl.reads()};
   if (idl.wire_schema() != 0) {
     hello.settings = FleetSettings{.wire_schema = idl.wire_schema(),
                                    .fleet = idl.fleet(),

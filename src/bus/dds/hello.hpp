@@ -21,6 +21,7 @@ struct Hello {
   std::uint16_t port = 0;
   std::optional<FleetSettings> settings;  ///< empty: an operator's program
   Link link = Link::kLongRange;           ///< that the sender uses here
+  bool multicast = false;                 ///< the sender listens at the group
   std::vector<std::uint32_t> reads;       ///< entity ids of topics, at most kMostReads
 };
 inline constexpr std::size_t kMostReads = 64;

@@ -108,6 +108,7 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   hello.port = static_cast<std::uint16_t>(own_.port);
   hello.settings = settings_;
   hello.link = link_;
+  hello.multicast = config_.multicast;
   for (const EntityKey key : reads_) {
     if (hello.reads.size() < kMostReads) hello.reads.push_back(key);
   }
@@ -274,6 +275,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   peer.agent = hello.sender;
   peer.locator = from;
   peer.reads = {hello.reads.begin(), hello.reads.end()};
+  peer.multicast = hello.multicast;
   for (const auto& [key, end] : ends_) {
     end->meet(sender, peer);
     end->hear(sender);
@@ -312,6 +314,11 @@ bool RadioLink::first_time(const std::string& warning) {
 /// Once per robot and difference.
 void RadioLink::compare(const Hello& hello) {
   if (!settings_ || !hello.settings) return;
+  if (config_.multicast && !hello.multicast) {
+    const std::string one_sided = hello.sender.str() + " has no dds." + to_string(link_) +
+                                  ".multicast: it gets datagrams of its own, which the budget does not count";
+    if (first_time(one_sided)) spdlog::warn("{}: {}", to_string(link_), one_sided);
+  }
   for (const std::string& difference : differences(hello.sender.str(), *hello.settings, *settings_)) {
     if (first_time(difference)) spdlog::warn("{}: {}", to_string(link_), difference);
   }

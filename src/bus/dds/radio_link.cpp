@@ -200,7 +200,7 @@ rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer
   data.topicKind(rtps::NO_KEY);
   data.add_unicast_locator(peer.locator);
   // Fast DDS takes it once two readers of a topic have it.
-  if (config_.multicast) data.add_multicast_locator(group());
+  if (config_.multicast && peer.multicast) data.add_multicast_locator(group());
   return data;
 }
 

@@ -66,6 +66,7 @@ class RadioLink final : public LinkEnd {
     AgentId agent;
     Locator locator;
     std::set<EntityKey> reads;
+    bool multicast = false;       ///< it listens at the group
     Clock::time_point told{};     ///< when it last got anything from here
     Clock::time_point greeted{};  ///< when it last got a Hello
   };
