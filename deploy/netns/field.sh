@@ -5,7 +5,7 @@
 #                         [--loss PERCENT] [--delay MS] [--jitter MS] [--duplicate PERCENT]   of the radio's datagrams
 #                         [--wifi-loss PERCENT] [--wifi-delay MS] [--wifi-jitter MS]          of the Wi-Fi's
 #                         [--wifi-from S] [--patience S] [--seed N]   of scenario trial, after the recordings began
-#                         [--trace FILE]       what each pair of robots had in the field (deploy/netns/link_trace.py)
+#                         [--trace FILE] [--trace-from S]   what each pair of robots had in the field (link_trace.py)
 #                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
 #                                              of this agent's file; single keys
 #                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves;
@@ -28,6 +28,7 @@ recordings=
 impairment=()
 wifi_impairment=()
 trace=
+trace_from=0
 qos=$root/qos
 robot=
 settings=()
@@ -49,6 +50,7 @@ while (($#)); do
     --loss | --delay | --jitter | --duplicate) impairment+=("$1" "$2") ;;
     --wifi-loss | --wifi-delay | --wifi-jitter | --wifi-duplicate) wifi_impairment+=("--${1#--wifi-}" "$2") ;;
     --trace) trace=$2 ;;
+    --trace-from) trace_from=$2 ;;
     --qos) qos=$2 ;;
     --robot) robot=$2 ;;
     --set) settings+=(--set "$2") ;;
@@ -80,8 +82,8 @@ for ((i = 1; i <= agents; ++i)); do make_space "robot$i"; done
 medium radio 77 "$radio" 30000 "$agents"
 medium wifi 78 "$wifi" 100000 "$agents"
 if [[ -n $trace ]]; then
-  impairment+=(--trace "$trace" --link long_range --names "$(addresses 77)")
-  wifi_impairment+=(--trace "$trace" --link short_range --names "$(addresses 78)")
+  impairment+=(--trace "$trace" --trace-from "$trace_from" --link long_range --names "$(addresses 77)")
+  wifi_impairment+=(--trace "$trace" --trace-from "$trace_from" --link short_range --names "$(addresses 78)")
 fi
 ((${#impairment[@]} == 0)) || relay radio "${impairment[@]}"
 ((${#wifi_impairment[@]} == 0)) || relay wifi "${wifi_impairment[@]}"

@@ -41,6 +41,11 @@ class Pair:
         return True, later
 
 
+def is_whole(row):
+    """A line that a power cut has left short, or run into the next, has other cells than the file has columns."""
+    return None not in row and None not in row.values()
+
+
 def number(row, column, file, line):
     text = (row.get(column) or "").strip()
     if not text:
@@ -71,22 +76,24 @@ def take_clocks_out(pairs):
 
 def load(file, link, addresses):
     """The pairs of robots in `addresses` (by name) on `link`, by (address, address); their time begins with 0."""
-    pairs, first = {}, None
+    pairs, first, strangers, known = {}, None, set(), False
     with open(file, newline="") as lines:
         reader = csv.DictReader(lines)
         for column in ("time_s", "from", "to"):
             if column not in (reader.fieldnames or []):
                 raise ValueError(f"{file}: has no column {column}")
         for row in reader:
-            if row["time_s"] == "time_s":  # the next robot's file
+            if row["time_s"] == "time_s" or not is_whole(row):  # the next robot's file
                 continue
             time = number(row, "time_s", file, reader.line_num)
             if time is None:
                 raise ValueError(f"{file}:{reader.line_num}: has no time_s")
             first = time if first is None else min(first, time)
-            if (row.get("link") or "long_range") != link:
-                continue
             if row["from"] not in addresses or row["to"] not in addresses:
+                strangers.update({row["from"], row["to"]} - addresses.keys())
+                continue
+            known = True
+            if (row.get("link") or "long_range") != link:
                 continue
             ms = number(row, "ms", file, reader.line_num)
             pair = pairs.setdefault((addresses[row["from"]], addresses[row["to"]]), Pair())
@@ -98,6 +105,8 @@ def load(file, link, addresses):
                     number(row, "loss_percent", file, reader.line_num),
                 )
             )
+    if not known:
+        raise ValueError(f"{file}: is of {', '.join(sorted(strangers)) or 'nobody'}; robots are called {', '.join(addresses)} here")
     take_clocks_out(pairs)
     for pair in pairs.values():
         pair.sort(first)

@@ -9,13 +9,15 @@
 --to-mac    puts this destination address on what it forwards (FROM and TO are then ends of routes, not of a bridge)
 --jitter    each datagram waits up to so many ms more, so that datagrams overtake each other
 --block     loses all from SOURCE to DESTINATION; * is any address
---trace     what each pair of robots had in the field, as docs/dds.md says: of that link, beginning with SIGUSR1
+--trace     what each pair of robots had in the field, as docs/dds.md says: of that link, beginning with SIGUSR1, so
+            many s after the file's first row (--trace-from); loss and delay are then the trace's
 
 Only IPv4 UDP is lost, delayed or doubled. UDP checksums are set to "none", since veth leaves them to a card that is
 not there.
 """
 
 import argparse
+import csv
 import errno
 import heapq
 import random
@@ -41,6 +43,7 @@ def parse():
     for name in ("--loss", "--duplicate", "--delay", "--jitter"):
         parser.add_argument(name, type=float, default=0.0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--trace-from", type=float, default=0.0)
     parser.add_argument("--block", action="append", default=[])
     for name in ("--trace", "--link", "--names"):
         parser.add_argument(name)
@@ -94,19 +97,21 @@ class Relay:
         if not is_udp(frame):
             to.send(frame)
             return
-        if self.is_blocked(frame) or random.random() * 100 < self.options.loss:
+        if self.is_blocked(frame):
             return
-        now, passes, later = time.monotonic(), True, 0.0
-        pair = self.traced(frame)
-        if pair:
-            passes, later = pair.passes(len(frame), now, now - self.begun if self.begun else 0.0)
+        now, pair = time.monotonic(), self.traced(frame)
+        if pair:  # what it says takes the place of the options
+            elapsed = now - self.begun if self.begun else 0.0
+            passes, wait = pair.passes(len(frame), now, elapsed + self.options.trace_from)
+        else:
+            passes = random.random() * 100 >= self.options.loss
+            wait = (self.options.delay + random.random() * self.options.jitter) / 1000
         if not passes:
             return
         frame = without_checksum(frame)
         for _ in range(2 if random.random() * 100 < self.options.duplicate else 1):
-            wait = later + (self.options.delay + random.random() * self.options.jitter) / 1000
             self.order += 1
-            heapq.heappush(self.waiting, (time.monotonic() + wait, self.order, to, frame))
+            heapq.heappush(self.waiting, (now + wait, self.order, to, frame))
 
     def send_due(self):
         while self.waiting and self.waiting[0][0] <= time.monotonic():
@@ -127,7 +132,7 @@ def main():
         ends[sink] = next(iter(ends))
     try:
         relay = Relay(options)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, csv.Error) as error:
         sys.exit(f"relay: {error}")
     signal.signal(signal.SIGUSR1, lambda *_: relay.begin())
     while True:

@@ -93,6 +93,8 @@ int run_network_check(const CheckOptions& options, const std::vector<config::Ove
     return report({options.file + ": --network needs the file of one robot"}, kUsage);
   const auto robot = config::load_robot(options.file, overrides);
   if (!robot) return report(robot.error(), kBadConfiguration);
+  if (options.radios.domains.first > options.radios.domains.second)
+    return report({"--domains: the first must not be above the last"}, kUsage);
   const auto fine = check_network(*robot, options.radios);
   if (!fine) return report(fine.error(), kFailed);
   return *fine ? kDone : kFailed;

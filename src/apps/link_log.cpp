@@ -9,16 +9,27 @@ namespace {
 constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
 constexpr const char* kNodesHeader = "time_ns,node";
 constexpr std::uintmax_t kMostTraceBytes = 32u << 20;
-/// In a large fleet robots say something every few seconds on the radio; on the Wi-Fi each second.
-constexpr Duration kSilence = std::chrono::seconds(30), kSilenceNear = std::chrono::seconds(5);
+/// On the radio whoever has nothing to tell says Hello every 20 s; on the Wi-Fi robots tell something each
+/// second.
+constexpr Duration kSilence = std::chrono::seconds(65), kSilenceNear = std::chrono::seconds(5);
+
+/// A power cut leaves a line without its end.
+bool ends_within_a_line(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in || in.tellg() <= 0) return false;
+  in.seekg(-1, std::ios::end);
+  return in.get() != '\n';
+}
 
 }  // namespace
 
 Result<LinkLog::File> LinkLog::open_file(const std::filesystem::path& path, const char* header) {
   std::error_code none;
   const bool begins = !std::filesystem::exists(path, none) || std::filesystem::file_size(path, none) == 0;
+  const bool cut = !begins && ends_within_a_line(path);
   File file{path, std::ofstream(path, std::ios::app)};
   if (begins) file.out << header << '\n';
+  if (cut) file.out << '\n';
   file.out.flush();
   if (!file.out) return failure(path.string() + ": cannot be written; is the disk full?");
   return file;
@@ -63,29 +74,29 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& heard,
     // Whoever was waited for at both ends of the second has sent as much as the link carries.
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
                       fetched_from_.contains(traffic.from);
-    add_row(traffic, to_seconds(now - before), full, now);
-    heard_[{traffic.link, traffic.from}] = now;
+    const bool is_new = heard_.insert_or_assign({traffic.link, traffic.from}, now).second;
+    // What was lost while it was out of reach is told of by the row of that time.
+    if (traffic.messages > 0) add_row(traffic, is_new ? 0 : traffic.lost, before, now, full);
   }
   add_silent(now);
   trace_.flush();
 }
 
-void LinkLog::add_row(const bus::HeardTraffic& traffic, double seconds, bool full, Stamp now) {
-  const double kbit_s = 8e-3 * static_cast<double>(traffic.bytes) / seconds;
-  const auto lost = static_cast<double>(traffic.lost);
-  trace_.out << fmt::format("{:.1f},{},{},{},{},{:.1f},{:.1f},{:.1f},{}\n", to_seconds(now),
+void LinkLog::add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stamp from, Stamp to, bool full) {
+  const double kbit_s = 8e-3 * static_cast<double>(traffic.bytes) / to_seconds(to - from);
+  const double share = static_cast<double>(lost) / static_cast<double>(lost + traffic.messages);
+  trace_.out << fmt::format("{:.1f},{},{},{},{},{:.1f},{:.1f},{:.1f},{}\n", to_seconds(from),
                             bus::to_string(traffic.link), traffic.from.str(), self_.str(),
                             full ? fmt::format("{:.1f}", kbit_s) : "", 1e3 * to_seconds(traffic.delay),
-                            100.0 * lost / (lost + static_cast<double>(traffic.messages)), kbit_s,
-                            traffic.messages);
+                            100.0 * share, kbit_s, traffic.messages);
 }
 
-/// A row is of the time after the robot's last one.
+/// The row is of the time after the robot was last heard.
 void LinkLog::add_silent(Stamp now) {
   std::erase_if(heard_, [&](const auto& entry) {
     const auto& [source, last] = entry;
     if (now - last < (source.first == bus::Link::kShortRange ? kSilenceNear : kSilence)) return false;
-    trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(last) + 1.0,
+    trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(last),
                               bus::to_string(source.first), source.second.str(), self_.str());
     return true;
   });

@@ -17,9 +17,9 @@ namespace fleetmap::apps {
 /// Two files of a robot that runs over DDS, in its directory.
 ///
 /// link_trace.csv has a row for each second and robot that was heard on a radio, and one with 100 % loss when
-/// it falls silent. Its columns are those of a trace that `fleetmap trial` replays: kbit_s is what the link
-/// can carry, known only while submaps fill it, used_kbit_s what came. node_times.csv tells when each node of
-/// the fleet came to be held, by the system's clock.
+/// it falls silent; time_s is when the second began. Its columns are those of a trace that `fleetmap trial`
+/// replays: kbit_s is what the link can carry, known only while submaps fill it, used_kbit_s what came.
+/// node_times.csv tells when each node of the fleet came to be held, by the system's clock.
 class LinkLog {
  public:
   /// Goes on with the files of an earlier start. Fails with the file's name.
@@ -42,7 +42,7 @@ class LinkLog {
   explicit LinkLog(const AgentId& self) : self_(self) {}
   static Result<File> open_file(const std::filesystem::path& path, const char* header);
   void begin_anew_when_full();
-  void add_row(const bus::HeardTraffic& traffic, double seconds, bool full, Stamp now);
+  void add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stamp from, Stamp to, bool full);
   void add_silent(Stamp now);
 
   AgentId self_;

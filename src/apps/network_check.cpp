@@ -2,6 +2,7 @@
 #include "network_check.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -114,6 +115,11 @@ class LinkCheck {
     const std::string name = own_agent(heard) ? heard.agent.str() + "'s running agent" : heard.agent.str();
     for (const std::string& difference : bus::differences(name, *heard.settings, *robot_.dds.settings))
       problems_.push_back(difference);
+    if (const bool ours = bus::config_of(robot_.dds, link_).multicast; ours != heard.multicast) {
+      const std::string key = std::string("dds.") + to_string(link_) + ".multicast";
+      problems_.push_back(
+          name + (ours ? " has no " + key + ", this file has" : " has " + key + ", this file has not"));
+    }
     if (heard.agent == robot_.agent.id && !heard.here) {
       problems_.push_back("another robot at " + heard.place + " is named " + heard.agent.str() +
                           ", too: each needs a name of its own");
@@ -145,12 +151,13 @@ Status listen(bus::DdsBus& bus, double time) {
   return stop ? failure("interrupted") : Status{};
 }
 
-/// Looks on the long range for who was not heard there, at the same addresses in other DDS domains.
-Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions& options, LinkCheck& check) {
-  const std::uint32_t own = robot.dds.long_range.domain;
+/// Looks on one radio for who was not heard there, at the same addresses in other DDS domains.
+Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions& options, Link link,
+                             LinkCheck& check) {
+  const std::uint32_t own = bus::config_of(robot.dds, link).domain;
   bus::DdsBusConfig dds = observer_of(robot);
-  dds.short_range.enabled = false;
-  bus::DdsLinkConfig& radio = dds.long_range;
+  (link == Link::kLongRange ? dds.short_range : dds.long_range).enabled = false;
+  bus::DdsLinkConfig& radio = link == Link::kLongRange ? dds.long_range : dds.short_range;
   std::set<std::string> addresses;
   for (const std::string& place : check.silent()) addresses.insert(address_of(place));
   const bool elsewhere = !radio.address.empty() && !radio.address.starts_with("127.");
@@ -159,19 +166,20 @@ Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions
   radio.peers = {addresses.begin(), addresses.end()};
   for (std::uint32_t domain = options.domains.first; domain <= options.domains.second; ++domain)
     radio.other_domains.push_back(domain);
-  std::cerr << "looking for " << check.missing().size() << " robots in the DDS domains "
-            << options.domains.first << " to " << options.domains.second << '\n';
   auto bus = join_dds(dds);
   if (!bus) return tl::unexpected(bus.error());
-  const double hellos = static_cast<double>((*bus)->survey(Link::kLongRange).places);
-  if (const Status listened = listen(**bus, kAnswerTime + hellos * kHelloPause); !listened) return listened;
-  for (const RadioSurvey::Robot& heard : (*bus)->survey(Link::kLongRange).robots) {
+  const double hellos = static_cast<double>((*bus)->survey(link).places);
+  const double time = kAnswerTime + hellos * kHelloPause;
+  std::cerr << to_string(link) << ": looking for " << check.missing().size() << " robots in the DDS domains "
+            << options.domains.first << " to " << options.domains.second << ", " << std::ceil(time) << " s\n";
+  if (const Status listened = listen(**bus, time); !listened) return listened;
+  for (const RadioSurvey::Robot& heard : (*bus)->survey(link).robots) {
     const auto& missing = check.missing();
     if (!heard.settings || heard.domain == own || std::ranges::find(missing, heard.agent) == missing.end())
       continue;
     std::ostringstream problem;
-    problem << "heard " << heard.agent.str() << " on domain " << heard.domain
-            << ": its file has dds.long_range.domain: " << heard.domain << ", this one " << own;
+    problem << "heard " << heard.agent.str() << " on domain " << heard.domain << ": its file has dds."
+            << to_string(link) << ".domain: " << heard.domain << ", this one " << own;
     check.add_problem(problem.str());
   }
   return {};
@@ -199,8 +207,8 @@ Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& 
   for (const Link link : {Link::kLongRange, Link::kShortRange}) {
     if (!bus::config_of(robot.dds, link).enabled) continue;
     LinkCheck& check = checks[k++];
-    if (link == Link::kLongRange && check.joined() && !check.missing().empty()) {
-      if (const Status looked = find_in_other_domains(robot, options, check); !looked)
+    if (check.joined() && !check.missing().empty()) {
+      if (const Status looked = find_in_other_domains(robot, options, link, check); !looked)
         return tl::unexpected(looked.error());
     }
     check.print(std::cout);

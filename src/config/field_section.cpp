@@ -40,6 +40,7 @@ std::string text_of(double value) {
 Status FieldConfig::validate() const {
   if (Status good = check("radio", radio); !good) return good;
   if (Status good = check("wifi", wifi); !good) return good;
+  if (!(trace_from >= 0.0 && trace_from <= 1e9)) return failure("trace_from must be in [0, 1e9] s");
   if (!(wifi_from >= 0.0 && wifi_from <= 86'400.0)) return failure("wifi_from must be in [0, 86400] s");
   if (!(patience >= 1.0 && patience <= 86'400.0)) return failure("patience must be in [1, 86400] s");
   return {};
@@ -58,6 +59,7 @@ FieldConfig read_field(Section& top) {
     if (!path->empty() && !std::filesystem::exists(*path, none))
       section.problem(key, path->string() + " does not exist");
   }
+  section.read("trace_from", field.trace_from);
   section.read("wifi_from", field.wifi_from);
   section.read("patience", field.patience);
   section.read("seed", field.seed);
@@ -75,6 +77,7 @@ std::vector<std::string> field_options(const FieldConfig& field) {
   // The scripts count whole kbit/s and seconds.
   add("radio", std::to_string(std::llround(field.radio.kbit_s)));
   add("wifi", std::to_string(std::llround(field.wifi.kbit_s)));
+  if (field.trace_from > 0.0) add("trace-from", text_of(field.trace_from));
   add("wifi-from", std::to_string(std::llround(field.wifi_from)));
   add("patience", std::to_string(std::llround(field.patience)));
   const auto add_impairment = [&](const std::string& prefix, const FieldConfig::Medium& medium) {

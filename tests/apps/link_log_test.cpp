@@ -33,7 +33,7 @@ class LinkLogTest : public ::testing::Test {
   }
   static bus::HeardTraffic traffic(bus::Link link, std::uint64_t messages, std::uint64_t bytes,
                                    std::uint64_t lost = 0) {
-    return {link, kR2, messages, bytes, lost, 20ms};
+    return {link, kR2, messages, 0, bytes, lost, 20ms};
   }
 
   testing::TemporaryFolder folder_;
@@ -42,24 +42,49 @@ class LinkLogTest : public ::testing::Test {
 
 TEST_F(LinkLogTest, ARowIsOfOneSecondAndOneRobot) {
   log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1000)}, {}, kStart);  // since when is not known
-  log_.add_traffic({traffic(bus::Link::kLongRange, 9, 2500, 1)}, {}, kStart + 2s);
-  EXPECT_THAT(rows(), ElementsAre("1002.0,long_range,r2,r1,,20.0,10.0,10.0,9"));
+  log_.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kStart + 1s);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 9, 2500, 1)}, {}, kStart + 3s);
+  EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,20.0,0.0,10.0,5",
+                                  "1001.0,long_range,r2,r1,,20.0,10.0,10.0,9"));
 }
 
 TEST_F(LinkLogTest, WhatTheLinkCarriesIsKnownWhileSubmapsFillIt) {
   log_.add_traffic({}, {}, kStart);
   log_.add_traffic({traffic(bus::Link::kShortRange, 100, 500'000)}, {kR2}, kStart + 1s);  // begun within it
   log_.add_traffic({traffic(bus::Link::kShortRange, 200, 1'000'000)}, {kR2}, kStart + 2s);
-  EXPECT_THAT(rows(), ElementsAre("1001.0,short_range,r2,r1,,20.0,0.0,4000.0,100",
-                                  "1002.0,short_range,r2,r1,8000.0,20.0,0.0,8000.0,200"));
+  EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,4000.0,100",
+                                  "1001.0,short_range,r2,r1,8000.0,20.0,0.0,8000.0,200"));
 }
 
 TEST_F(LinkLogTest, ARobotThatFallsSilentIsSaidToBeOutOfReachOnce) {
   log_.add_traffic({}, {}, kStart);
   log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125)}, {}, kStart + 1s);
   for (int k = 2; k < 20; ++k) log_.add_traffic({}, {}, kStart + k * 1s);
-  EXPECT_THAT(rows(), ElementsAre("1001.0,short_range,r2,r1,,20.0,0.0,1.0,1",
-                                  "1002.0,short_range,r2,r1,,,100.0,0.0,0"));
+  // What was lost meanwhile is not told again.
+  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125, 60)}, {}, kStart + 20s);
+  EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,1.0,1",
+                                  "1001.0,short_range,r2,r1,,,100.0,0.0,0",
+                                  "1019.0,short_range,r2,r1,,20.0,0.0,1.0,1"));
+}
+
+TEST_F(LinkLogTest, ARobotThatSaysHelloIsThere) {
+  log_.add_traffic({}, {}, kStart);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kStart + 1s);
+  bus::HeardTraffic hello = traffic(bus::Link::kLongRange, 0, 0);
+  hello.hellos = 1;
+  for (int k = 1; k < 10; ++k) log_.add_traffic({hello}, {}, kStart + k * 20s);
+  EXPECT_EQ(rows().size(), 1u);
+  log_.add_traffic({}, {}, kStart + 246s);
+  EXPECT_THAT(rows(), ElementsAre(::testing::_, "1180.0,long_range,r2,r1,,,100.0,0.0,0"));
+}
+
+TEST_F(LinkLogTest, ALineThatWasCutOffIsEnded) {
+  const auto file = folder_.path() / "link_trace.csv";
+  std::ofstream(file, std::ios::app) << "1005.0,long_ra";
+  LinkLog later = LinkLog::open(folder_.path(), kR1).value();
+  later.add_traffic({}, {}, kStart);
+  later.add_traffic({traffic(bus::Link::kLongRange, 5, 1250)}, {}, kStart + 1s);
+  EXPECT_THAT(rows(), ElementsAre("1005.0,long_ra", "1000.0,long_range,r2,r1,,20.0,0.0,10.0,5"));
 }
 
 TEST_F(LinkLogTest, EachNodeIsWrittenOnceAndALaterStartGoesOn) {

@@ -46,6 +46,14 @@ class LinkTrace(unittest.TestCase):
         self.assertEqual(list(load(rows, "short_range")), [("a", "b")])
         self.assertEqual(list(load("time_s,from,to,loss_percent\n1,r1,r2,3\n")), [("a", "b")], "without a column link")
 
+    def test_cut_lines_are_left_out(self):
+        pair = load(COLUMNS + "1,long_range,r1,r2,,5,\n2,long_range,r1,r2,,62,long_range,r1,r2,,7,\n3,long_r\n")[("a", "b")]
+        self.assertEqual(len(pair.rows), 1)
+
+    def test_a_trace_of_other_robots_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "is of husky1, husky2; robots are called r1, r2 here"):
+            load(COLUMNS + "1,long_range,husky1,husky2,,5,\n")
+
     def test_what_is_wrong_is_named(self):
         with self.assertRaisesRegex(ValueError, "has no column from"):
             load("time_s,to\n1,r1\n")

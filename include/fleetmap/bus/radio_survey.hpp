@@ -20,6 +20,7 @@ struct RadioSurvey {
     std::uint32_t domain = 0;               ///< whose port that is
     Duration after{};                       ///< joining, when it was first heard
     std::optional<FleetSettings> settings;  ///< its last; empty: an operator's program
+    bool multicast = false;                 ///< it listens to what goes out once for all
   };
   std::string problem;               ///< why the radio is silent; empty: it is not
   std::vector<Robot> robots;         ///< in the order in which they were first heard

@@ -22,7 +22,8 @@ struct FieldConfig {
   Medium wifi{.kbit_s = 15'000.0};
   std::filesystem::path trace;       ///< CSV of what links had in the field; empty: none
   std::filesystem::path qos;         ///< folder of profiles; empty: qos/ of the source tree
-  std::filesystem::path robot;       ///< AGENT.yaml of the robots' sensors; empty: those of the twin
+  double trace_from = 0.0;           ///< s after its first row, when the recordings begin
+  std::filesystem::path robot;       ///< AGENT.yaml of the robots' sensors; a trial needs it
   std::filesystem::path recordings;  ///< holds r1, r2, ...; empty: those of the fleet's twin, made once
   std::filesystem::path truth;       ///< holds NAME/truth.tum of them; empty: the twin's, or unknown
   double wifi_from = 0.0;            ///< s after the recordings began; before, there is no Wi-Fi

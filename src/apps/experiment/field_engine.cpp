@@ -23,12 +23,16 @@ bool is_of_field(const config::Override& entry) { return entry.key.starts_with(k
 Result<FieldEngine::Recordings> FieldEngine::recordings_of(const Case& one,
                                                            const config::FieldConfig& field) const {
   if (!field.recordings.empty()) return Recordings{field.recordings, field.truth};
+  const auto inputs = config::input_fingerprint(one.base, {});
+  if (!inputs) return tl::unexpected(inputs.error());
+  // Of another file, or the same after an edit, they are others.
   const std::string robots = std::to_string(one.agents);
-  const fs::path bags = directory_ / ("recordings-" + robots), run = directory_ / ("recorded-" + robots);
+  const std::string name = robots + "-" + inputs->substr(0, 8);
+  const fs::path bags = directory_ / ("recordings-" + name), run = directory_ / ("recorded-" + name);
   if (fs::exists(run / "report.json")) return Recordings{bags, run};
   fs::remove_all(bags);  // of a start that was interrupted
   fs::remove_all(run);
-  const fs::path log = directory_ / ("recorded-" + robots + ".log");
+  const fs::path log = directory_ / ("recorded-" + name + ".log");
   const auto ended = run_self(
       {"run", "-c", one.base.string(), "--agents", robots, "--record", bags.string(), "--out", run.string()},
       log, *stop_);
@@ -62,6 +66,12 @@ Status FieldEngine::run_field(const Case& one, const config::FieldConfig& field,
 Result<CaseResult> FieldEngine::operator()(const Case& one, const fs::path& directory) const {
   const auto fleet = config::load_fleet(one.base, one.overrides);
   if (!fleet) return tl::unexpected(fleet.error());
+  if (fleet->field.robot.empty()) {
+    return failure(
+        "field.robot: expected the AGENT.yaml with the sensors of the recordings; config/agents/twin.yaml "
+        "has those "
+        "of config/fleets/farm_small.yaml");
+  }
   const auto recordings = recordings_of(one, fleet->field);
   if (!recordings) return tl::unexpected(recordings.error());
   if (const Status ran = run_field(one, fleet->field, *recordings, directory); !ran)

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -115,20 +116,19 @@ Status add_latencies(const std::vector<fs::path>& robots, std::map<std::string, 
   return {};
 }
 
-Status add_goodput(const std::vector<fs::path>& robots, std::map<std::string, double>& measures) {
-  std::map<std::int64_t, double> seconds;  // the channel is one: what all robots get in a second adds up
+/// Seconds in which submaps filled the channel, of whatever robots.
+Result<std::size_t> full_seconds(const std::vector<fs::path>& robots) {
+  std::set<std::int64_t> seconds;
   for (const fs::path& robot : robots) {
     const auto rows = read_csv(robot / "link_trace.csv");
     if (!rows) return tl::unexpected(rows.error());
     for (const Row& row : *rows) {
-      const auto time = number(row, "time_s"), kbit_s = number(row, "kbit_s");
-      if (time && kbit_s && row.at("link") == "short_range") seconds[std::llround(*time)] += *kbit_s;
+      const auto time = number(row, "time_s");
+      if (time && number(row, "kbit_s") && row.at("link") == "short_range")
+        seconds.insert(static_cast<std::int64_t>(std::floor(*time)));
     }
   }
-  std::vector<double> rates;
-  for (const auto& [second, rate] : seconds) rates.push_back(rate);
-  if (!rates.empty()) measures["field.wifi_goodput_kbit_s"] = quantile(rates, 0.5);
-  return {};
+  return seconds.size();
 }
 
 Status add_kinds(const std::vector<fs::path>& robots, std::map<std::string, double>& measures) {
@@ -154,10 +154,14 @@ Result<std::map<std::string, double>> field_measures(const fs::path& directory) 
   }
   const std::vector<fs::path> robots = robots_in(directory);
   if (robots.empty()) return failure(directory.string() + ": no robot has left its files there");
-  for (const Status& added :
-       {add_latencies(robots, measures), add_goodput(robots, measures), add_kinds(robots, measures)}) {
+  for (const Status& added : {add_latencies(robots, measures), add_kinds(robots, measures)}) {
     if (!added) return tl::unexpected(added.error());
   }
+  const auto seconds = full_seconds(robots);
+  if (!seconds) return tl::unexpected(seconds.error());
+  const auto chunks = measures.find("field.short_range.submap_chunk_kb");
+  if (*seconds > 0 && chunks != measures.end())
+    measures["field.wifi_goodput_kbit_s"] = 8.0 * chunks->second / static_cast<double>(*seconds);
   return measures;
 }
 

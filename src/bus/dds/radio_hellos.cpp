@@ -84,6 +84,7 @@ Status RadioLink::add_place(const Locator& locator, bool configured) {
   auto place = std::make_unique<Place>();
   place->locator = locator;
   place->configured = configured;
+  place->pause = first_pause();
   place->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
   auto attributes = best_effort<rtps::WriterAttributes>();
   attributes.mode = rtps::SYNCHRONOUS_WRITER;
@@ -259,7 +260,9 @@ void RadioLink::take(const Prefix& sender, const Hello& hello) {
   }
   {
     const std::scoped_lock lock(received_->mutex);
-    received_->robots[sender].heard = Clock::now();
+    Received::Robot& robot = received_->robots[sender];
+    robot.heard = Clock::now();
+    ++robot.traffic.hellos;
   }
   Peer& peer = peers_[sender];
   const bool known = place->robot.has_value();
@@ -300,10 +303,12 @@ void RadioLink::note(const Hello& hello, const Locator& from) {
   });
   if (known != heard_.end()) {
     known->settings = hello.settings;
+    known->multicast = hello.multicast;
   } else if (heard_.size() < kMostPlaces) {
     const bool here = IPLocator::compareAddress(from, own_) || IPLocator::isLocal(from);
     heard_.push_back({hello.sender, place, here, domain_of(from.port, profile_),
-                      std::chrono::duration_cast<Duration>(Clock::now() - opened_), hello.settings});
+                      std::chrono::duration_cast<Duration>(Clock::now() - opened_), hello.settings,
+                      hello.multicast});
   }
 }
 
@@ -314,9 +319,12 @@ bool RadioLink::first_time(const std::string& warning) {
 /// Once per robot and difference.
 void RadioLink::compare(const Hello& hello) {
   if (!settings_ || !hello.settings) return;
-  if (config_.multicast && !hello.multicast) {
-    const std::string one_sided = hello.sender.str() + " has no dds." + to_string(link_) +
-                                  ".multicast: it gets datagrams of its own, which the budget does not count";
+  if (config_.multicast != hello.multicast) {
+    const std::string key = std::string("dds.") + to_string(link_) + ".multicast";
+    const std::string one_sided =
+        hello.sender.str() + (config_.multicast
+                                  ? " has no " + key + ", this robot has: what goes to it is not counted"
+                                  : " has " + key + ", this robot has not: give all the same");
     if (first_time(one_sided)) spdlog::warn("{}: {}", to_string(link_), one_sided);
   }
   for (const std::string& difference : differences(hello.sender.str(), *hello.settings, *settings_)) {
@@ -372,6 +380,7 @@ void RadioLink::forget(Prefix robot) {
     if (place->robot != robot) return false;
     place->robot.reset();
     place->next = {};  // as at the start
+    place->mistakes_us = place->asks_again = false;
     if (!place->configured) rtps::RTPSDomain::removeRTPSWriter(place->writer);
     return !place->configured;
   });

@@ -186,11 +186,11 @@ void RadioLink::take_heard_traffic(std::vector<HeardTraffic>& all) {
   const std::scoped_lock received(received_->mutex);
   for (auto& [prefix, robot] : received_->robots) {
     const auto peer = peers_.find(prefix);
-    if (peer == peers_.end() || robot.traffic.messages == 0) continue;
+    if (peer == peers_.end() || robot.traffic.messages + robot.traffic.hellos == 0) continue;
     HeardTraffic& traffic = all.emplace_back(std::exchange(robot.traffic, {}));
     traffic.link = link_;
     traffic.from = peer->second.agent;
-    traffic.delay /= static_cast<std::int64_t>(traffic.messages);
+    if (traffic.messages > 0) traffic.delay /= static_cast<std::int64_t>(traffic.messages);
   }
 }
 
