@@ -29,11 +29,7 @@ write_config() { # robot number, name, names of its fleet
 id: $2
 fleet: [$3]
 directory: $out/r$1
-site: {origin: [39.0, -3.0, 600.0]}
-lidar: {model: vlp16, translation: [0.0, 0.0, 0.6], max_range: 40.0, min_range: 0.6}
-imu: {translation: [0.0, 0.0, 0.1]}
-gps: {translation: [-0.2, 0.0, 0.5]}
-nodes: {spacing: 4.0}
+$(grep -vE '^(#|id:|fleet:|directory:)' "$root/config/agents/twin.yaml")
 dds: $(dds_of "$1")
 YAML
 }
@@ -431,7 +427,7 @@ scenario_late() { # the last robot joins after a minute
 
 # What `fleetmap trial` measures: field.json, and no verdict on how good it is.
 scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
-  local known ended held i bytes_before
+  local known ended held i
   need_recordings
   idle=30 # encounters ripen for 20 s, also those of two others
   if ((wifi_from > 0)); then off wifi; fi
@@ -445,7 +441,6 @@ scenario_trial() { # the robots get to know each other, then map; all that has c
   ended=$waited
   # Those that still wait for something end now; they write what they have.
   for ((i = 1; i <= agents; ++i)); do kill -TERM "$(cat "$scratch/r$i.pid")" 2> /dev/null || true; done
-  watch_radio all_ended 0
   until_then=end watch_radio all_ended 60
   held=$(holdings)
   cat > "$out/field.json" <<JSON

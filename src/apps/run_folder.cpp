@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "experiment/csv_line.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -59,13 +60,6 @@ std::string hash_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
   return to_hex(content_hash(bytes));
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
 }
 
 /// A PLY whose header says that it has faces.

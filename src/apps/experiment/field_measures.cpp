@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <vector>
 
+#include "experiment/csv_line.hpp"
 #include "experiment/run_case.hpp"
 
 namespace fleetmap::apps::experiment {
@@ -29,13 +29,6 @@ std::vector<fs::path> robots_in(const fs::path& directory) {
   }
   std::ranges::sort(robots);
   return robots;
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line);
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-  return cells;
 }
 
 /// A line that is cut off (a killed writer) is left out.
