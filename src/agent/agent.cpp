@@ -611,6 +611,7 @@ void Agent::update_status() {
     status.heading = static_cast<float>(rpy_from_rotation(G->q_enu_base.toRotationMatrix()).z());
     status.position_stddev = static_cast<float>(place::horizontal_sigma(G->covariance));
   }
+  status.busy = submap_.points() > 0;  // of the next node
   if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
 }

@@ -109,8 +109,8 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
 }
 
 /// Whether it is time to end by itself: the mission is done or the sensors are silent, the exchange has been
-/// silent for `patience`, and everything is held. Where something is still missing, others get a minute more
-/// to come and bring it.
+/// silent for `patience`, everything is held, and nobody tells that more will come. Else others get a minute
+/// more to come and bring it.
 bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
@@ -136,7 +136,7 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
     return false;
   }
   const Duration silence = bus.now() - agent.last_exchange();
-  const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up();
+  const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up() && !agent.others_busy();
   return settled ? silence > patience : silence > patience + kPeerPatience;
 }
 

@@ -239,6 +239,13 @@ void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
   section.read_seconds("retry_after", encounters.retry_after);
   section.read("max_attempts", encounters.max_attempts);
   section.read("stop_when_peer_aligned", encounters.stop_when_peer_aligned);
+  std::string order = exchange::to_string(encounters.order);
+  section.read("order", order);
+  if (order != "worth" && order != "first_come")
+    section.problem("order", "expected 'worth' or 'first_come', found '" + order + "'");
+  encounters.order =
+      order == "first_come" ? exchange::EncounterOrder::kFirstCome : exchange::EncounterOrder::kWorth;
+  section.read("min_worth", encounters.min_worth);
   section.finish();
   section.check(encounters.validate());
 }
@@ -259,7 +266,7 @@ void read_exchange(Section& top, agent::AgentConfig& agent) {
   double budget_kbit_s = exchange.long_range.fleet_bytes_per_second * 8e-3;
   long_range.read("budget_kbit_s", budget_kbit_s);
   exchange.long_range.fleet_bytes_per_second = budget_kbit_s * 125.0;
-  long_range.read("burst_seconds", exchange.long_range.burst_seconds);
+  long_range.read("burst_seconds", exchange.long_range.pace.burst_seconds);
   long_range.read_seconds("status_period", exchange.status_period);
   long_range.read_seconds("digest_min_period", exchange.reconcile.digest_min_period);
   long_range.read_seconds("digest_max_period", exchange.reconcile.digest_max_period);

@@ -92,10 +92,12 @@ std::optional<std::vector<CloudFragment>> CloudSender::answer(const CloudRequest
 CloudReceiver::CloudReceiver(const AgentId& self, const CloudTransferConfig& config)
     : self_(self), config_(config) {}
 
-bool CloudReceiver::want(const NodeId& node, Stamp now) {
+bool CloudReceiver::want(const NodeId& node, Stamp now, double worth) {
   if (waiting_.contains(node)) return true;
   if (full()) return false;
-  waiting_[node].deadline = now;  // the first request goes with the next tick
+  Waiting& waiting = waiting_[node];
+  waiting.deadline = now;  // the first request goes with the next tick
+  waiting.worth = worth;
   return true;
 }
 
@@ -147,9 +149,7 @@ std::optional<Bytes> CloudReceiver::add(const CloudFragment& fragment, Stamp now
   if (--waiting.missing > 0) return std::nullopt;
   if (content_hash(waiting.cloud) != waiting.hash) {
     ++stats_.bad_hash;
-    const int restarts = waiting.restarts + 1;
-    waiting = {};
-    waiting.restarts = restarts;
+    waiting.begin_anew();
     waiting.deadline = now;
     return std::nullopt;
   }
@@ -163,12 +163,10 @@ CloudRequest CloudReceiver::request(const NodeId& node, Waiting& waiting, Stamp 
   if (waiting.contradicted) {
     // The sender has made the cloud anew (it restarted): what we hold will never be completed.
     const int tries = waiting.tries;
-    const int restarts = waiting.restarts + 1;
-    waiting = {};
+    waiting.begin_anew();
     waiting.tries = tries;
-    waiting.restarts = restarts;
   }
-  CloudRequest request{self_, node.agent, node, {}};
+  CloudRequest request{self_, node.agent, node, {}, static_cast<float>(waiting.worth)};
   for (std::size_t index = 0; index < waiting.held.size(); ++index) {
     if (!waiting.held[index]) request.missing.push_back(static_cast<std::uint16_t>(index));
   }

@@ -22,6 +22,10 @@ bool differ(const Pose& T_before, const Pose& T_now) {
 
 }  // namespace
 
+const char* to_string(EncounterOrder order) {
+  return order == EncounterOrder::kWorth ? "worth" : "first_come";
+}
+
 Status EncounterConfig::validate() const {
   if (auto status = proximity.validate(); !status) return status;
   if (auto status = lookalikes.validate(); !status) return status;
@@ -35,6 +39,7 @@ Status EncounterConfig::validate() const {
   if (max_attempts < 1 || max_active == 0 || max_waiting == 0) {
     return failure("encounters.max_attempts, max_active and max_waiting must be at least 1");
   }
+  if (!(min_worth >= 0.0)) return failure("encounters.min_worth must not be negative");
   if (peer_timeout <= Duration::zero() || match_period <= Duration::zero() || match_repeats < 0) {
     return failure("encounters.peer_timeout and match_period must be positive, match_repeats not negative");
   }
@@ -57,6 +62,7 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   std::uint32_t& newest = track.newest[node.session];
   newest = std::max(newest, node.id.seq);
   ties_.add(node);
+  worth_.add(node);
   unlocated_ += !is_located;
   for (const AgentId& other : partners_of(node.id.agent)) find_tied(node.id, other, now);
   if (node.id.seq < newest) search_later(node.id);
@@ -204,6 +210,7 @@ void Encounters::search_anew(const graph::FrameTies::FramePair& frames) {
 
 void Encounters::on_used_alignments(std::span<const graph::Alignment> used) {
   ties_.use(used);
+  worth_.use(used);
   if (unlocated_ == 0) return;
   const auto before = std::exchange(tied_, {});
   for (const auto& [frames, T_ours_theirs] : ties_.tied()) {
@@ -337,6 +344,7 @@ void Encounters::on_cloud_request(const AgentId& peer, const NodeId& ours) {
 }
 
 void Encounters::on_alignment(const graph::Alignment& alignment, Stamp) {
+  if (alignment.best().rmse <= graph::kGoodRmse) worth_.add(alignment);
   const bool first_is_ours = alignment.i.agent == self_;
   if (first_is_ours == (alignment.j.agent == self_)) return;  // between others, or within our own track
   const NodePair pair =
@@ -422,34 +430,85 @@ bool Encounters::ripe(const NodePair& pair, const Encounter& encounter, Stamp no
   return nodes_since(pair.ours) >= config_.ripe_nodes && nodes_since(pair.theirs) >= config_.ripe_nodes;
 }
 
-void Encounters::ask(Due& due, Stamp now) {
-  std::size_t active = 0;
-  // Agents without a good alignment first, then the newest place: its agents are still near each other.
-  using Rank = std::tuple<bool, std::int64_t, NodePair>;
-  std::vector<Rank> ready;
+std::vector<NodePair> Encounters::ready(Stamp now) {
+  std::vector<NodePair> ready, obsolete;
   for (const auto& [pair, encounter] : encounters_) {
-    // A robot that fell silent must not keep the others waiting for its clouds.
-    active += (encounter.phase == Phase::kAsked && heard(pair.theirs.agent, now)) ||
-              encounter.phase == Phase::kRegistering;
     const bool may = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
     if (!may || !ripe(pair, encounter, now) || !heard(pair.theirs.agent, now)) continue;
-    ready.emplace_back(aligned_.contains(pair.theirs.agent), -to_ns(encounter.found), pair);
+    // The spacing grows with the first good alignment.
+    const bool is_obsolete =
+        encounter.phase == Phase::kWaiting && !encounter.known_to_peer && redundant(pair);
+    (is_obsolete ? obsolete : ready).push_back(pair);
   }
-  std::ranges::sort(ready);
-  for (const auto& [aligned, age, pair] : ready) {
-    if (active >= config_.max_active) return;
-    Encounter& encounter = encounters_.at(pair);
-    // Others may have been done since, and the spacing grows with the first good alignment.
-    if (encounter.phase == Phase::kWaiting && !encounter.known_to_peer && redundant(pair)) {
-      ++stats_.redundant;
+  for (const NodePair& pair : obsolete) {
+    // Of two that make each other redundant one stays.
+    if (redundant(pair)) {
       encounters_.erase(pair);
-      continue;
+      ++stats_.redundant;
+    } else {
+      ready.push_back(pair);
     }
+  }
+  return ready;
+}
+
+std::optional<Encounters::Choice> Encounters::choose(std::vector<NodePair>& ready) {
+  std::vector<graph::AlignmentWorth::Pair> pairs, expected;
+  for (const NodePair& pair : ready) pairs.emplace_back(pair.ours, pair.theirs);
+  for (const auto& [pair, encounter] : encounters_) {
+    if (encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering)
+      expected.emplace_back(pair.ours, pair.theirs);
+  }
+  const std::vector<double> worths = worth_.of(pairs, expected);
+  std::optional<std::size_t> best;
+  std::vector<NodePair> left;
+  const auto before = [&](std::size_t a, std::size_t b) {
+    const Stamp found_a = encounters_.at(ready[a]).found, found_b = encounters_.at(ready[b]).found;
+    if (config_.order == EncounterOrder::kFirstCome) return found_a < found_b;
+    return std::tuple(worths[a], found_a) > std::tuple(worths[b], found_b);
+  };
+  for (std::size_t k = 0; k < ready.size(); ++k) {
+    if (worths[k] < config_.min_worth) {
+      encounters_.erase(ready[k]);
+      ++stats_.worthless;
+    } else if (!best || before(k, *best)) {
+      if (best) left.push_back(ready[*best]);
+      best = k;
+    } else {
+      left.push_back(ready[k]);
+    }
+  }
+  std::optional<Choice> choice;
+  if (best) choice = Choice{ready[*best], worths[*best]};
+  ready = std::move(left);
+  return choice;
+}
+
+void Encounters::ask(Due& due, Stamp now) {
+  // A robot that fell silent must not keep the others waiting for its clouds.
+  auto active = static_cast<std::size_t>(std::ranges::count_if(encounters_, [&](const auto& entry) {
+    const auto& [pair, encounter] = entry;
+    return (encounter.phase == Phase::kAsked && heard(pair.theirs.agent, now)) ||
+           encounter.phase == Phase::kRegistering;
+  }));
+  if (active >= config_.max_active) return;
+  for (std::vector<NodePair> waiting = ready(now); !waiting.empty() && active < config_.max_active;) {
+    const auto choice = choose(waiting);
+    if (!choice) return;
+    Encounter& encounter = encounters_.at(choice->pair);
     encounter.phase = Phase::kAsked;
     ++encounter.attempts;
     ++stats_.begun;
     ++active;
-    due.wanted.push_back(pair.theirs);
+    due.wanted.push_back({choice->pair.theirs, choice->worth});
+    // The place that was chosen may make others redundant.
+    std::erase_if(waiting, [&](const NodePair& pair) {
+      const Encounter& other = encounters_.at(pair);
+      if (other.phase != Phase::kWaiting || other.known_to_peer || !redundant(pair)) return false;
+      encounters_.erase(pair);
+      ++stats_.redundant;
+      return true;
+    });
   }
 }
 

@@ -1,6 +1,7 @@
 #include "fleetmap/exchange/exchange.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace fleetmap::exchange {
@@ -14,6 +15,15 @@ constexpr const char* kHoldKey = "hold_orders";
 constexpr double kUsualLoad = 5.0 * 4.0 / 18'125.0;
 /// A fleet that starts gets to know itself in less.
 constexpr Duration kHellos = std::chrono::seconds(10);
+
+/// Status periods for which a robot's word holds that it is busy: one lost status ends nothing.
+constexpr double kBusyPeriods = 2.5;
+
+std::vector<AgentId> others_of(const std::vector<AgentId>& fleet, const AgentId& self) {
+  std::vector<AgentId> others;
+  std::ranges::remove_copy(fleet, std::back_inserter(others), self);
+  return others;
+}
 
 Duration longer(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
@@ -77,14 +87,16 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       store_(&store),
       self_(store.self()),
       fleet_(config.fleet.begin(), config.fleet.end()),
-      queue_(config.long_range, config.fleet.size(), config.payload_size),
+      shares_(self_, config.fleet, config.long_range.fleet_bytes_per_second, config.status_period, now),
+      queue_(config.long_range, others_of(config.fleet, self_), config.payload_size),
       cloud_sender_(self_, config.clouds),
       cloud_receiver_(self_, config.clouds),
       encounters_(self_, config.encounters),
       reconcile_(self_, config.reconcile),
       submap_receiver_(self_, config.submaps),
       submap_sender_(self_, config.submaps),
-      holds_(self_, fleet_) {
+      holds_(self_, fleet_),
+      present_(shares_.present(now)) {
   status_.position = GeoPoint{};
   for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
   for (const auto& [id, node] : store.nodes()) encounters_.on_node(node, now);
@@ -125,12 +137,12 @@ void Exchange::on_used_alignments(std::span<const graph::Alignment> used) {
 
 Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {
   const auto needed = needed_.find(node);
-  const std::set<AgentId> recipients = needed == needed_.end() ? std::set<AgentId>() : needed->second.by;
+  const auto recipients = needed == needed_.end() ? std::map<AgentId, float>() : needed->second.by;
   if (needed != needed_.end()) needed_.erase(needed);
   if (auto status = cloud_sender_.offer(node, std::move(cloud), now); !status) return status;
-  for (const AgentId& recipient : recipients) {
-    if (auto fragments = cloud_sender_.answer({recipient, self_, node, {}}, now)) {
-      send_fragments(std::move(*fragments));
+  for (const auto& [recipient, worth] : recipients) {
+    if (auto fragments = cloud_sender_.answer({recipient, self_, node, {}, worth}, now)) {
+      send_fragments(std::move(*fragments), worth);
     }
   }
   return {};
@@ -176,6 +188,7 @@ bool Exchange::admit(const Message& message, Reach link, Stamp now) {
     return false;
   }
   if (!of_fleet) return true;
+  shares_.on_heard(*sender, now);
   const auto recipient = recipient_of(message);
   if (link == Reach::kShortRange) submap_receiver_.on_heard(*sender, now);
   holds_.on_heard(*sender, now);
@@ -254,11 +267,11 @@ void Exchange::handle(const CloudRequest& request, Stamp now) {
   }
   encounters_.on_cloud_request(request.from, request.node);
   if (auto fragments = cloud_sender_.answer(request, now)) {
-    send_fragments(std::move(*fragments));
+    send_fragments(std::move(*fragments), request.worth);
     return;
   }
   const auto [needed, fresh] = needed_.try_emplace(request.node);
-  needed->second.by.insert(request.from);
+  needed->second.by[request.from] = request.worth;
   if (!fresh && now - needed->second.told < config_.clouds.first_timeout) return;
   needed->second.told = now;
   events_.push_back(CloudNeeded{request.node, request.from});
@@ -311,7 +324,15 @@ void Exchange::handle(const ItemRequest& request, Stamp) {
   for (const auto* alignment : items.alignments) queue_.push(Priority::kBackfill, *alignment, request.from);
 }
 
-void Exchange::handle(const AgentStatus& status, Stamp) { events_.push_back(PeerStatus{status}); }
+void Exchange::handle(const AgentStatus& status, Stamp now) {
+  shares_.on_status(status, now);
+  if (status.busy) {
+    busy_until_[status.from] = now + longer(config_.status_period, kBusyPeriods);
+  } else {
+    busy_until_.erase(status.from);
+  }
+  events_.push_back(PeerStatus{status});
+}
 
 void Exchange::handle(const MissionReport& report, Stamp) { events_.push_back(MissionHeard{report}); }
 
@@ -336,17 +357,26 @@ void Exchange::handle(const SubmapChunk& chunk, Stamp now) {
 // ---- in time
 // -------------------------------------------------------------------------------------------------------
 
-void Exchange::send_fragments(std::vector<CloudFragment> fragments) {
-  for (CloudFragment& fragment : fragments) queue_.push(Priority::kCloud, std::move(fragment));
+void Exchange::send_fragments(std::vector<CloudFragment> fragments, float worth) {
+  if (config_.encounters.order == EncounterOrder::kFirstCome) worth = 0.0f;
+  for (CloudFragment& fragment : fragments) queue_.push_fragment(std::move(fragment), worth);
 }
 
 void Exchange::tell_all(Priority priority, Message message) {
   if (!near_.empty()) to_near_.push_back(message);
-  const bool whole_fleet = near_.size() + 1 == fleet_.size();
-  if (!whole_fleet || priority == Priority::kSafety) queue_.push(priority, std::move(message));
+  if (priority == Priority::kSafety) return queue_.push(priority, std::move(message));
+  // Who is not there is told the status alone, by which the two get to know that they are there.
+  const bool to_absent = std::holds_alternative<AgentStatus>(message);
+  std::set<AgentId> receivers;
+  for (const AgentId& agent : fleet_) {
+    if (agent != self_ && !near_.contains(agent) && (to_absent || present_.contains(agent)))
+      receivers.insert(agent);
+  }
+  queue_.push_to(receivers, priority, std::move(message));
 }
 
 void Exchange::note_near(Stamp now) {
+  present_ = shares_.present(now);
   std::set<AgentId> in_reach, near;
   for (const AgentId& agent : submap_receiver_.peers_in_reach(now)) {
     in_reach.insert(agent);
@@ -368,8 +398,8 @@ void Exchange::tick_encounters(Stamp now) {
     queue_.cancel_cloud(pair.theirs.agent, pair.ours);
   }
   for (ProximityMatch& match : due.matches) queue_.push(Priority::kControl, std::move(match));
-  for (const NodeId& node : due.wanted) {
-    if (!cloud_receiver_.want(node, now)) encounters_.on_cloud_lost(node, now);
+  for (const auto& [node, worth] : due.wanted) {
+    if (!cloud_receiver_.want(node, now, worth)) encounters_.on_cloud_lost(node, now);
   }
 }
 
@@ -395,6 +425,9 @@ void Exchange::tick_status(Stamp now) {
   status.alignments = static_cast<std::uint32_t>(store_->alignment_set().size());
   status.submaps = static_cast<std::uint32_t>(store_->submap_set().size());
   status.backlog_bytes = static_cast<std::uint32_t>(queue_.backlog_bytes());
+  status.busy = status_.busy || !idle(now);
+  const std::uint64_t sent = queue_.stats().wire_bytes;
+  status.loans = shares_.lend(queue_.backlog_bytes(), sent - std::exchange(sent_before_status_, sent), now);
   tell_all(Priority::kState, std::move(status));
 }
 
@@ -439,6 +472,7 @@ void Exchange::note_completion() {
 
 std::vector<Outgoing> Exchange::tick(Stamp now) {
   note_near(now);
+  queue_.set_share(shares_.rate(now), now);
   tick_holds(now);
   tick_encounters(now);
   tick_clouds(now);
@@ -475,6 +509,10 @@ bool Exchange::idle(Stamp now, const std::set<AgentId>& without) const {
                     queue_.size(Priority::kBackfill) == 0 && queue_.size(Priority::kCloud) == 0;
   return sent && needed_.empty() && cloud_receiver_.idle(without) && encounters_.idle(now, without) &&
          submap_receiver_.idle(*store_, now) && submap_sender_.idle();
+}
+
+bool Exchange::others_busy(Stamp now) const {
+  return std::ranges::any_of(busy_until_, [now](const auto& entry) { return now < entry.second; });
 }
 
 ExchangeStats Exchange::stats() const {

@@ -9,8 +9,9 @@ Reach usual_reach(const Message& message) {
   return is_short ? Reach::kShortRange : Reach::kLongRange;
 }
 
-bool may_be_passed_on(const Message& message) {
-  return std::holds_alternative<graph::Node>(message) || std::holds_alternative<graph::Alignment>(message);
+bool may_go_one_by_one(const Message& message) {
+  return !recipient_of(message) && usual_reach(message) == Reach::kLongRange &&
+         !std::holds_alternative<Hold>(message);
 }
 
 std::optional<AgentId> sender_of(const Message& message) {

@@ -7,8 +7,11 @@
 namespace fleetmap::exchange {
 namespace {
 
+constexpr auto kNews = static_cast<std::size_t>(Priority::kNews);
 constexpr auto kBackfill = static_cast<std::size_t>(Priority::kBackfill);
 constexpr auto kCloud = static_cast<std::size_t>(Priority::kCloud);
+/// s of the share by which news and state may be ahead of backfill and clouds that wait.
+constexpr double kSmallLead = 1.0;
 
 }  // namespace
 
@@ -16,11 +19,12 @@ Status LongRangeConfig::validate() const {
   if (!(fleet_bytes_per_second > 0.0) || !std::isfinite(fleet_bytes_per_second)) {
     return failure("long_range.fleet_bytes_per_second must be positive");
   }
-  if (!(burst_seconds >= 0.0) || burst_seconds > 10.0)
+  if (!(pace.burst_seconds >= 0.0) || pace.burst_seconds > 10.0)
     return failure("long_range.burst_seconds must be in 0 .. 10");
-  if (!(min_burst_bytes >= 0.0) || min_burst_bytes > 1e6) {
+  if (!(pace.min_burst_bytes >= 0.0) || pace.min_burst_bytes > 1e6) {
     return failure("long_range.min_burst_bytes must be in 0 .. 1e6");
   }
+  if (!(pace.peak >= 1.0) || pace.peak > 100.0) return failure("long_range.peak must be in 1 .. 100");
   if (!(small_reserve_bytes >= 0.0) || small_reserve_bytes > 1e6) {
     return failure("long_range.small_reserve_bytes must be in 0 .. 1e6");
   }
@@ -30,13 +34,12 @@ Status LongRangeConfig::validate() const {
   return {};
 }
 
-SendQueue::SendQueue(const LongRangeConfig& config, std::size_t fleet_size,
+SendQueue::SendQueue(const LongRangeConfig& config, std::span<const AgentId> peers,
                      std::function<std::size_t(const Message&)> payload_size)
     : config_(config),
-      copies_(config.copies(fleet_size)),
+      peers_(peers.begin(), peers.end()),
       payload_size_(std::move(payload_size)),
-      share_(config.fleet_bytes_per_second / static_cast<double>(std::max<std::size_t>(fleet_size, 1))),
-      bucket_(share_, std::max(config.burst_seconds * share_, config.min_burst_bytes)) {}
+      pace_(config.fleet_bytes_per_second / static_cast<double>(peers.size() + 1), config.pace) {}
 
 SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
   struct Subject {
@@ -63,7 +66,7 @@ SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
 }
 
 std::size_t SendQueue::wire_bytes(const Message& message, const std::optional<AgentId>& to) const {
-  const std::size_t copies = to && config_.deliver_to_one ? 1 : copies_;
+  const std::size_t copies = to && config_.deliver_to_one ? 1 : config_.copies(peers_.size() + 1);
   return (payload_size_(message) + config_.overhead_bytes) * copies;
 }
 
@@ -73,30 +76,58 @@ std::size_t SendQueue::capacity(std::size_t priority) const {
 }
 
 void SendQueue::erase(const Place& place) {
-  backlog_ -= place.item->bytes;
+  backlog_ -= place.item->all_bytes();
   index_.erase(place.item->key);
   waiting_[place.priority].erase(place.item);
 }
 
 void SendQueue::push(Priority priority, Message message, std::optional<AgentId> to) {
   if (!to) to = recipient_of(message);
-  Item item{{}, {Reach::kLongRange, to, std::move(message)}, 0};
+  if (!to && may_go_one_by_one(message) && !config_.multicast && config_.deliver_to_one) {
+    return push_to({peers_.begin(), peers_.end()}, priority, std::move(message));
+  }
+  const std::size_t bytes = wire_bytes(message, to);
+  insert(priority, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, 0.0});
+}
+
+void SendQueue::push_fragment(CloudFragment fragment, float worth) {
+  const double rank = static_cast<double>(worth) / std::max(fragment.total_bytes, 1u);
+  const AgentId to = fragment.to;
+  Message message = std::move(fragment);
+  const std::size_t bytes = wire_bytes(message, to);
+  insert(Priority::kCloud, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, rank});
+}
+
+void SendQueue::push_to(const std::set<AgentId>& receivers, Priority priority, Message message) {
+  if (receivers.empty()) return;
+  if (config_.multicast || !config_.deliver_to_one) return push(priority, std::move(message));
+  Item item{{}, {Reach::kLongRange, std::nullopt, std::move(message)}, 0, {}, 0.0};
+  item.bytes = payload_size_(item.outgoing.message) + config_.overhead_bytes;
+  item.receivers.assign(receivers.begin(), receivers.end());
+  const auto first = static_cast<std::ptrdiff_t>(first_receiver_++ % receivers.size());
+  std::ranges::rotate(item.receivers, item.receivers.begin() + first);
+  insert(priority, std::move(item));
+}
+
+void SendQueue::insert(Priority priority, Item item) {
   item.key = key_of(item.outgoing);
-  item.bytes = wire_bytes(item.outgoing.message, to);
   if (const auto same = index_.find(item.key); same != index_.end()) {
-    backlog_ += item.bytes - same->second.item->bytes;
+    backlog_ += item.all_bytes() - same->second.item->all_bytes();
     *same->second.item = std::move(item);
     ++stats_.superseded;
     return;
   }
   const auto p = static_cast<std::size_t>(priority);
-  if (waiting_[p].size() >= capacity(p)) {
-    erase({p, waiting_[p].begin()});
-    ++stats_.dropped[p];
-  }
-  backlog_ += item.bytes;
-  waiting_[p].push_back(std::move(item));
-  index_.emplace(waiting_[p].back().key, Place{p, std::prev(waiting_[p].end())});
+  Items& items = waiting_[p];
+  auto place = items.end();
+  while (place != items.begin() && std::prev(place)->rank < item.rank) --place;
+  backlog_ += item.all_bytes();
+  const auto added = items.insert(place, std::move(item));
+  index_.emplace(added->key, Place{p, added});
+  if (items.size() <= capacity(p)) return;
+  // Of clouds the least worth gives way, else what is oldest.
+  erase({p, p == kCloud ? std::prev(items.end()) : items.begin()});
+  ++stats_.dropped[p];
 }
 
 std::size_t SendQueue::cancel_cloud(const AgentId& to, const NodeId& node) {
@@ -117,39 +148,76 @@ std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
   for (std::size_t p = 0; p < kPriorities; ++p) {
     for (auto it = waiting_[p].begin(); it != waiting_[p].end();) {
       const auto item = it++;
-      if (!item->outgoing.to || !peers.contains(*item->outgoing.to)) continue;
-      taken.push_back(std::move(item->outgoing));
-      erase({p, item});
+      const Place place{p, item};
+      if (item->outgoing.to && peers.contains(*item->outgoing.to)) {
+        taken.push_back(std::move(item->outgoing));
+        erase(place);
+        continue;
+      }
+      // Orders go over both links.
+      if (p == static_cast<std::size_t>(Priority::kSafety)) continue;
+      const std::size_t before = item->all_bytes();
+      const auto near = std::ranges::stable_partition(
+          item->receivers, [&](const AgentId& receiver) { return !peers.contains(receiver); });
+      if (near.empty()) continue;
+      for (const AgentId& receiver : near)
+        taken.push_back({Reach::kLongRange, receiver, item->outgoing.message});
+      item->receivers.erase(near.begin(), near.end());
+      backlog_ -= before - item->all_bytes();
+      if (item->receivers.empty()) erase(place);
     }
   }
   return taken;
 }
 
 std::optional<std::size_t> SendQueue::next() const {
-  for (std::size_t p = 0; p < kBackfill; ++p) {
-    if (!waiting_[p].empty()) return p;
-  }
-  if (waiting_[kBackfill].empty() && waiting_[kCloud].empty()) return std::nullopt;
-  if (waiting_[kCloud].empty()) return kBackfill;
-  if (waiting_[kBackfill].empty()) return kCloud;
+  const auto first_of = [&](std::size_t from, std::size_t to) {
+    while (from < to && waiting_[from].empty()) ++from;
+    return from;
+  };
+  if (const std::size_t urgent = first_of(0, kNews); urgent < kNews) return urgent;
+  const std::size_t small = first_of(kNews, kBackfill), bulk = first_of(kBackfill, kPriorities);
+  if (small == kBackfill && bulk == kPriorities) return std::nullopt;
+  if (bulk == kPriorities || (small < kBackfill && small_lead_ < kSmallLead * pace_.rate())) return small;
+  if (waiting_[kCloud].empty() || waiting_[kBackfill].empty()) return bulk;
   return cloud_lead_ > 0.0 ? kBackfill : kCloud;
+}
+
+Outgoing SendQueue::take_one(const Place& place) {
+  Item& item = *place.item;
+  if (item.receivers.size() > 1) {
+    Outgoing copy{item.outgoing.reach, item.receivers.back(), item.outgoing.message};
+    item.receivers.pop_back();
+    backlog_ -= item.bytes;
+    return copy;
+  }
+  Outgoing last = std::move(item.outgoing);
+  if (!item.receivers.empty()) last.to = item.receivers.front();
+  erase(place);
+  return last;
+}
+
+void SendQueue::note_sent(std::size_t priority, double bytes) {
+  if (priority < kNews) return;
+  const auto waits = [&](std::size_t p) { return !waiting_[p].empty(); };
+  const bool small = priority < kBackfill;
+  const bool both_wait = (waits(kNews) || waits(kNews + 1)) && (waits(kBackfill) || waits(kCloud));
+  small_lead_ = both_wait ? std::max(small_lead_ + (small ? bytes : -bytes), 0.0) : 0.0;
+  if (small) return;
+  cloud_lead_ = waits(kBackfill) && waits(kCloud) ? cloud_lead_ + (priority == kCloud ? bytes : -bytes) : 0.0;
 }
 
 std::vector<Outgoing> SendQueue::take(Stamp now) {
   std::vector<Outgoing> due;
   while (const auto p = next()) {
     const Items::iterator item = waiting_[*p].begin();
+    const std::size_t bytes = item->bytes;
     const double reserve = *p >= kBackfill ? config_.small_reserve_bytes : 0.0;
-    if (!bucket_.take(static_cast<double>(item->bytes), now, reserve)) break;
-    const bool both_wait = !waiting_[kBackfill].empty() && !waiting_[kCloud].empty();
-    if (*p >= kBackfill) {
-      const auto bytes = static_cast<double>(item->bytes);
-      cloud_lead_ = both_wait ? cloud_lead_ + (*p == kCloud ? bytes : -bytes) : 0.0;
-    }
-    ++stats_.sent[*p];
-    stats_.wire_bytes += item->bytes;
-    due.push_back(std::move(item->outgoing));
-    erase({*p, item});
+    if (!pace_.take(static_cast<double>(bytes), now, reserve)) break;
+    note_sent(*p, static_cast<double>(bytes));
+    stats_.sent[*p] += item->receivers.size() <= 1;
+    stats_.wire_bytes += bytes;
+    due.push_back(take_one({*p, item}));
   }
   return due;
 }

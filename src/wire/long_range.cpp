@@ -119,6 +119,7 @@ Bytes encode(const exchange::CloudRequest& request) {
   out.sender(agent_name(request.from));
   out.recipient(agent_name(request.to));
   out.node(node_ref(request.node));
+  out.worth(request.worth);
   out.missing({request.missing.begin(), request.missing.begin() + static_cast<std::ptrdiff_t>(std::min(
                                                                       request.missing.size(), kMaxMissing))});
   return to_cdr(out);
@@ -133,6 +134,8 @@ Result<exchange::CloudRequest> decode(ByteView cdr) {
   request.from = check.agent(in->sender(), "sender");
   request.to = check.agent(in->recipient(), "recipient");
   request.node = check.node(in->node(), "node");
+  check.size(static_cast<double>(in->worth()), 1e3, "worth");
+  request.worth = in->worth();
   check.require(in->missing().size() <= kMaxMissing, "missing has more than 256 entries");
   request.missing = std::move(in->missing());
   return check.finish(std::move(request));
@@ -197,6 +200,12 @@ Bytes encode(const exchange::AgentStatus& status) {
   out.alignments(status.alignments);
   out.submaps(status.submaps);
   out.backlog_bytes(status.backlog_bytes);
+  out.busy(status.busy);
+  out.loans().resize(std::min(status.loans.size(), kMaxLoans));
+  for (std::size_t k = 0; k < out.loans().size(); ++k) {
+    out.loans()[k].borrower(agent_name(status.loans[k].borrower));
+    out.loans()[k].bytes_per_second(status.loans[k].bytes_per_second);
+  }
   return to_cdr(out);
 }
 
@@ -219,7 +228,12 @@ Result<exchange::AgentStatus> decode(ByteView cdr) {
   status.alignments = in->alignments();
   status.submaps = in->submaps();
   status.backlog_bytes = in->backlog_bytes();
-  return check.finish(status);
+  status.busy = in->busy();
+  check.require(in->loans().size() <= kMaxLoans, "more than 4 loans");
+  for (const msg::Loan& loan : in->loans()) {
+    status.loans.push_back({check.agent(loan.borrower(), "borrower"), loan.bytes_per_second()});
+  }
+  return check.finish(std::move(status));
 }
 
 Bytes encode(const exchange::MissionReport& report) {

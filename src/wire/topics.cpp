@@ -82,8 +82,8 @@ Kind kind_of(const exchange::Message& message) { return std::visit(KindOf{}, mes
 /// Adds the topics on which messages like `example` arrive.
 void add_inbox(std::vector<Topic>& topics, const exchange::Message& example, const AgentId& self) {
   const bool to_all = !exchange::recipient_of(example);
-  const bool to_one = !to_all || exchange::may_be_passed_on(example);
   const bool over_radio = exchange::usual_reach(example) == Reach::kLongRange;
+  const bool to_one = !to_all || exchange::may_go_one_by_one(example);
   for (const Reach reach : {Reach::kLongRange, Reach::kShortRange}) {
     if (reach == Reach::kLongRange && !over_radio) continue;
     if (to_all) topics.push_back(topic(kind_of(example), reach, std::nullopt));

@@ -26,6 +26,12 @@ EncounterConfig at_once() {
   return config;
 }
 
+std::vector<NodeId> wanted(const Encounters::Due& due) {
+  std::vector<NodeId> nodes;
+  for (const auto& [node, worth] : due.wanted) nodes.push_back(node);
+  return nodes;
+}
+
 NodePair mirrored(const NodePair& pair) { return {pair.theirs, pair.ours}; }
 
 TEST(Encounters, begin_with_the_nearest_own_node_within_the_radius_of_eq_1) {
@@ -37,7 +43,7 @@ TEST(Encounters, begin_with_the_nearest_own_node_within_the_radius_of_eq_1) {
   EXPECT_TRUE(a.idle(kStart));
   a.on_node(node_at(kB, 1, 38.0), kStart);
   const auto due = a.tick(kStart);
-  EXPECT_EQ(due.wanted, (std::vector<NodeId>{{kB, 1}}));
+  EXPECT_EQ(wanted(due), (std::vector<NodeId>{{kB, 1}}));
   ASSERT_EQ(due.matches.size(), 1u);
   EXPECT_EQ(due.matches[0].theirs, (NodeId{kB, 1}));
   EXPECT_EQ(due.matches[0].ours, (NodeId{kA, 4}));
@@ -65,13 +71,13 @@ TEST(Encounters, are_the_same_on_both_ends_without_talk) {
       a.on_node(node, now);
       b.on_node(node, now);
     }
-    for (const auto& id : a.tick(now).wanted) {
+    for (const auto& [id, worth] : a.tick(now).wanted) {
       a_wants.insert(id);
       for (const auto& pair : a.on_cloud(id)) {
         pairs.push_back(pair);
         a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq), now);
         // b computes the mirrored pair.
-        for (const auto& wanted : b.tick(now).wanted) b_wants.insert(wanted);
+        for (const auto& [wanted, value] : b.tick(now).wanted) b_wants.insert(wanted);
         ASSERT_EQ(b.on_cloud(pair.ours), std::vector<NodePair>{mirrored(pair)});
         b.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kB, seq), now);
       }
@@ -93,7 +99,7 @@ TEST(Encounters, of_one_place_are_not_repeated_until_the_spacing_is_left) {
   std::vector<std::uint32_t> begun;
   for (std::uint32_t seq = 0; seq < 50; ++seq) {
     a.on_node(node_at(kB, seq, 1.0 * seq), kStart);
-    for (const auto& id : a.tick(kStart).wanted) {
+    for (const auto& [id, worth] : a.tick(kStart).wanted) {
       begun.push_back(id.seq);
       for (const auto& pair : a.on_cloud(id)) {
         a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq, 0.3), kStart);
@@ -112,7 +118,7 @@ TEST(Encounters, that_were_rejected_are_tried_again_later_and_not_for_ever) {
   std::vector<Stamp> begun;
   for (Stamp now = kStart; now < kStart + std::chrono::minutes(10); now += std::chrono::seconds(1)) {
     a.on_heard(kB, now);
-    for (const auto& id : a.tick(now).wanted) {
+    for (const auto& [id, worth] : a.tick(now).wanted) {
       begun.push_back(now);
       for (const auto& pair : a.on_cloud(id)) a.on_rejected(pair, now);
     }
@@ -190,7 +196,7 @@ TEST(Encounters, take_the_nearest_pair_that_comes_up_while_they_ripen) {
     EXPECT_TRUE(a.tick(now).wanted.empty());
   }
   const auto due = a.tick(kStart + config.ripe_after);
-  EXPECT_EQ(due.wanted, (std::vector<NodeId>{{kB, 3}}));  // 3 m away rather than 12
+  EXPECT_EQ(wanted(due), (std::vector<NodeId>{{kB, 3}}));  // 3 m away rather than 12
 }
 
 TEST(Encounters, wait_until_both_robots_have_gone_on) {
@@ -206,7 +212,7 @@ TEST(Encounters, wait_until_both_robots_have_gone_on) {
     EXPECT_TRUE(a.tick(kStart).wanted.empty());
     a.on_node(node_at(kB, seq, -100.0 * seq), kStart);
   }
-  EXPECT_EQ(a.tick(kStart).wanted, (std::vector<NodeId>{{kB, 0}}));
+  EXPECT_EQ(wanted(a.tick(kStart)), (std::vector<NodeId>{{kB, 0}}));
 }
 
 TEST(Encounters, with_a_silent_robot_do_not_hold_up_those_with_others) {
@@ -217,13 +223,13 @@ TEST(Encounters, with_a_silent_robot_do_not_hold_up_those_with_others) {
   a.on_heard(kB, kStart);
   a.on_node(node_at(kA, 0, 0.0), kStart);
   a.on_node(node_at(kB, 0, 1.0), kStart);
-  EXPECT_EQ(a.tick(kStart).wanted, (std::vector<NodeId>{{kB, 0}}));  // and b is never heard again
+  EXPECT_EQ(wanted(a.tick(kStart)), (std::vector<NodeId>{{kB, 0}}));  // and b is never heard again
   a.on_heard(kC, kStart);
   a.on_node(node_at(kC, 0, 2.0), kStart);
   EXPECT_TRUE(a.tick(kStart).wanted.empty());
   const Stamp later = kStart + config.peer_timeout + std::chrono::seconds(1);
   a.on_heard(kC, later);
-  EXPECT_EQ(a.tick(later).wanted, (std::vector<NodeId>{{kC, 0}}));
+  EXPECT_EQ(wanted(a.tick(later)), (std::vector<NodeId>{{kC, 0}}));
 }
 
 TEST(Encounters, ignore_matches_that_make_no_sense) {
@@ -239,6 +245,52 @@ TEST(Encounters, ignore_matches_that_make_no_sense) {
   a.on_match({kB, kA, {kA, 0}, {kB, 7}, std::nan(""), 20.0}, kStart);
   EXPECT_TRUE(a.tick(kStart).wanted.empty());
   EXPECT_TRUE(a.idle(kStart));
+}
+
+/// a and b were aligned at 0 and at 100 m; a pair at 110 m came first, one at 50 m later.
+Encounters with_two_to_choose_from(EncounterConfig config) {
+  config.max_active = 1;
+  Encounters a(kA, config);
+  a.on_heard(kB, kStart);
+  std::vector<graph::Node> of_b;
+  for (std::uint32_t seq = 0; seq < 28; ++seq) {
+    graph::Node ours = node_at(kA, seq, 4.0 * seq), theirs = node_at(kB, seq, 4.0 * seq);
+    ours.odom_covariance = theirs.odom_covariance = 1e-5 * Matrix6d::Identity();
+    a.on_node(ours, kStart);
+    of_b.push_back(theirs);
+  }
+  for (const std::uint32_t seq : {0u, 25u}) {
+    a.on_node(of_b[seq], kStart);
+    auto alignment = testing::make_alignment({kA, seq}, {kB, seq}, kA, seq, 0.1);
+    alignment.modes.front().covariance = 1e-5 * Matrix6d::Identity();
+    a.on_alignment(alignment, kStart);
+  }
+  a.on_node(of_b[27], kStart);
+  a.on_node(of_b[12], kStart + std::chrono::milliseconds(1));
+  return a;
+}
+
+TEST(Encounters, ask_first_for_what_would_teach_the_graph_most) {
+  EncounterConfig config = at_once();
+  config.spacing_aligned_m = config.spacing_m = 3.0;
+  const Stamp later = kStart + std::chrono::seconds(1);
+  Encounters by_worth = with_two_to_choose_from(config);
+  const auto due = by_worth.tick(later);
+  EXPECT_EQ(wanted(due), (std::vector<NodeId>{{kB, 12}})) << "half way between two alignments";
+  EXPECT_GT(due.wanted.front().worth, 0.0);
+  config.order = EncounterOrder::kFirstCome;
+  EXPECT_EQ(wanted(with_two_to_choose_from(config).tick(later)), (std::vector<NodeId>{{kB, 27}}));
+}
+
+TEST(Encounters, let_go_what_is_known_as_well_already) {
+  EncounterConfig config = at_once();
+  config.spacing_aligned_m = config.spacing_m = 3.0;
+  const Stamp later = kStart + std::chrono::seconds(1);
+  config.min_worth = 1.1 * with_two_to_choose_from(config).tick(later).wanted.front().worth;
+  Encounters a = with_two_to_choose_from(config);
+  EXPECT_TRUE(a.tick(later).wanted.empty());
+  EXPECT_EQ(a.stats().worthless, 2u);
+  EXPECT_TRUE(a.idle(later));
 }
 
 }  // namespace

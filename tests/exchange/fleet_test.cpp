@@ -119,8 +119,39 @@ TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robot
       bytes += fixed ? static_cast<double>(sent.wire_bytes) : 0.0;
     }
     EXPECT_LT(bytes, 0.25 * fleet.config().long_range.fleet_bytes_per_second * 240.0) << robots << " robots";
+    // Twenty robots at one place have 190 pairs, whose clouds and alignments take a while.
+    fleet.run_for(std::chrono::minutes(10), [&] { return fleet.equal_sets(robots); });
     EXPECT_TRUE(fleet.equal_sets(robots)) << robots << " robots";
   }
+}
+
+TEST(Fleet, a_robot_says_that_it_is_busy_while_it_drives_and_while_a_pair_of_it_ripens) {
+  SimFleet fleet(kThree, {}, 3);
+  for (const auto& name : kThree) fleet.start(name);
+  const auto told = [&] { return fleet.robot("r3").exchange->others_busy(fleet.now()); };
+  fleet.run_for(std::chrono::seconds(15));
+  EXPECT_FALSE(told());
+  AgentStatus driving;
+  driving.busy = true;
+  fleet.robot("r1").exchange->set_status(driving);
+  fleet.run_for(std::chrono::seconds(60), told);
+  EXPECT_TRUE(told());
+  fleet.robot("r1").exchange->set_status({});
+  fleet.run_for(std::chrono::seconds(60), [&] { return !told(); });
+  EXPECT_FALSE(told());
+  // A pair of r1 and r2, of which r3 knows nothing but the nodes.
+  fleet.add_node("r1", 0.0);
+  fleet.add_node("r2", 1.0);
+  fleet.run_for(std::chrono::seconds(60), told);
+  EXPECT_TRUE(told());
+  fleet.run_for(std::chrono::minutes(3), [&] { return !told(); });
+  EXPECT_FALSE(told());
+  EXPECT_GE(fleet.robot("r3").store->alignments().size(), 1u) << "so r3 has it";
+  fleet.robot("r1").exchange->set_status(driving);
+  fleet.run_for(std::chrono::seconds(60), told);
+  fleet.kill("r1");
+  fleet.run_for(std::chrono::seconds(20));
+  EXPECT_FALSE(told()) << "its word does not outlive it";
 }
 
 TEST(ForFleet, ASmallFleetOnTheUsualBudgetKeepsItsPeriods) {

@@ -138,7 +138,8 @@ TEST(HoldOrders, SpreadThroughAFleetThatLosesMessagesAndOutliveARestart) {
 }
 
 TEST(HoldOrders, GoBeforeEverythingElse) {
-  SendQueue queue({}, 2, testing::payload_size);
+  const std::vector<AgentId> peers = {agent("r2")};
+  SendQueue queue({}, peers, testing::payload_size);
   for (std::uint32_t k = 0; k < 50; ++k)
     queue.push(Priority::kControl, CloudRequest{agent("r1"), agent("r2"), {agent("r2"), k}, {}});
   queue.push(Priority::kSafety, Hold{agent("r1"), Hold::Driving::kHeld, {}});

@@ -102,7 +102,7 @@ TEST(Encounters, without_gps_begin_at_places_that_look_alike_and_keep_their_spac
   for (std::uint32_t seq = 0; seq < 12; ++seq) {
     a.on_node(of_a(seq), kStart);
     a.on_node(of_b(seq), kStart);
-    for (const NodeId& id : a.tick(kStart).wanted) {
+    for (const auto& [id, worth] : a.tick(kStart).wanted) {
       for (const NodePair& pair : a.on_cloud(id)) {
         pairs.push_back(pair);
         a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq, 0.1), kStart);

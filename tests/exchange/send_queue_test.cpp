@@ -13,6 +13,8 @@ using testing::agent;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
+const std::vector<AgentId> kOne = {kPeer};
+const std::vector<AgentId> kFour = {agent("r2"), agent("r3"), agent("r4"), agent("r5")};
 const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 graph::Node node(std::uint32_t seq) { return testing::make_node(kSelf, seq, Bytes{}); }
@@ -48,10 +50,42 @@ TEST(TokenBucket, refills_nothing_when_the_clock_runs_backwards) {
   EXPECT_TRUE(bucket.take(1000.0, kStart + std::chrono::milliseconds(1000)));
 }
 
+TEST(Pace, no_second_has_more_than_the_peak_whatever_the_rate_was) {
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    std::mt19937 random(seed);
+    Pace pace(5000.0, {.burst_seconds = 0.5, .peak = 1.1});
+    std::vector<std::pair<Stamp, double>> taken;
+    Stamp now = kStart;
+    double sum = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      now += std::chrono::milliseconds(random() % 100);
+      if (random() % 200 == 0) pace.set_rate(4000.0 + static_cast<double>(random() % 1000), now);
+      const double bytes = static_cast<double>(100 + random() % 1300);
+      if (!pace.take(bytes, now)) continue;
+      taken.emplace_back(now, bytes);
+      sum += bytes;
+    }
+    for (auto first = taken.begin(); first != taken.end(); ++first) {
+      double second = 0.0;
+      for (auto it = first; it != taken.end() && it->first - first->first < std::chrono::seconds(1); ++it)
+        second += it->second;
+      ASSERT_LE(second, 1.1 * 5000.0) << "seed " << seed;
+    }
+    EXPECT_GT(sum, 0.85 * 4000.0 * to_seconds(now - kStart)) << "and most of the rate is used";
+  }
+}
+
+TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) {
+  Pace pace(500.0, {});
+  EXPECT_TRUE(pace.take(1400.0, kStart));
+  EXPECT_FALSE(pace.take(100.0, kStart + std::chrono::milliseconds(900)));
+  EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(1000)));
+}
+
 TEST(SendQueue, sends_small_messages_before_clouds_that_wait_longer) {
   LongRangeConfig config;
-  config.burst_seconds = 0.5;
-  SendQueue queue(config, 2, testing::payload_size);
+  config.pace.burst_seconds = 0.5;
+  SendQueue queue(config, kOne, testing::payload_size);
   for (auto& fragment : split_cloud(kSelf, kPeer, {kSelf, 0}, Bytes(25'000, 1)))
     queue.push(Priority::kCloud, fragment);
   queue.push(Priority::kState, Digest{kSelf, {}, {}});
@@ -62,7 +96,7 @@ TEST(SendQueue, sends_small_messages_before_clouds_that_wait_longer) {
   EXPECT_TRUE(std::holds_alternative<CloudRequest>(out[0].message));
   EXPECT_EQ(out[0].to, kPeer);
   EXPECT_TRUE(std::holds_alternative<graph::Node>(out[1].message));
-  EXPECT_EQ(out[1].to, std::nullopt);
+  EXPECT_EQ(out[1].to, kPeer) << "the only one";
   EXPECT_TRUE(std::holds_alternative<Digest>(out[2].message));
   EXPECT_TRUE(std::holds_alternative<CloudFragment>(out[3].message));
   // The bucket is empty but for the reserve, so a small message need not wait for the clouds.
@@ -73,7 +107,7 @@ TEST(SendQueue, sends_small_messages_before_clouds_that_wait_longer) {
 TEST(SendQueue, replaces_what_is_stale_and_counts_what_it_drops) {
   LongRangeConfig config;
   config.max_small = 3;
-  SendQueue queue(config, 2, testing::payload_size);
+  SendQueue queue(config, kOne, testing::payload_size);
   AgentStatus status;
   for (std::uint32_t k = 0; k < 5; ++k) {
     status.nodes = k;
@@ -93,7 +127,7 @@ TEST(SendQueue, replaces_what_is_stale_and_counts_what_it_drops) {
 }
 
 TEST(SendQueue, cancels_the_rest_of_one_cloud_only) {
-  SendQueue queue({}, 2, testing::payload_size);
+  SendQueue queue({}, kOne, testing::payload_size);
   for (const std::uint32_t seq : {0u, 1u}) {
     for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(25'000, 1))) queue.push(Priority::kCloud, f);
   }
@@ -103,26 +137,114 @@ TEST(SendQueue, cancels_the_rest_of_one_cloud_only) {
   EXPECT_EQ(queue.size(Priority::kCloud), 23u);
 }
 
+TEST(SendQueue, sends_first_the_cloud_that_is_worth_most_a_byte) {
+  LongRangeConfig config;
+  config.max_fragments = 30;
+  SendQueue queue(config, kOne, testing::payload_size);
+  const auto push = [&](std::uint32_t seq, std::size_t bytes, float worth) {
+    for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(bytes, 1))) queue.push_fragment(f, worth);
+  };
+  push(0, 22'000, 1.0f);
+  push(1, 22'000, 2.0f);
+  EXPECT_EQ(queue.size(Priority::kCloud), 30u) << "of 40";
+  push(2, 2'200, 0.5f);
+  std::vector<std::uint32_t> order;
+  for (int k = 0; !queue.empty(); ++k) {
+    for (const Outgoing& outgoing : queue.take(kStart + k * std::chrono::milliseconds(100)))
+      order.push_back(std::get<CloudFragment>(outgoing.message).node.seq);
+  }
+  ASSERT_EQ(order.size(), 30u);
+  EXPECT_EQ(order[0], 2u) << "little, but cheap";
+  EXPECT_EQ(order[2], 1u);
+  EXPECT_EQ(order[21], 1u);
+  EXPECT_EQ(order[22], 0u) << "its last pieces gave way";
+}
+
 TEST(SendQueue, counts_every_copy_and_header) {
   LongRangeConfig config;
   config.fleet_bytes_per_second = 20'000;
   config.overhead_bytes = 160;
-  SendQueue queue(config, 5, testing::payload_size);
+  SendQueue queue(config, kFour, testing::payload_size);
   EXPECT_EQ(queue.wire_bytes(node(0), std::nullopt), 4u * 260u);
   EXPECT_EQ(queue.wire_bytes(node(0), kPeer), 260u);
   EXPECT_DOUBLE_EQ(queue.share_bytes_per_second(), 4000.0);
   config.deliver_to_one = false;
-  EXPECT_EQ(SendQueue(config, 5, testing::payload_size).wire_bytes(node(0), kPeer), 4u * 260u);
+  EXPECT_EQ(SendQueue(config, kFour, testing::payload_size).wire_bytes(node(0), kPeer), 4u * 260u);
   config.multicast = true;
-  EXPECT_EQ(SendQueue(config, 5, testing::payload_size).wire_bytes(node(0), std::nullopt), 260u);
+  EXPECT_EQ(SendQueue(config, kFour, testing::payload_size).wire_bytes(node(0), std::nullopt), 260u);
+}
+
+TEST(SendQueue, tells_one_robot_after_the_other_and_near_ones_by_another_link) {
+  LongRangeConfig config;
+  config.pace = {.burst_seconds = 0.0, .min_burst_bytes = 280.0};  // one datagram at a time
+  SendQueue queue(config, kFour, testing::payload_size);
+  queue.push(Priority::kNews, node(0));
+  EXPECT_EQ(queue.backlog_bytes(), 4u * 274u);
+  std::vector<AgentId> told;
+  for (const Outgoing& outgoing : queue.take(kStart)) told.push_back(outgoing.to.value());
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(queue.backlog_bytes(), 3u * 274u);
+  const AgentId near = told[0] == kFour[2] ? kFour[1] : kFour[2];
+  const auto diverted = queue.take_for({near, told[0]});
+  ASSERT_EQ(diverted.size(), 1u);
+  EXPECT_EQ(diverted[0].to, near);
+  for (int k = 1; !queue.empty(); ++k) {
+    ASSERT_LT(k, 100);
+    for (const Outgoing& outgoing : queue.take(kStart + k * std::chrono::milliseconds(100)))
+      told.push_back(outgoing.to.value());
+  }
+  told.push_back(near);
+  std::ranges::sort(told);
+  EXPECT_EQ(told, kFour);
+  EXPECT_EQ(queue.backlog_bytes(), 0u);
+  EXPECT_EQ(queue.stats().sent[static_cast<std::size_t>(Priority::kNews)], 1u);
+
+  queue.push_to({kFour[1], kFour[3]}, Priority::kState, Digest{kSelf, {}, {}});
+  EXPECT_EQ(queue.backlog_bytes(), 2u * testing::payload_size(Digest{kSelf, {}, {}}) + 2u * 174u);
+  queue.push_to({kFour[1]}, Priority::kState, Digest{kSelf, {}, {}});
+  EXPECT_EQ(queue.backlog_bytes(), testing::payload_size(Digest{kSelf, {}, {}}) + 174u);
+  EXPECT_EQ(queue.take_for({kFour[1]}).size(), 1u);
+  EXPECT_TRUE(queue.empty());
+  queue.push_to({}, Priority::kState, Digest{kSelf, {}, {}});
+  EXPECT_TRUE(queue.empty()) << "nobody is there";
+}
+
+TEST(SendQueue, an_order_goes_to_all_at_once_since_operators_hear_it_too) {
+  SendQueue queue({}, kFour, testing::payload_size);
+  queue.push(Priority::kSafety, Hold{});
+  const auto out = queue.take(kStart);
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(out[0].to, std::nullopt);
+}
+
+TEST(SendQueue, clouds_get_half_of_the_bytes_however_many_nodes_wait) {
+  LongRangeConfig config;
+  config.fleet_bytes_per_second = 20'000;
+  SendQueue queue(config, kFour, testing::payload_size);
+  double news = 0.0, clouds = 0.0;
+  std::uint32_t seq = 0;
+  for (int k = 0; k < 3000; ++k) {
+    while (queue.size(Priority::kNews) < 50) queue.push(Priority::kNews, node(++seq));
+    if (queue.size(Priority::kCloud) == 0) {
+      for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(25'000, 1)))
+        queue.push(Priority::kCloud, f);
+    }
+    for (const auto& outgoing : queue.take(kStart + std::chrono::milliseconds(20 * k))) {
+      const auto bytes = static_cast<double>(queue.wire_bytes(outgoing.message, outgoing.to));
+      (std::holds_alternative<CloudFragment>(outgoing.message) ? clouds : news) += bytes;
+    }
+  }
+  EXPECT_GT(clouds, 0.45 * (clouds + news));
+  EXPECT_GT(news, 0.45 * (clouds + news));
+  EXPECT_GT(clouds + news, 0.9 * 4000.0 * 60.0);
 }
 
 TEST(SendQueue, shares_the_rest_evenly_between_backfill_and_clouds) {
   LongRangeConfig config;
   config.fleet_bytes_per_second = 20'000;
-  config.burst_seconds = 0.5;
+  config.pace.burst_seconds = 0.5;
   config.max_backfill = 2000;
-  SendQueue queue(config, 2, testing::payload_size);
+  SendQueue queue(config, kOne, testing::payload_size);
   for (std::uint32_t seq = 0; seq < 2000; ++seq) queue.push(Priority::kBackfill, node(seq), kPeer);
   for (std::uint32_t seq = 0; seq < 20; ++seq) {
     for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(25'000, 1))) queue.push(Priority::kCloud, f);

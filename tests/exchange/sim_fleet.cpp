@@ -12,7 +12,7 @@ std::size_t payload_size(const Message& message) {
     std::size_t operator()(const graph::Node&) const { return 100; }
     std::size_t operator()(const exchange::ProximityMatch&) const { return 56; }
     std::size_t operator()(const exchange::CloudFragment& m) const { return 64 + m.payload.size(); }
-    std::size_t operator()(const exchange::CloudRequest& m) const { return 40 + 2 * m.missing.size(); }
+    std::size_t operator()(const exchange::CloudRequest& m) const { return 44 + 2 * m.missing.size(); }
     std::size_t operator()(const graph::Alignment&) const { return 170; }
     std::size_t operator()(const exchange::Digest& m) const {
       return 24 + 16 * (m.nodes.size() + m.alignments.size());

@@ -59,7 +59,7 @@ EncounterConfig at_once() {
 std::vector<NodeId> wanted(Encounters& a) {
   std::vector<NodeId> all;
   for (int tick = 0; tick < 20; ++tick) {
-    for (const NodeId& id : a.tick(kStart).wanted) all.push_back(id);
+    for (const auto& [id, worth] : a.tick(kStart).wanted) all.push_back(id);
   }
   return all;
 }

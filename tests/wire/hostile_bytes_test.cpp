@@ -94,8 +94,10 @@ TEST(HostileBytes, AnotherSchemaVersionIsRefusedNamingBoth) {
   Bytes bytes = encode(random.node());
   bytes[kHeader] = 7;
   EXPECT_EQ(refusal<graph::Node>(bytes),
-            "fleetmap::msg::Node: the sender speaks schema version 7, this program version 3; "
-            "run the same release on all robots");
+            "fleetmap::msg::Node: the sender speaks schema version 7, this program version " +
+                std::to_string(kSchemaVersion) +
+                "; "
+                "run the same release on all robots");
 }
 
 TEST(HostileBytes, AnnouncedLengthsAreNotBelieved) {

@@ -232,8 +232,8 @@ TEST(Wire, SizesOnTheWire) {
   const auto chunk = submap_chunk(0, 100000, 8192);
   EXPECT_EQ(encode(chunk).size(), 8240u);
   EXPECT_EQ(encode(exchange::ProximityMatch{}).size(), 56u);
-  EXPECT_EQ(encode(exchange::CloudRequest{}).size(), 40u);
-  EXPECT_EQ(encode(exchange::AgentStatus{}).size(), 76u);
+  EXPECT_EQ(encode(exchange::CloudRequest{}).size(), 44u);
+  EXPECT_EQ(encode(exchange::AgentStatus{}).size(), 84u);
   exchange::MissionReport report;
   report.done = report.claimed = report.failed = Bytes(25);  // 200 rows
   EXPECT_EQ(encode(report).size(), 137u);

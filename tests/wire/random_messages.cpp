@@ -135,21 +135,23 @@ exchange::Hold RandomMessages::hold() {
 }
 
 std::vector<exchange::Message> RandomMessages::one_of_each() {
-  exchange::CloudRequest request{agent(), agent(), node_id(), {}};
+  exchange::CloudRequest request{agent(), agent(), node_id(), {}, static_cast<float>(real(0, 20))};
   for (std::uint32_t k = integer(0, 23); k > 0; --k) request.missing.push_back(static_cast<std::uint16_t>(k));
-  return {node(),
-          alignment(),
-          exchange::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
-          fragment(),
-          request,
-          exchange::Digest{agent(), ranges(20), ranges(20)},
-          exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
-          exchange::AgentStatus{agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1},
-          exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
-          hold(),
-          exchange::SubmapDigest{agent(), ranges(200), {agent(), agent()}},
-          exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
-          chunk()};
+  return {
+      node(),
+      alignment(),
+      exchange::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
+      fragment(),
+      request,
+      exchange::Digest{agent(), ranges(20), ranges(20)},
+      exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
+      exchange::AgentStatus{
+          agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1, integer(0, 1) == 1, {{agent(), 1200}}},
+      exchange::MissionReport{agent(), stamp(), 3, -12.5f, 1e3f, 0.25f, 7, {1, 2}, {3}, {}},
+      hold(),
+      exchange::SubmapDigest{agent(), ranges(200), {agent(), agent()}},
+      exchange::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
+      chunk()};
 }
 
 }  // namespace fleetmap::wire::testing

@@ -32,7 +32,7 @@ TEST(Topics, EveryMessageToAnAgentReachesItsInboxAndOnlyOnce) {
     reach_it(topic_of(message));
     const auto to = exchange::recipient_of(message);
     reach_it(topic_of({exchange::Reach::kShortRange, to, message}));
-    if (!exchange::may_be_passed_on(message)) continue;
+    if (!exchange::may_go_one_by_one(message)) continue;
     reach_it(topic_of({exchange::Reach::kShortRange, self, message}));
     reach_it(topic_of({exchange::Reach::kLongRange, self, message}));
   }

@@ -76,6 +76,8 @@ class Agent {
   bool complete() const { return exchange_->complete(lost()); }
   /// Every other agent that is not lost has told that it holds our nodes and alignments.
   bool fleet_caught_up() const { return exchange_->fleet_caught_up(lost()); }
+  /// Another robot still makes nodes or alignments.
+  bool others_busy() const { return exchange_->others_busy(bus_.now()); }
   /// When a sensor was last heard, and when the last item moved, on the bus's clock.
   Stamp last_sensor() const { return perception_->last_heard(); }
   Stamp last_exchange() const { return link_->counters().last_useful; }

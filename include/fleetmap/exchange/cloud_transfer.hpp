@@ -75,9 +75,9 @@ class CloudReceiver {
  public:
   CloudReceiver(const AgentId& self, const CloudTransferConfig& config);
 
-  /// Starts asking the node's agent for its cloud. False when too many are under way; true when it is or was
-  /// asked.
-  bool want(const NodeId& node, Stamp now);
+  /// Starts asking the node's agent for its cloud, for an alignment of `worth` nats. False when too many are
+  /// under way; true when it is or was asked.
+  bool want(const NodeId& node, Stamp now, double worth = 0.0);
   void cancel(const NodeId& node);
   /// The whole cloud when `fragment` was the last piece.
   std::optional<Bytes> add(const CloudFragment& fragment, Stamp now);
@@ -100,9 +100,17 @@ class CloudReceiver {
     std::vector<bool> held;
     std::size_t missing = 0;
     Stamp deadline;
+    double worth = 0.0;         ///< nats
     int tries = 0;              ///< requests since the last piece
     bool contradicted = false;  ///< pieces of another cloud of the same node came
     int restarts = 0;           ///< clouds thrown away half way or with the wrong hash
+    /// Throws away what came.
+    void begin_anew() {
+      Waiting anew;
+      anew.worth = worth;
+      anew.restarts = restarts + 1;
+      *this = std::move(anew);
+    }
   };
   bool consistent(const CloudFragment& fragment) const;
   CloudRequest request(const NodeId& node, Waiting& waiting, Stamp now);

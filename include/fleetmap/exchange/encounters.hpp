@@ -12,11 +12,19 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/lookalikes.hpp"
 #include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/graph/alignment_worth.hpp"
 #include "fleetmap/graph/frame_ties.hpp"
 #include "fleetmap/place/ball_tree.hpp"
 #include "fleetmap/place/proximity_search.hpp"
 
 namespace fleetmap::exchange {
+
+/// Which encounter's clouds are asked for first.
+enum class EncounterOrder : std::uint8_t {
+  kWorth,      ///< whose alignment would teach the fleet's graph most
+  kFirstCome,  ///< which was found first
+};
+const char* to_string(EncounterOrder order);
 
 struct EncounterConfig {
   place::ProximityConfig proximity;  ///< r^i of Eq. 1
@@ -32,10 +40,12 @@ struct EncounterConfig {
   std::uint32_t ripe_nodes = 3;
   Duration ripe_after = std::chrono::seconds(20);  ///< ... or this long after the pair was found
   Duration retry_after =
-      std::chrono::seconds(60);   ///< s until a failed pair is tried again, with fuller clouds
-  int max_attempts = 2;           ///< of one pair of nodes
-  std::size_t max_active = 2;     ///< clouds asked for and not yet registered
-  std::size_t max_waiting = 256;  ///< encounters found and not begun; the oldest gives way
+      std::chrono::seconds(60);  ///< s until a failed pair is tried again, with fuller clouds
+  int max_attempts = 2;          ///< of one pair of nodes
+  EncounterOrder order = EncounterOrder::kWorth;
+  double min_worth = 0.0;      ///< nats; an encounter that is worth less when it could be asked for is let go
+  std::size_t max_active = 2;  ///< clouds asked for and not yet registered
+  std::size_t max_waiting = 256;                     ///< encounters found and not begun; the oldest gives way
   Duration peer_timeout = std::chrono::seconds(60);  ///< s, an agent not heard for so long is not asked
   int match_repeats = 3;  ///< a match is sent so often unless the peer shows that it knows
   Duration match_period = std::chrono::seconds(3);  ///< s
@@ -64,6 +74,7 @@ struct EncounterStats {
       0;                          ///< begun, and ended by the peer's good alignment before the cloud was here
   std::uint64_t yielded = 0;      ///< begun, and given up for the pair that the peer had chosen
   std::uint64_t crowded_out = 0;  ///< gave way when too many waited
+  std::uint64_t worthless = 0;    ///< let go: what is there already tells as much
 };
 
 /// Decides which nodes of two agents are worth registering (Alg. 2, and what the paper leaves open: how
@@ -99,7 +110,11 @@ class Encounters {
 
   struct Due {
     std::vector<ProximityMatch> matches;
-    std::vector<NodeId> wanted;       ///< clouds to ask for
+    struct Wanted {
+      NodeId node;
+      double worth = 0.0;  ///< nats
+    };
+    std::vector<Wanted> wanted;       ///< clouds to ask for
     std::vector<NodePair> withdrawn;  ///< no longer worth the bytes of either cloud
   };
   Due tick(Stamp now);
@@ -181,6 +196,14 @@ class Encounters {
   void fail(Encounter& encounter, Stamp now);
   void crowd_out();
   void ask(Due& due, Stamp now);
+  /// Those that may be asked for now; which others have made redundant since they were found are let go.
+  std::vector<NodePair> ready(Stamp now);
+  /// Takes the next to ask for out of `ready`, in the order of the configuration.
+  struct Choice {
+    NodePair pair;
+    double worth = 0.0;
+  };
+  std::optional<Choice> choose(std::vector<NodePair>& ready);
   void announce(Due& due, Stamp now);
   bool retryable(const NodePair& pair, const Encounter& encounter) const;
   bool heard(const AgentId& peer, Stamp now) const;
@@ -194,6 +217,7 @@ class Encounters {
   std::map<NodeId, Spot> places_;
   std::map<NodePair, Encounter> encounters_;
   graph::FrameTies ties_;
+  graph::AlignmentWorth worth_;
   std::map<graph::FrameTies::FramePair, TiedFrames> tied_;  ///< ours, theirs
   std::map<AgentId, int> tied_failures_;                    ///< since the last that was accepted
   std::size_t unlocated_ = 0;                               ///< nodes

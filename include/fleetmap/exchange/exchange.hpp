@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "fleetmap/exchange/budget_shares.hpp"
 #include "fleetmap/exchange/cloud_transfer.hpp"
 #include "fleetmap/exchange/encounters.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
@@ -146,7 +147,8 @@ class Exchange {
   /// Answers CloudNeeded. Fails when the cloud is larger than the budget.
   Status provide_cloud(const NodeId& node, Bytes cloud, Stamp now);
   void decline_cloud(const NodeId& node);
-  /// What the next status messages say of position, heading and battery; counters are filled in.
+  /// What the next status messages say of position, heading and battery, and whether more nodes will come;
+  /// the rest is filled in.
   void set_status(const AgentStatus& status) { status_ = status; }
   /// Tells all what we do of the mission; a report that still waits is replaced.
   void tell(MissionReport report);
@@ -173,6 +175,8 @@ class Exchange {
   /// Nothing waits to be sent, fetched or registered; what is wanted of the agents in `without` does not
   /// count.
   bool idle(Stamp now, const std::set<AgentId>& without = {}) const;
+  /// A robot that is still heard has told that more nodes or alignments of it may come.
+  bool others_busy(Stamp now) const;
   ExchangeStats stats() const;
   const SendQueue& queue() const { return queue_; }
   /// Agents whose short-range link was heard of late.
@@ -206,8 +210,8 @@ class Exchange {
   void handle(const SubmapRequest& request, Stamp now);
   void handle(const SubmapChunk& chunk, Stamp now);
 
-  void send_fragments(std::vector<CloudFragment> fragments);
-  /// Over the radio, and over the short range to those in reach; over that alone if they are the whole fleet.
+  void send_fragments(std::vector<CloudFragment> fragments, float worth);
+  /// Over the short range to those in reach, and over the radio to the others; orders over both to all.
   void tell_all(Priority priority, Message message);
   void note_near(Stamp now);
   void tick_encounters(Stamp now);
@@ -221,14 +225,15 @@ class Exchange {
   void note_completion();
 
   struct Needed {
-    std::set<AgentId> by;
-    Stamp told;  ///< when the agent last heard of it
+    std::map<AgentId, float> by;  ///< with the worth of each request
+    Stamp told;                   ///< when the agent last heard of it
   };
 
   ExchangeConfig config_;
   store::Store* store_;
   AgentId self_;
   std::set<AgentId> fleet_;
+  BudgetShares shares_;
   SendQueue queue_;
   CloudSender cloud_sender_;
   CloudReceiver cloud_receiver_;
@@ -243,9 +248,12 @@ class Exchange {
   AgentStatus status_;
   std::optional<Stamp> next_status_;
   std::optional<std::uint16_t> session_;
-  std::set<AgentId> in_reach_;    ///< heard on the short range
-  std::set<AgentId> near_;        ///< on the short range, with whom messages go both ways
-  std::vector<Message> to_near_;  ///< to be sent to all of them
+  std::set<AgentId> present_;  ///< BudgetShares::present of this tick
+  std::map<AgentId, Stamp> busy_until_;
+  std::uint64_t sent_before_status_ = 0;  ///< wire bytes
+  std::set<AgentId> in_reach_;            ///< heard on the short range
+  std::set<AgentId> near_;                ///< on the short range, with whom messages go both ways
+  std::vector<Message> to_near_;          ///< to be sent to all of them
   std::optional<Stamp> next_near_digest_;
   bool told_of_own_items_ = false;
   bool was_complete_ = false;

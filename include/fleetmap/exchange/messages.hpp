@@ -45,6 +45,7 @@ struct CloudRequest {
   AgentId to;
   NodeId node;
   std::vector<std::uint16_t> missing;
+  float worth = 0.0f;  ///< nats, of the alignment that `from` hopes for (graph::AlignmentWorth)
 };
 
 using Range = SeqRange;
@@ -64,7 +65,14 @@ struct ItemRequest {
   std::vector<Range> alignments;
 };
 
-/// How `from` is doing, for people and for planning.
+/// A part of its share of the radio's budget that a robot leaves to another one (budget_shares.hpp).
+struct Loan {
+  AgentId borrower;
+  std::uint16_t bytes_per_second = 0;
+  bool operator==(const Loan&) const = default;
+};
+
+/// How `from` is doing, for people, for planning and for dividing the radio's budget.
 struct AgentStatus {
   AgentId from;
   Stamp stamp;
@@ -76,6 +84,8 @@ struct AgentStatus {
   std::uint32_t alignments = 0;     ///< held, all agents
   std::uint32_t submaps = 0;        ///< held, all agents
   std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
+  bool busy = false;                ///< more nodes or alignments of `from` may come
+  std::vector<Loan> loans = {};
 };
 
 /// What `from` does of the fleet's mission: planning::MissionReport as it goes to the others. Rows are

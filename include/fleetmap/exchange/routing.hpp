@@ -20,8 +20,9 @@ struct Outgoing {
 
 /// The link of a message for which there is no choice of links, or no other in reach.
 Reach usual_reach(const Message& message);
-/// Nodes and alignments: any agent may send them, to all or to one.
-bool may_be_passed_on(const Message& message);
+/// What goes to all, but may be sent to one after the other: all such messages of the radio but orders, which
+/// operators hear too.
+bool may_go_one_by_one(const Message& message);
 /// Who sent it; nothing for nodes and alignments, which any agent may pass on.
 std::optional<AgentId> sender_of(const Message& message);
 /// Whom it is for; nothing when it is for everyone.

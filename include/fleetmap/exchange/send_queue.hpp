@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -8,17 +9,19 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/pace.hpp"
 #include "fleetmap/exchange/routing.hpp"
-#include "fleetmap/exchange/token_bucket.hpp"
 
 namespace fleetmap::exchange {
 
-/// What goes first. The first four go in this order; backfill and clouds share what they leave.
+/// What goes first. Safety and control go before all else. News and state, in this order, go before backfill
+/// and clouds, which share what those leave; but while all wait, backfill and clouds get half of the bytes.
 enum class Priority : std::uint8_t {
   kSafety,    ///< orders to stand still
   kControl,   ///< matches and requests: a few bytes that set others to work
@@ -30,11 +33,9 @@ enum class Priority : std::uint8_t {
 inline constexpr std::size_t kPriorities = 6;
 
 struct LongRangeConfig {
-  /// B/s that all agents together send: 145 kbit/s. Since a burst of each robot may fall into the same
-  /// second, the wire then carries less than 160 of the radio's 200 kbit/s in any second (docs/dds.md).
+  /// B/s that all agents together send: 145 kbit/s in the mean, and 160 of the radio's 200 in any second.
   double fleet_bytes_per_second = 18'125;
-  double burst_seconds = 0.2;        ///< s, a share's worth of bytes that may go at once after silence
-  double min_burst_bytes = 1400;     ///< B, at least one full fragment with its headers
+  PaceConfig pace;
   double small_reserve_bytes = 300;  ///< B, left by backfill and clouds so that a small message goes at once
   std::size_t overhead_bytes =
       174;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 132 of RTPS
@@ -53,23 +54,33 @@ struct LongRangeConfig {
 
 struct SendQueueStats {
   std::array<std::uint64_t, kPriorities> sent{};     ///< messages
-  std::array<std::uint64_t, kPriorities> dropped{};  ///< the oldest, when the class was full
+  std::array<std::uint64_t, kPriorities> dropped{};  ///< when the class was full
   std::uint64_t superseded = 0;                      ///< replaced by a newer message of the same key
   std::uint64_t cancelled = 0;                       ///< no longer worth their bytes
   std::uint64_t wire_bytes = 0;                      ///< sent, with overhead, times receivers
 };
 
-/// Queue of the long-range link. Every agent has a fixed share of the fleet's budget, so the sum over the
-/// fleet stays within it without any talk: in T seconds at most budget * T + the sum of the bursts.
+/// Queue of the long-range link, which keeps to this robot's share of the fleet's budget.
+///
+/// Where the medium has no multicast, a message to all goes to one robot after the other: nine copies at once
+/// would be more than a second's worth of a robot of ten.
 class SendQueue {
  public:
-  /// `payload_size`: bytes of a message as the bus publishes it.
-  SendQueue(const LongRangeConfig& config, std::size_t fleet_size,
+  /// `peers`: the other robots of the fleet; `payload_size`: bytes of a message as the bus publishes it.
+  SendQueue(const LongRangeConfig& config, std::span<const AgentId> peers,
             std::function<std::size_t(const Message&)> payload_size);
 
+  /// Of the fleet's budget, B/s; at first the even part.
+  void set_share(double bytes_per_second, Stamp now) { pace_.set_rate(bytes_per_second, now); }
   /// A message of the same kind about the same thing that still waits is replaced and keeps its place. `to`
-  /// overrides the recipient that the message names (for nodes and alignments, which name none).
+  /// overrides the recipient that the message names (for nodes and alignments, which name none). One to all
+  /// goes to all peers.
   void push(Priority priority, Message message, std::optional<AgentId> to = std::nullopt);
+  /// A piece of a cloud whose receiver hopes to learn `worth` nats: clouds that are worth most per byte go
+  /// first.
+  void push_fragment(CloudFragment fragment, float worth);
+  /// A message to these alone of all peers; one on a medium with multicast.
+  void push_to(const std::set<AgentId>& receivers, Priority priority, Message message);
   /// Drops the fragments of the cloud of `node` for `to`; returns how many.
   std::size_t cancel_cloud(const AgentId& to, const NodeId& node);
   /// Removes and returns the messages addressed to one of `peers`, to be sent over another link.
@@ -81,8 +92,8 @@ class SendQueue {
   std::size_t size(Priority priority) const { return waiting_[static_cast<std::size_t>(priority)].size(); }
   /// Wire bytes waiting.
   std::size_t backlog_bytes() const { return backlog_; }
-  double share_bytes_per_second() const { return share_; }
-  double burst_bytes() const { return bucket_.burst(); }
+  double share_bytes_per_second() const { return pace_.rate(); }
+  double burst_bytes() const { return pace_.burst(); }
   /// Wire bytes of a message: overhead and every copy counted.
   std::size_t wire_bytes(const Message& message, const std::optional<AgentId>& to) const;
   const SendQueueStats& stats() const { return stats_; }
@@ -93,7 +104,10 @@ class SendQueue {
   struct Item {
     Key key;
     Outgoing outgoing;
-    std::size_t bytes = 0;
+    std::size_t bytes = 0;           ///< of one datagram
+    std::vector<AgentId> receivers;  ///< who still get a datagram of their own; nobody: it goes once
+    double rank = 0.0;               ///< of a fragment: nats per byte of its cloud
+    std::size_t all_bytes() const { return bytes * std::max<std::size_t>(receivers.size(), 1); }
   };
   using Items = std::list<Item>;
   struct Place {
@@ -102,19 +116,24 @@ class SendQueue {
   };
 
   static Key key_of(const Outgoing& outgoing);
+  void insert(Priority priority, Item item);
+  /// One datagram of the item, which is erased with its last.
+  Outgoing take_one(const Place& place);
   void erase(const Place& place);
   std::size_t capacity(std::size_t priority) const;
   std::optional<std::size_t> next() const;
+  void note_sent(std::size_t priority, double bytes);
 
   LongRangeConfig config_;
-  std::size_t copies_;  ///< of a message to all
+  std::vector<AgentId> peers_;
   std::function<std::size_t(const Message&)> payload_size_;
-  double share_;
-  TokenBucket bucket_;
+  Pace pace_;
   std::array<Items, kPriorities> waiting_;
   std::map<Key, Place> index_;
   std::size_t backlog_ = 0;
   double cloud_lead_ = 0.0;  ///< bytes that clouds have had more than backfill while both waited
+  double small_lead_ = 0.0;  ///< bytes that news and state have had more than these two while both waited
+  std::size_t first_receiver_ = 0;  ///< of the next message to all, by index: nobody is always the last
   SendQueueStats stats_;
 };
 

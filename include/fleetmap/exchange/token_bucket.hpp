@@ -21,6 +21,14 @@ class TokenBucket {
     tokens_ -= bytes;
     return true;
   }
+  /// What was let in before `now` came at the rate before.
+  void set_rate(double bytes_per_second, double burst_bytes, Stamp now) {
+    refill(now);
+    rate_ = bytes_per_second;
+    burst_ = burst_bytes;
+    tokens_ = std::min(tokens_, burst_);
+  }
+  double rate() const { return rate_; }
   double burst() const { return burst_; }
 
  private:

@@ -16,7 +16,7 @@
 namespace fleetmap::wire {
 
 /// First octet of every type of module fleetmap. Raised when a member changes.
-inline constexpr std::uint8_t kSchemaVersion = 3;
+inline constexpr std::uint8_t kSchemaVersion = 4;
 
 // Bounds that the IDL and decoding share.
 inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one spherized cloud
@@ -26,6 +26,7 @@ inline constexpr std::size_t kMaxHeard = 255;                ///< agents in a Su
 inline constexpr std::size_t kMaxMissing = 256;              ///< in a CloudRequest
 inline constexpr std::size_t kMaxRowSet = 512;               ///< bytes of each set of rows in a MissionReport
 inline constexpr std::size_t kMaxHoldOrders = 32;            ///< in a Hold
+inline constexpr std::size_t kMaxLoans = 4;                  ///< in an AgentStatus
 inline constexpr std::uint32_t kMaxSubmapBytes = 64u << 20;  ///< of one encoded submap
 
 /// One spherized cloud (Alg. 3), whole; it travels in CloudFragments.

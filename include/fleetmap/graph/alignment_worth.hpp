@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::graph {
+
+/// What one more alignment of two nodes would teach the fleet's graph, in nats.
+///
+/// The information that an edge adds is the growth of log det of the graph's information matrix
+/// (D-optimality; Khosoussi et al., "Reliable Graphs for SLAM", IJRR 2019). Of a graph with one scalar
+/// variance an edge that is 0.5 ln(1 + P / R), where P is the effective resistance between the two nodes,
+/// hence what odometry, alignments and GPS on all ways between them leave open, and R the variance of an
+/// alignment. The scalar of a covariance is the mean square displacement of a point kLever away.
+class AlignmentWorth {
+ public:
+  using Pair = std::pair<NodeId, NodeId>;
+
+  static constexpr double kLever = 10.0;  ///< m
+
+  /// In any order.
+  void add(const Node& node);
+  /// What the fleet's graph uses now, instead of all alignments before.
+  void use(std::span<const Alignment> used);
+  /// One that the graph has not judged yet.
+  void add(const Alignment& alignment);
+
+  /// The worth of each pair, were the pairs in `expected` aligned already. Pairs of unknown nodes are worth
+  /// 0.
+  std::vector<double> of(std::span<const Pair> pairs, std::span<const Pair> expected) const;
+
+ private:
+  struct Place {
+    FrameId frame;
+    double variance = 0.0;  ///< m^2, of the odometry since the node before
+  };
+  struct Fix {
+    NodeId node;
+    double variance = 0.0;  ///< m^2
+  };
+  struct Tie {
+    Pair pair;
+    double variance = 0.0;  ///< m^2
+  };
+  class Network;
+  /// m^2, of the odometry from `from` to `to`, of one frame; what lost nodes would tell is taken from the
+  /// next.
+  double along_track(const NodeId& from, const NodeId& to) const;
+
+  std::map<NodeId, Place> places_;
+  std::map<FrameId, Fix> fixes_;  ///< the best of each frame
+  std::vector<Tie> ties_;
+};
+
+}  // namespace fleetmap::graph

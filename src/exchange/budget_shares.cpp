@@ -1,0 +1,131 @@
+#include "fleetmap/exchange/budget_shares.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace fleetmap::exchange {
+namespace {
+
+constexpr std::size_t kMaxLoans = 4;  // in one status
+/// Of a lender's part: kept in any case, since a borrower goes on for a while when the lender has need again.
+constexpr double kKept = 0.4;
+/// A lender keeps so much more than it used of late.
+constexpr double kMargin = 1.5;
+/// s of a part: a backlog below the first is none, above the second others may help.
+constexpr double kLittle = 1.0, kMuch = 2.0;
+/// Status periods: one lost status ends no loan.
+constexpr double kLoanPeriods = 2.5;
+/// A status may wait in the lender's queue for so long, or for one more period.
+constexpr Duration kMostDelay = std::chrono::seconds(10);
+/// Where statuses come more seldom than this (more than ten robots without multicast), a lender would have to
+/// wait for minutes until it has its part again.
+constexpr Duration kMostPeriod = std::chrono::seconds(30);
+/// Silence after which a robot's part goes to the others, at least and in status periods.
+constexpr Duration kGone = std::chrono::seconds(60);
+constexpr double kGonePeriods = 3.0;
+
+Duration times(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
+
+}  // namespace
+
+BudgetShares::BudgetShares(const AgentId& self, std::span<const AgentId> fleet, double fleet_bytes_per_second,
+                           Duration status_period, Stamp now)
+    : self_(self), budget_(fleet_bytes_per_second), period_(status_period) {
+  for (const AgentId& agent : fleet) {
+    if (agent != self) peers_[agent].heard = now;
+  }
+}
+
+void BudgetShares::on_heard(const AgentId& peer, Stamp now) {
+  if (const auto known = peers_.find(peer); known != peers_.end()) known->second.heard = now;
+}
+
+void BudgetShares::on_status(const AgentStatus& status, Stamp now) {
+  const auto known = peers_.find(status.from);
+  if (known == peers_.end()) return;
+  Peer& peer = known->second;
+  peer.backlog = status.backlog_bytes;
+  peer.told = now;
+  peer.loan = {};
+  for (const Loan& loan : status.loans) {
+    if (loan.borrower != self_) continue;
+    // No robot has more to lend than the even part of the smallest fleet.
+    peer.loan = {std::min<double>(loan.bytes_per_second, budget_ / 2.0), now + times(period_, kLoanPeriods)};
+  }
+}
+
+std::set<AgentId> BudgetShares::present(Stamp now) const {
+  std::set<AgentId> present;
+  for (const auto& [agent, peer] : peers_) {
+    if (now - peer.heard < std::max(kGone, times(period_, kGonePeriods))) present.insert(agent);
+  }
+  return present;
+}
+
+double BudgetShares::part(Stamp now) const { return budget_ / static_cast<double>(present(now).size() + 1); }
+
+std::map<AgentId, double> BudgetShares::lent(Stamp now) const {
+  std::map<AgentId, double> lent;
+  for (const Given& given : given_) {
+    if (now >= given.until) continue;
+    for (const Loan& loan : given.loans) {
+      double& most = lent[loan.borrower];
+      most = std::max<double>(most, loan.bytes_per_second);
+    }
+  }
+  return lent;
+}
+
+double BudgetShares::rate(Stamp now) const {
+  const double own = part(now);
+  double rate = own;
+  for (const auto& [borrower, bytes_per_second] : lent(now)) rate -= bytes_per_second;
+  // A robot that came back makes all parts smaller than they were when loans were given.
+  rate = std::max(rate, 0.1 * own);
+  for (const auto& [agent, peer] : peers_) {
+    if (now < peer.loan.until) rate += peer.loan.bytes_per_second;
+  }
+  return std::min(rate, budget_);
+}
+
+std::vector<Loan> BudgetShares::lend(std::size_t backlog, std::size_t sent, Stamp now) {
+  std::erase_if(given_, [now](const Given& given) { return now >= given.until; });
+  const double own = part(now);
+  if (period_ > kMostPeriod || static_cast<double>(backlog) > kLittle * own) return {};
+  std::vector<std::pair<double, AgentId>> needy;
+  for (const AgentId& agent : present(now)) {
+    const Peer& peer = peers_.at(agent);
+    const auto waiting = static_cast<double>(peer.backlog);
+    if (waiting > kMuch * own && now - peer.told < times(period_, kLoanPeriods))
+      needy.emplace_back(waiting, agent);
+  }
+  std::ranges::sort(needy, std::greater<>());
+  needy.resize(std::min(needy.size(), kMaxLoans));
+  if (needy.empty()) return {};
+  double all_waiting = 0.0;
+  for (const auto& [waiting, agent] : needy) all_waiting += waiting;
+
+  // What borrowers may still be using is not free before it ends.
+  std::map<AgentId, double> before = lent(now);
+  const double kept = std::max(kKept * own, kMargin * static_cast<double>(sent) / to_seconds(period_));
+  const double lendable = std::max(own - kept, 0.0);
+  double free = lendable, wanted = 0.0;
+  for (const auto& [agent, bytes_per_second] : before) free -= bytes_per_second;
+  const auto more = [&](double waiting, const AgentId& agent) {
+    return std::max(lendable * waiting / all_waiting - before[agent], 0.0);
+  };
+  for (const auto& [waiting, agent] : needy) wanted += more(waiting, agent);
+  const double granted = wanted > 0.0 ? std::clamp(free / wanted, 0.0, 1.0) : 0.0;
+  std::vector<Loan> loans;
+  for (const auto& [waiting, agent] : needy) {
+    const double even = lendable * waiting / all_waiting;
+    const double loan = std::min(even, before[agent] + granted * more(waiting, agent));
+    constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+    if (loan >= 1.0) loans.push_back({agent, static_cast<std::uint16_t>(std::min(loan, kMost))});
+  }
+  const Duration delay = std::max(kMostDelay, period_);
+  given_.push_back({loans, now + times(period_, kLoanPeriods) + delay});
+  return loans;
+}
+
+}  // namespace fleetmap::exchange
