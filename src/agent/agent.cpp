@@ -187,6 +187,8 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (perception_->odometry_counters().map_restarts > map_restarts_) {
     // Until it can begin, nothing may enter the frame of the session before.
     if (!begin_session("odometry lost its way and began anew")) return;
+  } else if (perception_->odometry_counters().clock_resets > clock_resets_) {
+    if (!begin_session("the LiDAR's stamps jumped back")) return;
   } else if (numbers_run_out()) {
     begin_session("no number is left for another item of this session");
   }
@@ -251,6 +253,7 @@ bool Agent::begin_session(const char* why) {
     return false;
   }
   map_restarts_ = perception_->odometry_counters().map_restarts;
+  clock_resets_ = perception_->odometry_counters().clock_resets;
   session_begun_ = bus_.now();
   session_ = *session;
   exchange_->begin_session(session_);

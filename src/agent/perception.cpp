@@ -55,15 +55,15 @@ void Perception::subscribe() {
   const SensorTopics& names = config_.topics;
   subscriptions_.push_back(bus_.subscribe(named(wire::topics::points(), names.points),
                                           [this](const Bytes& cdr) { on_scan(cdr); }));
-  on_sample<sensor::Imu>(named(wire::topics::imu(), names.imu), counters_.imu,
+  on_sample<sensor::Imu>(named(wire::topics::imu(), names.imu), sensor::Source::kImu, counters_.imu,
                          [this](const sensor::Imu& imu) {
                            ekf_.add(imu);
                            if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
                          });
-  on_sample<sensor::Fix>(named(wire::topics::fix(), names.fix), counters_.fixes,
+  on_sample<sensor::Fix>(named(wire::topics::fix(), names.fix), sensor::Source::kGps, counters_.fixes,
                          [this](const sensor::Fix& fix) { ekf_.add(fix); });
-  on_sample<sensor::Wheel>(named(wire::topics::wheel_odometry(), names.wheel), counters_.wheel,
-                           [this](const sensor::Wheel& wheel) {
+  on_sample<sensor::Wheel>(named(wire::topics::wheel_odometry(), names.wheel), sensor::Source::kWheel,
+                           counters_.wheel, [this](const sensor::Wheel& wheel) {
                              ekf_.add(wheel);
                              if (config_.odometry_uses_wheel) keep(wheel_since_scan_, wheel);
                            });
@@ -76,22 +76,34 @@ void Perception::stop() {
 }
 
 template <class T, class Use>
-void Perception::on_sample(const bus::Topic& topic, std::uint64_t& count, Use use) {
-  subscriptions_.push_back(bus_.subscribe(topic, [this, &count, use, name = topic.name](const Bytes& cdr) {
-    last_heard_ = bus_.now();
-    const Result<T> sample = wire::decode<T>(cdr);
-    if (!sample) {
-      ++counters_.refused_messages;
-      return warn(name + ": message refused", sample.error().message);
-    }
-    ++count;
-    use(*sample);
-  }));
+void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::uint64_t& count, Use use) {
+  subscriptions_.push_back(
+      bus_.subscribe(topic, [this, source, &count, use, name = topic.name](const Bytes& cdr) {
+        last_heard_ = bus_.now();
+        Result<T> sample = wire::decode<T>(cdr);
+        if (!sample) {
+          ++counters_.refused_messages;
+          return warn(name + ": message refused", sample.error().message);
+        }
+        ++count;
+        watch_clock(source, sample->stamp);
+        if (clock_offsets_.unclear(source)) return void(++counters_.unclear_stamps);
+        sample->stamp += clock_offsets_.correction(source);
+        use(*sample);
+      }));
+}
+
+void Perception::watch_clock(sensor::Source source, Stamp stamp) {
+  clock_offsets_.add(source, stamp, bus_.now());
+  for (const std::string& news : clock_offsets_.take_news()) spdlog::warn("{}", news);
 }
 
 void Perception::on_scan(const Bytes& cdr) {
   last_heard_ = last_scan_ = bus_.now();
   ++counters_.scans;
+  // One without a stamp is refused when it is decoded.
+  if (const auto stamp = wire::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
+  if (clock_offsets_.unclear(sensor::Source::kLidar)) return void(++counters_.unclear_stamps);
   if (on_scan_) on_scan_();
   scans_.push({last_scan_, cdr});
   if (scans_.dropped() > counters_.dropped_scans) {
@@ -106,6 +118,7 @@ void Perception::start_next() {
   busy_ = true;
   auto job = std::make_shared<Job>();
   std::tie(job->heard, job->scan) = std::move(*scans_.pop());
+  job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
   bus_.offload(
@@ -114,7 +127,8 @@ void Perception::start_next() {
         const double start = thread_cpu_seconds();
         for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
         for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
-        const Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
+        Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
+        if (decoded) decoded->scan.stamp += job->clock_correction;
         job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
         job->cpu_seconds = thread_cpu_seconds() - start;
       },

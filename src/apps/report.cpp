@@ -62,7 +62,14 @@ json perception_json(const agent::Agent& agent) {
   const agent::PerceptionCounters& seen = agent.perception().counters();
   const odometry::LoamCounters& loam = agent.perception().odometry_counters();
   const Distribution cpu = distribution(agent.scan_seconds());
+  json behind = json::object();
+  for (std::size_t k = 0; k < sensor::kSources; ++k) {
+    const auto source = static_cast<sensor::Source>(k);
+    if (const auto seconds = agent.perception().clock_offsets().behind(source))
+      behind[sensor::to_string(source)] = *seconds;
+  }
   return {
+      {"stamps_behind_s", behind},
       {"scans", seen.scans},
       {"imu", seen.imu},
       {"fixes", seen.fixes},
@@ -70,6 +77,7 @@ json perception_json(const agent::Agent& agent) {
       {"refused_messages", seen.refused_messages},
       {"refused_scans", seen.refused_scans},
       {"dropped_scans", seen.dropped_scans},
+      {"unclear_stamps", seen.unclear_stamps},
       {"lost_scans", loam.lost},
       {"odometry_cpu_ms",
        {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};

@@ -119,6 +119,13 @@ void DrivenFleet::guide(Robot& robot) {
 
 void DrivenFleet::sense(Robot& robot) {
   for (sim::TwinSample& sample : robot.twin->advance(now())) {
+    if (!std::holds_alternative<sim::ScanJob>(sample)) {
+      std::visit(
+          [&robot](auto& measured) {
+            if constexpr (requires { measured.stamp; }) measured.stamp += robot.clock;
+          },
+          sample);
+    }
     if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
       robot.bus->publish(wire::topics::imu(), wire::encode(*imu));
     } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
@@ -128,6 +135,7 @@ void DrivenFleet::sense(Robot& robot) {
     } else if (robot.scans) {
       sensor::Scan scan = sim::cast_scan(*scene_, robot.twin->config().lidar, std::get<sim::ScanJob>(sample));
       if (!robot.points) scan.points.resize(10);
+      scan.stamp += robot.clock + robot.lidar_clock;
       robot.last_scan = now();
       robot.bus->publish(wire::topics::points(), wire::encode(scan));
     }

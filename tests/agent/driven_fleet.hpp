@@ -44,6 +44,7 @@ class DrivenFleet {
     Stamp last_guide{};
     // What still comes.
     bool scans = true, points = true, guide = true;
+    Duration clock{}, lidar_clock{};  ///< by which all stamps are ahead, and those of scans besides
     std::vector<bus::Handle> handles;
   };
 

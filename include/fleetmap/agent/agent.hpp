@@ -177,6 +177,7 @@ class Agent {
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
   std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
+  std::uint64_t clock_resets_ = 0;           ///< likewise
   std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
   RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;

@@ -13,6 +13,7 @@
 #include "fleetmap/geometry/global_pose.hpp"
 #include "fleetmap/localization/ekf.hpp"
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
 
 namespace fleetmap::agent {
 
@@ -51,6 +52,7 @@ struct PerceptionCounters {
   std::uint64_t refused_messages = 0;  ///< that could not be decoded
   std::uint64_t refused_scans = 0;     ///< that LOAM could not use
   std::uint64_t dropped_scans = 0;     ///< LOAM was too slow
+  std::uint64_t unclear_stamps = 0;    ///< samples left out at the start, while two sensors' clocks disagreed
 };
 
 /// Items 1 and 2 of the paper: sensors in, O (LOAM) and G (EKF) out, also onto the onboard link. LOAM runs
@@ -74,12 +76,14 @@ class Perception {
   const PerceptionCounters& counters() const { return counters_; }
   const odometry::LoamCounters& odometry_counters() const { return loam_counters_; }
   localization::EkfCounters localization_counters() const { return ekf_.counters(); }
+  const sensor::ClockOffsets& clock_offsets() const { return clock_offsets_; }
 
  private:
   /// A scan and the other samples that came since the scan before it.
   struct Job {
     Bytes scan;
     Stamp heard;
+    Duration clock_correction{};  ///< of the scan's stamp
     std::vector<sensor::Imu> imu;
     std::vector<sensor::Wheel> wheel;
     Result<odometry::OdometryUpdate> update = failure("not run");
@@ -88,7 +92,9 @@ class Perception {
   void subscribe();
   /// Hands decoded samples of `topic` to `use`; what cannot be decoded is counted and named.
   template <class T, class Use>
-  void on_sample(const bus::Topic& topic, std::uint64_t& count, Use use);
+  void on_sample(const bus::Topic& topic, sensor::Source source, std::uint64_t& count, Use use);
+  /// Compares `stamp` with those of the other sensors.
+  void watch_clock(sensor::Source source, Stamp stamp);
   void on_scan(const Bytes& cdr);
   void start_next();
   void finish(Job& job);
@@ -103,6 +109,7 @@ class Perception {
   odometry::Loam loam_;  ///< touched by the work item under way only
   odometry::LoamCounters loam_counters_;
   localization::Ekf ekf_;
+  sensor::ClockOffsets clock_offsets_;
   BoundedQueue<std::pair<Stamp, Bytes>> scans_;  ///< when they came, and as they came
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;

@@ -55,6 +55,8 @@ Bytes encode(const VelocityCommand& command);
 /// `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns), relative to the
 /// header's stamp or absolute. Refuses data that contradict height, width, point_step and row_step.
 Result<DecodedScan> decode_scan(ByteView cdr);
+/// The header's stamp of a PointCloud2, without reading anything else.
+Result<Stamp> stamp_of_scan(ByteView cdr);
 
 template <>
 Result<sensor::Scan> decode(ByteView cdr);
