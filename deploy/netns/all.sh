@@ -27,7 +27,7 @@ for kbit in 15000 4000 2000; do field --scenario contact --wifi "$kbit" "$@"; do
 
 "$program" run -c "$here/../../config/fleets/farm_small.yaml" --agents 4 --record "$scratch/recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
   { tail -n 5 "$scratch/run.log" >&2; exit 2; }
-for scenario in multicast map apart radio_down kill kill_all new_disk late; do
+for scenario in multicast map apart radio_down kill kill_all new_disk late lidar_clock; do
   field --scenario "$scenario" --recordings "$scratch/recordings" "$@"
 done
 echo "$failed scenarios failed"

@@ -425,6 +425,22 @@ scenario_late() { # the last robot joins after a minute
   map_verdict
 }
 
+scenario_lidar_clock() { # one robot's LiDAR is 2 s behind its other sensors, another's jumps back by 5 s
+  local i original
+  need_recordings
+  original=$recordings
+  recordings=$scratch/shifted
+  mkdir "$recordings"
+  for ((i = 1; i <= agents; ++i)); do ln -s "$(realpath "$original")/r$i" "$recordings/r$i"; done
+  rm "$recordings/r2" "$recordings/r3"
+  "$root/deploy/netns/shift_stamps.py" "$original/r2" "$recordings/r2" /points -2
+  "$root/deploy/netns/shift_stamps.py" "$original/r3" "$recordings/r3" /points -5 60
+  begin_map
+  check() { (($(says 2 'lidar: stamps are 2\.') == 1 && $(says 3 'lidar: stamps are [45]\.') == 1 && $(says 1 'stamps are') == 0)); }
+  check=check
+  map_verdict
+}
+
 # What `fleetmap trial` measures: field.json, and no verdict on how good it is.
 scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
   local known ended held i

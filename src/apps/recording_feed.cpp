@@ -96,9 +96,9 @@ Status RecordingFeed::begin(bus::LocalNetwork& network, Deliver deliver) {
 }
 
 void RecordingFeed::schedule(std::size_t member) {
-  const Member& self = members_[member];
+  Member& self = members_[member];
   if (!self.next) return;
-  network_->at(recording::stamp_of(*self.next) + self.shift, [this, member] { play(member); });
+  network_->at(self.times.of(*self.next) + self.shift, [this, member] { play(member); });
 }
 
 void RecordingFeed::play(std::size_t member) {

@@ -6,6 +6,7 @@
 
 #include "fleet_feed.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "sample_player.hpp"
 
 namespace fleetmap::apps {
 
@@ -31,7 +32,8 @@ class RecordingFeed final : public FleetFeed {
   struct Member {
     std::unique_ptr<recording::Reader> reader;
     std::optional<recording::Sample> next;
-    Duration shift{};  ///< virtual time = stamp + shift
+    PlayTimes times;
+    Duration shift{};  ///< virtual time = time of playing + shift
     std::string problem;
   };
   RecordingFeed() = default;

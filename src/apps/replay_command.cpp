@@ -37,7 +37,7 @@ class Player {
   Status start() {
     if (const Status read = advance(); !read) return read;
     if (!next_) return failure("the recording holds no sensor sample");
-    first_stamp_ = recording::stamp_of(*next_);
+    first_stamp_ = due_;
     started_ = std::chrono::steady_clock::now();
     timer_ = bus_.every(std::chrono::milliseconds(2), [this] { play_due(); });
     return {};
@@ -51,11 +51,12 @@ class Player {
     auto sample = reader_.next();
     if (!sample) return tl::unexpected(sample.error());
     next_ = std::move(*sample);
+    if (next_) due_ = times_.of(*next_);
     return {};
   }
   void play_due() {
     const auto elapsed = std::chrono::steady_clock::now() - started_;
-    while (next_ && to_seconds(recording::stamp_of(*next_) - first_stamp_) <=
+    while (next_ && to_seconds(due_ - first_stamp_) <=
                         rate_ * std::chrono::duration<double>(elapsed).count()) {
       const EncodedSample encoded = encode(*next_, names_);
       bus_.publish(encoded.topic, encoded.cdr);
@@ -72,6 +73,8 @@ class Player {
   agent::SensorTopics names_;
   double rate_;
   std::optional<recording::Sample> next_;
+  PlayTimes times_;
+  Stamp due_;  ///< of `next_`
   Stamp first_stamp_;
   std::chrono::steady_clock::time_point started_;
   std::uint64_t played_ = 0;

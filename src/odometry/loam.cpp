@@ -18,11 +18,15 @@
 namespace fleetmap::odometry {
 namespace {
 
-constexpr double kFirstError = 1.5;      // m, how far off the start may be while the velocity is unknown
-constexpr double kUsualError = 0.3;      // m, at a nominal period
-constexpr int kClockResetScans = 3;      // scans in the past until the clock is believed
-constexpr double kClockResetJump = 1.0;  // s
-constexpr double kGap = 0.35;            // s between scans from which on "it stood still" is tried as well
+constexpr double kFirstError = 1.5;        // m, how far off the start may be while the velocity is unknown
+constexpr double kUsualError = 0.3;        // m, at a nominal period
+constexpr int kClockResetScans = 3;        // scans in the past until the clock is believed
+constexpr double kClockResetJump = 1.0;    // s
+constexpr double kGap = 0.35;              // s between scans from which on "it stood still" is tried as well
+constexpr double kMaxGuess = 1.0;          // m, 1 sigma: what looks alike is rarely nearer than 2.5 m
+constexpr double kWheelStep = 0.05;        // s
+constexpr double kWheelSlip = 0.03;        // m a m, 1 sigma
+constexpr double kUsualWheelError = 0.02;  // m
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
@@ -68,6 +72,8 @@ class Loam::Pipeline {
     OdometryUpdate update;
     if (!started_) {
       start(sweep, reference, update);
+    } else if (const auto prior = guess_after_gap(reference)) {
+      begin_anew(sweep, reference, *prior, update);
     } else {
       const MatchResult match = estimate(reference);
       settle(match, sweep, reference, update);
@@ -92,8 +98,12 @@ class Loam::Pipeline {
   const Features& extract(const Sweep& sweep);
   void pick_features(const Sweep& sweep);
   void start(const Sweep& sweep, Stamp reference, OdometryUpdate& update);
+  std::optional<MotionPrior> guess_after_gap(Stamp reference) const;
+  void begin_anew(const Sweep& sweep, Stamp reference, const MotionPrior& prior, OdometryUpdate& update);
+  void forget_map();
   MatchResult estimate(Stamp reference);
   MotionPrior make_prior(Stamp reference, double dt) const;
+  std::optional<MotionPrior::SeenWay> way_by_wheels(Stamp from, Stamp to) const;
   MatchResult straighten_first_scan(const MatchResult& match, double dt);
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
   double half_sweep() const;
@@ -209,6 +219,33 @@ void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& 
   update.T_odom_base = state_.T_odom_base;
 }
 
+/// Where the robot is, if scans were missing for so long that this is a guess that may be a row off: rows
+/// look alike, and the match would say nothing of it.
+std::optional<MotionPrior> Loam::Pipeline::guess_after_gap(Stamp reference) const {
+  const double dt = to_seconds(reference - reference_);
+  if (dt <= kGap || lost_in_a_row_ > 0) return std::nullopt;
+  MotionPrior prior = make_prior(reference, dt);
+  return prior.position_sigma() > kMaxGuess ? std::optional(std::move(prior)) : std::nullopt;
+}
+
+void Loam::Pipeline::begin_anew(const Sweep& sweep, Stamp reference, const MotionPrior& prior,
+                                OdometryUpdate& update) {
+  forget_map();
+  state_ = {prior.predicted().T_odom_base, Vector6d::Zero(), Eigen::Vector3d::Zero()};
+  start(sweep, reference, update);
+  ++counters_.lost;
+  update.lost = true;
+  update.covariance = prior.pose_covariance();
+}
+
+void Loam::Pipeline::forget_map() {
+  ++counters_.map_restarts;
+  lost_in_a_row_ = 0;
+  map_.clear();
+  insertions_ = 0;
+  usual_upright_ = 0.0;
+}
+
 /// Pose and velocity of the sweep against the map.
 MatchResult Loam::Pipeline::estimate(Stamp reference) {
   const CpuTimer timer(counters_.cpu.matching);
@@ -217,7 +254,8 @@ MatchResult Loam::Pipeline::estimate(Stamp reference) {
   const double error =
       velocity_known_ && lost_in_a_row_ == 0 ? std::min(kFirstError, kUsualError * dt / 0.1) : kFirstError;
   MatchResult best = matcher_.align(match_planes_, match_edges_, map_, prior, prior.predicted(), error);
-  if (dt > kGap || lost_in_a_row_ > 0) {
+  const bool way_known = dt > kGap && way_by_wheels(reference_, reference).has_value();
+  if ((dt > kGap && !way_known) || lost_in_a_row_ > 0) {
     const MotionState still{state_.T_odom_base, Vector6d::Zero(), Eigen::Vector3d::Zero()};
     const MatchResult other = matcher_.align(match_planes_, match_edges_, map_, prior, still, error);
     if (other.inlier_fraction > best.inlier_fraction) best = other;
@@ -237,7 +275,8 @@ MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
   if (const auto R = gyro_.rotation(reference_, reference, gyro_bias_, kHold)) {
     gyro = {*R, config_.gyro_noise * dt};
   }
-  MotionPrior prior(config_, state_, uncertainty_.covariance(), dt, gyro);
+  const auto way = dt > kGap ? way_by_wheels(reference_, reference) : std::nullopt;
+  MotionPrior prior(config_, state_, uncertainty_.covariance(), dt, gyro, way);
   const double half = half_sweep();
   const Stamp from = reference - from_seconds(half), to = reference + from_seconds(half);
   if (const auto rate = gyro_.mean(from, to, kHold)) {
@@ -249,6 +288,25 @@ MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
     if (wheel->z() > 0.99) prior.set_yaw_rate(wheel->y(), config_.wheel_yaw_noise);
   }
   return prior;
+}
+
+/// The way on which scans were missing; none unless gyro and wheels tell all of it.
+std::optional<MotionPrior::SeenWay> Loam::Pipeline::way_by_wheels(Stamp from, Stamp to) const {
+  const auto steps = static_cast<int>(std::ceil(to_seconds(to - from) / kWheelStep));
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  double length = 0.0;
+  for (int k = 0; k < steps; ++k) {
+    const Stamp begin = from + (to - from) * k / steps, end = from + (to - from) * (k + 1) / steps;
+    const auto wheel = wheels_.mean(begin, end, kHold);
+    const auto turn = gyro_.rotation(begin, end, gyro_bias_, kHold);
+    if (!wheel || !turn) return std::nullopt;
+    const double step = wheel->x() * to_seconds(end - begin);
+    p += R * Eigen::Vector3d(step, 0.0, 0.0);
+    R = R * *turn;
+    length += std::abs(step);
+  }
+  return MotionPrior::SeenWay{p, kWheelSlip * length + kUsualWheelError};
 }
 
 /// The first scan entered the map as if the robot stood still. Now that the velocity is known it enters
@@ -326,12 +384,8 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   reference_ = reference;
   const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart;
   if (restart) {
-    ++counters_.map_restarts;
-    lost_in_a_row_ = 0;
-    map_.clear();
+    forget_map();
     uncertainty_.map_restarted();
-    insertions_ = 0;
-    usual_upright_ = 0.0;
   }
   const Pose moved = keyframe_.inverse() * now.T_odom_base;
   const bool keyframe = moved.translation().norm() > config_.keyframe_distance ||

@@ -1,6 +1,9 @@
 #include "fleetmap/odometry/motion_prior.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 namespace fleetmap::odometry {
 namespace {
@@ -15,7 +18,8 @@ double square(double value) { return value * value; }
 }  // namespace
 
 MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance,
-                         double dt, const std::optional<SeenRotation>& gyro)
+                         double dt, const std::optional<SeenRotation>& gyro,
+                         const std::optional<SeenWay>& way_seen)
     : dt_(dt), previous_twist_(previous.twist), twist_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;
@@ -36,6 +40,13 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, 
     for (int axis = 3; axis < 6; ++axis) {
       F(axis, axis + 6) = Q(axis, axis + 6) = Q(axis + 6, axis) = 0.0;
       Q(axis, axis) = square(gyro->sigma) + square(kRotationNoise);
+    }
+  }
+  if (gyro && way_seen) {
+    way.translation() = way_seen->p_previous_now;
+    for (int axis = 0; axis < 3; ++axis) {
+      F(axis, axis + 6) = Q(axis, axis + 6) = Q(axis + 6, axis) = 0.0;
+      Q(axis, axis) = square(way_seen->sigma) + square(kPoseNoise);
     }
   }
   F.topLeftCorner<6, 6>() = adjoint(way.inverse());
@@ -68,6 +79,12 @@ Eigen::Vector3d MotionPrior::turn_acceleration(const Vector6d& twist) const {
 }
 
 MotionState MotionPrior::predicted() const { return {T_odom_base_, twist_, turn_acceleration(twist_)}; }
+
+double MotionPrior::position_sigma() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      Eigen::Matrix3d(covariance_.topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(solver.eigenvalues()[2], 0.0));
+}
 
 NormalEquations MotionPrior::linearised(const MotionState& state) const {
   Vector12d residual;

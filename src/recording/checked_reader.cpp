@@ -19,6 +19,7 @@ constexpr Counter kCounters[] = {
     {"undecodable_messages", &Counters::undecodable_messages},
     {"empty_scans", &Counters::empty_scans},
     {"time_backwards", &Counters::time_backwards},
+    {"clocks_set_back", &Counters::clocks_set_back},
     {"foreign_clock_scans", &Counters::foreign_clock_scans},
     {"unstamped_messages", &Counters::unstamped_messages},
     {"unreadable_scan_files", &Counters::unreadable_scan_files},
@@ -26,6 +27,11 @@ constexpr Counter kCounters[] = {
     {"missing_oxts_frames", &Counters::missing_oxts_frames},
     {"malformed_oxts_frames", &Counters::malformed_oxts_frames},
 };
+
+/// A clock is believed to have been set back by more than this when two samples say so ...
+constexpr Duration kClockSet = std::chrono::seconds(1);
+/// ... and the next one does, too.
+constexpr int kClockSetSamples = 2;
 
 constexpr std::array kKinds{"scan", "imu", "fix", "wheel"};
 
@@ -58,14 +64,23 @@ void CheckedReader::skip(std::uint64_t Counters::*reason, const std::string& wha
 bool CheckedReader::admit(const Sample& sample) {
   constexpr std::array kGiven{&Counters::scans, &Counters::imus, &Counters::fixes, &Counters::wheels};
   const Stamp stamp = stamp_of(sample);
-  auto& last = last_[sample.index()];
-  if (last && stamp <= *last) {
-    skip(&Counters::time_backwards, std::string(kKinds[sample.index()]) + " at " +
-                                        std::to_string(to_seconds(stamp)) + " s comes after one at " +
-                                        std::to_string(to_seconds(*last)) + " s");
-    return false;
+  Last& last = last_[sample.index()];
+  if (last.given && stamp <= *last.given) {
+    const bool in_order = last.skipped && stamp > *last.skipped;
+    const bool far = *last.given - stamp > kClockSet;
+    last.set_back = !far ? 0 : in_order ? last.set_back + 1 : 1;
+    last.skipped = far ? std::optional(stamp) : std::nullopt;
+    if (last.set_back <= kClockSetSamples) {
+      skip(&Counters::time_backwards, std::string(kKinds[sample.index()]) + " at " +
+                                          std::to_string(to_seconds(stamp)) + " s comes after one at " +
+                                          std::to_string(to_seconds(*last.given)) + " s");
+      return false;
+    }
+    ++counters_.clocks_set_back;
+    spdlog::warn("{}: the clock of the {} samples was set back by {:.2f} s", source_, kKinds[sample.index()],
+                 to_seconds(*last.given - stamp));
   }
-  last = stamp;
+  last = {.given = stamp, .skipped = std::nullopt, .set_back = 0};
   ++(counters_.*kGiven[sample.index()]);
   return true;
 }

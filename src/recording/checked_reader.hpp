@@ -18,7 +18,8 @@ class CheckedReader : public Reader {
 
  protected:
   /// False, counted, when the sample is not later than the one before of its kind; else it counts as given
-  /// out.
+  /// out. Several in a row that are far earlier mean that the clock was set back: from then on they are given
+  /// out again, as a live sensor's would come.
   bool admit(const Sample& sample);
   /// False, counted, for a scan without a return; else its dropped points are counted.
   bool admit_points(const wire::DecodedScan& decoded, const std::string& where);
@@ -31,7 +32,12 @@ class CheckedReader : public Reader {
  private:
   std::string source_;
   std::set<std::string> logged_;
-  std::array<std::optional<Stamp>, std::variant_size_v<Sample>> last_;
+  struct Last {
+    std::optional<Stamp> given;    ///< stamp of the last that was given out
+    std::optional<Stamp> skipped;  ///< of the last since that was not, if it was far earlier
+    int set_back = 0;              ///< of these, in a row and in order
+  };
+  std::array<Last, std::variant_size_v<Sample>> last_;
 };
 
 }  // namespace fleetmap::recording

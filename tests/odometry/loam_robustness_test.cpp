@@ -124,6 +124,38 @@ TEST_F(LoamInYard, RecoversAfterAGap) {
   EXPECT_EQ(loam_.counters().map_restarts, 0u);
 }
 
+TEST_F(LoamInYard, AfterALongGapItBeginsAnewAndSaysSo) {
+  start();
+  for (int k = 5; k < 30; ++k) ASSERT_TRUE(add(0.1 * k));
+  const auto first = add(9.0);  // 6 m later, and nothing told of the way
+  ASSERT_TRUE(first);
+  EXPECT_TRUE(first->lost);
+  EXPECT_EQ(loam_.counters().map_restarts, 1u);
+  EXPECT_GT(first->covariance(0, 0), 1.0);
+  ASSERT_TRUE(add(9.1));
+  const auto from = add(9.2), to = add(10.0);
+  ASSERT_TRUE(from && to);
+  EXPECT_FALSE(to->lost);
+  const double way = (to->T_odom_base.translation() - from->T_odom_base.translation()).norm();
+  EXPECT_NEAR(way, (motion_.at(10.0).translation() - motion_.at(9.2).translation()).norm(), 0.05);
+}
+
+TEST_F(LoamInYard, WheelsAndGyroTellTheWayOfALongGap) {
+  start();
+  for (int k = 5; k < 30; ++k) ASSERT_TRUE(add(0.1 * k));
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 2.5 + 0.01 * k;
+    const Pose T = motion_.at(t).inverse() * motion_.at(t + 0.01);
+    sensor::Imu imu;
+    imu.stamp = stamp_from_ns(static_cast<std::int64_t>(t * 1e9));
+    imu.angular_velocity = so3_log(T.linear()) / 0.01;
+    loam_.add_imu(imu);
+    loam_.add_wheel({imu.stamp, 1.02 * T.translation().norm() / 0.01, std::nullopt});
+  }
+  expect_still_works(9.0);
+  EXPECT_EQ(loam_.counters().map_restarts, 0u);
+}
+
 TEST_F(LoamInYard, RandomPointsNeverCrashIt) {
   std::mt19937_64 random(11);
   std::normal_distribution<float> normal(0.0f, 20.0f);

@@ -84,6 +84,23 @@ TEST(Bag, TimeRunningBackwardsIsSkippedAndCounted) {
   EXPECT_EQ((*reader)->counters().time_backwards, 2u);
 }
 
+TEST(Bag, AClockThatWasSetBackIsFollowedAfterTwoSamples) {
+  const TemporaryFolder folder;
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  {
+    auto bag = *BagWriter::create(folder.path() / "b");
+    std::int64_t received = kStart;
+    // One stray sample from long ago is no clock that was set.
+    for (const int stamp : {100, 101, 7, 102, 60, 61, 62, 63, 64}) {
+      put(bag, wire::topics::points(), ++received, wire::encode(scan_at(kStart + stamp * kSecond)));
+    }
+  }
+  auto reader = open(folder.path() / "b");
+  EXPECT_EQ(read_all(**reader).size(), 6u);
+  EXPECT_EQ((*reader)->counters().time_backwards, 3u);
+  EXPECT_EQ((*reader)->counters().clocks_set_back, 1u);
+}
+
 TEST(Bag, BadMessagesAreSkippedAndCounted) {
   const TemporaryFolder folder;
   {

@@ -44,9 +44,16 @@ class MotionPrior {
     double sigma;  ///< rad
   };
 
-  /// `covariance` of `previous`, [d_pose, d_twist]; `dt` s since then, > 0.
+  /// Where base_link is now, from where it was at the last reference instant, as wheels and gyro saw it.
+  struct SeenWay {
+    Eigen::Vector3d p_previous_now;  ///< m
+    double sigma;                    ///< m
+  };
+
+  /// `covariance` of `previous`, [d_pose, d_twist]; `dt` s since then, > 0. `way` needs a `gyro`.
   MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance, double dt,
-              const std::optional<SeenRotation>& gyro = std::nullopt);
+              const std::optional<SeenRotation>& gyro = std::nullopt,
+              const std::optional<SeenWay>& way = std::nullopt);
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
@@ -62,6 +69,10 @@ class MotionPrior {
   Eigen::Vector3d turn_acceleration(const Vector6d& twist) const;
   /// The most likely state given only this prior.
   MotionState predicted() const;
+  /// m, 1 sigma of the predicted position in its worst direction.
+  double position_sigma() const;
+  /// Of the predicted pose: right tangent of T_odom_base, [m, rad].
+  Matrix6d pose_covariance() const { return covariance_.topLeftCorner<6, 6>(); }
   NormalEquations linearised(const MotionState& state) const;
 
  private:
