@@ -357,6 +357,9 @@ void use_paper_defaults(agent::AgentConfig& agent) {
   proximity.uncertainty = place::Uncertainty::variance;
   proximity.min_radius = 20.0;
   proximity.max_radius = 30.0;
+  // Of all that are found, the least E is kept.
+  agent.exchange.encounters.order = exchange::EncounterOrder::kFirstCome;
+  agent.exchange.encounters.min_worth = 0.0;
 }
 
 }  // namespace

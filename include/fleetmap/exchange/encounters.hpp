@@ -43,7 +43,7 @@ struct EncounterConfig {
       std::chrono::seconds(60);  ///< s until a failed pair is tried again, with fuller clouds
   int max_attempts = 2;          ///< of one pair of nodes
   EncounterOrder order = EncounterOrder::kWorth;
-  double min_worth = 0.0;      ///< nats; an encounter that is worth less when it could be asked for is let go
+  double min_worth = 0.4;      ///< nats; an encounter that is worth less when it could be asked for is let go
   std::size_t max_active = 2;  ///< clouds asked for and not yet registered
   std::size_t max_waiting = 256;                     ///< encounters found and not begun; the oldest gives way
   Duration peer_timeout = std::chrono::seconds(60);  ///< s, an agent not heard for so long is not asked
