@@ -223,7 +223,8 @@ void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& 
 /// look alike, and the match would say nothing of it.
 std::optional<MotionPrior> Loam::Pipeline::guess_after_gap(Stamp reference) const {
   const double dt = to_seconds(reference - reference_);
-  if (dt <= kGap || lost_in_a_row_ > 0) return std::nullopt;
+  // At the start nothing is known of the velocity, and the second scan tells it.
+  if (dt <= kGap || lost_in_a_row_ > 0 || !velocity_known_) return std::nullopt;
   MotionPrior prior = make_prior(reference, dt);
   return prior.position_sigma() > kMaxGuess ? std::optional(std::move(prior)) : std::nullopt;
 }
