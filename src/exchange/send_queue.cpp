@@ -105,7 +105,7 @@ void SendQueue::push_to(const std::set<AgentId>& receivers, Priority priority, M
   item.bytes = payload_size_(item.outgoing.message) + config_.overhead_bytes;
   item.receivers.assign(receivers.begin(), receivers.end());
   const auto first = static_cast<std::ptrdiff_t>(first_receiver_++ % receivers.size());
-  std::ranges::rotate(item.receivers, item.receivers.begin() + first);
+  std::rotate(item.receivers.begin(), item.receivers.begin() + first, item.receivers.end());
   insert(priority, std::move(item));
 }
 
@@ -157,12 +157,12 @@ std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
       // Orders go over both links.
       if (p == static_cast<std::size_t>(Priority::kSafety)) continue;
       const std::size_t before = item->all_bytes();
-      const auto near = std::ranges::stable_partition(
-          item->receivers, [&](const AgentId& receiver) { return !peers.contains(receiver); });
-      if (near.empty()) continue;
-      for (const AgentId& receiver : near)
+      const std::size_t near = std::erase_if(item->receivers, [&](const AgentId& receiver) {
+        if (!peers.contains(receiver)) return false;
         taken.push_back({Reach::kLongRange, receiver, item->outgoing.message});
-      item->receivers.erase(near.begin(), near.end());
+        return true;
+      });
+      if (near == 0) continue;
       backlog_ -= before - item->all_bytes();
       if (item->receivers.empty()) erase(place);
     }
