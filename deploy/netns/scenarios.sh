@@ -399,7 +399,7 @@ scenario_kill() { # kill -9 of one while maps flow, started again 5 s later
 }
 
 scenario_kill_all() { # kill -9 of all at once, started again 5 s later
-  begin_map 30 # encounters of two others ripen for 20 s, and are begun anew by the restart
+  begin_map
   crash_all() { local i; for ((i = 1; i <= agents; ++i)); do crash $i; done; }
   events=("50 crash_all" "55 all_start")
   map_verdict

@@ -83,7 +83,7 @@ double BudgetShares::rate(Stamp now) const {
   // A robot that came back makes all parts smaller than they were when loans were given.
   rate = std::max(rate, 0.1 * own);
   for (const auto& [agent, peer] : peers_) {
-    if (now < peer.loan.until) rate += peer.loan.bytes_per_second;
+    if (now < peer.loan.until) rate += std::min(peer.loan.bytes_per_second, own);
   }
   return std::min(rate, budget_);
 }

@@ -274,31 +274,31 @@ bool Encounters::near(const Spot& a, const Spot& b, double limit) {
   return a.frame == b.frame && (a.p_odom - b.p_odom).norm() < limit;
 }
 
-bool Encounters::redundant(const NodePair& pair, const NodePair* waiver) const {
+std::vector<NodePair> Encounters::too_near(const NodePair& pair, std::size_t most) const {
+  std::vector<NodePair> found;
   const auto ours = places_.find(pair.ours);
   const auto theirs = places_.find(pair.theirs);
-  if (ours == places_.end() || theirs == places_.end()) return false;
-  return std::ranges::any_of(encounters_, [&](const auto& entry) {
-    const auto& [other, encounter] = entry;
-    if (other == pair || other.theirs.agent != pair.theirs.agent || (waiver && other == *waiver))
-      return false;
+  if (ours == places_.end() || theirs == places_.end()) return found;
+  for (const auto& [other, encounter] : encounters_) {
+    if (found.size() >= most) break;
+    if (other == pair || other.theirs.agent != pair.theirs.agent) continue;
     const double limit = spacing(encounter, pair.theirs.agent);
     const auto other_ours = places_.find(other.ours);
     const auto other_theirs = places_.find(other.theirs);
-    return other_ours != places_.end() && other_theirs != places_.end() &&
-           near(ours->second, other_ours->second, limit) && near(theirs->second, other_theirs->second, limit);
-  });
+    if (other_ours != places_.end() && other_theirs != places_.end() &&
+        near(ours->second, other_ours->second, limit) && near(theirs->second, other_theirs->second, limit))
+      found.push_back(other);
+  }
+  return found;
 }
 
 std::vector<NodePair> Encounters::rivals(const NodePair& pair) const {
-  std::vector<NodePair> rivals;
-  if (!redundant(pair)) return rivals;
-  for (const auto& [other, encounter] : encounters_) {
-    const bool under_way = encounter.phase == Phase::kWaiting || encounter.phase == Phase::kAsked;
-    if (!under_way || encounter.known_to_peer || other.theirs.agent != pair.theirs.agent) continue;
-    if (!redundant(pair, &other)) rivals.push_back(other);
-  }
-  return rivals;
+  // Without which the pair would not be redundant: there is one at most, where it alone is too near.
+  const std::vector<NodePair> nearby = too_near(pair, 2);
+  if (nearby.size() != 1) return {};
+  const Encounter& only = encounters_.at(nearby.front());
+  const bool under_way = only.phase == Phase::kWaiting || only.phase == Phase::kAsked;
+  return under_way && !only.known_to_peer ? nearby : std::vector<NodePair>{};
 }
 
 void Encounters::on_match(const ProximityMatch& match, Stamp now) {
@@ -433,8 +433,9 @@ bool Encounters::ripe(const NodePair& pair, const Encounter& encounter, Stamp no
 std::vector<NodePair> Encounters::ready(Stamp now) {
   std::vector<NodePair> ready, obsolete;
   for (const auto& [pair, encounter] : encounters_) {
-    const bool may = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
-    if (!may || !ripe(pair, encounter, now) || !heard(pair.theirs.agent, now)) continue;
+    // What is cheap to tell first: redundant() looks at all others.
+    if (!heard(pair.theirs.agent, now) || !ripe(pair, encounter, now)) continue;
+    if (encounter.phase != Phase::kWaiting && !retryable(pair, encounter)) continue;
     // The spacing grows with the first good alignment.
     const bool is_obsolete =
         encounter.phase == Phase::kWaiting && !encounter.known_to_peer && redundant(pair);
@@ -544,8 +545,9 @@ bool Encounters::idle(Stamp now, const std::set<AgentId>& without) const {
     const auto& [pair, encounter] = entry;
     if (without.contains(pair.theirs.agent)) return false;
     const bool busy = encounter.phase == Phase::kAsked || encounter.phase == Phase::kRegistering;
-    const bool about_to = encounter.phase == Phase::kWaiting || retryable(pair, encounter);
-    return busy || (about_to && heard(pair.theirs.agent, now));
+    if (busy) return true;
+    return heard(pair.theirs.agent, now) &&
+           (encounter.phase == Phase::kWaiting || retryable(pair, encounter));
   });
 }
 

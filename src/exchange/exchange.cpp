@@ -428,7 +428,8 @@ void Exchange::tick_status(Stamp now) {
   status.busy = status_.busy || !idle(now);
   const std::uint64_t sent = queue_.stats().wire_bytes;
   status.loans = shares_.lend(queue_.backlog_bytes(), sent - std::exchange(sent_before_status_, sent), now);
-  tell_all(Priority::kState, std::move(status));
+  // By it the others know that this robot is there, which a queue full of nodes must not keep from them.
+  tell_all(Priority::kControl, std::move(status));
 }
 
 void Exchange::tick_holds(Stamp now) {

@@ -21,7 +21,7 @@ bool Pace::take(double bytes, Stamp now, double reserve) {
     last_second_.pop_front();
   }
   if (last_second_.empty()) in_last_second_ = 0.0;  // rounding adds up
-  const bool below_peak = in_last_second_ + bytes + reserve <= config_.peak * rate();
+  const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
   if (!below_peak && !last_second_.empty()) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;
   last_second_.emplace_back(now, bytes);

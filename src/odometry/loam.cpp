@@ -24,6 +24,9 @@ constexpr int kClockResetScans = 3;        // scans in the past until the clock 
 constexpr double kClockResetJump = 1.0;    // s
 constexpr double kGap = 0.35;              // s between scans from which on "it stood still" is tried as well
 constexpr double kMaxGuess = 1.0;          // m, 1 sigma: what looks alike is rarely nearer than 2.5 m
+constexpr double kLongGap = 2.0;           // s
+constexpr double kForeseeable = 10.0;      // s
+constexpr double kLongestWay = 120.0;      // s
 constexpr double kWheelStep = 0.05;        // s
 constexpr double kWheelSlip = 0.03;        // m a m, 1 sigma
 constexpr double kUsualWheelError = 0.02;  // m
@@ -223,16 +226,20 @@ void Loam::Pipeline::start(const Sweep& sweep, Stamp reference, OdometryUpdate& 
 /// look alike, and the match would say nothing of it.
 std::optional<MotionPrior> Loam::Pipeline::guess_after_gap(Stamp reference) const {
   const double dt = to_seconds(reference - reference_);
-  // At the start nothing is known of the velocity, and the second scan tells it.
-  if (dt <= kGap || lost_in_a_row_ > 0 || !velocity_known_) return std::nullopt;
+  if (dt <= kGap || (lost_in_a_row_ > 0 && dt < kLongGap)) return std::nullopt;
   MotionPrior prior = make_prior(reference, dt);
-  return prior.position_sigma() > kMaxGuess ? std::optional(std::move(prior)) : std::nullopt;
+  // At the start nothing is known of the velocity, and the second scan tells it.
+  const bool guess = velocity_known_ ? prior.position_sigma() > kMaxGuess : dt > kLongGap;
+  return guess ? std::optional(std::move(prior)) : std::nullopt;
 }
 
 void Loam::Pipeline::begin_anew(const Sweep& sweep, Stamp reference, const MotionPrior& prior,
                                 OdometryUpdate& update) {
   forget_map();
-  state_ = {prior.predicted().T_odom_base, Vector6d::Zero(), Eigen::Vector3d::Zero()};
+  // Nobody drives straight on for long, and a clock that was set says nothing of the way.
+  const bool foreseeable = to_seconds(reference - reference_) < kForeseeable;
+  state_ = {foreseeable ? prior.predicted().T_odom_base : state_.T_odom_base, Vector6d::Zero(),
+            Eigen::Vector3d::Zero()};
   start(sweep, reference, update);
   ++counters_.lost;
   update.lost = true;
@@ -293,6 +300,7 @@ MotionPrior Loam::Pipeline::make_prior(Stamp reference, double dt) const {
 
 /// The way on which scans were missing; none unless gyro and wheels tell all of it.
 std::optional<MotionPrior::SeenWay> Loam::Pipeline::way_by_wheels(Stamp from, Stamp to) const {
+  if (to_seconds(to - from) > kLongestWay) return std::nullopt;
   const auto steps = static_cast<int>(std::ceil(to_seconds(to - from) / kWheelStep));
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();

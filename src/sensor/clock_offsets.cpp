@@ -19,6 +19,8 @@ constexpr Duration kStepTime = std::chrono::milliseconds(150);
 constexpr Duration kTellAfter = std::chrono::seconds(3);
 /// s: sensors whose lags differ by less share a clock.
 constexpr double kTogether = 0.5;
+/// s: a correction that was begun stays until the clock is nearer than this.
+constexpr double kStillWrong = 0.5;
 /// A correction follows a clock that drifts: beyond this many s of difference, by so much in a second.
 constexpr double kDeadBand = 0.02, kSlew = 0.01;
 
@@ -95,9 +97,10 @@ void ClockOffsets::judge(Stamp since, Stamp arrival) {
     Track& track = tracks_[k];
     if (!track.known) continue;
     const double behind = track.lag() - *right;
-    const double wanted = std::abs(behind) > kWrong ? behind : 0.0;
+    const double least = track.correction == 0.0 ? kWrong : kStillWrong;
+    const double wanted = std::abs(behind) > least ? behind : 0.0;
     const double change = wanted - track.correction;
-    if (std::abs(change) > kWrong) {
+    if (std::abs(change) > kWrong || (wanted == 0.0) != (track.correction == 0.0)) {
       track.correction = wanted;
     } else if (std::abs(change) > kDeadBand) {
       const double most = kSlew * to_seconds(arrival - since);
@@ -123,10 +126,10 @@ void ClockOffsets::tell(Source source, double behind, Stamp arrival) {
   } else {
     text << ": stamps are " << std::abs(behind) << " s " << (behind > 0.0 ? "behind" : "ahead of")
          << " those of the other sensors; "
-         << (std::abs(behind) > kWrong ? "they are corrected by that, to about 0.1 s: set the sensor's clock "
-                                         "(PTP, GPS or the driver's "
-                                         "system time)"
-                                       : "if that is no slow driver, set the sensor's clock");
+         << (track.correction != 0.0 ? "they are corrected by that, to about 0.1 s: set the sensor's clock "
+                                       "(PTP, GPS or the driver's "
+                                       "system time)"
+                                     : "if that is no slow driver, set the sensor's clock");
   }
   news_.push_back(text.str());
 }

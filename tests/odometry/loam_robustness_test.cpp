@@ -140,6 +140,18 @@ TEST_F(LoamInYard, AfterALongGapItBeginsAnewAndSaysSo) {
   EXPECT_NEAR(way, (motion_.at(10.0).translation() - motion_.at(9.2).translation()).norm(), 0.05);
 }
 
+TEST_F(LoamInYard, AClockThatIsSetFarAheadMovesNothing) {
+  start();
+  for (int k = 5; k < 30; ++k) ASSERT_TRUE(add(0.1 * k));
+  sensor::Scan scan = scan_at(3.0);
+  scan.stamp += std::chrono::hours(24 * 365 * 50);
+  const auto update = loam_.add_scan(scan);
+  ASSERT_TRUE(update);
+  EXPECT_TRUE(update->lost);
+  EXPECT_LT(error_at(3.0, *update), 0.5);
+  EXPECT_TRUE(update->covariance.allFinite());
+}
+
 TEST_F(LoamInYard, WheelsAndGyroTellTheWayOfALongGap) {
   start();
   for (int k = 5; k < 30; ++k) ASSERT_TRUE(add(0.1 * k));

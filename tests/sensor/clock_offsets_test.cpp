@@ -144,6 +144,19 @@ TEST(ClockOffsets, FollowsAClockThatDrifts) {
   EXPECT_EQ(robot.news.size(), 1u);
 }
 
+TEST(ClockOffsets, AnOffsetOfJustASecondIsNotCorrectedOnAndOff) {
+  Robot robot(9);
+  robot.there[kGps] = false;
+  robot.off[kLidar] = -0.9;  // with a driver that takes 0.11 s and more
+  robot.run(10.0);
+  ASSERT_NE(robot.offsets.correction(Source::kLidar), Duration::zero());
+  for (int k = 0; k < 100; ++k) {
+    robot.off[kLidar] = k % 2 ? -0.9 : -0.85;
+    robot.run(1.0);
+    ASSERT_NEAR(to_seconds(robot.offsets.correction(Source::kLidar)), 1.0, 0.2) << k;
+  }
+}
+
 TEST(ClockOffsets, ASlowDriverIsToldAndNotCorrected) {
   Robot robot(8);
   robot.off[kGps] = -0.7;

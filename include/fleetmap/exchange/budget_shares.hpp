@@ -16,7 +16,9 @@ namespace fleetmap::exchange {
 /// The budget is divided evenly among the robots that are heard. Who has little to send lends most of its
 /// part to those whose messages wait, and says so in its status. A loan ends when the lender's status no
 /// longer names it, or some status periods after it was last named; the lender counts on the latter, so the
-/// rates of robots that hear each other never add up to more than the budget, whatever is lost.
+/// rates of robots that hear each other do not add up to more than the budget, whatever is lost. Only when
+/// robots come back whose parts were given to others may it be a tenth more, until loans of larger parts have
+/// ended.
 class BudgetShares {
  public:
   /// `status_period`: how often each robot tells its status.

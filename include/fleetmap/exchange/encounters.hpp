@@ -189,8 +189,10 @@ class Encounters {
   /// it.
   Stamp replace_farther(const NodePair& pair, double distance, Stamp now);
   void begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer);
-  /// Another encounter makes this one redundant; `waiver` is left out of account.
-  bool redundant(const NodePair& pair, const NodePair* waiver = nullptr) const;
+  /// Encounters with the same agent that are nearer to `pair` than the spacing, `most` of them.
+  std::vector<NodePair> too_near(const NodePair& pair, std::size_t most) const;
+  /// Another encounter makes this one redundant.
+  bool redundant(const NodePair& pair) const { return !too_near(pair, 1).empty(); }
   double spacing(const Encounter& other, const AgentId& peer) const;
   std::vector<NodePair> rivals(const NodePair& pair) const;
   void fail(Encounter& encounter, Stamp now);
