@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every scenario of the field, one after the other, in 40 minutes: a line each, and exit 1 if one of them failed.
+# Every scenario of the field, one after the other, in 43 minutes: a line each, and exit 1 if one of them failed.
 # Root; a quiet machine, since agents run in real time. Options are those of field.sh (--program, ...).
 #   deploy/netns/all.sh [OPTIONS]
 set -uo pipefail
