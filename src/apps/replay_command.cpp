@@ -56,8 +56,8 @@ class Player {
   }
   void play_due() {
     const auto elapsed = std::chrono::steady_clock::now() - started_;
-    while (next_ && to_seconds(due_ - first_stamp_) <=
-                        rate_ * std::chrono::duration<double>(elapsed).count()) {
+    while (next_ &&
+           to_seconds(due_ - first_stamp_) <= rate_ * std::chrono::duration<double>(elapsed).count()) {
       const EncodedSample encoded = encode(*next_, names_);
       bus_.publish(encoded.topic, encoded.cdr);
       ++played_;
