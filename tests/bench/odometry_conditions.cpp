@@ -61,7 +61,10 @@ const Condition kConditions[] = {
     {.name = "20 Hz", .rate = 20.0},
     {.name = "every fifth scan (2 Hz)", .every = 5},
     {.name = "half of the rays", .keep = 0.5},
+    {.name = "HDL-32E", .lidar = "hdl-32e"},
     {.name = "OS1-64", .lidar = "os1-64"},
+    {.name = "OS1-128", .lidar = "os1-128"},
+    {.name = "Livox-like", .lidar = "livox-mid"},
 };
 
 /// A drive up and down the lanes of a world, as base_link's pose at every kStep.

@@ -37,6 +37,7 @@ TEST_F(SensorFileTest, ShippedFilesAreTheirDevices) {
   EXPECT_EQ(vlp16.fixed_firing_rate, built_in.fixed_firing_rate);
   EXPECT_EQ(vlp16.max_range, built_in.max_range);
   EXPECT_EQ(vlp16.range_noise, built_in.range_noise);
+  EXPECT_EQ(shipped("hdl-32e").vertical_angles.size(), 32u);
   EXPECT_EQ(shipped("os1-128").vertical_angles.size(), 128u);
   const sim::LidarSpec livox = shipped("livox-mid");
   EXPECT_EQ(livox.pattern, sim::FiringPattern::kNonRepeating);
