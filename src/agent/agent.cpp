@@ -284,7 +284,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   if (perceived.G) node.G = levelled(*perceived.G, node.up_in_base);
   const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
   if (previous != nullptr && previous->frame() == node.frame())
-    node.odom_covariance = motion_.since_reference();
+    node.odom_covariance = motion_.lost_since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
   const Result<graph::Node> rounded = wire::quantised(node);

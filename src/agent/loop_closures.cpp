@@ -1,10 +1,19 @@
 #include "fleetmap/agent/loop_closures.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fleetmap/geometry/uncertain_pose.hpp"
 
 namespace fleetmap::agent {
+namespace {
+
+constexpr double kJustLeft = 40.0;  // m of path
+
+/// Whether a node so far away is where the robot has just come from, straight on or around one corner.
+bool just_left(double path, double distance) { return path <= std::max(kJustLeft, 1.5 * distance); }
+
+}  // namespace
 
 Status LoopClosureConfig::validate() const {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
@@ -41,9 +50,9 @@ std::optional<std::size_t> LoopClosures::nearest_earlier(std::size_t later) cons
   std::optional<std::size_t> nearest;
   double distance = config_.reach;
   const Eigen::Vector3d place = nodes_[later].T_odom_base.translation();
-  for (std::size_t k = 0; k < later && path_[later] - path_[k] > 2.0 * config_.reach; ++k) {
+  for (std::size_t k = 0; k < later; ++k) {
     const double d = (nodes_[k].T_odom_base.translation() - place).norm();
-    if (d > distance) continue;
+    if (d > distance || just_left(path_[later] - path_[k], d)) continue;
     distance = d;
     nearest = k;
   }

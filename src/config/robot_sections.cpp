@@ -353,6 +353,7 @@ void read_blackouts(Section& network, std::vector<RadioBlackout>& blackouts) {
 void use_paper_defaults(agent::AgentConfig& agent) {
   agent.registration.method = registration::Method::paper;
   agent.placement.method = graph::PlacementMethod::paper;
+  agent.spherize.ground_voxel_m = 0.0f;
   place::ProximityConfig& proximity = agent.exchange.encounters.proximity;
   proximity.uncertainty = place::Uncertainty::variance;
   proximity.min_radius = 20.0;

@@ -29,13 +29,13 @@ void PoseUncertainty::start() {
   covariance_.setZero();
   covariance_.diagonal().segment<3>(6).setConstant(square(config_.initial_speed));
   covariance_.diagonal().tail<3>().setConstant(square(config_.initial_turn_rate));
-  stated_noise_.setZero();
+  last_noise_.setZero();
 }
 
 void PoseUncertainty::map_restarted() {
   covariance_.topRows<6>().setZero();
   covariance_.leftCols<6>().setZero();
-  stated_noise_.setZero();
+  last_noise_.setZero();
 }
 
 void PoseUncertainty::turn_changed(const Eigen::Vector3d& change) {
@@ -43,12 +43,16 @@ void PoseUncertainty::turn_changed(const Eigen::Vector3d& change) {
 }
 
 PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
-  Stated stated{pose_noise(scan), Matrix6d::Zero()};
+  const Matrix12d error = error_at_reference(scan);
+  // At the stamp the pose is T exp(s twist), s seconds from the reference instant: d = Ad d_pose + s d_twist.
+  Eigen::Matrix<double, 6, 12> M;
+  M << adjoint(scan.T_reference_stamp.inverse()), -scan.reference_offset * Matrix6d::Identity();
+  const Matrix6d at_stamp = M * error * M.transpose();
+  Stated stated{0.5 * (at_stamp + at_stamp.transpose()), growth(scan, error.topLeftCorner<6, 6>())};
   // A line laid through a parabola over the sweep's half length h is off by a (s^2/2 - h^2/6) at s.
   const double bow = 0.5 * square(scan.reference_offset) - square(scan.half_sweep) / 6.0;
   stated.pose_noise.diagonal().tail<3>() +=
       bow * bow * scan.turn_acceleration_variance.value_or(turn_change_);
-  stated.growth = growth(scan, stated.pose_noise);
   return stated;
 }
 
@@ -71,17 +75,14 @@ void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& cov
                        told.segment<3>(3).sum() + told.tail<3>().sum());
 }
 
-/// Of the pose at the scan's stamp: there it is T exp(s twist), s seconds from the reference instant, so
-/// d_stamp = Ad d_pose + s d_twist.
-Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
+/// Of pose and velocity at the scan's reference instant.
+Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
   const MatchResult& match = scan.match;
   Matrix12d information = match.prior_information;
   if (!scan.lost) information += match.lidar_information;
   const Matrix12d at_reference = information.ldlt().solve(Matrix12d::Identity());
   remember(at_reference);
 
-  Eigen::Matrix<double, 6, 12> M;
-  M << adjoint(scan.T_reference_stamp.inverse()), -scan.reference_offset * Matrix6d::Identity();
   Matrix12d scatter = match.prior_information;
   if (!scan.lost) {
     // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
@@ -96,8 +97,7 @@ Matrix6d PoseUncertainty::pose_noise(const Matched& scan) {
     scatter += match.residual_variance * match.lidar_information;
   }
   const Matrix12d error = at_reference * scatter * at_reference;
-  const Matrix6d noise = M * error * M.transpose();
-  return 0.5 * (noise + noise.transpose());
+  return 0.5 * (error + error.transpose());
 }
 
 /// What stays unknown is unknown at the next scan, too; but no velocity is known less than at the start.
@@ -111,18 +111,18 @@ void PoseUncertainty::remember(const Matrix12d& at_reference) {
   covariance_ = 0.5 * (capped + capped.transpose());
 }
 
-/// New ground enters the map at poses that err as pose_noise says, so the map drifts with the way. Along
-/// degenerate directions, and when lost, the map does not hold the motion at all, and what a scan adds to
-/// their error stays in the map.
-Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& pose_noise) {
+/// New ground enters the map at poses that err as `noise` says, that of the reference instant, for which a
+/// scan is matched: so the map drifts with the way. Along degenerate directions, and when lost, the map does
+/// not hold the motion at all, and what a scan adds to their error stays in the map.
+Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const MatchResult& match = scan.match;
   const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
-  Matrix6d growth = way * config_.drift_share * pose_noise;
+  Matrix6d growth = way * config_.drift_share * noise;
   growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
   growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
   const Matrix6d A = adjoint(scan.T_before_now.inverse());
-  const Matrix6d added = pose_noise - A * stated_noise_ * A.transpose();
-  stated_noise_ = pose_noise;
+  const Matrix6d added = noise - A * last_noise_ * A.transpose();
+  last_noise_ = noise;
   const Matrix6d axes = scan.lost ? Matrix6d(Matrix6d::Identity()) : match.degenerate_directions;
   for (int i = 0; i < (scan.lost ? 6 : match.degenerate_count); ++i) {
     const Vector6d axis = axes.col(i);

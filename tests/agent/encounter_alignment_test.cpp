@@ -26,5 +26,21 @@ TEST(EncounterAlignment, UnlikelyAlternativesAreNotSent) {
   EXPECT_EQ(modes_sent({0.5, 0.3, 0.2}), 3u);
 }
 
+/// Two lanes that are 42 m apart see the rows between them from two sides, and all their alignments err alike.
+TEST(EncounterAlignment, OfLanesFarApartSaysLittleOfHowFarTheyAre) {
+  const AgentId r1 = AgentId::parse("r1").value();
+  registration::RegistrationResult result;
+  result.verdict = registration::Verdict::accepted;
+  result.covariance = 1e-4 * Matrix6d::Identity();
+  const auto of = [&](double distance) {
+    result.T_target_source.translation().y() = distance;
+    return alignment_of({r1, 1}, {r1, 200}, r1, result).best().covariance;
+  };
+  EXPECT_EQ(of(20.0), result.covariance);
+  EXPECT_GT(of(42.0)(1, 1), 30 * 0.05 * 0.05) << "thirty of them are no better than 5 cm together";
+  EXPECT_EQ(of(42.0)(2, 2), 1e-4) << "height";
+  EXPECT_EQ(of(42.0)(5, 5), 1e-4) << "and heading are as good as ever";
+}
+
 }  // namespace
 }  // namespace fleetmap::agent

@@ -125,6 +125,7 @@ TEST_F(FleetConfigTest, ModePaperSelectsMethodPlacementAndSearchOfWhichEachCanBe
   const auto paper = robot("mode: paper\n");
   EXPECT_EQ(paper.registration.method, registration::Method::paper);
   EXPECT_EQ(paper.placement.method, graph::PlacementMethod::paper);
+  EXPECT_EQ(paper.spherize.ground_voxel_m, 0.0f);
   EXPECT_EQ(paper.exchange.encounters.proximity.uncertainty, place::Uncertainty::variance);
   EXPECT_EQ(paper.exchange.encounters.proximity.min_radius, 20.0);
   EXPECT_EQ(paper.exchange.encounters.proximity.max_radius, 30.0);

@@ -132,6 +132,20 @@ TEST(PoseUncertainty, TheMapDriftsWithTheWay) {
               1e-12);
 }
 
+/// The map is made of poses at reference instants; what is not known of the way from there to the stamp does not
+/// enter it.
+TEST(PoseUncertainty, TheMapDriftsAsItsOwnPosesErr) {
+  const MatchResult scan = match(0.01, 1.0);
+  PoseUncertainty at_stamp = started(), before = started();
+  PoseUncertainty::Matched metre{scan};
+  metre.T_before_now.translation().x() = 1.0;
+  const auto near = at_stamp.state(metre);
+  metre.reference_offset = 0.5;
+  const auto far = before.state(metre);
+  EXPECT_GT(far.pose_noise(0, 0), 1.2 * near.pose_noise(0, 0));
+  EXPECT_TRUE(far.growth.isApprox(near.growth));
+}
+
 /// Where the scene does not hold the motion, what a scan adds to its error stays in the map, once.
 TEST(PoseUncertainty, AlongAnAisleTheErrorStays) {
   PoseUncertainty uncertainty = started();

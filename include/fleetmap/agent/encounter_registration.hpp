@@ -29,7 +29,8 @@ registration::Prior prior_of(const LoopClosure& closure);
 registration::Prior prior_of(const UncertainPose& T_target_source, const Eigen::Vector3d& up_in_target);
 
 /// An alignment for the fleet, from a registration of node j (source) onto node i (target): one mode if it
-/// was accepted, the modes that are good enough to be right if it is ambiguous.
+/// was accepted, the modes that are good enough to be right if it is ambiguous. Of nodes more than 30 m apart
+/// the covariance holds as well that both see the same things from different sides.
 graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& computed_by,
                               const registration::RegistrationResult& result);
 

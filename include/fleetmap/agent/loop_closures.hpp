@@ -11,11 +11,13 @@
 namespace fleetmap::agent {
 
 struct LoopClosureConfig {
-  double reach = 20.0;  ///< m between two nodes, as the odometry sees them, to be the same surroundings
+  /// m between two nodes, as the odometry sees them, to share surroundings. What lies 45 m apart shares the
+  /// middle: a robot that drives every sixth row of a large site has no other tie between its lanes.
+  double reach = 45.0;
   /// m driven between them: what is nearer on the path has drifted too little. Twice the radius of spherized
   /// clouds at least, so that the two share nothing that was seen.
   double min_path = 90.0;
-  double spacing = 15.0;  ///< m driven since the last closure
+  double spacing = 20.0;  ///< m driven since the last closure
   /// A node is used when so many more were made: its surroundings are then seen from both sides.
   std::uint32_t ripe_nodes = 3;
   Status validate() const;

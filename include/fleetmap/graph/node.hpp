@@ -27,8 +27,9 @@ struct Node {
   /// T_enu_base at `stamp`, with covariance; none where GPS has not told, as indoors.
   std::optional<GlobalPose> G;
   Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`
-  /// Of the odometry since the previous node of the same frame: right tangent of T_previous_this, [m, rad].
-  /// Without meaning for the first node of a frame.
+  /// Of what the odometry lost since the previous node of the same frame: right tangent of T_previous_this,
+  /// [m, rad]. It sums along a chain of nodes; by how many millimetres each lies off in the local map, which
+  /// does not, is left out. Without meaning for the first node of a frame.
   Matrix6d odom_covariance = Matrix6d::Zero();
   /// Against gravity, in base_link: about 1 long.
   Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();

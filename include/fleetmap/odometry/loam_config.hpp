@@ -60,7 +60,7 @@ struct LoamConfig {
   /// incidence). It weighs the scan against the motion and the sensors, and is in every covariance.
   double information_deflation = 2.0;
   // Drift over a metre driven or a radian turned; grows with the root of the way.
-  double drift_share = 0.2;          ///< of the variance of a pose in the map
+  double drift_share = 0.4;          ///< of the variance of a pose in the map
   double drift_translation = 0.001;  ///< m, 1 sigma
   double drift_rotation = 7.0e-5;    ///< rad, 1 sigma
 

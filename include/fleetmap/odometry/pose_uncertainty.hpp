@@ -55,12 +55,12 @@ class PoseUncertainty {
  private:
   void remember(const Matrix12d& at_reference);
   void judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro);
-  Matrix6d pose_noise(const Matched& scan);
-  Matrix6d growth(const Matched& scan, const Matrix6d& pose_noise);
+  Matrix12d error_at_reference(const Matched& scan);
+  Matrix6d growth(const Matched& scan, const Matrix6d& noise);
 
   LoamConfig config_;
   Matrix12d covariance_ = Matrix12d::Zero();
-  Matrix6d stated_noise_ = Matrix6d::Zero();  ///< of the last scan
+  Matrix6d last_noise_ = Matrix6d::Zero();  ///< of the last scan's pose at its reference instant
   /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
   Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
   PriorMisfit translation_misfit_, rotation_misfit_;
