@@ -26,8 +26,8 @@ constexpr double kAlikeTiltSigma = 0.02;   // rad
 constexpr double kAlternativeWeight = 1e-3;
 
 /// Nodes farther apart than this see what stands between them from its two sides. Posts and tables are some
-/// centimetres thick, and their fronts come to lie on their backs: 42 m apart all alignments of two lanes of a
-/// farm lay 7 cm too near, with a scatter of 2 cm. So many that err alike (30 of two lanes) count as one.
+/// centimetres thick, and their fronts come to lie on their backs: 42 m apart all alignments of two lanes of
+/// a farm lay 7 cm too near, with a scatter of 2 cm. So many that err alike (30 of two lanes) count as one.
 constexpr double kTwoSidesFrom = 30.0;  // m
 constexpr double kTwoSidesSigma = 0.3;  // m, horizontally
 
@@ -104,9 +104,8 @@ graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& c
   graph::Alignment alignment{i, j, computed_by, 0, {}};
   if (result.verdict != registration::Verdict::ambiguous) {
     const double score = result.modes.empty() ? result.agreement : result.modes.front().score;
-    alignment.modes = {
-        {result.T_target_source, result.rmse, result.inlier_fraction, score,
-         covariance_of(result.T_target_source, result.covariance)}};
+    alignment.modes = {{result.T_target_source, result.rmse, result.inlier_fraction, score,
+                        covariance_of(result.T_target_source, result.covariance)}};
     return alignment;
   }
   for (const registration::Mode& mode : result.modes) {
@@ -114,9 +113,8 @@ graph::Alignment alignment_of(const NodeId& i, const NodeId& j, const AgentId& c
     // Most weight first. The second stays in any case: with one mode alone the alignment would pass for
     // certain.
     if (alignment.modes.size() > 1 && mode.weight < kAlternativeWeight) break;
-    alignment.modes.push_back(
-        {mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score,
-         covariance_of(mode.T_target_source, mode.covariance)});
+    alignment.modes.push_back({mode.T_target_source, mode.rmse, mode.inlier_fraction, mode.score,
+                               covariance_of(mode.T_target_source, mode.covariance)});
   }
   return alignment;
 }

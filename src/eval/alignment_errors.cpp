@@ -102,14 +102,24 @@ std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, con
   std::map<NodeId, const graph::Node*> by_id;
   for (const graph::Node& node : nodes) by_id[node.id] = &node;
   std::vector<StatedError> errors;
-  const graph::Node* previous = nullptr;
+  const graph::Node *first = nullptr, *previous = nullptr;
+  Matrix6d stated = Matrix6d::Zero();
   for (const auto& [id, node] : by_id) {
     const graph::Node* before = std::exchange(previous, node);
-    if (before == nullptr || before->frame() != node->frame() || before->id.seq + 1 != id.seq) continue;
-    const auto T_true = relative(truth, before->id, id);
-    if (!T_true || node->odom_covariance.isZero()) continue;
-    errors.push_back(
-        {tangent_error(*T_true, before->T_odom_base.inverse() * node->T_odom_base), node->odom_covariance});
+    const bool next = before != nullptr && before->frame() == node->frame() && before->id.seq + 1 == id.seq &&
+                      !node->odom_covariance.isZero();
+    if (!next) {
+      first = node;
+      stated.setZero();
+      continue;
+    }
+    const Matrix6d A = adjoint(node->T_odom_base.inverse() * before->T_odom_base);
+    stated = A * stated * A.transpose() + node->odom_covariance;
+    if (id.seq - first->id.seq < kOdometryPiece) continue;
+    if (const auto T_true = relative(truth, first->id, id))
+      errors.push_back({tangent_error(*T_true, first->T_odom_base.inverse() * node->T_odom_base), stated});
+    first = node;
+    stated.setZero();
   }
   return errors;
 }

@@ -26,7 +26,8 @@ TEST(EncounterAlignment, UnlikelyAlternativesAreNotSent) {
   EXPECT_EQ(modes_sent({0.5, 0.3, 0.2}), 3u);
 }
 
-/// Two lanes that are 42 m apart see the rows between them from two sides, and all their alignments err alike.
+/// Two lanes that are 42 m apart see the rows between them from two sides, and all their alignments err
+/// alike.
 TEST(EncounterAlignment, OfLanesFarApartSaysLittleOfHowFarTheyAre) {
   const AgentId r1 = AgentId::parse("r1").value();
   registration::RegistrationResult result;

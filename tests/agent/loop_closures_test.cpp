@@ -43,7 +43,8 @@ TEST(LoopClosures, FindTheLaneBesideOnceTheRobotHasDrivenFarEnough) {
   }
 }
 
-/// Every sixth row of a farm with 7 m between rows; the lane's end behind the robot is no place it came back to.
+/// Every sixth row of a farm with 7 m between rows; the lane's end behind the robot is no place it came back
+/// to.
 TEST(LoopClosures, TieLanesThatShareTheRowsBetweenThem) {
   LoopClosures closures(LoopClosureConfig{});
   const auto found = closures_of_two_lanes(closures, 42.0);

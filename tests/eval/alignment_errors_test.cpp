@@ -122,22 +122,29 @@ TEST(AlignmentErrors, RobotsThatAreJoinedARowOffAreAWrongMerge) {
   EXPECT_TRUE(joined_pairs(fleet.alignments, fleet.placement, fleet.truth).empty());
 }
 
-TEST(OdometryErrors, AreThoseBetweenNeighboursOfOneFrame) {
-  TwoRobots fleet;
-  std::vector<graph::Node> nodes(4);
-  for (std::uint32_t k = 0; k < 3; ++k) {
+TEST(OdometryErrors, AreThoseOfPiecesOfOneFrame) {
+  constexpr std::uint32_t kNodes = 2 * kOdometryPiece + 3;
+  TruePoses truth;
+  std::vector<graph::Node> nodes(kNodes);
+  for (std::uint32_t k = 0; k < kNodes; ++k) {
     nodes[k].id = node("r1", k);
     nodes[k].T_odom_base = at(4.1 * k, 0.0);
     nodes[k].odom_covariance = 0.01 * Matrix6d::Identity();
+    truth[nodes[k].id] = at(4.0 * k, 3.0);
   }
-  nodes[3].id = node("r2", 0);
-  const auto errors = odometry_errors(nodes, fleet.truth);
-  ASSERT_EQ(errors.size(), 2u);
-  for (const StatedError& one : errors) EXPECT_NEAR(one.error[0], 0.1, 1e-9);
-  nodes[2].session = 1;
-  EXPECT_EQ(odometry_errors(nodes, fleet.truth).size(), 1u);
-  nodes[1].odom_covariance.setZero();
-  EXPECT_TRUE(odometry_errors(nodes, fleet.truth).empty());
+  const auto errors = odometry_errors(nodes, truth);
+  ASSERT_EQ(errors.size(), 2u) << "what is left at the end is no piece";
+  for (const StatedError& one : errors) {
+    EXPECT_NEAR(one.error[0], 0.1 * kOdometryPiece, 1e-9);
+    EXPECT_NEAR(one.covariance(0, 0), 0.01 * kOdometryPiece, 1e-9);
+    EXPECT_GT(one.covariance(1, 1), 0.01 * kOdometryPiece) << "headings swing what lies ahead";
+  }
+  nodes[5].odom_covariance.setZero();
+  EXPECT_EQ(odometry_errors(nodes, truth).size(), 1u);
+  for (std::uint32_t k = 10; k < kNodes; ++k) nodes[k].session = 1;
+  EXPECT_EQ(odometry_errors(nodes, truth).size(), 1u);
+  nodes[14].odom_covariance.setZero();
+  EXPECT_TRUE(odometry_errors(nodes, truth).empty());
 }
 
 TEST(PlacesSeen, AreThoseThatEnoughRobotsSawOftenEnough) {

@@ -48,8 +48,8 @@ TEST(MotionCovariance, CoversWhatAccumulatesAndWhatTheEndsAdd) {
   EXPECT_NEAR(nees, 6.0, 0.4);
 }
 
-/// A chain of nodes: what was lost from node to node sums, and of how well scans lie in the local map only that
-/// of the two ends is left. Twenty times all of it would be three times as uncertain as it is.
+/// A chain of nodes: what was lost from node to node sums, and of how well scans lie in the local map only
+/// that of the two ends is left. Twenty times all of it would be three times as uncertain as it is.
 TEST(MotionCovariance, OverAChainOfNodesWhatWasLostSums) {
   std::mt19937_64 random(6);
   const Vector6d step = (Vector6d() << 0.1, 0.0, 0.0, 0.0, 0.0, 0.01).finished();

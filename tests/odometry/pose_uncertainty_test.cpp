@@ -132,8 +132,8 @@ TEST(PoseUncertainty, TheMapDriftsWithTheWay) {
               1e-12);
 }
 
-/// The map is made of poses at reference instants; what is not known of the way from there to the stamp does not
-/// enter it.
+/// The map is made of poses at reference instants; what is not known of the way from there to the stamp does
+/// not enter it.
 TEST(PoseUncertainty, TheMapDriftsAsItsOwnPosesErr) {
   const MatchResult scan = match(0.01, 1.0);
   PoseUncertainty at_stamp = started(), before = started();

@@ -49,8 +49,12 @@ std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
                                    const graph::Placement& placement, const TruePoses& truth,
                                    const RightPose& limits = {});
 
-/// Errors of the odometry from each node to the next of its frame, with the covariance the node states. Nodes
-/// that state none are left out.
+/// Nodes of one piece of odometry_errors(): some 35 m of path.
+inline constexpr std::uint32_t kOdometryPiece = 8;
+
+/// Errors of the odometry over pieces of kOdometryPiece nodes of one frame, one after the other, with what
+/// the nodes on the way state: they state what sums, and not by how much each pose lies off in the local map.
+/// Nodes that state nothing end a piece.
 std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, const TruePoses& truth);
 
 /// Two robots that alignments connect.
