@@ -13,7 +13,7 @@ using fleetmap::testing::seeds_to_run;
 
 TEST(TwinLocalization, ErrsNoMoreThanItsFixesAndStatesHowMuch) {
   const testing::EkfDrive drive;
-  double nees = 0.0;
+  double nees = 0.0, ratio = 0.0;
   const unsigned seeds = seeds_to_run(20);
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const testing::EkfErrors run = testing::run(drive, seed);
@@ -23,7 +23,9 @@ TEST(TwinLocalization, ErrsNoMoreThanItsFixesAndStatesHowMuch) {
     expect_at_most(run.horizontal / run.fixes_horizontal, 1.48, "EKF, error over that of the fixes", seed);
     expect_at_most(run.heading, 0.104, "EKF, heading in rad", seed);
     nees += run.nees_horizontal / seeds;
+    ratio += run.horizontal / run.fixes_horizontal / seeds;
   }
+  expect_at_most(ratio, 0.9, "EKF, mean error over that of the fixes", seeds);  // who echoes the fixes has 1
   expect_at_most(nees, 1.32, "EKF, mean NEES", seeds);
   expect_at_least(nees, 0.66, "EKF, mean NEES", seeds);
 }
