@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "agent/driven_fleet.hpp"
+#include "fleetmap/place/proximity_search.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 
@@ -74,6 +75,22 @@ TEST(DriveSafety, StandsWhenNobodyTellsAnyMoreWhereItIs) {
   const Stamp last = fleet.robot().last_guide;
   fleet.run_for(5s);
   expect_stands_since(fleet, fleet.robot(), last);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stands(), StandReason::kNoPose);
+}
+
+TEST(DriveSafety, StandsWhenGpsAndWheelsAreGoneForTooLong) {
+  DrivenFleet fleet({});
+  ASSERT_TRUE(fleet.run_until_driving());
+  fleet.robot().fixes = fleet.robot().wheel = false;
+  const double limit = DriveGuardConfig{}.max_position_sigma;
+  Stamp last_good{};
+  for (int k = 0; k < 1000 && !fleet.robot().agent->navigator()->stands(); ++k) {
+    fleet.run_for(20ms);
+    const double sigma = place::horizontal_sigma(fleet.robot().G.covariance);
+    if (sigma <= limit) last_good = fleet.robot().G.stamp;
+  }
+  fleet.run_for(3s);
+  expect_stands_since(fleet, fleet.robot(), last_good);
   EXPECT_EQ(fleet.robot().agent->navigator()->stands(), StandReason::kNoPose);
 }
 

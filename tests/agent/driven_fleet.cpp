@@ -86,6 +86,9 @@ void DrivenFleet::start(Robot& robot) {
     robot.commands.push_back({now(), command});
     robot.twin->command(command.forward_speed, command.yaw_rate);
   }));
+  robot.handles.push_back(robot.bus->subscribe(wire::topics::global_pose(), [&robot](const Bytes& cdr) {
+    robot.G = wire::decode<GlobalPose>(cdr).value();
+  }));
   robot.agent = must(agent::Agent::create(member->agent, *robot.bus));
 }
 
@@ -129,9 +132,9 @@ void DrivenFleet::sense(Robot& robot) {
     if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
       robot.bus->publish(wire::topics::imu(), wire::encode(*imu));
     } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
-      robot.bus->publish(wire::topics::fix(), wire::encode(*fix));
+      if (robot.fixes) robot.bus->publish(wire::topics::fix(), wire::encode(*fix));
     } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) {
-      robot.bus->publish(wire::topics::wheel_odometry(), wire::encode(*wheel));
+      if (robot.wheel) robot.bus->publish(wire::topics::wheel_odometry(), wire::encode(*wheel));
     } else if (robot.scans) {
       sensor::Scan scan = sim::cast_scan(*scene_, robot.twin->config().lidar, std::get<sim::ScanJob>(sample));
       if (!robot.points) scan.points.resize(10);

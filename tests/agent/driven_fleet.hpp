@@ -42,8 +42,9 @@ class DrivenFleet {
     std::vector<Command> commands;
     Stamp last_scan{};  ///< when it was delivered
     Stamp last_guide{};
+    GlobalPose G;  ///< the last that the agent published
     // What still comes.
-    bool scans = true, points = true, guide = true;
+    bool scans = true, points = true, guide = true, fixes = true, wheel = true;
     Duration clock{}, lidar_clock{};  ///< by which all stamps are ahead, and those of scans besides
     std::vector<bus::Handle> handles;
   };
