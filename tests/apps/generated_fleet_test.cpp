@@ -12,6 +12,7 @@
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/measured.hpp"
 #include "support/process.hpp"
 #include "support/synthetic_lidar.hpp"
 #include "support/temporary_folder.hpp"
@@ -55,7 +56,8 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     std::vector<Pose> O, T;
     for (const auto& pose : *odometry) O.push_back(pose.T_w_base);
     for (const auto& pose : *placed) T.push_back(pose.T_w_base);
-    EXPECT_LT(testing::aligned_rmse(O, robot.T_enu_base), 0.10) << robot.id;
+    testing::expect_at_most(testing::aligned_rmse(O, robot.T_enu_base), 0.0019, "odometry of a robot in m",
+                            1);
     trajectories.push_back(T);
   }
   // What the run recorded gives the same odometry as what it read.
@@ -71,8 +73,9 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();
   const Pose truth = fleet->robots[0].T_enu_base.front().inverse() * fleet->robots[1].T_enu_base.front();
   const Pose error = truth.inverse() * T_12;
-  EXPECT_LT(error.translation().norm(), 0.30);
-  EXPECT_LT(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 1.0);
+  testing::expect_at_most(error.translation().norm(), 0.0283, "r2 as seen from r1, m", 1);
+  testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.19,
+                          "r2 as seen from r1, deg", 1);
 }
 
 /// A robot that is carried elsewhere between two scans: nothing that it sees then fits its map.
