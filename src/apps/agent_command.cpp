@@ -214,7 +214,7 @@ int run(const AgentOptions& options) {
   if (!config) return report(config.error(), kBadConfiguration);
   auto bus = join_dds(config->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
-  for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange.fleet.size()))
+  for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))
     spdlog::warn("{}: {}", config->agent.id.str(), warning);
   auto agent = agent::Agent::create(config->agent, **bus);
   if (!agent) return report(agent.error(), kFailed);

@@ -48,7 +48,7 @@ Result<std::string> check_robot(const std::string& file, const std::vector<confi
   auto robot = config::load_robot(file, overrides);
   if (!robot) return tl::unexpected(robot.error());
   if (const Status planned = plan_mission(*robot); !planned) return tl::unexpected(planned.error());
-  for (const std::string& warning : config::peer_warnings(robot->dds, robot->agent.exchange.fleet.size()))
+  for (const std::string& warning : config::peer_warnings(robot->dds, robot->agent.exchange))
     std::cerr << file << ": warning: " << warning << '\n';
   if (!robot->mission) return std::string("a valid agent configuration");
   const planning::FleetPlan& plan = *robot->agent.navigator->plan;

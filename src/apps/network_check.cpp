@@ -61,7 +61,8 @@ class LinkCheck {
       return;
     }
     for (const RadioSurvey::Robot& heard : survey_.robots) judge(heard);
-    for (const AgentId& expected : robot_.agent.exchange.fleet) {
+    const exchange::ExchangeConfig& exchange = robot_.agent.exchange;
+    for (const AgentId& expected : link == Link::kLongRange ? exchange.all_on_radio() : exchange.fleet) {
       if (expected != robot_.agent.id && !names_.contains(expected)) missing_.push_back(expected);
     }
     name_twins();
@@ -199,7 +200,7 @@ Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& 
     }
   }
   bool fine = true;
-  for (const std::string& warning : config::peer_warnings(robot.dds, robot.agent.exchange.fleet.size())) {
+  for (const std::string& warning : config::peer_warnings(robot.dds, robot.agent.exchange)) {
     std::cout << "! " << warning << '\n';
     fine = false;
   }

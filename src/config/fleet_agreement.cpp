@@ -62,10 +62,13 @@ bus::FleetSettings fleet_settings(const agent::AgentConfig& config) {
           .placement = hash_of_placement(config)};
 }
 
-std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds, std::size_t robots) {
+std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds,
+                                       const exchange::ExchangeConfig& exchange) {
   std::vector<std::string> warnings;
   for (const bus::Link link : {bus::Link::kLongRange, bus::Link::kShortRange}) {
     const bus::DdsLinkConfig& radio = bus::config_of(dds, link);
+    const bool long_range = link == bus::Link::kLongRange;
+    const std::size_t robots = (long_range ? exchange.all_on_radio() : exchange.fleet).size();
     if (!radio.enabled || radio.participants_per_peer > 1) continue;
     const bool elsewhere = !radio.address.empty() && !radio.address.starts_with("127.");
     std::set<std::string> peers;
@@ -77,7 +80,8 @@ std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds, std::size_t
     if (!elsewhere || several_here || peers.size() + 1 >= robots) continue;
     warnings.push_back(std::string("dds.") + bus::to_string(link) + ".peers names " +
                        std::to_string(peers.size()) + " of the " + std::to_string(robots - 1) +
-                       " other robots of the fleet; who is not named is found only if its own file names "
+                       (long_range ? " other robots on this radio" : " other robots of the fleet") +
+                       "; who is not named is found only if its own file names "
                        "this robot: give the address of each");
   }
   return warnings;

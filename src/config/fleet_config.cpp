@@ -274,6 +274,8 @@ void FleetConfig::keep_first(std::size_t count) {
   for (const Member& member : members) names.push_back(member.agent.id);
   for (Member& member : members) {
     member.agent.exchange.fleet = names;
+    std::erase_if(member.agent.exchange.on_radio,
+                  [&](const AgentId& id) { return std::ranges::find(names, id) == names.end(); });
     member.dds.settings = fleet_settings(member.agent);
   }
 }

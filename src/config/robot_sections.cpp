@@ -259,6 +259,19 @@ void read_loop_closures(Section& top, agent::LoopClosureConfig& closures) {
   section.check(closures.validate());
 }
 
+/// Names of robots, none when the key is not there.
+void read_names(Section& section, const char* key, std::vector<AgentId>& ids) {
+  std::vector<std::string> names;
+  section.read(key, names);
+  for (const std::string& name : names) {
+    if (const auto parsed = AgentId::parse(name)) {
+      ids.push_back(*parsed);
+    } else {
+      section.problem(key, parsed.error().message);
+    }
+  }
+}
+
 void read_exchange(Section& top, agent::AgentConfig& agent) {
   exchange::ExchangeConfig& exchange = agent.exchange;
   read_encounters(top, exchange.encounters);
@@ -266,6 +279,7 @@ void read_exchange(Section& top, agent::AgentConfig& agent) {
   double budget_kbit_s = exchange.long_range.fleet_bytes_per_second * 8e-3;
   long_range.read("budget_kbit_s", budget_kbit_s);
   exchange.long_range.fleet_bytes_per_second = budget_kbit_s * 125.0;
+  read_names(long_range, "robots", exchange.on_radio);
   long_range.read("burst_seconds", exchange.long_range.pace.burst_seconds);
   long_range.read_seconds("status_period", exchange.status_period);
   long_range.read_seconds("digest_min_period", exchange.reconcile.digest_min_period);
@@ -292,15 +306,7 @@ void read_ids(Section& top, agent::AgentConfig& agent) {
   } else {
     top.problem("id", parsed.error().message);
   }
-  std::vector<std::string> names;
-  top.read("fleet", names);
-  for (const std::string& name : names) {
-    if (const auto parsed = AgentId::parse(name)) {
-      agent.exchange.fleet.push_back(*parsed);
-    } else {
-      top.problem("fleet", parsed.error().message);
-    }
-  }
+  read_names(top, "fleet", agent.exchange.fleet);
 }
 
 void read_dds_link(Section& dds, const char* key, bus::DdsLinkConfig& link) {

@@ -17,9 +17,10 @@ constexpr double kLittle = 1.0, kMuch = 2.0;
 constexpr double kLoanPeriods = 2.5;
 /// A status may wait in the lender's queue for so long, or for one more period.
 constexpr Duration kMostDelay = std::chrono::seconds(10);
-/// Where statuses come more seldom than this (more than ten robots without multicast), a lender would have to
-/// wait for minutes until it has its part again.
-constexpr Duration kMostPeriod = std::chrono::seconds(30);
+/// Where statuses come more seldom than this (more than eight robots without multicast), a lender would have
+/// to wait for a minute and more until it has its part again: ten robots that all had need got 0.8 of the
+/// budget.
+constexpr Duration kMostPeriod = std::chrono::seconds(15);
 /// Silence after which a robot's part goes to the others, at least and in status periods.
 constexpr Duration kGone = std::chrono::seconds(60);
 constexpr double kGonePeriods = 3.0;

@@ -42,6 +42,14 @@ Status ExchangeConfig::validate(const AgentId& self) const {
   if (encounters.max_active > clouds.max_receiving) {
     return failure("encounters.max_active must be at most cloud_transfer.max_receiving");
   }
+  const std::set<AgentId> radio(on_radio.begin(), on_radio.end());
+  if (!on_radio.empty() && (radio.size() != on_radio.size() || !radio.contains(self))) {
+    return failure("long_range.robots must name each robot once, and this one, '" + self.str() + "'");
+  }
+  for (const AgentId& agent : on_radio) {
+    if (!names.contains(agent))
+      return failure("long_range.robots: '" + agent.str() + "' is not in the fleet");
+  }
   for (const Status& status : {long_range.validate(), clouds.validate(), encounters.validate(),
                                reconcile.validate(), submaps.validate()}) {
     if (!status) return status;
@@ -50,7 +58,8 @@ Status ExchangeConfig::validate(const AgentId& self) const {
 }
 
 ExchangeConfig for_fleet(ExchangeConfig config) {
-  const std::size_t robots = std::max<std::size_t>(config.fleet.size(), 2);
+  config.on_radio = config.all_on_radio();
+  const std::size_t robots = std::max<std::size_t>(config.on_radio.size(), 2);
   const double load = static_cast<double>(robots * config.long_range.copies(robots)) /
                       config.long_range.fleet_bytes_per_second;
   const double factor = std::max(1.0, load / kUsualLoad);
@@ -67,8 +76,9 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
   const ExchangeConfig adapted = for_fleet(config);
   Exchange exchange(adapted, store, now);
   // A large fleet that starts at once would else tell all at once, and while its links still say Hello.
-  const auto place = std::ranges::find(config.fleet, store.self()) - config.fleet.begin();
-  const double share = static_cast<double>(place) / static_cast<double>(config.fleet.size());
+  const std::vector<AgentId>& all = adapted.on_radio;
+  const auto place = std::ranges::find(all, store.self()) - all.begin();
+  const double share = static_cast<double>(place) / static_cast<double>(all.size());
   const auto first = [&](Duration adapted_period, Duration period) {
     const Duration spread = adapted_period - period;
     return now + std::min(spread, kHellos) + longer(spread, share);
@@ -87,8 +97,9 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       store_(&store),
       self_(store.self()),
       fleet_(config.fleet.begin(), config.fleet.end()),
-      shares_(self_, config.fleet, config.long_range.fleet_bytes_per_second, config.status_period, now),
-      queue_(config.long_range, others_of(config.fleet, self_), config.payload_size),
+      on_radio_(config.on_radio.begin(), config.on_radio.end()),
+      shares_(self_, config.on_radio, config.long_range.fleet_bytes_per_second, config.status_period, now),
+      queue_(config.long_range, others_of(config.on_radio, self_), config.payload_size),
       cloud_sender_(self_, config.clouds),
       cloud_receiver_(self_, config.clouds),
       encounters_(self_, config.encounters),
@@ -97,6 +108,7 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       submap_sender_(self_, config.submaps),
       holds_(self_, fleet_),
       present_(shares_.present(now)) {
+  std::ranges::set_difference(fleet_, on_radio_, std::inserter(elsewhere_, elsewhere_.end()));
   status_.position = GeoPoint{};
   for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
   for (const auto& [id, node] : store.nodes()) encounters_.on_node(node, now);
@@ -368,7 +380,7 @@ void Exchange::tell_all(Priority priority, Message message) {
   // Who is not there is told the status alone, by which the two get to know that they are there.
   const bool to_absent = std::holds_alternative<AgentStatus>(message);
   std::set<AgentId> receivers;
-  for (const AgentId& agent : fleet_) {
+  for (const AgentId& agent : on_radio_) {
     if (agent != self_ && !near_.contains(agent) && (to_absent || present_.contains(agent)))
       receivers.insert(agent);
   }
@@ -455,6 +467,7 @@ void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
     diverted.reach = Reach::kShortRange;
     out.push_back(std::move(diverted));
   }
+  queue_.take_for(elsewhere_);  // nobody there would hear it
   if (auto digest = submap_sender_.digest(*store_, submap_receiver_.peers_in_reach(now), now))
     send(std::move(*digest));
   const auto finished = submap_receiver_.finish_downloads(*store_, now);

@@ -187,20 +187,41 @@ TEST_F(FleetConfigTest, WhatRobotsMustHaveAlikeGoesToTheRadios) {
 }
 
 TEST_F(FleetConfigTest, PeersThatCannotBeAllOfTheFleetAreAWarning) {
+  const auto fleet_of_four = [](std::size_t on_radio = 0) {
+    exchange::ExchangeConfig exchange;
+    for (const char* name : {"r1", "r2", "r3", "r4"}) exchange.fleet.push_back(AgentId::parse(name).value());
+    exchange.on_radio.assign(exchange.fleet.begin(), exchange.fleet.begin() + static_cast<int>(on_radio));
+    return exchange;
+  };
+  const exchange::ExchangeConfig four = fleet_of_four();
   bus::DdsBusConfig dds;
-  EXPECT_THAT(peer_warnings(dds, 4), ::testing::IsEmpty());  // all on this machine
+  EXPECT_THAT(peer_warnings(dds, four), ::testing::IsEmpty());  // all on this machine
   dds.short_range.enabled = false;
   dds.long_range.address = "10.0.0.1";
   dds.long_range.peers = {"10.0.0.2", "10.0.0.3", "10.0.0.2"};
-  EXPECT_THAT(peer_warnings(dds, 3), ::testing::IsEmpty());
-  EXPECT_THAT(peer_warnings(dds, 4),
+  EXPECT_THAT(peer_warnings(dds, fleet_of_four(3)), ::testing::IsEmpty());
+  EXPECT_THAT(peer_warnings(dds, four),
               ::testing::ElementsAre(HasSubstr("dds.long_range.peers names 2 of the 3 other robots")));
   dds.long_range.peers.push_back("10.0.0.1");  // where any number may be
-  EXPECT_THAT(peer_warnings(dds, 4), ::testing::IsEmpty());
+  EXPECT_THAT(peer_warnings(dds, four), ::testing::IsEmpty());
   dds.long_range.peers.clear();
-  EXPECT_THAT(peer_warnings(dds, 2), ::testing::SizeIs(1));
+  EXPECT_THAT(peer_warnings(dds, four), ::testing::SizeIs(1));
   dds.long_range.enabled = false;
-  EXPECT_THAT(peer_warnings(dds, 2), ::testing::IsEmpty());
+  EXPECT_THAT(peer_warnings(dds, four), ::testing::IsEmpty());
+}
+
+TEST_F(FleetConfigTest, RobotsOfOtherRadiosAreNamed) {
+  const std::string fleet = "id: r1\nfleet: [r1, r2, r3]\ndirectory: out\n";
+  const auto loaded = load_robot(folder_.write("r1.yaml", fleet + "long_range: {robots: [r1, r3]}\n"), {});
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_THAT(loaded->agent.exchange.all_on_radio(), ::testing::SizeIs(2));
+  for (const auto& [robots, problem] : std::map<std::string, std::string>{
+           {"[r2, r3]", "this one, 'r1'"}, {"[r1, r4]", "'r4' is not in the fleet"}, {"[r1, r1]", "once"}}) {
+    const auto bad =
+        load_robot(folder_.write("r1.yaml", fleet + "long_range: {robots: " + robots + "}\n"), {});
+    ASSERT_FALSE(bad) << robots;
+    EXPECT_THAT(bad.error().message, HasSubstr(problem));
+  }
 }
 
 TEST_F(FleetConfigTest, OverrideTextIsKeyEqualsValue) {

@@ -125,6 +125,50 @@ TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robot
   }
 }
 
+/// Twenty robots are too many for one radio without multicast: each node would be sent nineteen times.
+TEST(Fleet, groups_on_radios_of_their_own_become_one_where_they_meet) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= 20; ++k) names.push_back("r" + std::to_string(k));
+  const auto group = [](const AgentId& robot) { return std::stoi(robot.str().substr(1)) > 10; };
+  const auto held_on_time = [&](bool groups) {
+    SimFleet fleet(names, {}, 3);
+    bool met = false;
+    fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+      if (reach == Reach::kLongRange) return !groups || group(from) == group(to);
+      return met && (from.str() == "r1" || to.str() == "r1");
+    };
+    for (const auto& name : names) {
+      if (groups) fleet.share_radio(std::span(names).subspan(group(agent(name)) ? 10 : 0, 10));
+      fleet.start(name);
+    }
+    std::map<NodeId, Stamp> made;
+    for (int k = 0; k < 25; ++k) {
+      for (std::size_t robot = 0; robot < names.size(); ++robot) {
+        const double place = 100.0 * static_cast<double>(robot) + 4.0 * k;
+        made[fleet.add_node(names[robot], place).id] = fleet.now();
+      }
+      fleet.run_for(std::chrono::seconds(4));
+    }
+    double held = 0.0, all = 0.0;
+    for (const auto& [id, at] : made) {
+      if (fleet.now() - at < std::chrono::seconds(10)) continue;
+      for (const auto& [name, robot] : fleet.robots()) {
+        if (group(name) != group(id.agent)) continue;
+        all += 1.0;
+        held += robot.store->node(id) != nullptr ? 1.0 : 0.0;
+      }
+    }
+    // r1 drives to the other group; whom it meets there passes on what it brings.
+    met = true;
+    fleet.run_for(std::chrono::minutes(10), [&] { return fleet.equal_sets(500); });
+    EXPECT_TRUE(fleet.equal_sets(500)) << groups;
+    return held / all;
+  };
+  const double one_radio = held_on_time(false), two_radios = held_on_time(true);
+  EXPECT_LT(one_radio, 0.7);
+  EXPECT_GT(two_radios, 0.9);
+}
+
 TEST(Fleet, a_robot_says_that_it_is_busy_while_it_drives_and_while_a_pair_of_it_ripens) {
   SimFleet fleet(kThree, {}, 3);
   for (const auto& name : kThree) fleet.start(name);

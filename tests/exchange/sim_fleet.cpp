@@ -38,6 +38,11 @@ SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network
   if (adjust) adjust(config_);
 }
 
+void SimFleet::share_radio(std::span<const std::string> names) {
+  config_.on_radio.clear();
+  for (const std::string& name : names) config_.on_radio.push_back(agent(name));
+}
+
 void SimFleet::start(const std::string& name, std::uint16_t session) {
   Robot& robot = robots_[agent(name)];
   // Virtual time knows no power cuts, and a real disk sync for every node would take most of the test's

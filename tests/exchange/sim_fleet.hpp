@@ -50,6 +50,8 @@ class SimFleet {
   SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
            const std::function<void(exchange::ExchangeConfig&)>& adjust = {});
 
+  /// Of those that start from now on: these alone are on their radio.
+  void share_radio(std::span<const std::string> names);
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
   /// As kill -9 does: memory is gone, the file stays.

@@ -120,9 +120,10 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
 
 /// What the other robots must have alike, of a robot's configuration.
 bus::FleetSettings fleet_settings(const agent::AgentConfig& config);
-/// A sentence for each radio whose `peers` are fewer than the other robots of a fleet of `robots`. None where
-/// peers are on this machine, since any number may be there.
-std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds, std::size_t robots);
+/// A sentence for each radio whose `peers` are fewer than the other robots that are on it. None where peers
+/// are on this machine, since any number may be there.
+std::vector<std::string> peer_warnings(const bus::DdsBusConfig& dds,
+                                       const exchange::ExchangeConfig& exchange);
 
 enum class FileKind { kRobot, kFleet, kWorld, kSensor, kExperiment };
 /// Loads `file` as what its keys say it is: agents, studies, kind, a LiDAR's pattern, or else one robot's.

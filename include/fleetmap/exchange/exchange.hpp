@@ -24,6 +24,9 @@ namespace fleetmap::exchange {
 
 struct ExchangeConfig {
   std::vector<AgentId> fleet;  ///< every agent, this one too; messages and items of others are refused
+  /// Of these, this one too, those on the same radio, who share its budget; the others are on radios of their
+  /// own and heard over the short range alone. None: all.
+  std::vector<AgentId> on_radio;
   LongRangeConfig long_range;
   CloudTransferConfig clouds;
   EncounterConfig encounters;
@@ -33,12 +36,13 @@ struct ExchangeConfig {
   /// Bytes of a message as the bus publishes it (CDR with its encapsulation header).
   std::function<std::size_t(const Message&)> payload_size;
   Status validate(const AgentId& self) const;
+  const std::vector<AgentId>& all_on_radio() const { return on_radio.empty() ? fleet : on_radio; }
 };
 
-/// The periods as they are for a fleet of this size on this budget. A status or digest goes to every other
-/// robot, so what is fixed grows with the square of the fleet, and clouds get what it leaves. Where it would
-/// take more than it does of five robots on 145 kbit/s, it comes less often, and a silent robot is asked for
-/// longer.
+/// The periods as they are for so many robots on this radio and budget, and `on_radio` filled in. A status or
+/// digest goes to every other robot, so what is fixed grows with the square of their number, and clouds get
+/// what it leaves. Where it would take more than it does of five robots on 145 kbit/s, it comes less often, and
+/// a silent robot is asked for longer.
 ExchangeConfig for_fleet(ExchangeConfig config);
 
 // ---- what the agent hears
@@ -233,6 +237,7 @@ class Exchange {
   store::Store* store_;
   AgentId self_;
   std::set<AgentId> fleet_;
+  std::set<AgentId> on_radio_, elsewhere_;  ///< of the fleet: those on this robot's radio, and the others
   BudgetShares shares_;
   SendQueue queue_;
   CloudSender cloud_sender_;
