@@ -41,8 +41,8 @@ struct ExchangeConfig {
 
 /// The periods as they are for so many robots on this radio and budget, and `on_radio` filled in. A status or
 /// digest goes to every other robot, so what is fixed grows with the square of their number, and clouds get
-/// what it leaves. Where it would take more than it does of five robots on 145 kbit/s, it comes less often, and
-/// a silent robot is asked for longer.
+/// what it leaves. Where it would take more than it does of five robots on 145 kbit/s, it comes less often,
+/// and a silent robot is asked for longer.
 ExchangeConfig for_fleet(ExchangeConfig config);
 
 // ---- what the agent hears
