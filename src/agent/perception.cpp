@@ -140,6 +140,7 @@ void Perception::finish(Job& job) {
   loam_counters_ = loam_.counters();
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
+    report_loss(update);
     bus_.publish(wire::topics::odometry(),
                  wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
     const Eigen::Vector3d up = up_in(update.T_odom_base);
@@ -151,6 +152,16 @@ void Perception::finish(Job& job) {
     warn("scan refused", job.update.error().message);
   }
   start_next();
+}
+
+void Perception::report_loss(const odometry::OdometryUpdate& update) {
+  if (update.lost) {
+    if (++lost_in_a_row_ == 1)
+      warn("the odometry lost its way",
+           "the scan does not fit the local map; poses are predictions until scans fit again");
+  } else if (const std::uint64_t lost = std::exchange(lost_in_a_row_, 0); lost > 0) {
+    spdlog::info("the odometry has its way again after {} lost scans", lost);
+  }
 }
 
 Eigen::Vector3d Perception::up_in(const Pose& T_odom_base) const {

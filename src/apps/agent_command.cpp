@@ -246,6 +246,8 @@ int run(const AgentOptions& options) {
               << " points from " << results->map.submaps << " submaps, " << results->missing_submaps
               << " missing, hash " << results->map.hash << '\n';
   }
+  if (const std::string lost = lost_ways((*agent)->perception().odometry_counters()); !lost.empty())
+    std::cout << lost << '\n';
   if (results && results->missing_submaps > 0) {
     spdlog::warn(
         "{} submaps are missing: their robots were out of reach; run the agent again near one that has them",

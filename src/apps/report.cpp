@@ -79,6 +79,7 @@ json perception_json(const agent::Agent& agent) {
       {"dropped_scans", seen.dropped_scans},
       {"unclear_stamps", seen.unclear_stamps},
       {"lost_scans", loam.lost},
+      {"local_maps_begun_anew", loam.map_restarts},
       {"odometry_cpu_ms",
        {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};
 }
@@ -257,6 +258,15 @@ Distribution distribution(std::vector<double> values) {
   d.p50 = quantile(0.5);
   d.p99 = quantile(0.99);
   return d;
+}
+
+std::string lost_ways(const odometry::LoamCounters& odometry) {
+  if (odometry.lost == 0) return "";
+  std::string text = "the odometry lost its way: " + std::to_string(odometry.lost) + " of " +
+                     std::to_string(odometry.updates) + " scans did not fit, and none entered the map";
+  if (odometry.map_restarts > 0)
+    text += "; it began anew " + std::to_string(odometry.map_restarts) + " times, each a session of its own";
+  return text;
 }
 
 json agent_report(const agent::Agent& agent, const agent::Results* results) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "fleetmap/agent/agent.hpp"
@@ -20,6 +21,9 @@ Distribution distribution(std::vector<double> values);
 
 /// What one agent saw, made, sent and refused.
 nlohmann::json agent_report(const agent::Agent& agent, const agent::Results* results);
+
+/// A sentence for the last lines of a run; empty if every scan fitted the local map.
+std::string lost_ways(const odometry::LoamCounters& odometry);
 
 /// report.json and report.html of a fleet's run. Sizes in bytes, times in seconds.
 Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile);

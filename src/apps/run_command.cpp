@@ -83,6 +83,10 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
               << " points from " << entry.results->map.submaps << " submaps, hash "
               << entry.results->map.hash.substr(0, 12) << '\n';
     if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
+    if (entry.agent) {
+      if (const std::string lost = lost_ways(entry.agent->perception().odometry_counters()); !lost.empty())
+        std::cout << "    " << lost << '\n';
+    }
     for (const graph::Alignment& used : entry.results->placement.used) {
       std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E "
                 << used.best().rmse << " m\n";

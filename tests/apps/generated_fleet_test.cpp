@@ -78,10 +78,10 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
                           "r2 as seen from r1, deg", 1);
 }
 
-/// A robot that is carried elsewhere between two scans: nothing that it sees then fits its map.
-TEST(OdometryCommand, ALostWayIsSaidAndFails) {
-  const testing::TemporaryFolder folder;
-  auto bag = recording::BagWriter::create(folder.path() / "bag");
+/// Writes a recording of a robot that is carried elsewhere between two scans: nothing that it sees then fits
+/// its map.
+void write_carried_robot(const std::filesystem::path& folder) {
+  auto bag = recording::BagWriter::create(folder);
   ASSERT_TRUE(bag) << bag.error().message;
   const testing::SyntheticWorld yard = testing::yard_world(), panels = testing::panel_world();
   const bus::Topic topic = wire::topics::points();
@@ -98,6 +98,11 @@ TEST(OdometryCommand, ALostWayIsSaidAndFails) {
     ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, wire::encode(scan)));
   }
   ASSERT_TRUE(bag->close());
+}
+
+TEST(OdometryCommand, ALostWayIsSaidAndFails) {
+  const testing::TemporaryFolder folder;
+  write_carried_robot(folder.path() / "bag");
   testing::Process odometry({kFleetmap, "odometry", (folder.path() / "bag").string(), "--out",
                              (folder.path() / "o.tum").string(), "--set", "lidar.translation=[0,0,0.8]"});
   EXPECT_EQ(odometry.wait(), 1);
@@ -105,6 +110,18 @@ TEST(OdometryCommand, ALostWayIsSaidAndFails) {
               ::testing::ContainsRegex("lost [0-9]+ of 32 scans, the first 1\\.[0-9]+ s after"));
   EXPECT_THAT(odometry.output(), ::testing::HasSubstr("the local map was begun anew"));
   EXPECT_THAT(odometry.output(), ::testing::HasSubstr("the odometry lost its way"));
+}
+
+TEST(RunCommand, ALostWayIsInTheLogAndInTheLastLines) {
+  const testing::TemporaryFolder folder;
+  write_carried_robot(folder.path() / "bag");
+  testing::Process run({kFleetmap, "run", "--recording", "r1=" + (folder.path() / "bag").string(), "--out",
+                        (folder.path() / "out").string(), "--set", "lidar.translation=[0,0,0.8]"});
+  EXPECT_EQ(run.wait(), 0) << run.output();
+  EXPECT_THAT(run.output(), ::testing::HasSubstr("poses are predictions until scans fit again"));
+  EXPECT_THAT(run.output(),
+              ::testing::ContainsRegex("the odometry lost its way: [0-9]+ of 32 scans did not "
+                                       "fit.*it began anew 1 times, each a session of its own"));
 }
 
 }  // namespace

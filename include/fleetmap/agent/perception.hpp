@@ -98,6 +98,8 @@ class Perception {
   void on_scan(const Bytes& cdr);
   void start_next();
   void finish(Job& job);
+  /// Logs when the odometry loses its way and when it has it again.
+  void report_loss(const odometry::OdometryUpdate& update);
   Eigen::Vector3d up_in(const Pose& T_odom_base) const;
   /// `kind` is what repeats; `detail` is of this time.
   void warn(const std::string& kind, const std::string& detail);
@@ -115,6 +117,7 @@ class Perception {
   std::vector<sensor::Wheel> wheel_since_scan_;
   bool busy_ = false;
   Stamp last_heard_, last_scan_;
+  std::uint64_t lost_in_a_row_ = 0;  ///< scans
   PerceptionCounters counters_;
   std::map<std::string, std::uint64_t> warned_;
   std::vector<bus::Handle> subscriptions_;
