@@ -139,7 +139,7 @@ class Selector {
         const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
         if (seen.distance < kContradicts) {
           const bool waits = first && alone_.outvoted.contains(c);
-          if (!waits) open[frames].push_back(c);
+          if (!waits && !candidates_[c].is_ambiguous_loop()) open[frames].push_back(c);
           // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
           modes[alignment].push_back({seen, c, !waits && !alone_.together.contains(c)});
         } else {

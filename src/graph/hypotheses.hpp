@@ -23,6 +23,10 @@ struct Candidate {
   FramePair frames;
   /// +1 if moving the second frame of the pair (the later node of a loop) moves pillar b, else -1.
   double sign = 1.0;
+
+  /// A loop closure with several modes. Those of two lanes repeat alike, so that their wrong modes agree with
+  /// each other as well as the right ones do: agreement is no evidence for them.
+  bool is_ambiguous_loop() const { return frames.first == frames.second && modes > 1; }
 };
 
 /// Candidates between two frames that agree with each other, as far as GPS and odometry tell.

@@ -71,6 +71,7 @@ JudgedAlone judge_alone(std::span<const Candidate> candidates, const GraphSolver
       std::erase_if(open, is_outvoted);
       judged.outvoted.merge(outvoted);
     }
+    std::erase_if(open, [&](std::size_t c) { return candidates[c].is_ambiguous_loop(); });
     Evaluation& pair = judged.hypotheses[frames] = evaluate(candidates, open, solver, estimate);
     reject(candidates, pair, group, solver, estimate, judged);
   }
