@@ -65,6 +65,14 @@ std::set<AgentId> BudgetShares::present(Stamp now) const {
 
 double BudgetShares::part(Stamp now) const { return budget_ / static_cast<double>(present(now).size() + 1); }
 
+bool BudgetShares::has_room(std::size_t backlog, Stamp now) const {
+  const double little = kLittle * part(now);
+  return static_cast<double>(backlog) <= little &&
+         std::ranges::all_of(present(now), [&](const AgentId& agent) {
+           return static_cast<double>(peers_.at(agent).backlog) <= little;
+         });
+}
+
 std::map<AgentId, double> BudgetShares::lent(Stamp now) const {
   std::map<AgentId, double> lent;
   for (const Given& given : given_) {

@@ -453,7 +453,7 @@ std::vector<NodePair> Encounters::ready(Stamp now) {
   return ready;
 }
 
-std::optional<Encounters::Choice> Encounters::choose(std::vector<NodePair>& ready) {
+std::optional<Encounters::Choice> Encounters::choose(std::vector<NodePair>& ready, bool radio_has_room) {
   std::vector<graph::AlignmentWorth::Pair> pairs, expected;
   for (const NodePair& pair : ready) pairs.emplace_back(pair.ours, pair.theirs);
   for (const auto& [pair, encounter] : encounters_) {
@@ -469,7 +469,7 @@ std::optional<Encounters::Choice> Encounters::choose(std::vector<NodePair>& read
     return std::tuple(worths[a], found_a) > std::tuple(worths[b], found_b);
   };
   for (std::size_t k = 0; k < ready.size(); ++k) {
-    if (worths[k] < config_.min_worth) {
+    if (worths[k] < config_.min_worth && !radio_has_room) {
       encounters_.erase(ready[k]);
       ++stats_.worthless;
     } else if (!best || before(k, *best)) {
@@ -485,7 +485,7 @@ std::optional<Encounters::Choice> Encounters::choose(std::vector<NodePair>& read
   return choice;
 }
 
-void Encounters::ask(Due& due, Stamp now) {
+void Encounters::ask(Due& due, Stamp now, bool radio_has_room) {
   // A robot that fell silent must not keep the others waiting for its clouds.
   auto active = static_cast<std::size_t>(std::ranges::count_if(encounters_, [&](const auto& entry) {
     const auto& [pair, encounter] = entry;
@@ -494,7 +494,7 @@ void Encounters::ask(Due& due, Stamp now) {
   }));
   if (active >= config_.max_active) return;
   for (std::vector<NodePair> waiting = ready(now); !waiting.empty() && active < config_.max_active;) {
-    const auto choice = choose(waiting);
+    const auto choice = choose(waiting, radio_has_room);
     if (!choice) return;
     Encounter& encounter = encounters_.at(choice->pair);
     encounter.phase = Phase::kAsked;
@@ -524,10 +524,10 @@ void Encounters::announce(Due& due, Stamp now) {
   }
 }
 
-Encounters::Due Encounters::tick(Stamp now) {
+Encounters::Due Encounters::tick(Stamp now, bool radio_has_room) {
   Due due;
   search_waiting(now);
-  ask(due, now);
+  ask(due, now, radio_has_room);
   announce(due, now);
   std::swap(due.withdrawn, withdrawn_);
   return due;

@@ -404,7 +404,7 @@ void Exchange::note_near(Stamp now) {
 }
 
 void Exchange::tick_encounters(Stamp now) {
-  auto due = encounters_.tick(now);
+  auto due = encounters_.tick(now, shares_.has_room(queue_.backlog_bytes(), now));
   for (const NodePair& pair : due.withdrawn) {
     if (!encounters_.wants(pair.theirs)) cloud_receiver_.cancel(pair.theirs);
     queue_.cancel_cloud(pair.theirs.agent, pair.ours);

@@ -291,6 +291,9 @@ TEST(Encounters, let_go_what_is_known_as_well_already) {
   EXPECT_TRUE(a.tick(later).wanted.empty());
   EXPECT_EQ(a.stats().worthless, 2u);
   EXPECT_TRUE(a.idle(later));
+  Encounters while_there_is_room = with_two_to_choose_from(config);
+  EXPECT_EQ(wanted(while_there_is_room.tick(later, true)), (std::vector<NodeId>{{kB, 12}}));
+  EXPECT_EQ(while_there_is_room.stats().worthless, 0u);
 }
 
 }  // namespace

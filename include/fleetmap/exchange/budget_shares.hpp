@@ -34,6 +34,9 @@ class BudgetShares {
 
   /// B/s
   double rate(Stamp now) const;
+  /// Neither `backlog` (B, the own) nor what the other robots told last of theirs takes a robot's part longer
+  /// than a second to send.
+  bool has_room(std::size_t backlog, Stamp now) const;
   /// The other robots that are there, as far as this one knows: they were heard of late, or this robot has
   /// not listened for long enough to say that they are gone.
   std::set<AgentId> present(Stamp now) const;

@@ -43,8 +43,9 @@ struct EncounterConfig {
       std::chrono::seconds(60);  ///< s until a failed pair is tried again, with fuller clouds
   int max_attempts = 2;          ///< of one pair of nodes
   EncounterOrder order = EncounterOrder::kWorth;
-  double min_worth = 0.4;      ///< nats; an encounter that is worth less when it could be asked for is let go
-  std::size_t max_active = 2;  ///< clouds asked for and not yet registered
+  /// nats; an encounter that is worth less when it could be asked for is let go, unless the radio has room.
+  double min_worth = 0.4;
+  std::size_t max_active = 2;                        ///< clouds asked for and not yet registered
   std::size_t max_waiting = 256;                     ///< encounters found and not begun; the oldest gives way
   Duration peer_timeout = std::chrono::seconds(60);  ///< s, an agent not heard for so long is not asked
   int match_repeats = 3;  ///< a match is sent so often unless the peer shows that it knows
@@ -74,7 +75,7 @@ struct EncounterStats {
       0;                          ///< begun, and ended by the peer's good alignment before the cloud was here
   std::uint64_t yielded = 0;      ///< begun, and given up for the pair that the peer had chosen
   std::uint64_t crowded_out = 0;  ///< gave way when too many waited
-  std::uint64_t worthless = 0;    ///< let go: what is there already tells as much
+  std::uint64_t worthless = 0;    ///< let go while the radio was busy: what is there already tells as much
 };
 
 /// Decides which nodes of two agents are worth registering (Alg. 2, and what the paper leaves open: how
@@ -117,7 +118,8 @@ class Encounters {
     std::vector<Wanted> wanted;       ///< clouds to ask for
     std::vector<NodePair> withdrawn;  ///< no longer worth the bytes of either cloud
   };
-  Due tick(Stamp now);
+  /// `radio_has_room`: clouds of little worth delay nothing.
+  Due tick(Stamp now, bool radio_has_room = false);
 
   /// An encounter waits for the cloud of `theirs`.
   bool wants(const NodeId& theirs) const;
@@ -197,7 +199,7 @@ class Encounters {
   std::vector<NodePair> rivals(const NodePair& pair) const;
   void fail(Encounter& encounter, Stamp now);
   void crowd_out();
-  void ask(Due& due, Stamp now);
+  void ask(Due& due, Stamp now, bool radio_has_room);
   /// Those that may be asked for now; which others have made redundant since they were found are let go.
   std::vector<NodePair> ready(Stamp now);
   /// Takes the next to ask for out of `ready`, in the order of the configuration.
@@ -205,7 +207,7 @@ class Encounters {
     NodePair pair;
     double worth = 0.0;
   };
-  std::optional<Choice> choose(std::vector<NodePair>& ready);
+  std::optional<Choice> choose(std::vector<NodePair>& ready, bool radio_has_room);
   void announce(Due& due, Stamp now);
   bool retryable(const NodePair& pair, const Encounter& encounter) const;
   bool heard(const AgentId& peer, Stamp now) const;
