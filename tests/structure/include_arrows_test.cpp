@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"core", {}},
+    {"trust", {"core"}},
     {"geometry", {"core"}},
     {"sensor", {"geometry"}},
     {"cloud", {"geometry"}},
@@ -27,7 +28,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"graph", {"geometry"}},
     {"store", {"cloud", "graph"}},
     {"exchange", {"store", "place"}},
-    {"bus", {"core"}},
+    {"bus", {"trust"}},
     {"wire", {"exchange", "sensor", "bus"}},
     {"recording", {"wire"}},
     {"sim", {"cloud", "sensor"}},
@@ -51,6 +52,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<GeographicLib/", {"src/geometry"}},
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},
+    {"^<openssl/", {"src/trust", "src/core/bytes.cpp"}},
 };
 
 /// What a library may include: its arrows and everything those may include.
