@@ -2,11 +2,11 @@
 
 namespace fleetmap::testing {
 
-trust::Credentials FleetOfKeys::member(const std::string& name, trust::Role role, Stamp not_after) {
+trust::Credentials FleetOfKeys::member(const std::string& name, trust::Role role, Duration valid) {
   const trust::SigningKey own = trust::SigningKey::generate();
   return {authority,
           trust::issue(authority, key, agent(name), role, own.public_key(), ++last_serial,
-                       kNow - std::chrono::days(1), not_after),
+                       made - std::chrono::days(1), made + valid),
           own,
           fleet_keys,
           revocations,

@@ -13,14 +13,15 @@ inline AgentId agent(const std::string& name) { return AgentId::parse(name).valu
 
 /// A fleet's authority and its members, without files.
 struct FleetOfKeys {
+  Stamp made = kNow;
   trust::SigningKey key = trust::SigningKey::generate();
-  trust::Authority authority = trust::make_authority(key, kNow);
+  trust::Authority authority = trust::make_authority(key, made);
   trust::FleetKeys fleet_keys = trust::with_new_epoch({});
-  trust::Revocations revocations;
+  trust::Revocations revocations{};
   std::uint32_t last_serial = 0;
 
   trust::Credentials member(const std::string& name, trust::Role role = trust::Role::kRobot,
-                            Stamp not_after = kNow + std::chrono::days(365));
+                            Duration valid = std::chrono::days(365));
 };
 
 }  // namespace fleetmap::testing
