@@ -17,6 +17,8 @@ namespace {
 using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 
+constexpr int kAnswers = 2;  // to a claim that is not proved
+
 trust::Session session_of(const GuidPrefix_t& prefix) {
   trust::Session session{};
   std::copy_n(prefix.value, session.size(), session.begin());
@@ -70,7 +72,12 @@ void RadioLink::answer_claim(const Prefix& sender, const Locator& from,
     place = place_at(from);
     if (place == nullptr) return;
   }
-  if (place->robot != sender) place->claimed = sender;
+  if (place->robot != sender) {
+    place->claimed = sender;
+    place->answers = kAnswers;
+  } else if (place->next == Clock::time_point::max()) {
+    place->asks_again = true;  // our last answer was lost
+  }
   place->certificate = introduction.fingerprint;
   place->lacks_ours = introduction.lacks_certificate;
   place->next = Clock::time_point::min();

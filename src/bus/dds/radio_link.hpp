@@ -60,6 +60,7 @@ class RadioLink final : public LinkEnd {
     bool asks_again = false;                                 ///< it did not hear our last answer
     /// Who says to be there and has not proved it: the next Hello answers, with its session as challenge.
     std::optional<Prefix> claimed;
+    int answers = 0;                                ///< that the claim still gets
     std::optional<trust::Fingerprint> certificate;  ///< of who was last heard from there
     bool lacks_ours = true;                         ///< it has not our certificate
     bool mistakes_us = false;  ///< it knows who was at our place before: Hellos go on until it knows us
