@@ -35,8 +35,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"planning", {"geometry"}},
     {"eval", {"cloud", "graph"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
-    {"config", {"agent", "bus", "recording", "sim", "planning", "eval"}},
-    {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
+    {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
+    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval"}},
 };
 
 /// Third-party headers that only the named places may include.
