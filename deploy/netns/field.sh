@@ -8,6 +8,7 @@
 #                         [--trace FILE] [--trace-from S]   what each pair of robots had in the field (link_trace.py)
 #                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
 #                                              of this agent's file; single keys
+#                         [--keys]   the agents are members of a fleet with keys
 #                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves;
 #                                              those of a small farm are made where it is not given
 #   deploy/netns/field.sh --list
@@ -35,9 +36,11 @@ settings=()
 patience=420
 seed=1
 wifi_from=0
-usage() { sed -n '2,16s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+keys=
+usage() { sed -n '2,17s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   [[ $1 != --list ]] || { list_scenarios; exit 0; }
+  [[ $1 != --keys ]] || { keys=yes; shift; continue; }
   (($# > 1)) || usage
   case $1 in
     --agents) agents=$2 ;;
@@ -87,5 +90,6 @@ if [[ -n $trace ]]; then
 fi
 ((${#impairment[@]} == 0)) || relay radio "${impairment[@]}"
 ((${#wifi_impairment[@]} == 0)) || relay wifi "${wifi_impairment[@]}"
+[[ -z $keys ]] || make_keys
 for ((i = 1; i <= agents; ++i)); do write_config $i "r$i" "$(names)"; done
 "scenario_$scenario"

@@ -24,6 +24,12 @@ dds_of() { # robot number
     "long_range: {domain: 1, address: 10.77.$1.2, peers: [$(others 77 "$1")]}," \
     "short_range: {domain: 2, address: 10.78.$1.2, peers: [$(others 78 "$1")]}}"
 }
+make_keys() {
+  local i
+  keys=$scratch/keys
+  { "$program" keys init --dir "$keys" && for ((i = 1; i <= agents; ++i)); do "$program" keys add "r$i" --dir "$keys"; done; } \
+    > "$scratch/keys.log" || exit 2
+}
 write_config() { # robot number, name, names of its fleet
   cat > "$scratch/r$1.yaml" <<YAML
 id: $2
@@ -31,12 +37,13 @@ fleet: [$3]
 directory: $out/r$1
 $(grep -vE '^(#|id:|fleet:|directory:)' "$root/config/agents/twin.yaml")
 dds: $(dds_of "$1")
+${keys:+keys: $keys/$2}
 YAML
 }
 configuration() { # robot number: $configured are the arguments that tell its configuration
   configured=(-c "$scratch/r$1.yaml" "${settings[@]}")
   [[ -z $robot ]] || configured=(-c "$robot" --set "id=r$1" --set "fleet=[$(names)]" --set "directory=$out/r$1"
-    --set "dds=$(dds_of "$1")" "${settings[@]}")
+    --set "dds=$(dds_of "$1")" ${keys:+--set "keys=$keys/r$1"} "${settings[@]}")
 }
 
 start() { # robot number
@@ -127,7 +134,7 @@ watch_radio() { # condition, seconds
 
 seconds_of() { [[ -n $1 ]] && echo "$(($1 / 1000)).$(($1 / 100 % 10)) s" || echo "not in time"; }
 verdict() { # holds (0 or 1), text
-  echo "$scenario, $agents robots, $radio kbit/s${impairment[*]:+ (${impairment[*]})}: $2: $(((!$1)) && echo FAILED || echo ok)"
+  echo "$scenario, $agents robots, $radio kbit/s${impairment[*]:+ (${impairment[*]})}${keys:+, with keys}: $2: $(((!$1)) && echo FAILED || echo ok)"
   echo "$scenario, $agents robots, kbit/s on the radio, second by second:$series" >> "$out/series.txt"
   (($1)) && return
   tail -n 20 "$out"/r*.log >&2

@@ -11,6 +11,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/trust/credentials.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "link_log.hpp"
 #include "live_bus.hpp"
@@ -206,6 +207,33 @@ Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
   return failure(options.config + ": has no agent '" + options.as + "'");
 }
 
+RadioAccess radio_access(const bus::DdsBusConfig& dds, const bus::DdsBus& bus) {
+  RadioAccess access{dds.keys != nullptr, {}};
+  for (const bus::Link link : {bus::Link::kLongRange, bus::Link::kShortRange}) {
+    for (const std::string& notice : bus.survey(link).notices)
+      access.refused.push_back(std::string(to_string(link)) + ": " + notice);
+  }
+  return access;
+}
+
+void say_who_may_join(const bus::DdsBusConfig& dds) {
+  if (!dds.keys) {
+    return spdlog::warn(
+        "{}: no keys: anyone on the radios may join, read all and send anything (fleetmap keys)",
+        dds.agent.str());
+  }
+  constexpr auto kSoon = std::chrono::days(30);
+  const trust::Certificate& own = dds.keys->certificate;
+  const std::string until = trust::date(own.not_after);
+  if (own.not_after - std::chrono::system_clock::now() < kSoon) {
+    spdlog::warn("{}: its keys are valid until {}: make new ones with `fleetmap keys add {}`",
+                 dds.agent.str(), until, own.name.str());
+  } else {
+    spdlog::info("{}: keys of {} ({}), valid until {}", dds.agent.str(), own.name.str(), to_string(own.role),
+                 until);
+  }
+}
+
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
@@ -216,6 +244,7 @@ int run(const AgentOptions& options) {
   if (!bus) return report(bus.error(), kBadConfiguration);
   for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))
     spdlog::warn("{}: {}", config->agent.id.str(), warning);
+  say_who_may_join(config->dds);
   auto agent = agent::Agent::create(config->agent, **bus);
   if (!agent) return report(agent.error(), kFailed);
   auto log = LinkLog::open(config->agent.directory, config->agent.id);
@@ -239,7 +268,8 @@ int run(const AgentOptions& options) {
   (*bus)->finish_work();
   const auto results = agent::write_results((*agent)->store(), (*agent)->config());
   if (!results) spdlog::warn("{}", results.error().message);
-  const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr);
+  const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
+                                      radio_access(config->dds, **bus));
   if (!written) return report(written.error(), kFailed);
   if (results) {
     std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map.points

@@ -312,8 +312,10 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 }
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results) {
+                    const agent::Results* results, const RadioAccess& access) {
   json report = agent_report(agent, results);
+  report["radio_access"] = {{"who_may_join", access.keys ? "members of the fleet" : "anyone"},
+                            {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
   return write_text(directory / "report.json", report.dump(2) + "\n");
 }

@@ -10,7 +10,7 @@ std::size_t datagrams(std::size_t payload, const WireOverhead& overhead) {
 }
 
 std::size_t wire_bytes(std::size_t payload, const WireOverhead& overhead) {
-  return payload + datagrams(payload, overhead) * (overhead.ip_udp + overhead.rtps);
+  return payload + datagrams(payload, overhead) * (overhead.ip_udp + overhead.rtps + overhead.seal);
 }
 
 }  // namespace fleetmap::bus

@@ -181,6 +181,7 @@ Result<FleetConfig> read_fleet(Document& document) {
   document.share(defaults, "agents", "defaults");
   document.share(everywhere, "agents", "");
   top.has("agents");
+  top.has("keys");
   top.has("defaults");
   top.allow(known);
   top.finish();
@@ -211,6 +212,7 @@ Result<FleetConfig> read_fleet(Document& document) {
     member.robot_at = place_of(document, robot.IsDefined() && robot.IsMap() ? robot.Mark() : agents[k].Mark(),
                                "agents[" + std::to_string(k) + "].robot");
     member.dds = dds_of(member.agent.id, k, domains);
+    read_keys(top, /*of_fleet=*/true, member.agent, member.dds);
     for (const FleetConfig::Member& other : fleet.members) {
       if (other.agent.id == member.agent.id)
         section.problem("id", "'" + member.agent.id.str() + "' is taken by another agent");
@@ -245,6 +247,7 @@ Result<RobotConfig> read_robot(Document& document) {
   if (!top.has("id")) top.problem("id", "expected the robot's name, e.g. id: r1");
   robot.dds.agent = robot.agent.id;
   read_dds(top, robot.dds);
+  read_keys(top, /*of_fleet=*/false, robot.agent, robot.dds);
   robot.agent.exchange.long_range.multicast = robot.dds.long_range.multicast;
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
@@ -356,6 +359,7 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   robot.dds.qos_directory = "qos";
   read_dds(top, robot.dds);
   robot.recording = read_recording(top);
+  top.has("keys");
   top.has("mission");  // of no concern to the sensors
   top.finish();
   if (const Status status = document->status(); !status) return tl::unexpected(status.error());

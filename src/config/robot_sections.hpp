@@ -14,6 +14,8 @@ void read_agent(Section& top, agent::AgentConfig& agent);
 std::optional<RecordingConfig> read_recording(Section& top);
 /// `dds`: domains, addresses, peers.
 void read_dds(Section& top, bus::DdsBusConfig& dds);
+/// `keys`: the robot's folder of keys, or in a fleet's file the folder that holds one for each robot.
+void read_keys(Section& top, bool of_fleet, agent::AgentConfig& agent, bus::DdsBusConfig& dds);
 /// `network`: the simulated radios of a run in virtual time.
 void read_network(Section& top, bus::LocalNetworkConfig& network, std::vector<RadioBlackout>& blackouts);
 

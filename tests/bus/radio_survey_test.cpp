@@ -1,13 +1,10 @@
 // Who is heard on a radio and what differs: in the log of the robots and in DdsBus::survey().
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <sstream>
-
+#include "bus/captured_log.hpp"
 #include "bus/dds/hello.hpp"
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
@@ -26,27 +23,6 @@ constexpr FleetSettings kSettings{
     .wire_schema = 3, .fleet = 0x12345678, .submap_voxel = 1000, .map_voxel = 1000, .placement = 7};
 
 AgentId name(const char* text) { return AgentId::parse(text).value(); }
-
-/// All that is logged while it lives.
-class Log {
- public:
-  Log() : before_(spdlog::default_logger()) {
-    spdlog::set_default_logger(
-        std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
-  }
-  ~Log() { spdlog::set_default_logger(before_); }
-  std::string text() const { return text_.str(); }
-  int count(const std::string& what) const {
-    int times = 0;
-    const std::string all = text();
-    for (auto at = all.find(what); at != std::string::npos; at = all.find(what, at + 1)) ++times;
-    return times;
-  }
-
- private:
-  std::ostringstream text_;
-  std::shared_ptr<spdlog::logger> before_;
-};
 
 class RadioSurveyTest : public ::testing::Test {
  protected:
@@ -79,7 +55,7 @@ class RadioSurveyTest : public ::testing::Test {
   }
   static std::size_t heard(const DdsBus& bus) { return bus.survey(Link::kLongRange).robots.size(); }
 
-  Log log_;
+  CapturedLog log_;
   std::vector<std::unique_ptr<DdsBus>> buses_;
 };
 

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"core", {}},
+    {"trust", {"core"}},
     {"geometry", {"core"}},
     {"sensor", {"geometry"}},
     {"cloud", {"geometry"}},
@@ -27,15 +28,15 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"graph", {"geometry"}},
     {"store", {"cloud", "graph"}},
     {"exchange", {"store", "place"}},
-    {"bus", {"core"}},
+    {"bus", {"trust"}},
     {"wire", {"exchange", "sensor", "bus"}},
     {"recording", {"wire"}},
     {"sim", {"cloud", "sensor"}},
     {"planning", {"geometry"}},
     {"eval", {"cloud", "graph"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
-    {"config", {"agent", "bus", "recording", "sim", "planning", "eval"}},
-    {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
+    {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
+    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval"}},
 };
 
 /// Third-party headers that only the named places may include.
@@ -51,6 +52,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<GeographicLib/", {"src/geometry"}},
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},
+    {"^<openssl/", {"src/trust", "src/core/bytes.cpp"}},
 };
 
 /// What a library may include: its arrows and everything those may include.

@@ -15,6 +15,10 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 
+namespace fleetmap::trust {
+struct Credentials;
+}
+
 namespace fleetmap::bus {
 
 /// The profiles that qos/<link>.xml must define, each as a data writer and as a data reader.
@@ -51,6 +55,8 @@ struct DdsBusConfig {
   std::optional<FleetSettings> settings = {};  ///< of a robot, that others compare with theirs
   /// On radios: listens, but not at a robot's port (the first of its address), and finds others faster.
   bool observes = false;
+  /// On radios: all that is sent is sealed, and only members of the fleet are heard. Empty: anyone is.
+  std::shared_ptr<const trust::Credentials> keys = {};
   /// Names the field and the rule that it breaks.
   Status validate() const;
 };

@@ -6,12 +6,17 @@ namespace fleetmap::bus {
 
 /// Bytes on the wire of one RTPS message beside its payload: 28 of IPv4 and UDP, and 132 as seen on the wire
 /// of Debian's Fast DDS 2.9.1: RTPS header 20, INFO_DST 16, INFO_TS 12, DATA 24, and 60 of its statistics
-/// module.
+/// module. With keys the seal's, too.
 struct WireOverhead {
   std::size_t ip_udp = 28;
   std::size_t rtps = 132;
+  std::size_t seal = 0;
   std::size_t max_datagram_payload = 1280;  ///< larger messages travel as fragments, each with the overhead
 };
+
+/// What the seal of a fleet with keys adds to a datagram: a header of 10 and a tag of 16, in which the RTPS
+/// header of 20 is left out.
+inline constexpr std::size_t kSealBytes = 6;
 
 /// How many datagrams `payload` bytes travel in; an empty message is still one.
 std::size_t datagrams(std::size_t payload, const WireOverhead& overhead = {});

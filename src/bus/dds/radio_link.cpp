@@ -14,6 +14,7 @@
 #include "radio_received.hpp"
 #include "radio_topic.hpp"
 #include "rtps_messages.hpp"
+#include "sealed_transport.hpp"
 
 namespace fleetmap::bus {
 namespace {
@@ -33,9 +34,10 @@ RadioLink::RadioLink(Link link, const DdsBusConfig& config, QosFile qos, std::sh
       settings_(config.settings),
       observes_(config.observes),
       qos_(std::move(qos)),
+      guard_(config.keys ? std::make_shared<RadioGuard>(*config.keys, config.agent, link) : nullptr),
       received_(std::make_shared<Received>()),
       hello_listener_(std::make_unique<HelloListener>(received_)),
-      data_listener_(std::make_unique<DataListener>(received_, executor_)) {}
+      data_listener_(std::make_unique<DataListener>(received_, executor_, guard_ ? kSealBytes : 0)) {}
 
 Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsBusConfig& config, QosFile qos,
                                                    std::shared_ptr<Executor> executor) {
@@ -79,8 +81,9 @@ Status RadioLink::join() {
 
 Status RadioLink::make_entities() {
   const std::string name = to_string(link_);
-  participant_ = rtps::RTPSDomain::createParticipant(
-      config_.domain, radio_attributes(config_, link_, agent_, observes_, profile_));
+  auto attributes = radio_attributes(config_, link_, agent_, observes_, profile_);
+  if (guard_) seal_transports(attributes, guard_);
+  participant_ = rtps::RTPSDomain::createParticipant(config_.domain, attributes);
   if (participant_ == nullptr) {
     return failure(name + ": cannot join DDS domain " + std::to_string(config_.domain) + " on " +
                    own_address(config_) + "; its log says why");

@@ -17,6 +17,7 @@
 #include "link_end.hpp"
 #include "payload.hpp"
 #include "qos_file.hpp"
+#include "radio_guard.hpp"
 
 namespace fleetmap::bus {
 
@@ -57,6 +58,11 @@ class RadioLink final : public LinkEnd {
     bool told = false;                                       ///< that none was
     int said = 0;                                            ///< Hellos since `pause` was set out
     bool asks_again = false;                                 ///< it did not hear our last answer
+    /// Who says to be there and has not proved it: the next Hello answers, with its session as challenge.
+    std::optional<Prefix> claimed;
+    int answers = 0;                                ///< that the claim still gets
+    std::optional<trust::Fingerprint> certificate;  ///< of who was last heard from there
+    bool lacks_ours = true;                         ///< it has not our certificate
     bool mistakes_us = false;  ///< it knows who was at our place before: Hellos go on until it knows us
     Clock::time_point next{};  ///< Hello; zero: not set out yet, max: none
     Clock::duration pause{};   ///< after it, while nobody answers
@@ -91,12 +97,25 @@ class RadioLink final : public LinkEnd {
   Clock::duration spread() const;
   Clock::duration first_pause() const;
   void tick();
-  void take(const Prefix& sender, const Hello& hello);
+  /// What a Hello says about this robot.
+  struct Acquaintance {
+    bool knows_us = false, knows_another = false;
+  };
+  void take(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
+  // With keys (radio_greetings.cpp).
+  void take_greeting(const Prefix& sender, const Bytes& greeting);
+  void answer_claim(const Prefix& sender, const Locator& from, const trust::Introduction& introduction);
+  bool prove(const Prefix& sender, const Locator& from, const Hello& hello,
+             const trust::Introduction& introduction);
+  Bytes greeting_of(const Hello& hello, const Place& place) const;
+  void name_strangers();
   void take_other(const Bytes& cdr);
   void note(const Hello& hello, const Locator& from);
   void compare(const Hello& hello);
   bool first_time(const std::string& warning);
   void refuse(const Locator& from, const std::string& why);
+  void refuse_once(const std::string& place, const std::string& why);
+  double hello_bits() const;
   void forget(Prefix robot);
   void say_hello(Place& place, bool leaves = false);
   void say_due_hellos(Clock::time_point now);
@@ -109,6 +128,7 @@ class RadioLink final : public LinkEnd {
   const std::optional<FleetSettings> settings_;
   const bool observes_;
   const QosFile qos_;
+  const std::shared_ptr<RadioGuard> guard_;  ///< null without keys
   eprosima::fastdds::dds::DomainParticipantQos profile_;
   Clock::duration lease_{}, announcement_{};
   const std::shared_ptr<PayloadPool> payloads_ = std::make_shared<PayloadPool>();

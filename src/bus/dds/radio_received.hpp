@@ -55,8 +55,9 @@ class RadioLink::HelloListener final : public eprosima::fastrtps::rtps::ReaderLi
 
 class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderListener {
  public:
-  DataListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor)
-      : received_(std::move(received)), executor_(std::move(executor)) {}
+  /// `seal`: bytes that it adds to a datagram.
+  DataListener(std::shared_ptr<Received> received, std::shared_ptr<Executor> executor, std::size_t seal)
+      : received_(std::move(received)), executor_(std::move(executor)), overhead_{.seal = seal} {}
   void onNewCacheChangeAdded(eprosima::fastrtps::rtps::RTPSReader* reader,
                              const eprosima::fastrtps::rtps::CacheChange_t* change) override {
     const eprosima::fastrtps::rtps::GUID_t writer = change->writerGUID;
@@ -79,18 +80,19 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
   }
 
  private:
-  static void count(Received::Robot& robot, EntityKey writer, std::uint64_t number, std::size_t payload,
-                    Duration delay) {
+  void count(Received::Robot& robot, EntityKey writer, std::uint64_t number, std::size_t payload,
+             Duration delay) const {
     const auto [last, first] = robot.numbers.try_emplace(writer, number);
     if (!first && number > last->second) robot.traffic.lost += number - last->second - 1;
     last->second = std::max(last->second, number);
     ++robot.traffic.messages;
-    robot.traffic.bytes += wire_bytes(payload);
+    robot.traffic.bytes += wire_bytes(payload, overhead_);
     robot.traffic.delay += delay;
   }
 
   const std::shared_ptr<Received> received_;
   const std::shared_ptr<Executor> executor_;
+  const WireOverhead overhead_;
 };
 
 }  // namespace fleetmap::bus

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "fleetmap/trust/credentials.hpp"
+#include "fleetmap/trust/datagram.hpp"
+
+namespace fleetmap::trust {
+
+/// What a greeting carries behind its text: who the sender is, and the proof. The text holds the challenge,
+/// the session of whom it is for, in a place that the caller reads.
+///
+///   flags 1, fingerprint of the sender's certificate 4, [signature 64], [certificate], size of all this 2
+struct Introduction {
+  Bytes text;
+  bool knows_you = false;          ///< else the challenge in the text answers a claim that is not proved yet
+  bool knows_another = false;      ///< at the receiver's place
+  bool lacks_certificate = false;  ///< the receiver's, which is to come with the answer
+  Fingerprint fingerprint{};
+  std::optional<Signature> signature;
+  Bytes certificate;
+};
+/// Empty for what is none.
+std::optional<Introduction> parse_introduction(ByteView bytes);
+
+/// Signs a robot's introductions on one radio and checks those of others.
+class Introducer {
+ public:
+  Introducer(const Credentials& credentials, std::uint8_t radio, const Session& session);
+
+  struct Flags {
+    bool knows_you = false, knows_another = false, lacks_certificate = false;
+  };
+  /// A signature counts only in an answer to a challenge; the certificate goes to who lacks it.
+  Bytes introduce(ByteView text, Flags flags, bool sign, bool with_certificate) const;
+
+  bool has_certificate(const Fingerprint& fingerprint) const { return members_.contains(fingerprint); }
+  /// Verifies the signature of `sender` and its certificate, which is kept. Fails with the reason.
+  Result<Certificate> verify(const Introduction& introduction, const Session& sender, Stamp now);
+  /// Every certificate of that name which is known was revoked.
+  bool was_revoked(const AgentId& name) const;
+
+ private:
+  Bytes signed_bytes(ByteView text, std::uint8_t flags, const Session& sender) const;
+
+  static constexpr std::size_t kMostMembers = 1024;
+  const Authority authority_;
+  const Certificate certificate_;
+  const SigningKey key_;
+  const Revocations revocations_;
+  const std::uint8_t radio_;
+  const Session session_;
+  std::map<Fingerprint, Certificate> members_;
+};
+
+}  // namespace fleetmap::trust
