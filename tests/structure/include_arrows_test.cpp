@@ -35,7 +35,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"eval", {"cloud", "graph"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
     {"config", {"agent", "bus", "recording", "sim", "planning", "eval"}},
-    {"apps", {"config", "recording", "agent", "bus", "sim", "eval"}},
+    {"fault_injection", {"agent"}},
+    {"apps", {"config", "recording", "agent", "bus", "sim", "eval", "fault_injection"}},
 };
 
 /// Third-party headers that only the named places may include.
@@ -47,7 +48,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},
     {"^<pcl/", {"src/registration/paper_registration.cpp"}},
     {"^<draco/", {"src/cloud"}},
-    {"^<sqlite3", {"src/store", "src/recording"}},
+    {"^<sqlite3", {"src/store", "src/recording", "src/fault_injection"}},
     {"^<GeographicLib/", {"src/geometry"}},
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},
