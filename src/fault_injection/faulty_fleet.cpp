@@ -30,9 +30,9 @@ exchange::ExchangeConfig config_of(std::size_t robots) {
   for (std::size_t k = 0; k < robots; ++k)
     config.fleet.push_back(AgentId::parse(std::string("r").append(std::to_string(k + 1))).value());
   // So small that a small fleet fills them.
-  config.long_range.max_small = 64;
-  config.long_range.max_backfill = 64;
-  config.long_range.max_fragments = 48;
+  config.long_range.max_small = 24;
+  config.long_range.max_backfill = 32;
+  config.long_range.max_fragments = 16;
   config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
   return config;
 }
