@@ -26,6 +26,7 @@ void add_world(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
+void add_fuzz_fleet(CLI::App& app, int& exit_code);
 
 /// Prints the error for a person and gives the code to exit with.
 int report(const Error& error, ExitCode code);

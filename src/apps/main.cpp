@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   add_trial(app, exit_code);
   add_check_config(app, exit_code);
   add_keys(app, exit_code);
+  add_fuzz_fleet(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

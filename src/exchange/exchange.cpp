@@ -535,4 +535,9 @@ ExchangeStats Exchange::stats() const {
           bad_requests_};
 }
 
+TableSizes Exchange::table_sizes() const {
+  return {reconcile_.peers(),           submap_receiver_.peers(), submap_sender_.peers(),
+          submap_receiver_.downloads(), needed_.size(),           strangers_told_of_.size()};
+}
+
 }  // namespace fleetmap::exchange

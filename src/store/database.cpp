@@ -72,10 +72,12 @@ ByteView Statement::blob(int column) const {
   return {data, static_cast<std::size_t>(sqlite3_column_bytes(stmt_, column))};
 }
 
-Result<Database> Database::open(const std::filesystem::path& path, bool read_only) {
+Result<Database> Database::open(const std::filesystem::path& path, bool read_only,
+                                const std::string& file_system) {
   sqlite3* handle = nullptr;
   const int flags = read_only ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(path.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags | SQLITE_OPEN_NOMUTEX,
+                                   file_system.empty() ? nullptr : file_system.c_str());
   Database db;
   db.db_.reset(handle);
   if (code != SQLITE_OK) {

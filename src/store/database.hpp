@@ -38,7 +38,9 @@ class Statement {
 /// A SQLite connection whose errors say which file and what to do.
 class Database {
  public:
-  static Result<Database> open(const std::filesystem::path& path, bool read_only);
+  /// `file_system`: name of a SQLite VFS; empty: the system's own.
+  static Result<Database> open(const std::filesystem::path& path, bool read_only,
+                               const std::string& file_system = {});
 
   Status execute(const char* sql);
   Result<Statement> prepare(std::string_view sql) const;

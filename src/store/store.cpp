@@ -220,7 +220,7 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
   if (!lock) return tl::unexpected(lock.error());
   if (!*lock) return failure(path.string() + ": another process is writing this store; stop it first");
   state->lock = std::move(**lock);
-  auto db = Database::open(path, false);
+  auto db = Database::open(path, false, config.file_system);
   if (!db) return tl::unexpected(db.error());
   state->db.emplace(std::move(*db));
   if (auto status = prepare_schema(*state->db, path, self); !status) return tl::unexpected(status.error());

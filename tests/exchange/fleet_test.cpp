@@ -61,9 +61,10 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
     // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
     for (const auto& [name, robot] : fleet.robots()) {
       const auto stats = robot.exchange->stats();
-      EXPECT_EQ(stats.encounters.begun, robot.arrived.size() + stats.encounters.lost +
+      const auto clouds = testing::arrived(robot);
+      EXPECT_EQ(stats.encounters.begun, clouds.size() + stats.encounters.lost +
                                             stats.encounters.settled_by_peer + stats.encounters.yielded);
-      for (const auto& arrived : robot.arrived) {
+      for (const auto& arrived : clouds) {
         const auto& source = fleet.robots().at(arrived.pair.theirs.agent);
         EXPECT_EQ(arrived.cloud, source.clouds.at(arrived.pair.theirs));
       }
@@ -245,7 +246,7 @@ TEST(Fleet, a_late_joiner_gets_everything_and_meets_the_others) {
   fleet.add_node("r3", 40.0);
   fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 161); });
   ASSERT_TRUE(settled(fleet, 161));
-  EXPECT_GE(fleet.robot("r3").arrived.size(), 2u);  // one of r1 and one of r2
+  EXPECT_GE(testing::arrived(fleet.robot("r3")).size(), 2u);  // one of r1 and one of r2
 }
 
 TEST(Fleet, items_of_an_absent_robot_are_passed_on) {

@@ -4,16 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
 #include <optional>
-#include <queue>
 #include <random>
+#include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
-#include "fleetmap/exchange/exchange.hpp"
+#include "fleetmap/fault_injection/exchange_fleet.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::testing {
@@ -24,7 +21,7 @@ using exchange::Message;
 std::size_t payload_size(const Message& message);
 
 /// A fleet of exchanges on a network that loses, delays, reorders and doubles messages, in virtual time.
-class SimFleet {
+class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
  public:
   struct Network {
     double loss = 0.0;
@@ -32,20 +29,7 @@ class SimFleet {
     Duration min_delay = std::chrono::milliseconds(5);
     Duration max_delay = std::chrono::milliseconds(60);
   };
-  struct Sent {
-    Stamp at;
-    AgentId from;
-    exchange::Outgoing outgoing;
-    std::size_t wire_bytes;
-  };
-  struct Robot {
-    std::unique_ptr<store::Store> store;
-    std::unique_ptr<exchange::Exchange> exchange;
-    std::uint16_t session = 0;
-    std::vector<exchange::Event> events;
-    std::map<NodeId, Bytes> clouds;  ///< made for peers
-    std::vector<exchange::CloudArrived> arrived;
-  };
+  using Sent = fault_injection::Packet;
 
   SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
            const std::function<void(exchange::ExchangeConfig&)>& adjust = {});
@@ -54,14 +38,12 @@ class SimFleet {
   void share_radio(std::span<const std::string> names);
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
-  /// As kill -9 does: memory is gone, the file stays.
-  void kill(const std::string& name) { robots_.erase(agent(name)); }
+  void kill(const std::string& name) { ExchangeFleet::kill(agent(name)); }
   /// Of a robot that is not running: its file as it is now, and back to what it was then (nothing: none).
-  void keep_store(const std::string& name);
-  void put_back_store(const std::string& name);
-  void lose_store(const std::string& name);
-  Robot& robot(const std::string& name) { return robots_.at(agent(name)); }
-  const std::map<AgentId, Robot>& robots() const { return robots_; }
+  void keep_store(const std::string& name) { ExchangeFleet::keep_store(agent(name), ".kept"); }
+  void put_back_store(const std::string& name) { ExchangeFleet::put_back_store(agent(name), ".kept"); }
+  void lose_store(const std::string& name) { ExchangeFleet::lose_store(agent(name)); }
+  Robot& robot(const std::string& name) { return ExchangeFleet::robot(agent(name)); }
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
   void add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse);
@@ -78,41 +60,23 @@ class SimFleet {
   std::size_t cloud_bytes = 24'000;
   bool register_clouds = true;
 
-  void run_for(Duration time, const std::function<bool()>& until = {});
-  void step();
-
-  Stamp now() const { return now_; }
   const std::vector<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
-  const exchange::ExchangeConfig& config() const { return config_; }
   bool all(const std::function<bool(const Robot&)>& holds) const;
   /// Every running robot holds the same nodes and alignments, and `nodes` of them.
   bool equal_sets(std::size_t nodes) const;
 
  private:
-  struct Flight {
-    Stamp at;
-    std::uint64_t order;
-    AgentId to;
-    exchange::Reach reach;
-    std::shared_ptr<const Message> message;
-    bool operator>(const Flight& other) const {
-      return std::tie(at, order) > std::tie(other.at, other.order);
-    }
-  };
+  void on_sent(const fault_injection::Packet& packet) override { sent_.push_back(packet); }
+  std::vector<Duration> arrivals(const fault_injection::Packet& packet, const AgentId& to) override;
+  void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
 
-  void send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot);
-  void react(const AgentId& name, Robot& robot, const exchange::Event& event);
-
-  ScratchFolder folder_;
   Network network_;
   std::mt19937 random_;
-  exchange::ExchangeConfig config_;
-  Stamp now_ = stamp_from_ns(1'700'000'000'000'000'000);
-  std::map<AgentId, Robot> robots_;
-  std::priority_queue<Flight, std::vector<Flight>, std::greater<>> in_flight_;
-  std::uint64_t order_ = 0;
   std::vector<Sent> sent_;
 };
+
+/// The clouds that came.
+std::vector<exchange::CloudArrived> arrived(const SimFleet::Robot& robot);
 
 }  // namespace fleetmap::testing

@@ -36,7 +36,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"eval", {"cloud", "graph"}},
     {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
     {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
-    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval"}},
+    {"fault_injection", {"agent"}},
+    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval", "fault_injection"}},
 };
 
 /// Third-party headers that only the named places may include.
@@ -48,7 +49,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},
     {"^<pcl/", {"src/registration/paper_registration.cpp"}},
     {"^<draco/", {"src/cloud"}},
-    {"^<sqlite3", {"src/store", "src/recording"}},
+    {"^<sqlite3", {"src/store", "src/recording", "src/fault_injection"}},
     {"^<GeographicLib/", {"src/geometry"}},
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},

@@ -126,6 +126,16 @@ struct ExchangeStats {
   std::uint64_t bad_requests = 0;  ///< for clouds of nodes that are not ours
 };
 
+/// Entries of the tables that what others send can fill.
+struct TableSizes {
+  std::size_t item_peers = 0;
+  std::size_t submap_peers = 0;
+  std::size_t submap_requesters = 0;
+  std::size_t submap_downloads = 0;
+  std::size_t clouds_to_make = 0;
+  std::size_t strangers = 0;
+};
+
 /// All that one agent says to the others and hears from them, as a state machine: messages and time in,
 /// messages and events out. A message for one agent is sent over the short range if each of the two hears
 /// the other there (near_), else over the radio. Call tick() at 10 Hz or more (50 Hz while submaps flow),
@@ -182,6 +192,7 @@ class Exchange {
   /// A robot that is still heard has told that more nodes or alignments of it may come.
   bool others_busy(Stamp now) const;
   ExchangeStats stats() const;
+  TableSizes table_sizes() const;
   const SendQueue& queue() const { return queue_; }
   /// Agents whose short-range link was heard of late.
   std::vector<AgentId> peers_in_reach(Stamp now) const { return submap_receiver_.peers_in_reach(now); }

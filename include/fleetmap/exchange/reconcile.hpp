@@ -74,6 +74,7 @@ class Reconcile {
   bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
   /// `peer` has told that it holds all that we hold.
   bool caught_up(const AgentId& peer, const store::Store& store) const;
+  std::size_t peers() const { return peers_.size(); }
   const ReconcileStats& stats() const { return stats_; }
 
  private:

@@ -83,6 +83,8 @@ class SubmapReceiver {
   std::vector<AgentId> even_with(const store::Store& store, Stamp now) const;
   /// Nothing is under way, and no peer in reach has what we lack.
   bool idle(const store::Store& store, Stamp now) const;
+  std::size_t peers() const { return peers_.size(); }
+  std::size_t downloads() const { return downloads_.size(); }
   const SubmapReceiverStats& stats() const { return stats_; }
 
  private:
@@ -167,6 +169,8 @@ class SubmapSender {
   std::vector<SubmapChunk> tick(store::Store& store, Stamp now);
 
   bool idle() const { return queues_.empty(); }
+  /// Agents that chunks wait for.
+  std::size_t peers() const { return queues_.size(); }
   const SubmapSenderStats& stats() const { return stats_; }
 
  private:

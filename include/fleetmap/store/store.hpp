@@ -28,6 +28,7 @@ struct AlignmentId {
 struct StoreConfig {
   std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
   bool sync_own_items = true;  ///< own nodes and alignments survive a power cut too (one disk sync each)
+  std::string file_system;     ///< name of the SQLite VFS that holds the file; empty: the system's own
   Status validate() const;
 };
 

@@ -1,0 +1,173 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "commands.hpp"
+#include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/core/thread_pool.hpp"
+#include "fleetmap/fault_injection/fleet_run.hpp"
+#include "fleetmap/fault_injection/shrink.hpp"
+#include "options.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+using namespace fault_injection;
+
+struct FuzzOptions {
+  std::uint64_t seeds = 100;
+  std::uint64_t from = 1;
+  std::optional<std::uint64_t> replay;
+  std::vector<std::size_t> keep;
+  std::vector<std::size_t> robots;
+  std::string faults =
+      "loss,delay,duplication,one_way,partition,crash,lost_store,old_store,full_disk,clock_step,stranger";
+  std::string invariants = "converges,same_map,nothing_lost,budget,bounded,alive,own_items,starts";
+  double mapping = 150.0;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  bool no_shrink = false;
+};
+
+/// The seed's scenario with these of its faults alone.
+Scenario with_faults(Scenario scenario, const std::vector<std::size_t>& kept) {
+  std::vector<Fault> faults;
+  for (const std::size_t k : kept) faults.push_back(scenario.faults.at(k));
+  scenario.faults = std::move(faults);
+  return scenario;
+}
+
+std::string faults_of(const Scenario& scenario, const std::vector<std::size_t>& kept) {
+  std::ostringstream out;
+  for (const std::size_t k : kept) out << "  fault " << k << ' ' << to_string(scenario.faults[k]) << '\n';
+  return out.str();
+}
+
+bool violates(const Outcome& outcome, Invariant invariant) {
+  return std::ranges::any_of(outcome.violations,
+                             [&](const Violation& violation) { return violation.invariant == invariant; });
+}
+
+/// What failed, and the fewest faults with which it does.
+std::string failure_of(const Scenario& scenario, const Outcome& outcome, const RunConfig& config,
+                       bool shrinks) {
+  std::ostringstream out;
+  out << "seed " << scenario.seed << ", " << scenario.robots << " robots:\n";
+  for (const Violation& violation : outcome.violations) out << "  violates " << to_string(violation) << '\n';
+  if (!shrinks) return out.str();
+  const Invariant invariant = outcome.violations.front().invariant;
+  const auto kept = shrink(scenario.faults.size(), [&](const std::vector<std::size_t>& subset) {
+    return violates(run(with_faults(scenario, subset), config), invariant);
+  });
+  out << "  " << to_string(invariant) << " fails with " << kept.size() << " of " << scenario.faults.size()
+      << " faults:\n"
+      << faults_of(scenario, kept) << "  fleetmap fuzz-fleet --replay " << scenario.seed;
+  for (std::size_t k = 0; k < kept.size(); ++k) out << (k == 0 ? " --keep " : ",") << kept[k];
+  out << '\n';
+  return out.str();
+}
+
+int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig config) {
+  const Scenario chosen = options.keep.empty() ? scenario : with_faults(scenario, options.keep);
+  config.trace = true;
+  const Outcome outcome = run(chosen, config);
+  for (const std::string& line : outcome.trace) std::cout << line << '\n';
+  std::cout << chosen.robots << " robots, " << outcome.nodes << " nodes, " << outcome.alignments
+            << " alignments, " << outcome.packets << " packets, fingerprint " << std::hex
+            << outcome.fingerprint << std::dec << '\n';
+  for (const Violation& violation : outcome.violations)
+    std::cout << "violates " << to_string(violation) << '\n';
+  return outcome.violations.empty() ? kDone : kFailed;
+}
+
+/// Sums over all seeds.
+struct Totals {
+  std::mutex mutex;  ///< guards all below, and standard output
+  std::size_t failed = 0;
+  double longest = 0.0;  ///< s until convergence
+  double most_bytes_per_second = 0.0;
+  std::size_t nodes = 0, packets = 0;
+};
+
+void try_seed(const Scenario& scenario, const RunConfig& config, bool shrinks, Totals& totals) {
+  const Outcome outcome = run(scenario, config);
+  const std::string failure =
+      outcome.violations.empty() ? std::string() : failure_of(scenario, outcome, config, shrinks);
+  const std::lock_guard lock(totals.mutex);
+  totals.longest = std::max(totals.longest, to_seconds(outcome.converged_after));
+  totals.most_bytes_per_second = std::max(totals.most_bytes_per_second, outcome.most_bytes_per_second);
+  totals.nodes += outcome.nodes;
+  totals.packets += outcome.packets;
+  if (failure.empty()) return;
+  ++totals.failed;
+  std::cout << failure << std::flush;
+}
+
+int fuzz(const FuzzOptions& options) {
+  const auto kinds = parse_fault_kinds(options.faults);
+  if (!kinds) return report(kinds.error(), kUsage);
+  const auto invariants = parse_invariants(options.invariants);
+  if (!invariants) return report(invariants.error(), kUsage);
+  RunConfig run_config;
+  run_config.invariants = *invariants;
+  ScenarioConfig config;
+  config.kinds = *kinds;
+  config.mapping = from_seconds(options.mapping);
+  if (!options.robots.empty()) {
+    config.min_robots = *std::ranges::min_element(options.robots);
+    config.max_robots = *std::ranges::max_element(options.robots);
+  }
+  if (options.replay) return replay(make_scenario(*options.replay, config), options, run_config);
+  Totals totals;
+  {
+    ThreadPool threads(options.jobs);
+    for (std::uint64_t seed = options.from; seed < options.from + options.seeds; ++seed) {
+      threads.run(
+          [&, seed] { try_seed(make_scenario(seed, config), run_config, !options.no_shrink, totals); });
+    }
+  }
+  std::cout << std::fixed << std::setprecision(1) << options.seeds << " seeds, " << totals.failed
+            << " failed; " << totals.nodes << " nodes, " << totals.packets
+            << " packets; the slowest converged after " << totals.longest << " s, the busiest second had "
+            << totals.most_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
+  return totals.failed == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_fuzz_fleet(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<FuzzOptions>();
+  CLI::App* command = app.add_subcommand(
+      "fuzz-fleet", "fleets of random faults in virtual time: finds, replays and shrinks what breaks them");
+  command->add_option("--seeds", options->seeds, "fleets to simulate")->check(whole_number(1));
+  command->add_option("--from", options->from, "the first seed")->check(whole_number(0));
+  command->add_option("--replay", options->replay, "simulates this seed alone and prints what happens")
+      ->check(whole_number(0));
+  command->add_option("--keep", options->keep, "with --replay: numbers of the faults that happen, e.g. 0,3")
+      ->delimiter(',');
+  command->add_option("--robots", options->robots, "so many robots; two numbers: between them (3,10)")
+      ->delimiter(',')
+      ->check(whole_number(2, 20));
+  command->add_option("--faults", options->faults, "kinds of faults, separated by commas, or all");
+  command->add_option("--invariants", options->invariants,
+                      "those that are checked, separated by commas, or all");
+  command->add_option("--mapping", options->mapping, "s that the robots map while faults happen")
+      ->check(positive_number());
+  command->add_option("--jobs", options->jobs, "fleets at a time")->check(whole_number(1, 256));
+  command->add_flag("--no-shrink", options->no_shrink, "does not look for the fewest faults that fail");
+  command->callback([options, &exit_code] {
+    spdlog::set_level(spdlog::level::off);  // the robots' own logs of faults that are meant
+    exit_code = fuzz(*options);
+  });
+}
+
+}  // namespace fleetmap::apps

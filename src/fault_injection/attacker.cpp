@@ -1,0 +1,139 @@
+#include "attacker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::fault_injection {
+namespace {
+
+constexpr std::size_t kOverheard = 256;
+constexpr std::uint64_t kAttackStream = 6;
+
+const AgentId& mallory() {
+  static const AgentId name = AgentId::parse("mallory").value();
+  return name;
+}
+
+graph::Node node_of(const NodeId& id) {
+  graph::Node node;
+  node.id = id;
+  node.session = session_of(id.seq);
+  return node;
+}
+
+/// Every number of every robot.
+std::vector<SeqRange> everything(const std::vector<AgentId>& fleet) {
+  std::vector<SeqRange> all;
+  for (const AgentId& agent : fleet) all.push_back({agent, 0, kEndOfSeqs});
+  return all;
+}
+
+}  // namespace
+
+Attacker::Attacker(std::uint64_t seed, std::vector<AgentId> fleet)
+    : draws_(seed, kAttackStream), fleet_(std::move(fleet)) {}
+
+void Attacker::overhear(const Packet& packet) {
+  if (draws_.chance(0.9)) return;
+  overheard_.push_back(packet.outgoing);
+  if (overheard_.size() > kOverheard) overheard_.pop_front();
+}
+
+NodeId Attacker::any_id() {
+  // Mostly the next numbers of the sessions that are heard.
+  for (const exchange::Outgoing& outgoing : overheard_) {
+    const auto* node = std::get_if<graph::Node>(&outgoing.message);
+    if (node && draws_.chance(0.2))
+      return {node->id.agent, node->id.seq + static_cast<std::uint32_t>(draws_.below(8))};
+  }
+  return {anyone(), static_cast<std::uint32_t>(draws_.below(kEndOfSeqs))};
+}
+
+Attacker::Injected Attacker::to_anyone(exchange::Message message, exchange::Reach reach) {
+  const AgentId to = exchange::recipient_of(message).value_or(anyone());
+  return {to, reach, std::make_shared<const exchange::Message>(std::move(message))};
+}
+
+std::optional<Attacker::Injected> Attacker::stranger() {
+  const auto reach = draws_.chance(0.5) ? exchange::Reach::kLongRange : exchange::Reach::kShortRange;
+  const AgentId to = anyone();
+  switch (draws_.below(7)) {
+    case 0:
+      return to_anyone(exchange::Digest{mallory(), everything(fleet_), everything(fleet_)}, reach);
+    case 1:
+      return to_anyone(node_of({mallory(), static_cast<std::uint32_t>(draws_.below(1000))}), reach);
+    case 2:
+      return to_anyone(exchange::ItemRequest{mallory(), to, everything(fleet_), everything(fleet_)}, reach);
+    case 3:
+      return to_anyone(exchange::SubmapDigest{mallory(), everything(fleet_), fleet_}, reach);
+    case 4:
+      return to_anyone(exchange::SubmapRequest{mallory(), to, any_id(), 0, 1u << 20}, reach);
+    case 5:
+      return to_anyone(exchange::CloudRequest{mallory(), to, any_id(), {}, 100.0f}, reach);
+    default: {
+      if (overheard_.empty()) return {};
+      const exchange::Outgoing& again = overheard_[draws_.below(overheard_.size())];
+      return to_anyone(again.message, again.reach);
+    }
+  }
+}
+
+exchange::Message Attacker::forged_item() {
+  const NodeId id = any_id();
+  if (draws_.chance(0.6)) return node_of(id);
+  graph::Alignment alignment;
+  alignment.i = any_id();
+  alignment.j = any_id();
+  alignment.computed_by = id.agent;
+  alignment.seq = id.seq;
+  return alignment;
+}
+
+std::optional<exchange::Message> Attacker::damaged() {
+  if (overheard_.empty()) return {};
+  const exchange::Outgoing& outgoing = overheard_[draws_.below(overheard_.size())];
+  Bytes cdr = wire::encode(outgoing.message);
+  for (std::size_t k = 0; k < 1 + draws_.below(4); ++k)
+    cdr[draws_.below(cdr.size())] ^= static_cast<std::uint8_t>(1u << draws_.below(8));
+  auto message = wire::decode_message(wire::topic_of(outgoing), cdr);
+  if (!message) return {};
+  return std::move(*message);
+}
+
+std::optional<Attacker::Injected> Attacker::forged() {
+  const auto reach = draws_.chance(0.5) ? exchange::Reach::kLongRange : exchange::Reach::kShortRange;
+  switch (draws_.below(4)) {
+    case 0:
+      return to_anyone(exchange::Digest{anyone(), {{anyone(), 0, kEndOfSeqs}}, {{anyone(), 0, kEndOfSeqs}}},
+                       reach);
+    case 1: {
+      auto message = damaged();
+      if (!message) return {};
+      return to_anyone(std::move(*message), reach);
+    }
+    default:
+      return to_anyone(forged_item(), reach);
+  }
+}
+
+exchange::Message Attacker::lie(exchange::Message message) {
+  if (auto* digest = std::get_if<exchange::Digest>(&message)) {
+    digest->nodes = digest->alignments = everything(fleet_);
+  } else if (auto* submaps = std::get_if<exchange::SubmapDigest>(&message)) {
+    submaps->submaps = everything(fleet_);
+    submaps->hears = fleet_;
+  } else if (auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+    status->backlog_bytes = UINT32_MAX;
+    status->busy = true;
+  } else if (auto* chunk = std::get_if<exchange::SubmapChunk>(&message)) {
+    for (auto& byte : chunk->payload) byte = static_cast<std::uint8_t>(draws_.bits());
+  } else if (auto* fragment = std::get_if<exchange::CloudFragment>(&message)) {
+    for (auto& byte : fragment->payload) byte = static_cast<std::uint8_t>(draws_.bits());
+  }
+  return message;
+}
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "fleetmap/fault_injection/draws.hpp"
+#include "fleetmap/fault_injection/exchange_fleet.hpp"
+
+namespace fleetmap::fault_injection {
+
+/// Packets of a radio that nobody of the fleet owns, and lies of a robot that is one of the fleet.
+class Attacker {
+ public:
+  Attacker(std::uint64_t seed, std::vector<AgentId> fleet);
+
+  /// Every packet can be recorded.
+  void overhear(const Packet& packet);
+
+  struct Injected {
+    AgentId to;
+    exchange::Reach reach;
+    std::shared_ptr<const exchange::Message> message;
+  };
+  /// Of nobody of the fleet: own messages and items, and recorded ones again.
+  std::optional<Injected> stranger();
+  /// In the name of a robot of the fleet: items with numbers of its, digests, damaged packets.
+  std::optional<Injected> forged();
+  /// What a lying robot sends instead.
+  exchange::Message lie(exchange::Message message);
+
+ private:
+  const AgentId& anyone() { return fleet_[draws_.below(fleet_.size())]; }
+  NodeId any_id();
+  exchange::Message forged_item();
+  std::optional<exchange::Message> damaged();
+  Injected to_anyone(exchange::Message message, exchange::Reach reach);
+
+  Draws draws_;
+  std::vector<AgentId> fleet_;
+  std::deque<exchange::Outgoing> overheard_;
+};
+
+}  // namespace fleetmap::fault_injection

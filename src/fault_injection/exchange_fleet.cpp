@@ -1,0 +1,103 @@
+#include "fleetmap/fault_injection/exchange_fleet.hpp"
+
+#include <utility>
+
+namespace fleetmap::fault_injection {
+namespace {
+
+constexpr const char* kDatabase = ".db";
+constexpr const char* kLog = ".db-wal";
+
+/// Of a file that is not there, none.
+void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::filesystem::remove(to);
+  if (std::filesystem::exists(from)) std::filesystem::copy_file(from, to);
+}
+
+}  // namespace
+
+void ExchangeFleet::run_for(Duration time, const std::function<bool()>& until) {
+  const Stamp end = now_ + time;
+  while (now_ < end && !(until && until())) step();
+}
+
+void ExchangeFleet::step() {
+  now_ += tick_;
+  while (!in_flight_.empty() && in_flight_.top().at <= now_) {
+    const Flight flight = in_flight_.top();
+    in_flight_.pop();
+    const auto robot = robots_.find(flight.to);
+    if (robot == robots_.end()) continue;
+    robot->second.exchange->on_message(*flight.message, flight.reach, now_ + robot->second.clock_offset);
+  }
+  for (auto& [name, robot] : robots_) {
+    for (auto& outgoing : robot.exchange->tick(now_ + robot.clock_offset)) send(name, outgoing, robot);
+    for (auto& event : robot.exchange->take_events()) {
+      robot.events.push_back(event);
+      on_event(name, robot, event);
+    }
+  }
+}
+
+Status ExchangeFleet::start(const AgentId& name, const store::StoreConfig& store, Duration clock_offset,
+                            const DrawSession& draw_session) {
+  Robot robot;
+  robot.clock_offset = clock_offset;
+  auto opened = store::Store::open(file(name, kDatabase), name, store);
+  if (!opened) return tl::unexpected(opened.error());
+  robot.store = std::make_unique<store::Store>(std::move(*opened));
+  const auto session = draw_session(*robot.store);
+  if (!session) return tl::unexpected(session.error());
+  auto made = exchange::Exchange::make(config_, *robot.store, now_ + clock_offset);
+  if (!made) return tl::unexpected(made.error());
+  robot.exchange = std::make_unique<exchange::Exchange>(std::move(*made));
+  robot.session = *session;
+  robot.exchange->begin_session(*session);
+  robots_.insert_or_assign(name, std::move(robot));
+  return {};
+}
+
+void ExchangeFleet::kill(const AgentId& name) {
+  // To close the database would write its log back, which a process that is killed does not do.
+  keep_store(name, ".killed");
+  robots_.erase(name);
+  put_back_store(name, ".killed");
+}
+
+void ExchangeFleet::keep_store(const AgentId& name, const std::string& copy) const {
+  for (const char* end : {kDatabase, kLog}) copy_if_there(file(name, end), file(name, copy + end));
+}
+
+void ExchangeFleet::put_back_store(const AgentId& name, const std::string& copy) const {
+  lose_store(name);
+  for (const char* end : {kDatabase, kLog}) copy_if_there(file(name, copy + end), file(name, end));
+}
+
+void ExchangeFleet::lose_store(const AgentId& name) const {
+  for (const char* end : {kDatabase, kLog, ".db-shm"}) std::filesystem::remove(file(name, end));
+}
+
+void ExchangeFleet::deliver(const AgentId& to, exchange::Reach reach,
+                            std::shared_ptr<const exchange::Message> message, Duration delay) {
+  in_flight_.push({now_ + delay, order_++, to, reach, std::move(message)});
+}
+
+std::shared_ptr<const exchange::Message> ExchangeFleet::on_air(const Packet& packet) {
+  return std::make_shared<const exchange::Message>(packet.outgoing.message);
+}
+
+void ExchangeFleet::send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot) {
+  const bool long_range = outgoing.reach == exchange::Reach::kLongRange;
+  const std::size_t bytes = long_range ? robot.exchange->queue().wire_bytes(outgoing.message, outgoing.to)
+                                       : config_.payload_size(outgoing.message);
+  const Packet packet{now_, from, outgoing, bytes};
+  on_sent(packet);
+  const auto message = on_air(packet);
+  if (!message) return;
+  for (const auto& [to, receiver] : robots_) {
+    if (to == from || (outgoing.to && *outgoing.to != to)) continue;
+    for (const Duration delay : arrivals(packet, to)) deliver(to, outgoing.reach, message, delay);
+  }
+}
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,428 @@
+#include "faulty_fleet.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "fleetmap/agent/results.hpp"
+#include "fleetmap/agent/sessions.hpp"
+#include "fleetmap/graph/place.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/wire/topics.hpp"
+
+namespace fleetmap::fault_injection {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(50);
+constexpr double kWifi = 50.0;  // m
+constexpr Duration kStartRetry = std::chrono::seconds(5);
+constexpr Duration kSessionPause = std::chrono::minutes(1);  // as agent::Agent
+constexpr Duration kPlacementPeriod = std::chrono::seconds(40);
+constexpr double kMostRegistration = 3.0;  // s
+constexpr std::uint64_t kFleetStream = 7;
+
+std::string backup_name(std::size_t fault) { return std::string(".").append(std::to_string(fault)); }
+
+exchange::ExchangeConfig config_of(std::size_t robots) {
+  exchange::ExchangeConfig config;
+  for (std::size_t k = 0; k < robots; ++k)
+    config.fleet.push_back(AgentId::parse(std::string("r").append(std::to_string(k + 1))).value());
+  // So small that a small fleet fills them.
+  config.long_range.max_small = 24;
+  config.long_range.max_backfill = 32;
+  config.long_range.max_fragments = 16;
+  config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
+  return config;
+}
+
+}  // namespace
+
+FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
+                         const std::filesystem::path& folder)
+    : ExchangeFleet(folder, config_of(scenario.robots), kTick),
+      scenario_(scenario),
+      run_(config),
+      start_(now()),
+      survey_(scenario.seed, scenario.robots),
+      links_(scenario.seed),
+      attacker_(scenario.seed, config_.fleet),
+      monitor_(now(), config_, config.invariants),
+      draws_(scenario.seed, kFleetStream),
+      next_check_(now()) {
+  for (std::size_t k = 0; k < scenario.robots; ++k) {
+    Member& member = members_[name_of(k)];
+    member.index = k;
+    member.disk = std::make_unique<FaultyFileSystem>();
+    member.start_at = now() + from_seconds(draws_.between(0.0, 5.0));
+  }
+  plan();
+}
+
+void FaultyFleet::trace(const std::string& line) {
+  if (!run_.trace) return;
+  char stamp[32];
+  std::snprintf(stamp, sizeof stamp, "%9.2f s  ", to_seconds(time()));
+  trace_.push_back(stamp + line);
+}
+
+// ---- faults
+// -----------------------------------------------------------------------------------------------------
+
+void FaultyFleet::plan() {
+  for (std::size_t k = 0; k < scenario_.faults.size(); ++k) {
+    const Fault& fault = scenario_.faults[k];
+    if (fault.kind == FaultKind::kOldStore)
+      changes_.push_back({fault.begin - from_seconds(fault.value), k, Change::Kind::kBackup});
+    changes_.push_back({fault.begin, k, Change::Kind::kBegin});
+    changes_.push_back({std::min(fault.begin + fault.length, scenario_.mapping), k, Change::Kind::kEnd});
+  }
+  std::ranges::stable_sort(changes_, {}, &Change::at);
+}
+
+void FaultyFleet::apply(const Change& change) {
+  const Fault& fault = scenario_.faults[change.fault];
+  switch (change.kind) {
+    case Change::Kind::kBackup:
+      return keep_store(name_of(fault.robots[0]), backup_name(change.fault));
+    case Change::Kind::kBegin:
+      trace(to_string(fault));
+      return begin(fault, change.fault);
+    case Change::Kind::kEnd:
+      trace("ends: " + to_string(fault));
+      return end(fault);
+  }
+}
+
+void FaultyFleet::begin(const Fault& fault, std::size_t number) {
+  links_.begin(fault);
+  if (fault.kind == FaultKind::kStranger || fault.kind == FaultKind::kForged) attacks_.insert(number);
+  if (fault.robots.empty()) return;
+  const AgentId& name = name_of(fault.robots[0]);
+  Member& member = this->member(name);
+  switch (fault.kind) {
+    case FaultKind::kCrash:
+      return stop_robot(name);
+    case FaultKind::kClockStep:
+      member.clock_offset = from_seconds(fault.value);
+      return stop_robot(name);
+    case FaultKind::kLostStore:
+      stop_robot(name);
+      member.disk_intact = false;
+      return lose_store(name);
+    case FaultKind::kOldStore:
+      stop_robot(name);
+      member.disk_intact = false;
+      return put_back_store(name, backup_name(number));
+    case FaultKind::kFullDisk:
+      return member.disk->set_full(true);
+    case FaultKind::kLiar:
+      liars_.insert(name);
+      return;
+    default:
+      return;
+  }
+}
+
+void FaultyFleet::end(const Fault& fault) {
+  links_.end(fault);
+  attacks_.erase(static_cast<std::size_t>(&fault - scenario_.faults.data()));
+  if (fault.robots.empty()) return;
+  const AgentId& name = name_of(fault.robots[0]);
+  Member& member = this->member(name);
+  switch (fault.kind) {
+    case FaultKind::kCrash:
+    case FaultKind::kClockStep:
+    case FaultKind::kLostStore:
+    case FaultKind::kOldStore:
+      if (--member.stopped == 0) member.start_at = now();
+      return;
+    case FaultKind::kFullDisk:
+      return member.disk->set_full(false);
+    case FaultKind::kLiar:
+      liars_.erase(liars_.find(name));
+      return;
+    default:
+      return;
+  }
+}
+
+void FaultyFleet::stop_robot(const AgentId& name) {
+  Member& member = this->member(name);
+  ++member.stopped;
+  member.start_at.reset();
+  if (!runs(name)) return;
+  kill(name);
+  monitor_.on_stopped(name);
+  std::erase_if(jobs_, [&](const Job& job) { return job.robot == name; });
+}
+
+void FaultyFleet::start_robots() {
+  for (auto& [name, member] : members_) {
+    if (member.start_at && now() >= *member.start_at) start_robot(name, member);
+  }
+}
+
+Result<std::uint16_t> FaultyFleet::draw_session(store::Store& store) {
+  auto sessions = agent::Sessions::load(store);
+  if (!sessions) return tl::unexpected(sessions.error());
+  return sessions->begin(store, [this] { return static_cast<std::uint16_t>(draws_.bits()); });
+}
+
+void FaultyFleet::start_robot(const AgentId& name, Member& member) {
+  store::StoreConfig store;
+  store.file_system = member.disk->name();
+  const Status started =
+      start(name, store, member.clock_offset, [this](store::Store& opened) { return draw_session(opened); });
+  if (!started) {
+    trace(name.str() + " cannot start: " + started.error().message);
+    if (!mapping_) monitor_.note(Invariant::kStarts, name, now(), started.error().message);
+    member.start_at = now() + kStartRetry;
+    return;
+  }
+  member.start_at.reset();
+  member.session_begun = now();
+  member.placed_items = 0;
+  const Robot& robot = this->robot(name);
+  survey_.begin_frame(member.index, time());
+  trace(name.str() + " starts in session " + std::to_string(robot.session) + " with " +
+        std::to_string(robot.store->nodes().size()) + " nodes");
+  monitor_.on_started(name, *robot.store, std::exchange(member.disk_intact, true), now());
+}
+
+void FaultyFleet::begin_session(const AgentId& name, Robot& robot) {
+  Member& member = this->member(name);
+  if (now() - member.session_begun < kSessionPause) return;
+  const auto session = draw_session(*robot.store);
+  if (!session) return;
+  trace(name.str() + " begins session " + std::to_string(*session) + ": its number was given before");
+  member.session_begun = now();
+  robot.session = *session;
+  robot.exchange->begin_session(*session);
+  survey_.begin_frame(member.index, time());
+}
+
+// ---- network
+// ----------------------------------------------------------------------------------------------------
+
+void FaultyFleet::on_sent(const Packet& packet) {
+  monitor_.on_sent(packet);
+  attacker_.overhear(packet);
+}
+
+std::shared_ptr<const exchange::Message> FaultyFleet::on_air(const Packet& packet) {
+  const bool lies = liars_.contains(packet.from);
+  const exchange::Message& message = packet.outgoing.message;
+  const Bytes cdr = wire::encode(lies ? attacker_.lie(message) : message);
+  auto decoded = wire::decode_message(wire::topic_of(packet.outgoing), cdr);
+  if (!decoded) {
+    if (!lies)
+      monitor_.note(Invariant::kOwnItems, packet.from, now(),
+                    "nobody decodes it: " + decoded.error().message);
+    return nullptr;
+  }
+  return std::make_shared<const exchange::Message>(std::move(*decoded));
+}
+
+std::vector<Duration> FaultyFleet::arrivals(const Packet& packet, const AgentId& to) {
+  const std::size_t from = member(packet.from).index, receiver = member(to).index;
+  const auto reach = packet.outgoing.reach;
+  if (reach == exchange::Reach::kShortRange && mapping_) {
+    const Eigen::Vector3d apart =
+        survey_.T_enu_base(from, time()).translation() - survey_.T_enu_base(receiver, time()).translation();
+    if (apart.norm() > kWifi) return {};
+  }
+  return links_.arrivals(from, receiver, reach);
+}
+
+// ---- the rest of a robot
+// ----------------------------------------------------------------------------------------
+
+void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {
+  if (const auto* needed = std::get_if<exchange::CloudNeeded>(&event)) {
+    const Status provided = robot.exchange->provide_cloud(
+        needed->node, SyntheticSurvey::cloud_around(needed->node), clock(robot));
+    if (!provided) monitor_.note(Invariant::kOwnItems, name, now(), provided.error().message);
+  } else if (const auto* arrived = std::get_if<exchange::CloudArrived>(&event)) {
+    jobs_.push_back(
+        {now() + from_seconds(draws_.between(0.1, kMostRegistration)), name, robot.session, arrived->pair});
+  } else if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event)) {
+    monitor_.on_conflict(name, *conflict, now());
+    trace(name.str() + ": conflict " + to_string(conflict->id));
+  } else if (std::holds_alternative<exchange::SessionTaken>(event)) {
+    begin_session(name, robot);
+  } else if (const auto* failed = std::get_if<exchange::StoreFailed>(&event)) {
+    trace(name.str() + ": " + failed->error.message);
+  } else if (const auto* elsewhere = std::get_if<exchange::OwnItemsElsewhere>(&event)) {
+    trace(name.str() + ": " + elsewhere->peer.str() + " holds own items that the store lacks");
+  }
+}
+
+void FaultyFleet::map(const AgentId& name, Robot& robot) {
+  const std::size_t index = member(name).index;
+  const NodeId id{name, robot.store->next_node_seq(robot.session)};
+  const auto made = survey_.node(index, id, time());
+  if (!made) return;
+  const auto put = robot.exchange->on_own_node(made->node, made->submap, clock(robot));
+  if (!put) return;
+  if (*put != store::Put::kAdded) {
+    monitor_.note(Invariant::kOwnItems, name, now(),
+                  "its own node " + to_string(id) + " is refused by its store");
+    return;
+  }
+  survey_.on_stored(index, id, time());
+  monitor_.on_made(id);
+  trace(to_string(id) + " made");
+}
+
+void FaultyFleet::finish_jobs() {
+  for (std::size_t left = jobs_.size(); left > 0; --left) {
+    const Job job = jobs_.front();
+    jobs_.pop_front();
+    if (job.due > now()) {
+      jobs_.push_back(job);
+      continue;
+    }
+    Robot& robot = this->robot(job.robot);
+    const auto alignment = survey_.registration(job.pair, robot.store->next_alignment_seq(robot.session));
+    const auto put = alignment ? robot.exchange->on_own_alignment(*alignment, clock(robot))
+                               : Result<store::Put>(store::Put::kInvalid);
+    if (put && *put == store::Put::kAdded) {
+      trace(job.robot.str() + " aligned " + to_string(job.pair.ours) + " with " + to_string(job.pair.theirs));
+      continue;
+    }
+    if (alignment && put)
+      monitor_.note(Invariant::kOwnItems, job.robot, now(), "its own alignment is refused");
+    robot.exchange->on_rejected(job.pair, clock(robot));
+  }
+}
+
+graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
+  return graph::place(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store), survey_.site(), {});
+}
+
+void FaultyFleet::place(const AgentId& name, Robot& robot) {
+  Member& member = this->member(name);
+  const auto period = to_ns(now()) / kPlacementPeriod.count();
+  const auto before = (to_ns(now()) - kTick.count()) / kPlacementPeriod.count();
+  const std::size_t items = robot.store->nodes().size() + robot.store->alignments().size();
+  if (period == before || items == member.placed_items) return;
+  member.placed_items = items;
+  robot.exchange->on_used_alignments(placement_of(robot).used);
+}
+
+void FaultyFleet::attack() {
+  for (const std::size_t number : attacks_) {
+    const Fault& fault = scenario_.faults[number];
+    if (!draws_.chance(fault.value * to_seconds(kTick))) continue;
+    const auto injected = fault.kind == FaultKind::kStranger ? attacker_.stranger() : attacker_.forged();
+    if (injected) deliver(injected->to, injected->reach, injected->message, kTick);
+  }
+}
+
+void FaultyFleet::work() {
+  while (next_change_ < changes_.size() && changes_[next_change_].at <= time())
+    apply(changes_[next_change_++]);
+  start_robots();
+  attack();
+  for (const auto& [name, entry] : robots()) {
+    Robot& robot = this->robot(name);
+    robot.events.clear();
+    if (mapping_) map(name, robot);
+    place(name, robot);
+  }
+  finish_jobs();
+  if (now() < next_check_) return;
+  next_check_ = now() + std::chrono::seconds(1);
+  monitor_.check(robots(), now());
+}
+
+// ---- the end
+// ----------------------------------------------------------------------------------------------------
+
+std::string FaultyFleet::why_not_converged() {
+  if (robots().size() < members_.size()) return "a robot does not run";
+  const store::Store& first = *robots().begin()->second.store;
+  for (const auto& [name, robot] : robots()) {
+    const store::Store& store = *robot.store;
+    if (!(store.node_set() == first.node_set())) return name.str() + " holds other nodes";
+    if (!(store.alignment_set() == first.alignment_set())) return name.str() + " holds other alignments";
+    if (!(store.submap_set() == first.submap_set())) return name.str() + " holds other submaps";
+    if (!robot.exchange->fleet_caught_up()) return name.str() + " finds that another lacks something";
+    if (!robot.exchange->idle(clock(robot))) return name.str() + " is not idle";
+  }
+  return jobs_.empty() ? "" : "registrations are under way";
+}
+
+std::string FaultyFleet::why_incomplete() {
+  for (const auto& [name, robot] : robots()) {
+    if (!robot.exchange->complete()) return name.str() + " finds that it lacks something";
+  }
+  return "";
+}
+
+void FaultyFleet::check_maps() {
+  std::optional<graph::Placement> first;
+  std::optional<store::MergedMap> first_map;
+  for (const auto& [name, robot] : robots()) {
+    graph::Placement placement = placement_of(robot);
+    const auto load = [&](const NodeId& id) -> Result<cloud::PointCloud> {
+      const auto bytes = robot.store->submap(id);
+      if (!bytes) return tl::unexpected(bytes.error());
+      return SyntheticSurvey::decode_submap(*bytes);
+    };
+    store::MergedMap map = store::merge(placement.T_enu_node, load, {});
+    if (!first) {
+      first = std::move(placement);
+      first_map = std::move(map);
+      continue;
+    }
+    const bool same_placement =
+        std::ranges::equal(placement.T_enu_node, first->T_enu_node, [](const auto& a, const auto& b) {
+          return a.first == b.first &&
+                 std::memcmp(a.second.data(), b.second.data(), 16 * sizeof(double)) == 0;
+        });
+    if (!same_placement) monitor_.note(Invariant::kSameMap, name, now(), "other places");
+    if (map.cloud.points != first_map->cloud.points || map.unreadable != first_map->unreadable)
+      monitor_.note(Invariant::kSameMap, name, now(), "other points");
+  }
+}
+
+Outcome FaultyFleet::run() {
+  const auto one = [this] {
+    step();
+    work();
+  };
+  while (time() < scenario_.mapping) one();
+  mapping_ = false;
+  trace("the last fault has ended");
+  const Stamp last_fault = now();
+  const bool completes = run_.invariants.contains(Invariant::kCompletes);
+  const auto settled = [&] {
+    return why_not_converged().empty() && (!completes || why_incomplete().empty());
+  };
+  while (now() - last_fault < run_.settling && !settled()) one();
+  Outcome outcome;
+  outcome.converged_after = now() - last_fault;
+  if (const std::string why = why_not_converged(); why.empty()) {
+    check_maps();
+    if (const std::string what = why_incomplete(); !what.empty())
+      monitor_.note(Invariant::kCompletes, {}, now(), what);
+  } else {
+    monitor_.note(Invariant::kConverges, {}, now(), why);
+  }
+  for (const auto& [name, robot] : robots()) monitor_.check_held(name, *robot.store, now());
+  if (!robots().empty()) {
+    outcome.nodes = robots().begin()->second.store->nodes().size();
+    outcome.alignments = robots().begin()->second.store->alignments().size();
+  }
+  outcome.violations = monitor_.violations();
+  outcome.most_bytes_per_second = monitor_.most_bytes_per_second();
+  outcome.packets = monitor_.packets();
+  outcome.fingerprint = monitor_.fingerprint();
+  outcome.trace = std::move(trace_);
+  return outcome;
+}
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "attacker.hpp"
+#include "fleetmap/fault_injection/exchange_fleet.hpp"
+#include "fleetmap/fault_injection/faulty_file_system.hpp"
+#include "fleetmap/fault_injection/fleet_run.hpp"
+#include "fleetmap/fault_injection/synthetic_survey.hpp"
+#include "fleetmap/graph/placement.hpp"
+#include "link_faults.hpp"
+#include "monitor.hpp"
+
+namespace fleetmap::fault_injection {
+
+/// Robots that map and meet while the faults of a scenario come and go.
+class FaultyFleet : private ExchangeFleet {
+ public:
+  FaultyFleet(const Scenario& scenario, const RunConfig& config, const std::filesystem::path& folder);
+
+  Outcome run();
+
+ private:
+  struct Member {
+    std::size_t index = 0;
+    std::unique_ptr<FaultyFileSystem> disk;
+    int stopped = 0;          ///< faults that keep it from running
+    bool disk_intact = true;  ///< since it last ran
+    Duration clock_offset{};
+    std::optional<Stamp> start_at;
+    Stamp session_begun;
+    std::size_t placed_items = 0;  ///< that the last placement used
+  };
+  /// A registration that takes time.
+  struct Job {
+    Stamp due;
+    AgentId robot;
+    std::uint16_t session;
+    exchange::NodePair pair;
+  };
+  struct Change {
+    Duration at;
+    std::size_t fault;
+    enum class Kind : std::uint8_t { kBackup, kBegin, kEnd } kind;
+  };
+
+  void on_sent(const Packet& packet) override;
+  std::shared_ptr<const exchange::Message> on_air(const Packet& packet) override;
+  std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) override;
+  void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
+
+  Duration time() const { return now() - start_; }
+  Member& member(const AgentId& name) { return members_.at(name); }
+  const AgentId& name_of(std::size_t index) const { return config_.fleet[index]; }
+  Stamp clock(const Robot& robot) const { return now() + robot.clock_offset; }
+  void trace(const std::string& line);
+
+  void plan();
+  void apply(const Change& change);
+  void begin(const Fault& fault, std::size_t number);
+  void end(const Fault& fault);
+  void stop_robot(const AgentId& name);
+  void start_robots();
+  void start_robot(const AgentId& name, Member& member);
+  Result<std::uint16_t> draw_session(store::Store& store);
+  void begin_session(const AgentId& name, Robot& robot);
+
+  void work();  ///< of one step: nodes, registrations, placements, attacks
+  void map(const AgentId& name, Robot& robot);
+  void finish_jobs();
+  void place(const AgentId& name, Robot& robot);
+  void attack();
+
+  graph::Placement placement_of(const Robot& robot) const;
+  /// Empty: the fleet has converged; likewise its maps are complete.
+  std::string why_not_converged();
+  std::string why_incomplete();
+  void check_maps();
+
+  const Scenario& scenario_;
+  const RunConfig& run_;
+  Stamp start_;
+  SyntheticSurvey survey_;
+  LinkFaults links_;
+  Attacker attacker_;
+  Monitor monitor_;
+  Draws draws_;
+  std::map<AgentId, Member> members_;
+  std::vector<Change> changes_;
+  std::size_t next_change_ = 0;
+  std::set<std::size_t> attacks_;  ///< faults under way
+  std::multiset<AgentId> liars_;
+  std::deque<Job> jobs_;
+  bool mapping_ = true;
+  Stamp next_check_;
+  std::vector<std::string> trace_;
+};
+
+}  // namespace fleetmap::fault_injection

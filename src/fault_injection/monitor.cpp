@@ -1,0 +1,140 @@
+#include "monitor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fleetmap::fault_injection {
+namespace {
+
+/// B in any second: 160 of the radio's 200 kbit/s.
+constexpr double kRadio = 20'000.0;
+/// The longest status period of the largest fleet, and a queue before it.
+constexpr Duration kMostSilence = std::chrono::seconds(60);
+/// Names that cost a forger nothing.
+constexpr std::size_t kMostStrangers = 64;
+
+bool includes(const store::Store& store, const Holdings& told) {
+  return store.node_set().includes(told.nodes) && store.alignment_set().includes(told.alignments) &&
+         store.submap_set().includes(told.submaps);
+}
+
+/// What of `told` is in `held`.
+store::SeqSet common(const store::SeqSet& told, const store::SeqSet& held) {
+  return store::SeqSet(told.minus(store::SeqSet(told.minus(held))));
+}
+
+std::string missing(const char* what, const store::SeqSet& told, const store::SeqSet& held) {
+  const auto ranges = told.minus(held);
+  if (ranges.empty()) return {};
+  return std::string(" ") + what + " " + to_string(NodeId{ranges[0].agent, ranges[0].first});
+}
+
+}  // namespace
+
+void Monitor::note(Invariant invariant, const AgentId& robot, Stamp now, const std::string& what) {
+  if (checked_.contains(invariant) && noted_.insert({invariant, robot}).second)
+    violations_.push_back({invariant, now - start_, robot.str(), what});
+}
+
+void Monitor::on_sent(const Packet& packet) {
+  sent_[packet.from] = packet.at;
+  ++packets_;
+  const auto mix = [this](std::uint64_t value) { fingerprint_ = (fingerprint_ ^ value) * 0x100000001b3u; };
+  mix(static_cast<std::uint64_t>(to_ns(packet.at)));
+  mix(std::hash<AgentId>{}(packet.from));
+  mix(packet.outgoing.message.index());
+  mix(packet.wire_bytes);
+  if (packet.outgoing.reach == exchange::Reach::kLongRange) note_radio(packet);
+  note_told(packet);
+}
+
+void Monitor::note_radio(const Packet& packet) {
+  while (!last_second_.empty() && packet.at - last_second_.front().first >= std::chrono::seconds(1)) {
+    in_last_second_ -= last_second_.front().second;
+    last_second_.pop_front();
+  }
+  last_second_.emplace_back(packet.at, packet.wire_bytes);
+  in_last_second_ += static_cast<double>(packet.wire_bytes);
+  most_bytes_per_second_ = std::max(most_bytes_per_second_, in_last_second_);
+  if (in_last_second_ > kRadio)
+    note(Invariant::kBudget, {}, packet.at, std::to_string(std::lround(in_last_second_)) + " B in a second");
+}
+
+void Monitor::note_told(const Packet& packet) {
+  Holdings& told = told_[packet.from];
+  const auto insert = [](store::SeqSet& set, const std::vector<SeqRange>& ranges) {
+    for (const SeqRange& range : ranges) set.insert(range);
+  };
+  if (const auto* digest = std::get_if<exchange::Digest>(&packet.outgoing.message)) {
+    insert(told.nodes, digest->nodes);
+    insert(told.alignments, digest->alignments);
+  } else if (const auto* submaps = std::get_if<exchange::SubmapDigest>(&packet.outgoing.message)) {
+    insert(told.submaps, submaps->submaps);
+  } else if (const auto* node = std::get_if<graph::Node>(&packet.outgoing.message)) {
+    told.nodes.insert(node->id.agent, node->id.seq);
+  } else if (const auto* alignment = std::get_if<graph::Alignment>(&packet.outgoing.message)) {
+    told.alignments.insert(alignment->computed_by, alignment->seq);
+  }
+}
+
+void Monitor::on_made(const NodeId& id) {
+  told_[id.agent].nodes.insert(id.agent, id.seq);
+  told_[id.agent].submaps.insert(id.agent, id.seq);
+}
+
+void Monitor::on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now) {
+  sent_[robot] = now;
+  if (disk_intact) return check_held(robot, store, now);
+  Holdings& told = told_[robot];
+  told = {common(told.nodes, store.node_set()), common(told.alignments, store.alignment_set()),
+          common(told.submaps, store.submap_set())};
+}
+
+void Monitor::check_held(const AgentId& robot, const store::Store& store, Stamp now) {
+  const Holdings& told = told_[robot];
+  if (includes(store, told)) return;
+  note(Invariant::kNothingLost, robot, now,
+       "told that it holds, and does not:" + missing("node", told.nodes, store.node_set()) +
+           missing("alignment", told.alignments, store.alignment_set()) +
+           missing("submap", told.submaps, store.submap_set()));
+}
+
+void Monitor::on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now) {
+  note(Invariant::kOwnItems, robot, now,
+       std::string("another ") + (conflict.alignment ? "alignment " : "node ") + to_string(conflict.id) +
+           " came");
+}
+
+void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now) {
+  const auto bound = [&](const std::string& what, std::size_t size, std::size_t most) {
+    if (size <= most) return;
+    note(Invariant::kBounded, name, now,
+         std::to_string(size) + ' ' + what + ", bound " + std::to_string(most));
+  };
+  const exchange::LongRangeConfig& config = config_->long_range;
+  const std::size_t peers = config_->fleet.size() - 1;
+  const exchange::SendQueue& queue = robot.exchange->queue();
+  for (std::size_t p = 0; p < exchange::kPriorities; ++p) {
+    const auto priority = static_cast<exchange::Priority>(p);
+    bound("messages wait", queue.size(priority),
+          priority == exchange::Priority::kBackfill ? config.max_backfill
+          : priority == exchange::Priority::kCloud  ? config.max_fragments
+                                                    : config.max_small);
+  }
+  const exchange::TableSizes tables = robot.exchange->table_sizes();
+  bound("peers of items", tables.item_peers, peers);
+  bound("peers of submaps", tables.submap_peers, peers);
+  bound("peers that are served submaps", tables.submap_requesters, peers);
+  bound("downloads", tables.submap_downloads, robot.store->nodes().size());
+  bound("clouds to make", tables.clouds_to_make, robot.store->nodes().size());
+  bound("strangers", tables.strangers, kMostStrangers);
+}
+
+void Monitor::check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now) {
+  for (const auto& [name, robot] : robots) {
+    if (now - sent_[name] > kMostSilence) note(Invariant::kAlive, name, now, "nothing was sent");
+    check_bounds(name, robot, now);
+  }
+}
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+
+#include "fleetmap/fault_injection/exchange_fleet.hpp"
+#include "fleetmap/fault_injection/fleet_run.hpp"
+
+namespace fleetmap::fault_injection {
+
+/// The items that one robot holds.
+struct Holdings {
+  store::SeqSet nodes, alignments, submaps;
+};
+
+/// Watches the packets and stores of a fleet, and notes what violates an invariant.
+class Monitor {
+ public:
+  Monitor(Stamp start, const exchange::ExchangeConfig& config, std::set<Invariant> checked)
+      : start_(start), config_(&config), checked_(std::move(checked)) {}
+
+  void note(Invariant invariant, const AgentId& robot, Stamp now, const std::string& what);
+  void on_sent(const Packet& packet);
+  void on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now);
+  /// The node is in the store of its maker, with its submap.
+  void on_made(const NodeId& id);
+  void on_stopped(const AgentId& robot) { sent_.erase(robot); }
+  void on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now);
+  /// From time to time.
+  void check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now);
+  /// When all has come to rest.
+  void check_held(const AgentId& robot, const store::Store& store, Stamp now);
+
+  const std::vector<Violation>& violations() const { return violations_; }
+  double most_bytes_per_second() const { return most_bytes_per_second_; }
+  std::uint64_t packets() const { return packets_; }
+  std::uint64_t fingerprint() const { return fingerprint_; }
+
+ private:
+  void note_radio(const Packet& packet);
+  void note_told(const Packet& packet);
+  void check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now);
+
+  Stamp start_;
+  const exchange::ExchangeConfig* config_;
+  std::set<Invariant> checked_;
+  std::vector<Violation> violations_;
+  std::set<std::pair<Invariant, AgentId>> noted_;
+  std::map<AgentId, Holdings> told_;  ///< by its digests, as long as its disk keeps it
+  std::map<AgentId, Stamp> sent_;     ///< last packet, or start
+  std::deque<std::pair<Stamp, double>> last_second_;
+  double in_last_second_ = 0.0;
+  double most_bytes_per_second_ = 0.0;
+  std::uint64_t packets_ = 0;
+  std::uint64_t fingerprint_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,113 @@
+#include "fleetmap/fault_injection/scenario.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "fleetmap/fault_injection/draws.hpp"
+#include "names.hpp"
+
+namespace fleetmap::fault_injection {
+namespace {
+
+constexpr std::array<const char*, kFaultKinds> kNames{
+    "loss",      "delay",     "duplication", "one_way",  "partition", "crash", "lost_store",
+    "old_store", "full_disk", "clock_step",  "stranger", "forged",    "liar"};
+constexpr std::uint64_t kScenarioStream = 1;
+
+bool is_of_links(FaultKind kind) { return kind <= FaultKind::kPartition; }
+
+/// `count` of the robots, in random order.
+std::vector<std::size_t> pick(Draws& draws, std::size_t robots, std::size_t count) {
+  std::vector<std::size_t> all(robots);
+  for (std::size_t k = 0; k < robots; ++k) all[k] = k;
+  for (std::size_t k = 0; k < count; ++k) std::swap(all[k], all[k + draws.below(robots - k)]);
+  all.resize(count);
+  return all;
+}
+
+std::size_t concerned(Draws& draws, FaultKind kind, std::size_t robots) {
+  switch (kind) {
+    case FaultKind::kLoss:
+    case FaultKind::kDelay:
+    case FaultKind::kDuplication:
+      return draws.chance(0.5) ? 0 : 1;
+    case FaultKind::kOneWay:
+      return 2;
+    case FaultKind::kPartition:
+      return 1 + draws.below(robots - 1);
+    case FaultKind::kStranger:
+    case FaultKind::kForged:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+double draw_value(Draws& draws, FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kLoss:
+      return draws.between(0.05, 0.6);
+    case FaultKind::kDelay:
+      return draws.chance(0.3) ? draws.between(1.0, 10.0) : draws.between(0.1, 1.0);
+    case FaultKind::kDuplication:
+      return draws.between(0.05, 0.5);
+    case FaultKind::kOldStore:
+      return draws.between(2.0, 90.0);
+    case FaultKind::kClockStep:
+      return draws.between(-7200.0, 7200.0);
+    case FaultKind::kStranger:
+    case FaultKind::kForged:
+      return draws.between(0.2, 10.0);
+    default:
+      return 0.0;
+  }
+}
+
+}  // namespace
+
+const char* to_string(FaultKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
+
+Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names) {
+  return parse_names<FaultKind>(names, kNames);
+}
+
+std::string to_string(const Fault& fault) {
+  std::ostringstream out;
+  out.precision(4);
+  out << "at " << to_seconds(fault.begin) << " s for " << to_seconds(fault.length)
+      << " s: " << to_string(fault.kind);
+  if (fault.value != 0.0) out << ' ' << fault.value;
+  for (std::size_t k = 0; k < fault.robots.size(); ++k)
+    out << (k == 0 ? " of r" : ", r") << fault.robots[k] + 1;
+  if (is_of_links(fault.kind) && !(fault.radio && fault.short_range))
+    out << (fault.radio ? ", radio" : ", short range");
+  return out.str();
+}
+
+Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config) {
+  Draws draws(seed, kScenarioStream);
+  Scenario scenario{seed, 0, config.mapping, {}};
+  scenario.robots = config.min_robots + draws.below(config.max_robots - config.min_robots + 1);
+  const std::vector<FaultKind> kinds(config.kinds.begin(), config.kinds.end());
+  const std::size_t count = kinds.empty() ? 0 : 1 + draws.below(config.max_faults);
+  const double mapping = to_seconds(config.mapping);
+  for (std::size_t k = 0; k < count; ++k) {
+    Fault fault;
+    fault.kind = kinds[draws.below(kinds.size())];
+    fault.begin = from_seconds(draws.between(0.0, 0.95 * mapping));
+    fault.length = from_seconds(draws.between(1.0, 0.5 * mapping));
+    fault.robots = pick(draws, scenario.robots, concerned(draws, fault.kind, scenario.robots));
+    fault.value = draw_value(draws, fault.kind);
+    if (is_of_links(fault.kind)) {
+      const double link = draws.uniform();
+      fault.radio = link < 0.7;
+      fault.short_range = link < 0.4 || link >= 0.7;
+    }
+    scenario.faults.push_back(fault);
+  }
+  std::ranges::stable_sort(scenario.faults, {}, &Fault::begin);
+  return scenario;
+}
+
+}  // namespace fleetmap::fault_injection

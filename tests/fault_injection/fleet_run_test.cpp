@@ -1,0 +1,105 @@
+#include "fleetmap/fault_injection/fleet_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace fleetmap::fault_injection {
+namespace {
+
+ScenarioConfig small_fleets(const char* faults) {
+  ScenarioConfig config;
+  config.max_robots = 5;
+  config.mapping = std::chrono::seconds(80);
+  config.kinds = parse_fault_kinds(faults).value();
+  return config;
+}
+
+RunConfig checking(const char* invariants) {
+  RunConfig config;
+  config.invariants = parse_invariants(invariants).value();
+  return config;
+}
+
+/// All but what a robot with keys would have to prove.
+constexpr const char* kFaults =
+    "loss,delay,duplication,one_way,partition,crash,lost_store,old_store,full_disk,clock_step,stranger";
+/// A map of which a lost disk held the only copy of a submap is never complete.
+constexpr const char* kInvariantsHeld =
+    "converges,same_map,nothing_lost,budget,bounded,alive,own_items,starts";
+
+/// 100 seeds in four tests, which run beside each other.
+class FleetRun : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(FleetRun, keeps_its_invariants_whatever_fails) {
+  std::size_t nodes = 0, alignments = 0;
+  for (std::uint64_t seed = GetParam(); seed < GetParam() + 25; ++seed) {
+    const Scenario scenario = make_scenario(seed, small_fleets(kFaults));
+    const Outcome outcome = run(scenario, checking(kInvariantsHeld));
+    nodes += outcome.nodes;
+    alignments += outcome.alignments;
+    for (const Violation& violation : outcome.violations)
+      ADD_FAILURE() << "seed " << seed << ": " << to_string(violation);
+  }
+  EXPECT_GT(nodes, 500u);
+  EXPECT_GT(alignments, 50u);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, FleetRun, ::testing::Values(1, 26, 51, 76));
+
+TEST(FleetRun, completes_its_maps_without_lost_disks) {
+  const ScenarioConfig faults =
+      small_fleets("loss,delay,duplication,one_way,partition,crash,full_disk,clock_step");
+  for (std::uint64_t seed = 101; seed < 111; ++seed) {
+    const Outcome outcome = run(make_scenario(seed, faults), checking("all"));
+    for (const Violation& violation : outcome.violations)
+      ADD_FAILURE() << "seed " << seed << ": " << to_string(violation);
+  }
+}
+
+TEST(FleetRun, replays_a_seed_packet_by_packet) {
+  const Scenario scenario = make_scenario(7, small_fleets(kFaults));
+  const Outcome first = run(scenario, checking("all")), second = run(scenario, checking("all"));
+  EXPECT_GT(first.packets, 100u);
+  EXPECT_EQ(first.packets, second.packets);
+  EXPECT_EQ(first.fingerprint, second.fingerprint);
+  EXPECT_NE(first.fingerprint, run(make_scenario(8, small_fleets(kFaults)), checking("all")).fingerprint);
+}
+
+TEST(FleetRun, does_not_converge_in_less_time_than_a_partition_lasts) {
+  // What the fleet is checked for can fail.
+  Scenario scenario{1, 3, std::chrono::seconds(40), {}};
+  Fault partition;
+  partition.kind = FaultKind::kPartition;
+  partition.length = std::chrono::seconds(40);
+  partition.robots = {0};
+  scenario.faults = {partition};
+  RunConfig config = checking("converges");
+  config.settling = std::chrono::milliseconds(50);
+  const Outcome outcome = run(scenario, config);
+  ASSERT_EQ(outcome.violations.size(), 1u);
+  EXPECT_EQ(outcome.violations[0].invariant, Invariant::kConverges);
+}
+
+TEST(Scenario, is_a_function_of_its_seed_within_its_bounds) {
+  const ScenarioConfig config = small_fleets("crash,loss,one_way");
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Scenario scenario = make_scenario(seed, config), again = make_scenario(seed, config);
+    ASSERT_EQ(scenario.faults.size(), again.faults.size());
+    EXPECT_TRUE(std::ranges::is_sorted(scenario.faults, {}, &Fault::begin));
+    for (std::size_t k = 0; k < scenario.faults.size(); ++k) {
+      EXPECT_EQ(to_string(scenario.faults[k]), to_string(again.faults[k]));
+      EXPECT_TRUE(config.kinds.contains(scenario.faults[k].kind));
+      for (const std::size_t robot : scenario.faults[k].robots) EXPECT_LT(robot, scenario.robots);
+    }
+  }
+}
+
+TEST(Scenario, names_of_faults_and_invariants_are_read_back) {
+  EXPECT_EQ(parse_fault_kinds("all").value().size(), kFaultKinds);
+  EXPECT_EQ(parse_invariants("all").value().size(), kInvariants);
+  EXPECT_EQ(parse_fault_kinds("crash,liar").value(), (std::set{FaultKind::kCrash, FaultKind::kLiar}));
+  EXPECT_FALSE(parse_fault_kinds("crash,gremlin"));
+}
+
+}  // namespace
+}  // namespace fleetmap::fault_injection
