@@ -36,7 +36,8 @@ Status set_version(Database& db, std::int64_t version) {
 
 /// Fills in the hash of each item of `table`.
 Status add_hashes(Database& db, const std::string& table) {
-  if (auto status = db.execute(("ALTER TABLE " + table + " ADD COLUMN hash BLOB NOT NULL DEFAULT x''").c_str());
+  if (auto status =
+          db.execute(("ALTER TABLE " + table + " ADD COLUMN hash BLOB NOT NULL DEFAULT x''").c_str());
       !status)
     return status;
   struct Row {
@@ -98,8 +99,9 @@ Status wrong_version(const std::filesystem::path& path, std::int64_t version) {
   const std::string which = path.string() + ": store of schema version " + std::to_string(version) +
                             ", this program reads version " + std::to_string(kSchemaVersion);
   if (version > kSchemaVersion) {
-    return failure(which + "; a newer program wrote it: update this one, or move the file away to start an "
-                           "empty store");
+    return failure(which +
+                   "; a newer program wrote it: update this one, or move the file away to start an "
+                   "empty store");
   }
   if (version >= kSteps.front().from) {
     return failure(which + "; start the robot's program once with it, which brings it to that version");

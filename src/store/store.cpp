@@ -3,11 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 
 #include "database.hpp"
+#include "fingerprint.hpp"
 #include "fleetmap/core/file_lock.hpp"
 #include "item_codec.hpp"
 #include "schema.hpp"
@@ -24,22 +24,10 @@ struct Partial {
 /// Both contents of a name. The first keeps its address, so that pointers to it stay valid.
 template <class Item>
 struct Contested {
-  typename std::map<std::conditional_t<std::is_same_v<Item, graph::Node>, NodeId, AlignmentId>, Item>::node_type
-      first;
+  typename std::map<std::conditional_t<std::is_same_v<Item, graph::Node>, NodeId, AlignmentId>,
+                    Item>::node_type first;
   Item second;
 };
-
-std::uint32_t first_bits(const ContentHash& hash) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, hash.data(), sizeof bits);
-  return bits;
-}
-
-/// Of a contested name, whichever two contents prove it.
-std::uint32_t contested_print(const NodeId& name) {
-  const std::string text = "contested " + to_string(name);
-  return first_bits(content_hash(ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())));
-}
 
 std::uint32_t print_of(const std::map<NodeId, std::uint32_t>& prints, const SeqRange& range) {
   std::uint32_t sum = 0;
@@ -206,17 +194,20 @@ Status Store::State::load_rows(const char* table, const Use& use) {
       if (!*row) break;
       const ByteView item = rows->blob(2);
       const ContentHash hash = content_hash(item);
-      const bool whole = std::ranges::equal(rows->blob(3), hash) && use(rows->text(0), rows->integer(1), item);
+      const bool whole =
+          std::ranges::equal(rows->blob(3), hash) && use(rows->text(0), rows->integer(1), item);
       if (!whole) damaged.push_back({std::string(rows->text(0)), rows->integer(1)});
     }
   }
   for (const Name& name : damaged) {
-    damage.push_back(path.string() + ": the row of " + table + " " + name.agent + "/" + std::to_string(name.seq) +
+    damage.push_back(path.string() + ": the row of " + table + " " + name.agent + "/" +
+                     std::to_string(name.seq) +
                      " is damaged; it was dropped and is fetched from other robots");
     if (read_only) continue;
     auto drop = db->prepare("DELETE FROM " + std::string(table) + " WHERE agent = ? AND seq = ?");
     if (!drop) return tl::unexpected(drop.error());
-    if (auto status = drop->bind(1, std::string_view(name.agent)).bind(2, name.seq).run(); !status) return status;
+    if (auto status = drop->bind(1, std::string_view(name.agent)).bind(2, name.seq).run(); !status)
+      return status;
   }
   return {};
 }
@@ -231,7 +222,7 @@ Status Store::State::load_items() {
       return false;
     node_set.insert(node->id.agent, node->id.seq);
     if (node->submap_bytes == 0) submap_set.insert(node->id.agent, node->id.seq);
-    node_prints[node->id] = first_bits(content_hash(item));
+    node_prints[node->id] = fingerprint(*node);
     nodes.emplace(node->id, *node);
     return true;
   };
@@ -242,7 +233,7 @@ Status Store::State::load_items() {
       return false;
     const AlignmentId id{alignment->computed_by, alignment->seq};
     alignment_set.insert(id.computed_by, id.seq);
-    alignment_prints[name_of(id)] = first_bits(content_hash(item));
+    alignment_prints[name_of(id)] = fingerprint(*alignment);
     alignments.emplace(id, *alignment);
     return true;
   };
@@ -269,7 +260,7 @@ Status Store::State::load_contested() {
 
 void Store::State::contest(const graph::Node& second) {
   contested_nodes.emplace(second.id, Contested<graph::Node>{nodes.extract(second.id), second});
-  node_prints[second.id] = contested_print(second.id);
+  node_prints[second.id] = fingerprint_of_contested(second.id);
   submap_set.erase(second.id.agent, second.id.seq);
   partials.erase(second.id);
 }
@@ -277,7 +268,7 @@ void Store::State::contest(const graph::Node& second) {
 void Store::State::contest(const graph::Alignment& second) {
   const AlignmentId id{second.computed_by, second.seq};
   contested_alignments.emplace(id, Contested<graph::Alignment>{alignments.extract(id), second});
-  alignment_prints[name_of(id)] = contested_print(name_of(id));
+  alignment_prints[name_of(id)] = fingerprint_of_contested(name_of(id));
 }
 
 Status Store::State::load_submap_names() {
@@ -401,7 +392,7 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
   }
   if (!inserted) return tl::unexpected(inserted.error());
   s.nodes.emplace(node.id, node);
-  s.node_prints[node.id] = first_bits(content_hash(item));
+  s.node_prints[node.id] = fingerprint(node);
   s.node_set.insert(node.id.agent, node.id.seq);
   if (submap || node.submap_bytes == 0) s.submap_set.insert(node.id.agent, node.id.seq);
   return s.count(Put::kAdded);
@@ -417,7 +408,8 @@ Status Store::contest_node(const graph::Node& node, ByteView item) {
     return status;
   // Its own submap the agent still needs, to name the node anew.
   if (agent != s.self) {
-    if (auto status = s.run("DELETE FROM submap WHERE agent = ? AND seq = ?", agent, seq); !status) return status;
+    if (auto status = s.run("DELETE FROM submap WHERE agent = ? AND seq = ?", agent, seq); !status)
+      return status;
   }
   if (auto status = transaction->commit(); !status) return status;
   s.contest(node);
@@ -425,7 +417,8 @@ Status Store::contest_node(const graph::Node& node, ByteView item) {
 }
 
 Status Store::contest_alignment(const graph::Alignment& alignment, ByteView item) {
-  if (auto status = state_->insert("contested_alignment", {alignment.computed_by, alignment.seq}, item); !status)
+  if (auto status = state_->insert("contested_alignment", {alignment.computed_by, alignment.seq}, item);
+      !status)
     return status;
   state_->contest(alignment);
   return {};
@@ -458,7 +451,7 @@ Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
   }
   if (!inserted) return tl::unexpected(inserted.error());
   s.alignments.emplace(id, alignment);
-  s.alignment_prints[name_of(id)] = first_bits(content_hash(item));
+  s.alignment_prints[name_of(id)] = fingerprint(alignment);
   s.alignment_set.insert(id.computed_by, id.seq);
   return s.count(Put::kAdded);
 }
@@ -548,37 +541,41 @@ const graph::Alignment* Store::alignment(const AlignmentId& id) const {
 const std::map<NodeId, graph::Node>& Store::nodes() const { return state_->nodes; }
 const std::map<AlignmentId, graph::Alignment>& Store::alignments() const { return state_->alignments; }
 
-std::optional<Store::ContestedNode> Store::contested(const NodeId& id) const {
-  const auto found = state_->contested_nodes.find(id);
-  if (found == state_->contested_nodes.end()) return std::nullopt;
-  return ContestedNode{&found->second.first.mapped(), &found->second.second};
-}
-
-std::optional<Store::ContestedAlignment> Store::contested(const AlignmentId& id) const {
-  const auto found = state_->contested_alignments.find(id);
-  if (found == state_->contested_alignments.end()) return std::nullopt;
-  return ContestedAlignment{&found->second.first.mapped(), &found->second.second};
-}
-
-std::vector<const graph::Node*> Store::contested_nodes_of(const AgentId& agent) const {
-  std::vector<const graph::Node*> found;
-  for (const auto& [id, contested] : state_->contested_nodes) {
-    if (id.agent == agent) found.push_back(&contested.first.mapped());
+std::vector<Store::ContestedNode> Store::contested_nodes(const SeqRange& range) const {
+  std::vector<ContestedNode> found;
+  const auto& names = state_->contested_nodes;
+  for (auto it = names.lower_bound({range.agent, range.first});
+       it != names.end() && it->first.agent == range.agent && it->first.seq < range.end; ++it) {
+    found.push_back({&it->second.first.mapped(), &it->second.second});
   }
   return found;
 }
 
+std::vector<Store::ContestedAlignment> Store::contested_alignments(const SeqRange& range) const {
+  std::vector<ContestedAlignment> found;
+  const auto& names = state_->contested_alignments;
+  for (auto it = names.lower_bound({range.agent, range.first});
+       it != names.end() && it->first.computed_by == range.agent && it->first.seq < range.end; ++it) {
+    found.push_back({&it->second.first.mapped(), &it->second.second});
+  }
+  return found;
+}
+
+bool Store::is_contested(const NodeId& id) const { return state_->contested_nodes.contains(id); }
+
 Result<Bytes> Store::contested_submap(const NodeId& id) const {
-  const auto held = contested(id);
-  if (!held) return failure("node " + to_string(id) + " is not contested");
-  if (held->first->submap_bytes == 0) return Bytes{};
+  const auto held = state_->contested_nodes.find(id);
+  if (held == state_->contested_nodes.end()) return failure("node " + to_string(id) + " is not contested");
+  const graph::Node& first = held->second.first.mapped();
+  if (first.submap_bytes == 0) return Bytes{};
   auto rows = state_->db->prepare("SELECT bytes FROM submap WHERE agent = ? AND seq = ?");
   if (!rows) return tl::unexpected(rows.error());
   const auto row = rows->bind(1, id.agent.str()).bind(2, std::int64_t{id.seq}).step();
   if (!row) return tl::unexpected(row.error());
   const ByteView bytes = *row ? rows->blob(0) : ByteView();
-  if (content_hash(bytes) != held->first->submap_hash) {
-    return failure(state_->path.string() + ": the submap of contested node " + to_string(id) + " is not held");
+  if (content_hash(bytes) != first.submap_hash) {
+    return failure(state_->path.string() + ": the submap of contested node " + to_string(id) +
+                   " is not held");
   }
   return Bytes(bytes.begin(), bytes.end());
 }
@@ -590,7 +587,8 @@ std::uint32_t Store::alignment_print(const SeqRange& range) const {
 
 std::uint64_t Store::revision() const {
   const State& s = *state_;
-  return s.nodes.size() + s.alignments.size() + 2 * (s.contested_nodes.size() + s.contested_alignments.size());
+  return s.nodes.size() + s.alignments.size() +
+         2 * (s.contested_nodes.size() + s.contested_alignments.size());
 }
 
 const std::vector<std::string>& Store::damage() const { return state_->damage; }

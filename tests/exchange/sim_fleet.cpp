@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "fleetmap/exchange/reissue.hpp"
+
 namespace fleetmap::testing {
 
 std::size_t payload_size(const Message& message) {
@@ -15,7 +17,7 @@ std::size_t payload_size(const Message& message) {
     std::size_t operator()(const exchange::CloudRequest& m) const { return 44 + 2 * m.missing.size(); }
     std::size_t operator()(const graph::Alignment&) const { return 170; }
     std::size_t operator()(const exchange::Digest& m) const {
-      return 24 + 16 * (m.nodes.size() + m.alignments.size());
+      return 32 + 20 * (m.nodes.size() + m.alignments.size());
     }
     std::size_t operator()(const exchange::ItemRequest& m) const {
       return 32 + 16 * (m.nodes.size() + m.alignments.size());
@@ -57,6 +59,7 @@ void SimFleet::start(const std::string& name, std::uint16_t session) {
   robot.exchange = std::make_unique<exchange::Exchange>(std::move(*made));
   robot.session = session;
   robot.exchange->begin_session(session);
+  name_anew(robot);
 }
 
 void SimFleet::keep_store(const std::string& name) {
@@ -83,6 +86,19 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
   const auto put = r.exchange->on_own_node(node, submap, now_);
   if (!put || *put != store::Put::kAdded) throw std::runtime_error("own node refused");
   return node;
+}
+
+void SimFleet::forge(const std::string& name, const Message& message) {
+  Robot& r = robot(name);
+  r.exchange->on_message(message, now_);
+  for (auto& event : r.exchange->take_events()) react(agent(name), r, event);
+}
+
+void SimFleet::name_anew(Robot& robot) {
+  const exchange::NewNames names{robot.session, [this]() -> Result<std::uint16_t> { return ++last_session_; },
+                                 [](const graph::Alignment& a) -> Result<graph::Alignment> { return a; }};
+  const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, now_);
+  if (!told) throw std::runtime_error(told.error().message);
 }
 
 void SimFleet::add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse) {
@@ -145,6 +161,13 @@ void SimFleet::send(const AgentId& from, const exchange::Outgoing& outgoing, con
 
 void SimFleet::react(const AgentId& name, Robot& robot, const exchange::Event& event) {
   robot.events.push_back(event);
+  if (std::holds_alternative<exchange::SessionTaken>(event)) {
+    robot.session = ++last_session_;
+    robot.exchange->begin_session(robot.session);
+  }
+  if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event);
+      conflict && conflict->id.agent == name)
+    name_anew(robot);
   if (const auto* needed = std::get_if<exchange::CloudNeeded>(&event)) {
     auto& cloud = robot.clouds[needed->node];
     if (cloud.empty()) cloud = random_bytes(cloud_bytes, needed->node.seq + 31);

@@ -64,6 +64,8 @@ class SimFleet {
   const std::map<AgentId, Robot>& robots() const { return robots_; }
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
+  /// `message` comes to `name` now, whoever sent it.
+  void forge(const std::string& name, const Message& message);
   void add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse);
 
   /// `reachable(from, to, link)`: by default everyone hears everyone on the long-range link, nobody on the
@@ -103,6 +105,7 @@ class SimFleet {
 
   void send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot);
   void react(const AgentId& name, Robot& robot, const exchange::Event& event);
+  void name_anew(Robot& robot);
 
   ScratchFolder folder_;
   Network network_;
@@ -112,6 +115,7 @@ class SimFleet {
   std::map<AgentId, Robot> robots_;
   std::priority_queue<Flight, std::vector<Flight>, std::greater<>> in_flight_;
   std::uint64_t order_ = 0;
+  std::uint16_t last_session_ = 30'000;  ///< of those that are drawn while running
   std::vector<Sent> sent_;
 };
 

@@ -210,7 +210,8 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
   EXPECT_THAT(refusal("newer.db"), AllOf(HasSubstr("schema version 1000"), HasSubstr("update this one")));
   ASSERT_TRUE(Store::open(folder / "older.db", kSelf));
   run_sql(folder / "older.db", "PRAGMA user_version = 2");
-  EXPECT_THAT(refusal("older.db"), AllOf(HasSubstr("schema version 2"), HasSubstr("the program that wrote it")));
+  EXPECT_THAT(refusal("older.db"),
+              AllOf(HasSubstr("schema version 2"), HasSubstr("the program that wrote it")));
   ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
   EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
   EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));
@@ -295,7 +296,8 @@ TEST(Store, brings_the_schema_version_before_to_the_present_one) {
     EXPECT_TRUE(store.damage().empty());
     EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
     EXPECT_TRUE(store.alignment({kPeer, 2}));
-    EXPECT_EQ(store.put_node(make_node(kPeer, static_cast<std::uint32_t>(opened), submap)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_node(make_node(kPeer, static_cast<std::uint32_t>(opened), submap)).value(),
+              Put::kAdded);
   }
   EXPECT_TRUE(Store::open_read_only(path)) << "it is of this version now";
 }
@@ -316,8 +318,9 @@ TEST(Store, drops_and_names_damaged_rows_and_takes_their_items_again) {
   run_sql(path, "UPDATE alignment SET item = zeroblob(length(item))");
   EXPECT_EQ(Store::open_read_only(path).value().nodes().size(), 2u);
   auto store = Store::open(path, kSelf).value();
-  EXPECT_THAT(store.damage(), ElementsAre(HasSubstr("node r2/1 is damaged"), HasSubstr("node r2/2 is damaged"),
-                                          HasSubstr("alignment r2/2 is damaged")));
+  EXPECT_THAT(store.damage(),
+              ElementsAre(HasSubstr("node r2/1 is damaged"), HasSubstr("node r2/2 is damaged"),
+                          HasSubstr("alignment r2/2 is damaged")));
   EXPECT_EQ(store.node_set().ranges(), (std::vector<SeqRange>{{kPeer, 0, 1}, {kPeer, 3, 4}}));
   EXPECT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kAdded);
   EXPECT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
@@ -351,10 +354,11 @@ TEST(Store, a_name_with_two_contents_ends_the_same_whatever_came_first) {
     EXPECT_FALSE(store.has_submap(id));
     EXPECT_FALSE(store.alignment({kPeer, 2}));
     EXPECT_TRUE(store.node_set().contains(kPeer, 5)) << "nobody need be asked for it";
-    ASSERT_TRUE(store.contested(id));
-    EXPECT_EQ(store.contested(id)->first->G->position, (swapped ? two : one).G->position);
-    EXPECT_EQ(store.contested(id)->second->G->position, (swapped ? one : two).G->position);
-    EXPECT_TRUE(store.contested(AlignmentId{kPeer, 2}));
+    ASSERT_EQ(store.contested_nodes(all).size(), 1u);
+    EXPECT_EQ(store.contested_nodes(all)[0].first->G->position, (swapped ? two : one).G->position);
+    EXPECT_EQ(store.contested_nodes(all)[0].second->G->position, (swapped ? one : two).G->position);
+    EXPECT_EQ(store.contested_alignments(all).size(), 1u);
+    EXPECT_TRUE(store.is_contested(id));
     EXPECT_EQ(store.put_node(one).value(), Put::kKnown);
     EXPECT_EQ(store.put_node(make_node(kPeer, 5, submap, 60.0)).value(), Put::kKnown) << "a third one";
     prints.push_back(store.node_print(all) + store.alignment_print(all));
@@ -374,8 +378,8 @@ TEST(Store, keeps_the_submap_of_an_own_node_whose_name_is_contested) {
         << "no name for another node";
   }
   auto store = Store::open(folder / "store.db", kSelf).value();
-  ASSERT_EQ(store.contested_nodes_of(kSelf).size(), 1u);
-  EXPECT_TRUE(store.contested_nodes_of(kPeer).empty());
+  ASSERT_EQ(store.contested_nodes({kSelf, 0, kEndOfSeqs}).size(), 1u);
+  EXPECT_TRUE(store.contested_nodes({kPeer, 0, kEndOfSeqs}).empty());
   EXPECT_EQ(store.contested_submap(id).value(), submap);
   EXPECT_FALSE(store.contested_submap({kSelf, 6}));
   EXPECT_EQ(store.next_node_seq(0), 6u);

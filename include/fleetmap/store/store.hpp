@@ -54,10 +54,10 @@ struct StoreStats {
 /// downloaded, and named values of the agent (site origin, counters). One SQLite file in WAL mode.
 ///
 /// Contested names: an honest maker gives each name once, so two contents under one name prove that one is
-/// forged (or that the maker equivocates), and nothing here tells which. Such a name keeps both contents as the
-/// evidence, stays in node_set() or alignment_set(), and has no item. A name therefore only moves up from
-/// unknown to one content to contested, whatever comes first: a join-semilattice (CvRDT, Shapiro et al. 2011),
-/// so robots that exchange what they hold end with the same set.
+/// forged (or that the maker equivocates), and nothing here tells which. Such a name keeps both contents as
+/// the evidence, stays in node_set() or alignment_set(), and has no item. A name therefore only moves up from
+/// unknown to one content to contested, whatever comes first: a join-semilattice (CvRDT, Shapiro et al.
+/// 2011), so robots that exchange what they hold end with the same set.
 ///
 /// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
 /// items are also synced to the disk: after a power cut the agent must not give a second item a name that it
@@ -72,9 +72,9 @@ class Store {
   static constexpr std::uint32_t kChunkBytes = 8192;
 
   /// Opens or makes the store of `self`. A store of the schema version before is brought to the present one.
-  /// Rows that are damaged are dropped and named by damage(). Fails with what to do when the file is no store,
-  /// its pages are corrupt, is of a newer version, belongs to another agent, or is open in another process for
-  /// writing.
+  /// Rows that are damaged are dropped and named by damage(). Fails with what to do when the file is no
+  /// store, its pages are corrupt, is of a newer version, belongs to another agent, or is open in another
+  /// process for writing.
   static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
                             const StoreConfig& config = {});
   /// Opens any agent's store to look at it; a running agent does not mind. Puts fail.
@@ -114,13 +114,12 @@ class Store {
     const graph::Alignment* first = nullptr;
     const graph::Alignment* second = nullptr;
   };
-  std::optional<ContestedNode> contested(const NodeId& id) const;
-  std::optional<ContestedAlignment> contested(const AlignmentId& id) const;
-  /// The nodes of `agent` whose names are contested, as they were first held.
-  std::vector<const graph::Node*> contested_nodes_of(const AgentId& agent) const;
+  std::vector<ContestedNode> contested_nodes(const SeqRange& range) const;
+  std::vector<ContestedAlignment> contested_alignments(const SeqRange& range) const;
+  bool is_contested(const NodeId& id) const;
   /// Reads the submap of a contested own node, as far as it was held.
   Result<Bytes> contested_submap(const NodeId& id) const;
-  /// Fingerprint of the contents held in `range`: the sum of the first 32 bits of each item's hash.
+  /// Fingerprint of the contents held in `range`: the sum of those of the items, the same on every machine.
   std::uint32_t node_print(const SeqRange& range) const;
   std::uint32_t alignment_print(const SeqRange& range) const;
   /// Grows with each change of nodes() and alignments().
