@@ -1,5 +1,9 @@
 include(GoogleTest OPTIONAL)
 
+# All robots must compute the same numbers from the same items. GCC fuses a * b + c into one rounding where the
+# processor can: on ARM, but not on x86-64 as Debian compiles for it.
+add_compile_options(-ffp-contract=off)
+
 add_library(fleetmap_flags INTERFACE)
 target_compile_options(fleetmap_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion)
 if(NOT FLEETMAP_SANITIZE)  # GCC warns of uninitialised values in code that a sanitizer has rewritten

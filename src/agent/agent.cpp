@@ -15,6 +15,7 @@
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 
@@ -80,6 +81,7 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   Result<store::RegistrationLog> log =
       store::RegistrationLog::open(config.directory / store::kRegistrationLogFile);
   if (!log) spdlog::warn("{}; registrations of this run cannot be repeated", log.error().message);
+  for (const std::string& damage : store->damage()) spdlog::warn("{}", damage);
   std::unique_ptr<Agent> agent(new Agent(config, bus, std::move(*store), std::move(*sessions), *session,
                                          std::move(*odometry), std::move(*track)));
   if (log) agent->registration_log_.emplace(std::move(*log));
@@ -128,6 +130,7 @@ Status Agent::start() {
                           [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
+    for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
     navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
     exchange_->set_drives(true);
     if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
@@ -199,8 +202,10 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   motion_.add(update);
   if (!update.lost) level_.add(perceived.up_in_base, update.T_odom_base, update.stamp);
-  if (const Status written = odometry_file_.add({update.stamp, update.T_odom_base}); !written) {
-    spdlog::error("{}", written.error().message);
+  if (odometry_file_) {
+    if (const Status written = odometry_file_->add({update.stamp, update.T_odom_base}); !written) {
+      spdlog::error("{}", written.error().message);
+    }
   }
   if (perceived.G) {
     if (const Status written = global_file_.add(*perceived.G); !written) {
@@ -265,8 +270,9 @@ bool Agent::begin_session(const char* why) {
   spdlog::warn("{}: {}: session {} ({})", config_.id.str(), why, index,
                to_string(graph::FrameId{config_.id, session_}));
   Result<TrajectoryFile> file = begin_odometry(config_.directory, index);
+  odometry_file_.reset();
   if (file) {
-    odometry_file_ = std::move(*file);
+    odometry_file_.emplace(std::move(*file));
   } else {
     spdlog::error("{}", file.error().message);
   }
@@ -282,9 +288,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   node.T_odom_base = update.T_odom_base;
   node.up_in_base = level_.up_in_base(update.T_odom_base);
   if (perceived.G) node.G = levelled(*perceived.G, node.up_in_base);
-  const graph::Node* previous = store_.node({config_.id, node.id.seq - 1});
-  if (previous != nullptr && previous->frame() == node.frame())
-    node.odom_covariance = motion_.lost_since_reference();
+  if (node.id.seq != first_seq(session_)) node.odom_covariance = motion_.lost_since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
   const Result<graph::Node> rounded = wire::quantised(node);
@@ -310,6 +314,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   }
   motion_.restart();
   submap_.clear();
+  if (navigator_) navigator_->on_node(node);
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
   // What came back from others may still lack its submap.
@@ -557,9 +562,33 @@ void Agent::handle(const exchange::PeerStatus& status) {
 }
 
 void Agent::handle(const exchange::ItemConflict& conflict) {
+  const bool own = conflict.id.agent == config_.id;
+  own_item_contested_ = own_item_contested_ || own;
   spdlog::error(
-      "{}: another {} came under the name {} and was refused: two robots with one id, or a forged one",
-      config_.id.str(), conflict.alignment ? "alignment" : "node", to_string(conflict.id));
+      "{}: another {} came over the {} under the name {}, which counts no more{}: a robot bears the id of "
+      "another "
+      "one, or an item is forged",
+      config_.id.str(), conflict.alignment ? "alignment" : "node",
+      conflict.link == exchange::Reach::kLongRange ? "radio" : "Wi-Fi", to_string(conflict.id),
+      own ? "; the own one is told under another name" : "");
+}
+
+void Agent::handle(const exchange::OfferDoubted& doubted) {
+  spdlog::warn(
+      "{}: {} offers {} nodes and {} alignments and does not deliver them: its link works one way, or its "
+      "digests are "
+      "forged; they are not waited for until one comes",
+      config_.id.str(), doubted.peer.str(), doubted.nodes, doubted.alignments);
+}
+
+void Agent::name_contested_anew() {
+  if (!std::exchange(own_item_contested_, false)) return;
+  const exchange::NewNames names{
+      session_, [this] { return sessions_.draw(store_, config_.draw_session); },
+      [](const graph::Alignment& alignment) { return wire::quantised(alignment); }};
+  const Result<std::size_t> told = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
+  if (!told) return handle(exchange::StoreFailed{told.error()});
+  if (*told > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *told);
 }
 
 void Agent::handle(const exchange::OwnItemsElsewhere& found) {
@@ -582,7 +611,10 @@ void Agent::handle(const exchange::StrangerHeard& heard) {
 }
 
 void Agent::handle(const exchange::NodeAdded& added) {
-  if (added.id.agent == config_.id) session_ties_.add_earlier(*store_.node(added.id));
+  const graph::Node* node = store_.node(added.id);
+  if (node == nullptr) return;  // its name became contested meanwhile
+  if (added.id.agent == config_.id) session_ties_.add_earlier(*node);
+  if (navigator_) navigator_->on_node(*node);
 }
 
 void Agent::handle(const exchange::StoreFailed& failed) {
@@ -617,6 +649,7 @@ void Agent::update_status() {
   status.busy = submap_.points() > 0;  // of the next node
   if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
+  name_contested_anew();
 }
 
 }  // namespace fleetmap::agent

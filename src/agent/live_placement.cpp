@@ -29,14 +29,14 @@ LivePlacement::LivePlacement(const AgentConfig& config, bus::Bus& bus, const sto
 bool LivePlacement::due() const {
   const auto own = store_.nodes().lower_bound({config_.id, 0});
   const bool has_own = own != store_.nodes().end() && own->first.agent == config_.id;
-  return has_own && store_.nodes().size() + store_.alignments().size() != items_;
+  return has_own && store_.revision() != items_;
 }
 
 void LivePlacement::refresh(std::uint16_t session) {
   if (under_way_ || !due()) return;
   const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
   if (!origin) return;
-  items_ = store_.nodes().size() + store_.alignments().size();
+  items_ = store_.revision();
   under_way_ = true;
   auto job = std::make_shared<Job>();
   job->origin = *origin;

@@ -83,6 +83,7 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
       bus_(bus),
       tell_(std::move(tell)),
       executive_(std::move(executive)),
+      coverage_(executive_.plan().mission),
       follower_(config.follower),
       guard_(config.guard) {
   bus_.advertise(wire::topics::cmd_vel());
@@ -174,6 +175,10 @@ void Navigator::on_report(const exchange::MissionReport& report) {
   executive_.on_report(from_wire(report, executive_.status().rows), bus_.now());
 }
 
+void Navigator::on_node(const graph::Node& node) {
+  if (node.G) coverage_.add(site_.to_enu(node.G->position).head<2>());
+}
+
 void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   if (stands_ == StandReason::kStopping || !pose_) return;
   planning::MissionInput input;
@@ -186,6 +191,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   input.progress = follower_.progress();
   input.maps_exchanged = maps_exchanged;
   input.exchanged_with = std::move(exchanged_with);
+  input.surveyed = coverage_.covered();
   planning::MissionAction next = executive_.update(input);
   if (next.kind == planning::MissionAction::Kind::kFollow && next.path_number != action_.path_number)
     follower_.set_path(next.path);

@@ -50,8 +50,8 @@ Status write_trajectory(const store::Store& store, const graph::Placement& place
       frames.emplace(*index, std::pair(frame, T_enu_odom));
     } else {
       spdlog::warn(
-          "{}: nodes came back from other robots, its odometry was lost with the store; it is left out of "
-          "trajectory.tum",
+          "{}: no odometry file of it is here (its nodes came back after the store was lost, or were given "
+          "other names); it is left out of trajectory.tum",
           to_string(frame));
     }
   }

@@ -28,20 +28,25 @@ Result<Sessions> Sessions::load(const store::Store& store) {
   return sessions;
 }
 
-Result<std::uint16_t> Sessions::begin(store::Store& store, const Draw& draw) {
+Result<std::uint16_t> Sessions::draw(const store::Store& store, const Draw& draw) const {
   for (int k = 0; k < kMaxDraws; ++k) {
     const std::uint16_t session = draw();
-    if (first_seq(session) >= kEndOfSeqs || index_of(session) || is_used(store, session)) continue;
-    std::vector<std::uint16_t> numbers = numbers_;
-    numbers.push_back(session);
-    Bytes bytes(numbers.size() * sizeof(std::uint16_t));
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
-    if (const Status kept = store.set_meta(kKey, bytes); !kept) return tl::unexpected(kept.error());
-    numbers_ = std::move(numbers);
-    return session;
+    if (first_seq(session) < kEndOfSeqs && !index_of(session) && !is_used(store, session)) return session;
   }
   return failure(store.path().string() + ": no number is left for another session of " + store.self().str() +
                  "; export its map, then move the store away");
+}
+
+Result<std::uint16_t> Sessions::begin(store::Store& store, const Draw& draw) {
+  const Result<std::uint16_t> session = this->draw(store, draw);
+  if (!session) return session;
+  std::vector<std::uint16_t> numbers = numbers_;
+  numbers.push_back(*session);
+  Bytes bytes(numbers.size() * sizeof(std::uint16_t));
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  if (const Status kept = store.set_meta(kKey, bytes); !kept) return tl::unexpected(kept.error());
+  numbers_ = std::move(numbers);
+  return session;
 }
 
 std::optional<std::size_t> Sessions::index_of(std::uint16_t session) const {

@@ -282,6 +282,10 @@ Result<Bytes> encode(const PointCloud& cloud, const CodecConfig& config) {
   put(out, std::uint32_t{0});
   put_header(out, header);
   out.insert(out.end(), body.begin(), body.end());
+  if (cloud.size() > max_points_in(out.size())) {
+    return failure("cloud encoding: " + std::to_string(cloud.size()) + " points fit into " +
+                   std::to_string(out.size()) + " bytes, so most are the same; downsample first");
+  }
   const std::uint32_t sum = checksum(ByteView(out).subspan(kChecksumEnd));
   std::memcpy(out.data() + 4, &sum, sizeof sum);
   return out;
@@ -296,7 +300,7 @@ Result<PointCloud> decode(ByteView bytes, std::size_t max_points) {
   const auto sum = in.take<std::uint32_t>();
   if (!in.ok || flags > kFlagIntensities) return failure("encoded cloud: damaged header");
   if (sum != checksum(in.rest)) return failure("encoded cloud: checksum differs: truncated or damaged");
-  const auto header = take_header(in, flags, std::min(max_points, kMaxEncodedPoints));
+  const auto header = take_header(in, flags, std::min(max_points, max_points_in(bytes.size())));
   if (!header) return failure(header.error().message);
   if (header->count == 0) return PointCloud{};
   Bytes whole = draco_header(header->count, header->intensities, header->bits);

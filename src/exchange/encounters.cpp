@@ -72,6 +72,18 @@ void Encounters::on_node(const graph::Node& node, Stamp now) {
   for (const AgentId& other : partners_of(node.id.agent)) find(node, other, now);
 }
 
+void Encounters::forget(const NodeId& node) {
+  places_.erase(node);
+  std::erase_if(to_search_, [&](const auto& search) { return search.first == node; });
+  std::erase_if(encounters_, [&](const auto& entry) {
+    const auto& [pair, encounter] = entry;
+    if (pair.ours != node && pair.theirs != node) return false;
+    if (encounter.phase == Phase::kRegistering) return false;  // its result comes anyway
+    if (encounter.phase == Phase::kAsked) withdrawn_.push_back(pair);
+    return true;
+  });
+}
+
 std::vector<AgentId> Encounters::partners_of(const AgentId& agent) const {
   if (agent != self_) return {self_};
   std::vector<AgentId> peers;
@@ -254,6 +266,7 @@ Stamp Encounters::replace_farther(const NodePair& pair, double distance, Stamp n
 }
 
 void Encounters::begin(const NodePair& pair, double distance, double radius, Stamp now, bool known_to_peer) {
+  if (!places_.contains(pair.ours) || !places_.contains(pair.theirs)) return;  // forgotten
   Encounter encounter;
   encounter.found = now;
   encounter.distance = distance;

@@ -18,6 +18,8 @@ constexpr Duration kHellos = std::chrono::seconds(10);
 
 /// Status periods for which a robot's word holds that it is busy: one lost status ends nothing.
 constexpr double kBusyPeriods = 2.5;
+/// After so long a digest would name a submap that its sender has.
+constexpr Duration kSubmapTold = std::chrono::seconds(30);
 
 std::vector<AgentId> others_of(const std::vector<AgentId>& fleet, const AgentId& self) {
   std::vector<AgentId> others;
@@ -111,7 +113,10 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
   std::ranges::set_difference(fleet_, on_radio_, std::inserter(elsewhere_, elsewhere_.end()));
   status_.position = GeoPoint{};
   for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
-  for (const auto& [id, node] : store.nodes()) encounters_.on_node(node, now);
+  for (const auto& [id, node] : store.nodes()) {
+    encounters_.on_node(node, now);
+    if (!store.has_submap(id)) without_submap_[id] = now;
+  }
 }
 
 // ---- from the agent
@@ -214,6 +219,7 @@ bool Exchange::admit(const Message& message, Reach link, Stamp now) {
 
 void Exchange::on_message(const Message& message, Reach link, Stamp now) {
   if (!admit(message, link, now)) return;
+  link_ = link;
   std::visit([&](const auto& m) { handle(m, now); }, message);
 }
 
@@ -225,7 +231,12 @@ void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& 
   } else if (*put == Put::kAdded) {
     events_.push_back(added);
   } else if (*put == Put::kConflict) {
-    events_.push_back(ItemConflict{id, alignment});
+    if (!alignment) {
+      encounters_.forget(id);
+      without_submap_.erase(id);
+    }
+    reconcile_.on_contested(now);
+    events_.push_back(ItemConflict{id, alignment, link_});
   }
 }
 
@@ -238,13 +249,14 @@ void Exchange::handle(const graph::Node& node, Stamp now) {
     ++strangers_;
     return;
   }
-  if (is_forged(node.id.agent, node.id.seq, store_->node(node.id) != nullptr))
-    return events_.push_back(ItemConflict{node.id, false});
+  if (is_forged(node.id.agent, node.id.seq, store_->node_set().contains(node.id.agent, node.id.seq)))
+    return events_.push_back(ItemConflict{node.id, false, link_});
   const auto put = store_->put_node(node);
   on_put(put, NodeAdded{node.id}, node.id, false, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
   encounters_.on_node(node, now);
+  if (!store_->has_submap(node.id)) without_submap_[node.id] = now;
 }
 
 void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
@@ -254,8 +266,8 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
   }
   const store::AlignmentId id{alignment.computed_by, alignment.seq};
   const NodeId name{alignment.computed_by, alignment.seq};
-  if (is_forged(id.computed_by, id.seq, store_->alignment(id) != nullptr))
-    return events_.push_back(ItemConflict{name, true});
+  if (is_forged(id.computed_by, id.seq, store_->alignment_set().contains(id.computed_by, id.seq)))
+    return events_.push_back(ItemConflict{name, true, link_});
   const auto put = store_->put_alignment(alignment);
   on_put(put, AlignmentAdded{id}, name, true, now);
   if (!put || *put != Put::kAdded) return;
@@ -318,22 +330,29 @@ void Exchange::note_own_items(const Digest& digest) {
 }
 
 void Exchange::handle(const Digest& digest, Stamp now) {
-  Digest known{digest.from, {}, {}};
-  const auto keep = [&](const std::vector<Range>& from, std::vector<Range>& to) {
-    std::ranges::copy_if(from, std::back_inserter(to),
-                         [&](const Range& range) { return member(range.agent); });
-    strangers_ += from.size() - to.size();
-  };
-  keep(digest.nodes, known.nodes);
-  keep(digest.alignments, known.alignments);
-  reconcile_.on_digest(known, *store_, now);
+  const Digest known{digest.from, of_fleet(digest.nodes), of_fleet(digest.alignments)};
+  // Prints stand for the ranges by their place: of a digest that names strangers they mean nothing.
+  const bool whole =
+      known.nodes.size() == digest.nodes.size() && known.alignments.size() == digest.alignments.size();
+  reconcile_.on_digest(whole ? digest : known, *store_, now);
   note_own_items(known);
+}
+
+std::vector<Range> Exchange::of_fleet(const std::vector<Range>& ranges) {
+  std::vector<Range> known;
+  std::ranges::copy_if(ranges, std::back_inserter(known),
+                       [this](const Range& range) { return member(range.agent); });
+  strangers_ += ranges.size() - known.size();
+  return known;
 }
 
 void Exchange::handle(const ItemRequest& request, Stamp) {
   const auto items = reconcile_.answer(request, *store_);
   for (const auto* node : items.nodes) queue_.push(Priority::kBackfill, *node, request.from);
   for (const auto* alignment : items.alignments) queue_.push(Priority::kBackfill, *alignment, request.from);
+  for (const auto* node : items.second_nodes) queue_.push_second(Priority::kBackfill, *node, request.from);
+  for (const auto* alignment : items.second_alignments)
+    queue_.push_second(Priority::kBackfill, *alignment, request.from);
 }
 
 void Exchange::handle(const AgentStatus& status, Stamp now) {
@@ -353,7 +372,9 @@ void Exchange::handle(const Hold& hold, Stamp) {
   if (holds_.on_hold(hold)) note_orders(before);
 }
 
-void Exchange::handle(const SubmapDigest& digest, Stamp now) { submap_receiver_.on_digest(digest, now); }
+void Exchange::handle(const SubmapDigest& digest, Stamp now) {
+  submap_receiver_.on_digest({digest.from, of_fleet(digest.submaps), digest.hears}, now);
+}
 
 void Exchange::handle(const SubmapRequest& request, Stamp) { submap_sender_.on_request(request, *store_); }
 
@@ -362,6 +383,7 @@ void Exchange::handle(const SubmapChunk& chunk, Stamp now) {
   if (!whole) {
     events_.push_back(StoreFailed{whole.error()});
   } else if (*whole) {
+    without_submap_.erase(**whole);
     events_.push_back(SubmapAdded{**whole});
   }
 }
@@ -424,6 +446,8 @@ void Exchange::tick_clouds(Stamp now) {
 void Exchange::tick_items(Stamp now) {
   auto due = reconcile_.tick(*store_, now);
   for (ItemRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
+  for (const Reconcile::Doubt& doubt : due.doubts)
+    events_.push_back(OfferDoubted{doubt.peer, doubt.nodes, doubt.alignments});
   if (due.digest) tell_all(Priority::kState, std::move(*due.digest));
 }
 
@@ -471,7 +495,10 @@ void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
   if (auto digest = submap_sender_.digest(*store_, submap_receiver_.peers_in_reach(now), now))
     send(std::move(*digest));
   const auto finished = submap_receiver_.finish_downloads(*store_, now);
-  for (const NodeId& id : finished.submaps) events_.push_back(SubmapAdded{id});
+  for (const NodeId& id : finished.submaps) {
+    without_submap_.erase(id);
+    events_.push_back(SubmapAdded{id});
+  }
   if (finished.failure) events_.push_back(StoreFailed{*finished.failure});
   for (SubmapRequest& request : submap_receiver_.tick(*store_, now)) send(std::move(request));
   for (SubmapChunk& chunk : submap_sender_.tick(*store_, now)) send(std::move(chunk));
@@ -508,7 +535,17 @@ bool Exchange::complete(const std::set<AgentId>& without) const {
            });
   };
   return std::ranges::all_of(store_->nodes(), [&](const auto& entry) {
-    return store_->has_submap(entry.first) || gone(entry.first);
+    return store_->has_submap(entry.first) || gone(entry.first) || nowhere(entry.first, without);
+  });
+}
+
+bool Exchange::nowhere(const NodeId& submap, const std::set<AgentId>& without) const {
+  const auto since = without_submap_.find(submap);
+  if (since == without_submap_.end()) return false;
+  return std::ranges::all_of(fleet_, [&](const AgentId& agent) {
+    if (agent == self_) return true;
+    return without.contains(agent) ? submap_receiver_.lacks(agent, submap)
+                                   : submap_receiver_.lacks_since(agent, submap, since->second + kSubmapTold);
   });
 }
 

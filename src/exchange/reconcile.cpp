@@ -21,6 +21,33 @@ std::vector<SeqRange> window(const std::vector<SeqRange>& ranges, std::size_t st
   return taken;
 }
 
+/// Not in order, so that an offer that is not delivered does not keep others from being asked for.
+std::vector<SeqRange> rotated(std::vector<SeqRange> ranges, int turns) {
+  if (ranges.empty()) return ranges;
+  const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(turns) % ranges.size());
+  std::rotate(ranges.begin(), ranges.begin() + first, ranges.end());
+  return ranges;
+}
+
+/// The first `items` of `ranges`.
+std::vector<SeqRange> first_items(std::vector<SeqRange> ranges, std::uint64_t items) {
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    if (items == 0) {
+      ranges.resize(k);
+      break;
+    }
+    ranges[k].end = ranges[k].first + static_cast<std::uint32_t>(
+                                          std::min<std::uint64_t>(items, ranges[k].end - ranges[k].first));
+    items -= ranges[k].end - ranges[k].first;
+  }
+  return ranges;
+}
+
+/// What of `offered` is lacking and not doubted is none.
+bool holds_all(const SeqSet& held, const SeqSet& offered, const SeqSet& doubted) {
+  return doubted.empty() ? held.includes(offered) : held.includes(SeqSet(offered.minus(doubted)));
+}
+
 SeqSet joined(SeqSet a, const SeqSet& b) {
   for (const SeqRange& range : b.ranges()) a.insert(range);
   return a;
@@ -48,17 +75,22 @@ Status ReconcileConfig::validate() const {
     return failure("reconcile.timeout and peer_timeout must be positive");
   }
   if (max_ranges == 0 || max_ranges > 256) return failure("reconcile.max_ranges must be in 1 .. 256");
-  if (max_items == 0) return failure("reconcile.max_items must be at least 1");
+  if (max_items == 0 || max_barren < 1)
+    return failure("reconcile.max_items and max_barren must be at least 1");
   return {};
 }
 
 Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
     : self_(self), config_(config), period_(config.digest_min_period) {}
 
-SeqSet Reconcile::accepted(const std::vector<Range>& ranges) {
+SeqSet Reconcile::accepted(const std::vector<Range>& ranges, Source source) {
   SeqSet set;
   for (const Range& range : ranges) {
-    if (range.agent.empty() || range.first >= range.end || range.end > kEndOfSeqs) {
+    const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
+    // Nobody numbers so many items of one session that it reaches the next.
+    const bool plausible =
+        ordered && (source == Source::kRequest || session_of(range.first) == session_of(range.end - 1));
+    if (!plausible) {
       ++stats_.hostile;
     } else {
       set.insert(range);
@@ -91,25 +123,28 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   ++stats_.digests_heard;
   Peer& peer = peers_[digest.from];
   peer.heard = now;
-  // Items never go away, so what an agent once told stays true; a digest may show only a part.
-  const SeqSet nodes = accepted(digest.nodes);
-  const SeqSet alignments = accepted(digest.alignments);
-  peer.offer.nodes = joined_bounded(std::move(peer.offer.nodes), nodes);
-  peer.offer.alignments = joined_bounded(std::move(peer.offer.alignments), alignments);
+  const SeqSet nodes = accepted(digest.nodes, Source::kDigest);
+  const SeqSet alignments = accepted(digest.alignments, Source::kDigest);
+  // A digest with no room for all ranges shows a part, and adds to those before.
+  const auto offer = [this](SeqSet& offered, const std::vector<Range>& ranges, const SeqSet& told) {
+    offered = ranges.size() < config_.max_ranges ? told : joined_bounded(std::move(offered), told);
+  };
+  offer(peer.offer.nodes, digest.nodes, nodes);
+  offer(peer.offer.alignments, digest.alignments, alignments);
+  if (check_.on_digest(digest, store, now)) hurry(now);
   const bool lacking =
       !store.node_set().includes(peer.offer.nodes) || !store.alignment_set().includes(peer.offer.alignments);
   if (lacking && !peer.offer.lacking) peer.offer.since = now;
   peer.offer.lacking = lacking;
   peer.resting_until = now;
   // Whoever lacks something hears our digest soon.
-  // A digest that had no room for all its ranges is judged with those before it.
-  const auto lacks = [this](const std::vector<Range>& ranges, const SeqSet& told, const SeqSet& offered,
-                            const SeqSet& held) {
-    return !(ranges.size() < config_.max_ranges ? told : offered).includes(held);
-  };
-  if (lacks(digest.nodes, nodes, peer.offer.nodes, store.node_set()) ||
-      lacks(digest.alignments, alignments, peer.offer.alignments, store.alignment_set()))
+  if (!peer.offer.nodes.includes(store.node_set()) || !peer.offer.alignments.includes(store.alignment_set()))
     hurry(now);
+}
+
+void Reconcile::on_contested(Stamp now) {
+  check_.on_contested();
+  hurry(now);
 }
 
 Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Store& store) {
@@ -117,14 +152,26 @@ Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Stor
   if (request.to != self_) return items;
   ++stats_.requests_served;
   std::uint32_t left = config_.max_items;
-  for (const SeqRange& range : accepted(request.nodes).ranges()) {
+  for (const SeqRange& range : accepted(request.nodes, Source::kRequest).ranges()) {
     for (auto it = store.nodes().lower_bound({range.agent, range.first});
          it != store.nodes().end() && it->first.agent == range.agent && it->first.seq < range.end && left > 0;
          ++it, --left) {
       items.nodes.push_back(&it->second);
     }
+    for (const auto& [first, second] : store.contested_nodes(range)) {
+      if (left < 2) break;
+      left -= 2;
+      items.nodes.push_back(first);
+      items.second_nodes.push_back(second);
+    }
   }
-  for (const SeqRange& range : accepted(request.alignments).ranges()) {
+  for (const SeqRange& range : accepted(request.alignments, Source::kRequest).ranges()) {
+    for (const auto& [first, second] : store.contested_alignments(range)) {
+      if (left < 2) break;
+      left -= 2;
+      items.alignments.push_back(first);
+      items.second_alignments.push_back(second);
+    }
     const auto& alignments = store.alignments();
     for (auto it = alignments.lower_bound({range.agent, range.first});
          it != alignments.end() && it->first.computed_by == range.agent && it->first.seq < range.end &&
@@ -145,17 +192,40 @@ void Reconcile::settle_pending(Peer& peer, const store::Store& store, Stamp now)
   if (left == 0) {
     peer.pending.reset();
     peer.rest = Duration::zero();
+    peer.barren = 0;
   } else if (left < pending.left) {
     pending.left = left;
+    peer.barren = 0;
     pending.deadline = now + config_.timeout;
   } else if (now >= pending.deadline) {
     ++stats_.timeouts;
     peer.pending.reset();
+    ++peer.barren;
     // Another agent may have the same; this one waits longer every time it brings nothing, until its next
     // digest.
     peer.rest = std::min(std::max(2 * peer.rest, config_.grace), config_.digest_max_period);
     peer.resting_until = now + peer.rest;
   }
+}
+
+void Reconcile::settle_doubts(const AgentId& name, Peer& peer, const store::Store& store, Due& due) {
+  Offer& offer = peer.offer;
+  const auto delivered = [](const SeqSet& doubted, const SeqSet& held) {
+    return count(doubted.minus(held)) < doubted.size();
+  };
+  if (delivered(offer.doubted_nodes, store.node_set()) ||
+      delivered(offer.doubted_alignments, store.alignment_set())) {
+    offer.doubted_nodes = {};
+    offer.doubted_alignments = {};
+    peer.barren = 0;
+    peer.told = false;
+  }
+  if (peer.barren < config_.max_barren || peer.pending) return;
+  offer.doubted_nodes = SeqSet(offer.nodes.minus(store.node_set()));
+  offer.doubted_alignments = SeqSet(offer.alignments.minus(store.alignment_set()));
+  if (peer.told || (offer.doubted_nodes.empty() && offer.doubted_alignments.empty())) return;
+  peer.told = true;
+  due.doubts.push_back({name, offer.doubted_nodes.size(), offer.doubted_alignments.size()});
 }
 
 std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const store::Store& store,
@@ -173,9 +243,11 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
     known_alignments = joined(std::move(known_alignments), other_peer.pending->alignments);
   }
   ItemRequest request{self_, name, {}, {}};
-  request.nodes = window(offer.nodes.minus(known_nodes, config_.max_items), 0, config_.max_ranges);
-  const std::uint64_t rest = config_.max_items - count(request.nodes);
-  request.alignments = window(offer.alignments.minus(known_alignments, rest), 0, config_.max_ranges);
+  const auto some = [&](const SeqSet& offered, const SeqSet& known, std::uint64_t most) {
+    return window(first_items(rotated(offered.minus(known), peer.barren), most), 0, config_.max_ranges);
+  };
+  request.nodes = some(offer.nodes, known_nodes, config_.max_items);
+  request.alignments = some(offer.alignments, known_alignments, config_.max_items - count(request.nodes));
   if (request.nodes.empty() && request.alignments.empty()) return {};
   Pending pending{SeqSet(request.nodes), SeqSet(request.alignments), 0, now + config_.timeout};
   pending.left = pending.nodes.size() + pending.alignments.size();
@@ -186,10 +258,13 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
 
 Digest Reconcile::digest_of(const store::Store& store, std::size_t& next_range) const {
   Digest digest{self_, {}, {}};
-  const auto nodes = store.node_set().ranges();
-  const auto alignments = store.alignment_set().ranges();
+  const auto nodes = check_.cut(store.node_set().ranges(), false);
+  const auto alignments = check_.cut(store.alignment_set().ranges(), true);
   digest.nodes = window(nodes, next_range, config_.max_ranges);
   digest.alignments = window(alignments, next_range, config_.max_ranges);
+  for (const Range& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
+  for (const Range& range : digest.alignments)
+    digest.alignment_prints.push_back(store.alignment_print(range));
   next_range = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
                    ? (next_range + config_.max_ranges) % std::max(nodes.size(), alignments.size())
                    : 0;
@@ -205,14 +280,20 @@ Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
     next_digest_ = now + period_;
     period_ = std::min(2 * period_, config_.digest_max_period);
   }
+  check_.expire(now);
   for (auto& [name, peer] : peers_) {
     settle_pending(peer, store, now);
+    settle_doubts(name, peer, store, due);
     if (!peer.offer.lacking) continue;
     peer.offer.lacking = !store.node_set().includes(peer.offer.nodes) ||
                          !store.alignment_set().includes(peer.offer.alignments);
   }
   for (auto& [name, peer] : peers_) {
-    if (auto request = ask(name, peer, store, now)) due.requests.push_back(std::move(*request));
+    if (auto request = ask(name, peer, store, now)) {
+      due.requests.push_back(std::move(*request));
+    } else if (!peer.pending) {
+      if (auto check = check_.ask(self_, name, now)) due.requests.push_back(std::move(*check));
+    }
   }
   return due;
 }
@@ -221,7 +302,8 @@ bool Reconcile::complete(const store::Store& store, const std::set<AgentId>& wit
   return std::ranges::all_of(peers_, [&](const auto& entry) {
     if (without.contains(entry.first)) return true;
     const Offer& offer = entry.second.offer;
-    return store.node_set().includes(offer.nodes) && store.alignment_set().includes(offer.alignments);
+    return holds_all(store.node_set(), offer.nodes, offer.doubted_nodes) &&
+           holds_all(store.alignment_set(), offer.alignments, offer.doubted_alignments);
   });
 }
 

@@ -87,7 +87,12 @@ void SendQueue::push(Priority priority, Message message, std::optional<AgentId> 
     return push_to({peers_.begin(), peers_.end()}, priority, std::move(message));
   }
   const std::size_t bytes = wire_bytes(message, to);
-  insert(priority, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, 0.0});
+  insert(priority, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}});
+}
+
+void SendQueue::push_second(Priority priority, Message message, const AgentId& to) {
+  const std::size_t bytes = wire_bytes(message, to);
+  insert(priority, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, 0.0, true});
 }
 
 void SendQueue::push_fragment(CloudFragment fragment, float worth) {
@@ -95,13 +100,13 @@ void SendQueue::push_fragment(CloudFragment fragment, float worth) {
   const AgentId to = fragment.to;
   Message message = std::move(fragment);
   const std::size_t bytes = wire_bytes(message, to);
-  insert(Priority::kCloud, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, rank});
+  insert(Priority::kCloud, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, rank, false});
 }
 
 void SendQueue::push_to(const std::set<AgentId>& receivers, Priority priority, Message message) {
   if (receivers.empty()) return;
   if (config_.multicast || !config_.deliver_to_one) return push(priority, std::move(message));
-  Item item{{}, {Reach::kLongRange, std::nullopt, std::move(message)}, 0, {}, 0.0};
+  Item item{{}, {Reach::kLongRange, std::nullopt, std::move(message)}, 0, {}};
   item.bytes = payload_size_(item.outgoing.message) + config_.overhead_bytes;
   item.receivers.assign(receivers.begin(), receivers.end());
   const auto first = static_cast<std::ptrdiff_t>(first_receiver_++ % receivers.size());
@@ -111,6 +116,7 @@ void SendQueue::push_to(const std::set<AgentId>& receivers, Priority priority, M
 
 void SendQueue::insert(Priority priority, Item item) {
   item.key = key_of(item.outgoing);
+  if (item.second) std::get<std::uint32_t>(item.key) = 1;
   if (const auto same = index_.find(item.key); same != index_.end()) {
     backlog_ += item.all_bytes() - same->second.item->all_bytes();
     *same->second.item = std::move(item);

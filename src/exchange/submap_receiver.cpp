@@ -10,6 +10,9 @@ constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 static_assert(kChunk == SubmapChunk::kMaxPayload);
 /// A download of which nothing came for so many of the longest timeouts is given up.
 constexpr int kSilentTimeouts = 3;
+/// Of what a peer tells to hold; one with more holes starts anew.
+constexpr std::size_t kMaxIntervals = 8192;
+constexpr std::uint64_t kMaxMissing = 4096;  ///< submaps looked at in one tick
 
 }  // namespace
 
@@ -66,11 +69,17 @@ void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
   if (peer.hears_us) peer.heard_by_it.push_back(now);
   while (!peer.heard_by_it.empty() && now - peer.heard_by_it.front() > config_.peer_timeout)
     peer.heard_by_it.pop_front();
+  peer.told = now;
+  // One that had no room for all ranges adds to those before.
+  if (digest.submaps.size() < config_.max_ranges || peer.holds.ranges().size() > kMaxIntervals)
+    peer.holds = {};
   for (const Range& range : digest.submaps) {
-    if (range.agent.empty() || range.first >= range.end || range.end > kEndOfSeqs) {
-      ++stats_.hostile;
-    } else {
+    const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
+    // Nobody numbers so many items of one session that it reaches the next.
+    if (ordered && session_of(range.first) == session_of(range.end - 1)) {
       peer.holds.insert(range);
+    } else {
+      ++stats_.hostile;
     }
   }
 }
@@ -96,6 +105,10 @@ bool SubmapReceiver::is_near(const AgentId& name, Stamp now) const {
 bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
   const auto known = peers_.find(peer);
   return known != peers_.end() && !known->second.holds.contains(id.agent, id.seq);
+}
+
+bool SubmapReceiver::lacks_since(const AgentId& name, const NodeId& id, Stamp since) const {
+  return lacks(name, id) && peers_.at(name).told > since;
 }
 
 std::vector<AgentId> SubmapReceiver::asked() const {
@@ -179,7 +192,8 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
     return std::optional<NodeId>();
   }
   const auto download = downloads_.find(chunk.node);
-  if (download == downloads_.end() || download->second.peer != chunk.from) {
+  if (download == downloads_.end() || download->second.peer != chunk.from ||
+      !download->second.asked.contains(index)) {
     ++stats_.unasked;
     return std::optional<NodeId>();
   }
@@ -256,7 +270,9 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
     const bool silent = now - download.last_arrival > kSilentTimeouts * config_.max_timeout;
     // It may have lost the submap, or not hear us: another may have it.
     if (silent) distrust(download.peer, current->first, now);
-    if (silent || !in_reach(download.peer, now) || store.has_submap(current->first)) {
+    // A node whose name became contested has no submap any more.
+    const bool over = store.has_submap(current->first) || !store.node(current->first);
+    if (silent || over || !in_reach(download.peer, now)) {
       stop(current);
       continue;
     }
@@ -273,14 +289,21 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
   }
 }
 
-std::vector<NodeId> SubmapReceiver::missing(const store::Store& store) const {
+std::vector<NodeId> SubmapReceiver::missing(const store::Store& store, Stamp now) const {
   // What is begun is finished first.
-  std::vector<NodeId> ids = store.partial_submaps();
-  for (const SeqRange& range : store.node_set().minus(store.submap_set())) {
+  const std::vector<NodeId> begun = store.partial_submaps();
+  std::vector<NodeId> ids = begun;
+  const store::SeqSet lacking(store.node_set().minus(store.submap_set()));
+  store::SeqSet offered;  // what nobody has must not keep others from being asked for
+  for (const auto& [name, peer] : peers_) {
+    if (!hears_us(name, now)) continue;
+    const store::SeqSet not_offered(lacking.minus(peer.holds));
+    for (const SeqRange& range : lacking.minus(not_offered, kMaxMissing)) offered.insert(range);
+  }
+  for (const SeqRange& range : offered.minus({}, kMaxMissing)) {
     for (std::uint32_t seq = range.first; seq < range.end; ++seq) {
       const NodeId id{range.agent, seq};
-      if (!std::ranges::binary_search(ids.begin(), ids.end(), id)) ids.push_back(id);
-      if (ids.size() >= 4096) return ids;
+      if (store.node(id) && !std::ranges::binary_search(begun, id)) ids.push_back(id);
     }
   }
   return ids;
@@ -303,7 +326,7 @@ bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp n
     if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
   }
   if (!best) return false;
-  downloads_[id] = {*best, now, {}};
+  downloads_[id] = {*best, now, {}, {}};
   return true;
 }
 
@@ -316,6 +339,7 @@ void SubmapReceiver::fill(const store::Store& store, const NodeId& id, Download&
     const std::uint32_t bytes = chunk_bytes(node, chunk);
     if (peer.bytes_out + bytes > peer.window.bytes()) return;
     peer.bytes_out += bytes;
+    download.asked.insert(chunk);
     download.flights[chunk] = {bytes, ++peer.asked, now, now + timeout(peer)};
     const bool extends = !requests.empty() && requests.back().node == id &&
                          requests.back().to == download.peer &&
@@ -335,7 +359,7 @@ std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp
   if (paused_until_) return requests;
   for (auto& [id, download] : downloads_) fill(store, id, download, now, requests);
   if (has_room(now) && store.submap_set().size() < store.node_set().size()) {
-    for (const NodeId& id : missing(store)) {
+    for (const NodeId& id : missing(store, now)) {
       if (assign(store, id, now)) fill(store, id, downloads_.at(id), now, requests);
     }
   }
@@ -345,7 +369,7 @@ std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp
 
 bool SubmapReceiver::idle(const store::Store& store, Stamp now) const {
   if (!downloads_.empty()) return false;
-  return std::ranges::none_of(missing(store), [&](const NodeId& id) {
+  return std::ranges::none_of(missing(store, now), [&](const NodeId& id) {
     return std::ranges::any_of(peers_,
                                [&](const auto& peer) { return may_serve(peer.first, peer.second, id, now); });
   });

@@ -61,12 +61,12 @@ std::vector<SubmapChunk> SubmapSender::tick(store::Store& store, Stamp now) {
     auto turn = queues_.upper_bound(last_served_);
     if (turn == queues_.end()) turn = queues_.begin();
     const Piece piece = turn->second.pieces.front();
-    const graph::Node* node = store.node(piece.node);
+    const graph::Node* node = store.node(piece.node);  // none if its name became contested
     const std::uint32_t offset = piece.chunk * kChunk;
-    const std::uint32_t size = std::min(kChunk, node->submap_bytes - offset);
-    if (!bucket_.take(static_cast<double>(size + config_.overhead_bytes), now)) break;
+    const std::uint32_t size = node ? std::min(kChunk, node->submap_bytes - offset) : 0;
+    if (node && !bucket_.take(static_cast<double>(size + config_.overhead_bytes), now)) break;
     last_served_ = turn->first;
-    if (const Bytes* submap = load(store, piece.node)) {
+    if (const Bytes* submap = node ? load(store, piece.node) : nullptr) {
       const ByteView payload = ByteView(*submap).subspan(offset, size);
       chunks.push_back({self_, turn->first, piece.node, offset, node->submap_bytes,
                         Bytes(payload.begin(), payload.end())});

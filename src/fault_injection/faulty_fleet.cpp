@@ -7,6 +7,7 @@
 
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/agent/sessions.hpp"
+#include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/graph/place.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/wire/messages.hpp"
@@ -203,6 +204,15 @@ void FaultyFleet::begin_session(const AgentId& name, Robot& robot) {
   survey_.begin_frame(member.index, time());
 }
 
+void FaultyFleet::reissue(const AgentId& name, Robot& robot) {
+  const exchange::NewNames names{
+      robot.session, [&] { return draw_session(*robot.store); },
+      [](const graph::Alignment& alignment) { return wire::quantised(alignment); }};
+  const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, clock(robot));
+  trace(name.str() +
+        (told ? " names " + std::to_string(*told) + " items anew" : ": " + told.error().message));
+}
+
 // ---- network
 // ----------------------------------------------------------------------------------------------------
 
@@ -250,6 +260,7 @@ void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Ev
   } else if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event)) {
     monitor_.on_conflict(name, *conflict, now());
     trace(name.str() + ": conflict " + to_string(conflict->id));
+    if (conflict->id.agent == name) reissue(name, robot);
   } else if (std::holds_alternative<exchange::SessionTaken>(event)) {
     begin_session(name, robot);
   } else if (const auto* failed = std::get_if<exchange::StoreFailed>(&event)) {

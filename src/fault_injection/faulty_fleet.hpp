@@ -69,6 +69,8 @@ class FaultyFleet : private ExchangeFleet {
   void start_robot(const AgentId& name, Member& member);
   Result<std::uint16_t> draw_session(store::Store& store);
   void begin_session(const AgentId& name, Robot& robot);
+  /// Own items whose names are contested go out under fresh names.
+  void reissue(const AgentId& name, Robot& robot);
 
   void work();  ///< of one step: nodes, registrations, placements, attacks
   void map(const AgentId& name, Robot& robot);

@@ -20,7 +20,13 @@ DivisionConfig quick(const DivisionConfig& config) {
 }  // namespace
 
 MissionBoard::MissionBoard(std::shared_ptr<const FleetPlan> plan, std::size_t self)
-    : plan_(std::move(plan)), self_(self), peers_(plan_->fleet.size()), done_(plan_->mission.rows.size()) {
+    : plan_(std::move(plan)),
+      self_(self),
+      peers_(plan_->fleet.size()),
+      driven_(plan_->mission.rows.size()),
+      reported_(plan_->mission.rows.size()),
+      surveyed_(plan_->mission.rows.size()),
+      done_(plan_->mission.rows.size()) {
   for (const RobotRoute& route : plan_->division.routes) {
     RowSet mine(rows());
     for (const RowVisit& visit : route.visits) {
@@ -40,13 +46,38 @@ void MissionBoard::hear(const MissionReport& report, Stamp now) {
   sound.done = RowSet(rows(), report.done.bytes());
   sound.claimed = RowSet(rows(), report.claimed.bytes());
   sound.failed = RowSet(rows(), report.failed.bytes());
-  done_ |= sound.done;  // true even if it is old
+  reported_ |= sound.done;
   Peer& peer = peers_[*robot];
   // A clock that was set back must not silence a robot for good.
   const bool forgotten = now - peer.heard > from_seconds(plan_->config.executive.lost_after);
-  if (peer.last && report.stamp <= peer.last->stamp && !forgotten) return;
-  peer.last = std::move(sound);
-  peer.heard = now;
+  if (!peer.last || report.stamp > peer.last->stamp || forgotten) {
+    peer.last = std::move(sound);
+    peer.heard = now;
+  }
+  settle_done();
+}
+
+void MissionBoard::set_done(std::size_t row) {
+  driven_.set(row);
+  settle_done();
+}
+
+void MissionBoard::set_surveyed(const RowSet& rows) {
+  if (rows == surveyed_) return;
+  surveyed_ = RowSet(this->rows(), rows.bytes());
+  settle_done();
+}
+
+void MissionBoard::settle_done() {
+  done_ = reported_;
+  done_ &= surveyed_;
+  done_ |= driven_;
+  for (std::size_t robot = 0; robot < peers_.size(); ++robot) {
+    if (!peers_[robot].last) continue;
+    RowSet own = peers_[robot].last->done;
+    own &= planned_[robot];
+    done_ |= own;
+  }
 }
 
 const MissionReport* MissionBoard::report_of(std::size_t robot) const {

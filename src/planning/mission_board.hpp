@@ -19,10 +19,15 @@ class MissionBoard {
   void begin(Stamp now) { begun_ = now; }
   void hear(const MissionReport& report, Stamp now);
   void set_own(const MissionReport& report) { own_ = report; }
-  void set_done(std::size_t row) { done_.set(row); }
+  void set_done(std::size_t row);
+  /// Rows along which the fleet's nodes lie.
+  void set_surveyed(const RowSet& rows);
 
   std::size_t rows() const { return plan_->mission.rows.size(); }
   std::size_t robots() const { return plan_->fleet.size(); }
+  /// A row counts as driven if this robot drove it, if the last report of the robot that the plan gives it to
+  /// says so, or if any report said so and nodes lie along it. So a forged report lasts until the next one of
+  /// that robot, and nobody repeats for good what it says.
   const RowSet& done() const { return done_; }
   /// Heard of lately (or not yet missed), and able to take rows.
   bool available(std::size_t robot, Stamp now) const;
@@ -61,12 +66,16 @@ class MissionBoard {
     Stamp heard;
   };
   const MissionReport* report_of(std::size_t robot) const;
+  void settle_done();
 
   std::shared_ptr<const FleetPlan> plan_;
   std::size_t self_;
   std::vector<RowSet> planned_;  ///< of each robot, from the start
   std::vector<Peer> peers_;
   MissionReport own_;
+  RowSet driven_;    ///< by this robot
+  RowSet reported_;  ///< by anyone, ever
+  RowSet surveyed_;
   RowSet done_;
   Stamp begun_;
 };

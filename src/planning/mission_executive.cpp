@@ -274,7 +274,8 @@ void MissionExecutive::State::settle_claims(Stamp now) {
   std::erase_if(queue, [&](std::size_t row) {
     return board.done().has(row) || board.outclaimed(row, false, now) || failed.has(row);
   });
-  if (current && (board.done().has(*current) || board.outclaimed(*current, true, now))) {
+  // Whoever is on a row ends it, whatever others say is done: it has nodes along it before it is driven.
+  if (current && board.outclaimed(*current, true, now)) {
     current.reset();
     stand();
   }
@@ -516,6 +517,7 @@ MissionAction MissionExecutive::update(const MissionInput& input) {
     return {MissionAction::Kind::kHold, {}, s.path_number};
   }
   if (!s.begun) s.begin(input);
+  s.board.set_surveyed(input.surveyed);
   s.look_at_follower(input);
   s.look_at_battery(input);
   s.settle_claims(input.now);

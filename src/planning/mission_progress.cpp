@@ -44,6 +44,14 @@ RowSet& RowSet::operator|=(const RowSet& other) {
   return *this;
 }
 
+RowSet& RowSet::operator&=(const RowSet& other) {
+  for (std::size_t k = 0; k < bytes_.size(); ++k) {
+    const std::uint8_t byte = k < other.bytes_.size() ? other.bytes_[k] : std::uint8_t{0};
+    bytes_[k] = static_cast<std::uint8_t>(bytes_[k] & byte);
+  }
+  return *this;
+}
+
 bool RowSet::none() const {
   return std::ranges::all_of(bytes_, [](std::uint8_t byte) { return byte == 0; });
 }

@@ -7,7 +7,8 @@
 
 namespace fleetmap::store {
 
-/// Makes the tables of an empty file for `self`, or checks that the file is a store of this version.
+/// Makes the tables of an empty file for `self`, brings a store of the version before to this one, or checks
+/// that the file is a store of this version.
 Status prepare_schema(Database& db, const std::filesystem::path& path, const AgentId& self);
 /// The same check without writing; gives whose store it is.
 Result<AgentId> check_schema(const Database& db, const std::filesystem::path& path);

@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "database.hpp"
+#include "fingerprint.hpp"
 #include "fleetmap/core/file_lock.hpp"
 #include "item_codec.hpp"
 #include "schema.hpp"
@@ -18,6 +20,25 @@ struct Partial {
   std::vector<bool> held;
   std::uint32_t missing = 0;
 };
+
+/// Both contents of a name. The first keeps its address, so that pointers to it stay valid.
+template <class Item>
+struct Contested {
+  typename std::map<std::conditional_t<std::is_same_v<Item, graph::Node>, NodeId, AlignmentId>,
+                    Item>::node_type first;
+  Item second;
+};
+
+std::uint32_t print_of(const std::map<NodeId, std::uint32_t>& prints, const SeqRange& range) {
+  std::uint32_t sum = 0;
+  for (auto it = prints.lower_bound({range.agent, range.first});
+       it != prints.end() && it->first.agent == range.agent && it->first.seq < range.end; ++it) {
+    sum += it->second;
+  }
+  return sum;
+}
+
+NodeId name_of(const AlignmentId& id) { return {id.computed_by, id.seq}; }
 
 std::uint32_t chunk_count(const graph::Node& node) {
   return node.submap_bytes / Store::kChunkBytes + (node.submap_bytes % Store::kChunkBytes != 0);
@@ -86,6 +107,11 @@ struct Store::State {
   bool read_only = false;
   std::map<NodeId, graph::Node> nodes;
   std::map<AlignmentId, graph::Alignment> alignments;
+  std::map<NodeId, Contested<graph::Node>> contested_nodes;
+  std::map<AlignmentId, Contested<graph::Alignment>> contested_alignments;
+  std::map<NodeId, std::uint32_t> node_prints;
+  std::map<NodeId, std::uint32_t> alignment_prints;  ///< by (computed_by, seq)
+  std::vector<std::string> damage;
   SeqSet node_set;
   SeqSet alignment_set;
   SeqSet submap_set;
@@ -94,10 +120,19 @@ struct Store::State {
 
   Status load();
   Status load_items();
+  Status load_contested();
+  /// Gives (agent, seq, item) of each row to `use`; those whose hash differs or that it refuses are dropped.
+  template <class Use>
+  Status load_rows(const char* table, const Use& use);
+  /// Moves the name of a held item to the contested ones.
+  void contest(const graph::Node& second);
+  void contest(const graph::Alignment& second);
   Status load_submap_names();
   Partial& partial(const graph::Node& node);
   /// Runs one statement whose first two parameters are agent and seq.
   Status run(std::string_view sql, const AgentId& agent, std::uint32_t seq, const ByteView* blob = nullptr);
+  /// Puts an encoded item and its hash into `table`.
+  Status insert(const char* table, const NodeId& name, ByteView item);
   Status sync(bool full);
   Put count(Put put);
 };
@@ -129,42 +164,111 @@ Status Store::State::run(std::string_view sql, const AgentId& agent, std::uint32
   return statement->run();
 }
 
+Status Store::State::insert(const char* table, const NodeId& name, ByteView item) {
+  auto statement = db->prepare("INSERT INTO " + std::string(table) + " VALUES(?, ?, ?, ?)");
+  if (!statement) return tl::unexpected(statement.error());
+  const ContentHash hash = content_hash(item);
+  return statement->bind(1, name.agent.str())
+      .bind(2, std::int64_t{name.seq})
+      .bind(3, item)
+      .bind(4, ByteView(hash))
+      .run();
+}
+
 Status Store::State::sync(bool full) {
   return db->execute(full ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
 }
 
-Status Store::State::load_items() {
-  const auto damaged = [this](const char* table) {
-    return failure(path.string() + ": a row of table '" + table +
-                   "' is damaged; move the file away to start an "
-                   "empty store, the others' items come back over the links");
+template <class Use>
+Status Store::State::load_rows(const char* table, const Use& use) {
+  struct Name {
+    std::string agent;
+    std::int64_t seq;
   };
-  auto node_rows = db->prepare("SELECT agent, seq, item FROM node");
-  if (!node_rows) return tl::unexpected(node_rows.error());
-  for (auto row = node_rows->step();; row = node_rows->step()) {
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) break;
-    const auto node = decode_node(node_rows->blob(2));
-    if (!node || node->id.agent.str() != node_rows->text(0) || node->id.seq != node_rows->integer(1) ||
-        !valid(*node, config)) {
-      return damaged("node");
+  std::vector<Name> damaged;
+  {
+    auto rows = db->prepare("SELECT agent, seq, item, hash FROM " + std::string(table));
+    if (!rows) return tl::unexpected(rows.error());
+    for (auto row = rows->step();; row = rows->step()) {
+      if (!row) return tl::unexpected(row.error());
+      if (!*row) break;
+      const ByteView item = rows->blob(2);
+      const ContentHash hash = content_hash(item);
+      const bool whole =
+          std::ranges::equal(rows->blob(3), hash) && use(rows->text(0), rows->integer(1), item);
+      if (!whole) damaged.push_back({std::string(rows->text(0)), rows->integer(1)});
     }
+  }
+  for (const Name& name : damaged) {
+    damage.push_back(path.string() + ": the row of " + table + " " + name.agent + "/" +
+                     std::to_string(name.seq) +
+                     " is damaged; it was dropped and is fetched from other robots");
+    if (read_only) continue;
+    auto drop = db->prepare("DELETE FROM " + std::string(table) + " WHERE agent = ? AND seq = ?");
+    if (!drop) return tl::unexpected(drop.error());
+    if (auto status = drop->bind(1, std::string_view(name.agent)).bind(2, name.seq).run(); !status)
+      return status;
+  }
+  return {};
+}
+
+Status Store::State::load_items() {
+  // A limit that was lowered since concerns what is to come.
+  StoreConfig unlimited;
+  unlimited.max_submap_bytes = 1u << 30;
+  const auto add_node = [&](std::string_view agent, std::int64_t seq, ByteView item) {
+    const auto node = decode_node(item);
+    if (!node || node->id.agent.str() != agent || node->id.seq != seq || !valid(*node, unlimited))
+      return false;
     node_set.insert(node->id.agent, node->id.seq);
     if (node->submap_bytes == 0) submap_set.insert(node->id.agent, node->id.seq);
+    node_prints[node->id] = fingerprint(*node);
     nodes.emplace(node->id, *node);
-  }
-  auto rows = db->prepare("SELECT agent, seq, item FROM alignment");
-  if (!rows) return tl::unexpected(rows.error());
-  for (auto row = rows->step();; row = rows->step()) {
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) return {};
-    const auto item = decode_alignment(rows->blob(2));
-    if (!item || item->computed_by.str() != rows->text(0) || item->seq != rows->integer(1) || !valid(*item)) {
-      return damaged("alignment");
-    }
-    alignment_set.insert(item->computed_by, item->seq);
-    alignments.emplace(AlignmentId{item->computed_by, item->seq}, *item);
-  }
+    return true;
+  };
+  if (auto status = load_rows("node", add_node); !status) return status;
+  const auto add_alignment = [this](std::string_view agent, std::int64_t seq, ByteView item) {
+    const auto alignment = decode_alignment(item);
+    if (!alignment || alignment->computed_by.str() != agent || alignment->seq != seq || !valid(*alignment))
+      return false;
+    const AlignmentId id{alignment->computed_by, alignment->seq};
+    alignment_set.insert(id.computed_by, id.seq);
+    alignment_prints[name_of(id)] = fingerprint(*alignment);
+    alignments.emplace(id, *alignment);
+    return true;
+  };
+  if (auto status = load_rows("alignment", add_alignment); !status) return status;
+  return load_contested();
+}
+
+/// A second content whose first was damaged is held alone, until others show the evidence again.
+Status Store::State::load_contested() {
+  const auto contest_node = [this](std::string_view, std::int64_t, ByteView item) {
+    const auto node = decode_node(item);
+    if (!node || !nodes.contains(node->id)) return false;
+    contest(*node);
+    return true;
+  };
+  if (auto status = load_rows("contested_node", contest_node); !status) return status;
+  return load_rows("contested_alignment", [this](std::string_view, std::int64_t, ByteView item) {
+    const auto alignment = decode_alignment(item);
+    if (!alignment || !alignments.contains({alignment->computed_by, alignment->seq})) return false;
+    contest(*alignment);
+    return true;
+  });
+}
+
+void Store::State::contest(const graph::Node& second) {
+  contested_nodes.emplace(second.id, Contested<graph::Node>{nodes.extract(second.id), second});
+  node_prints[second.id] = fingerprint_of_contested(second.id);
+  submap_set.erase(second.id.agent, second.id.seq);
+  partials.erase(second.id);
+}
+
+void Store::State::contest(const graph::Alignment& second) {
+  const AlignmentId id{second.computed_by, second.seq};
+  contested_alignments.emplace(id, Contested<graph::Alignment>{alignments.extract(id), second});
+  alignment_prints[name_of(id)] = fingerprint_of_contested(name_of(id));
 }
 
 Status Store::State::load_submap_names() {
@@ -259,8 +363,13 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
       !submap || (submap->size() == node.submap_bytes && content_hash(*submap) == node.submap_hash);
   if (!valid(node, s.config) || !submap_fits) return s.count(Put::kInvalid);
   const Bytes item = encode(node);
+  if (s.contested_nodes.contains(node.id)) return s.count(submap ? Put::kConflict : Put::kKnown);
   if (const auto held = s.nodes.find(node.id); held != s.nodes.end()) {
-    return s.count(encode(held->second) == item ? Put::kKnown : Put::kConflict);
+    if (encode(held->second) == item) return s.count(Put::kKnown);
+    // What this agent only now wants to name contests nothing: nobody has heard of it.
+    if (submap) return s.count(Put::kConflict);
+    if (auto status = contest_node(node, item); !status) return tl::unexpected(status.error());
+    return s.count(Put::kConflict);
   }
   const bool own = node.id.agent == s.self && s.config.sync_own_items;
   if (own) {
@@ -269,10 +378,7 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
   const auto insert = [&]() -> Status {
     auto transaction = Transaction::begin(*s.db);
     if (!transaction) return tl::unexpected(transaction.error());
-    const ByteView row(item);
-    if (auto status = s.run("INSERT INTO node VALUES(?, ?, ?)", node.id.agent, node.id.seq, &row); !status) {
-      return status;
-    }
+    if (auto status = s.insert("node", node.id, item); !status) return status;
     if (submap && !submap->empty()) {
       auto status =
           s.run("INSERT OR REPLACE INTO submap VALUES(?, ?, ?)", node.id.agent, node.id.seq, submap);
@@ -286,9 +392,36 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
   }
   if (!inserted) return tl::unexpected(inserted.error());
   s.nodes.emplace(node.id, node);
+  s.node_prints[node.id] = fingerprint(node);
   s.node_set.insert(node.id.agent, node.id.seq);
   if (submap || node.submap_bytes == 0) s.submap_set.insert(node.id.agent, node.id.seq);
   return s.count(Put::kAdded);
+}
+
+Status Store::contest_node(const graph::Node& node, ByteView item) {
+  State& s = *state_;
+  auto transaction = Transaction::begin(*s.db);
+  if (!transaction) return tl::unexpected(transaction.error());
+  const auto& [agent, seq] = node.id;
+  if (auto status = s.insert("contested_node", node.id, item); !status) return status;
+  if (auto status = s.run("DELETE FROM submap_chunk WHERE agent = ? AND seq = ?", agent, seq); !status)
+    return status;
+  // Its own submap the agent still needs, to name the node anew.
+  if (agent != s.self) {
+    if (auto status = s.run("DELETE FROM submap WHERE agent = ? AND seq = ?", agent, seq); !status)
+      return status;
+  }
+  if (auto status = transaction->commit(); !status) return status;
+  s.contest(node);
+  return {};
+}
+
+Status Store::contest_alignment(const graph::Alignment& alignment, ByteView item) {
+  if (auto status = state_->insert("contested_alignment", {alignment.computed_by, alignment.seq}, item);
+      !status)
+    return status;
+  state_->contest(alignment);
+  return {};
 }
 
 Result<Put> Store::put_node(const graph::Node& node) { return insert_node(node, nullptr); }
@@ -302,20 +435,23 @@ Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
   if (!valid(alignment)) return s.count(Put::kInvalid);
   const AlignmentId id{alignment.computed_by, alignment.seq};
   const Bytes item = encode(alignment);
+  if (s.contested_alignments.contains(id)) return s.count(Put::kKnown);
   if (const auto held = s.alignments.find(id); held != s.alignments.end()) {
-    return s.count(encode(held->second) == item ? Put::kKnown : Put::kConflict);
+    if (encode(held->second) == item) return s.count(Put::kKnown);
+    if (auto status = contest_alignment(alignment, item); !status) return tl::unexpected(status.error());
+    return s.count(Put::kConflict);
   }
   const bool own = alignment.computed_by == s.self && s.config.sync_own_items;
   if (own) {
     if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
   }
-  const ByteView row(item);
-  const Status inserted = s.run("INSERT INTO alignment VALUES(?, ?, ?)", id.computed_by, id.seq, &row);
+  const Status inserted = s.insert("alignment", name_of(id), item);
   if (own) {
     if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
   }
   if (!inserted) return tl::unexpected(inserted.error());
   s.alignments.emplace(id, alignment);
+  s.alignment_prints[name_of(id)] = fingerprint(alignment);
   s.alignment_set.insert(id.computed_by, id.seq);
   return s.count(Put::kAdded);
 }
@@ -404,6 +540,58 @@ const graph::Alignment* Store::alignment(const AlignmentId& id) const {
 
 const std::map<NodeId, graph::Node>& Store::nodes() const { return state_->nodes; }
 const std::map<AlignmentId, graph::Alignment>& Store::alignments() const { return state_->alignments; }
+
+std::vector<Store::ContestedNode> Store::contested_nodes(const SeqRange& range) const {
+  std::vector<ContestedNode> found;
+  const auto& names = state_->contested_nodes;
+  for (auto it = names.lower_bound({range.agent, range.first});
+       it != names.end() && it->first.agent == range.agent && it->first.seq < range.end; ++it) {
+    found.push_back({&it->second.first.mapped(), &it->second.second});
+  }
+  return found;
+}
+
+std::vector<Store::ContestedAlignment> Store::contested_alignments(const SeqRange& range) const {
+  std::vector<ContestedAlignment> found;
+  const auto& names = state_->contested_alignments;
+  for (auto it = names.lower_bound({range.agent, range.first});
+       it != names.end() && it->first.computed_by == range.agent && it->first.seq < range.end; ++it) {
+    found.push_back({&it->second.first.mapped(), &it->second.second});
+  }
+  return found;
+}
+
+bool Store::is_contested(const NodeId& id) const { return state_->contested_nodes.contains(id); }
+
+Result<Bytes> Store::contested_submap(const NodeId& id) const {
+  const auto held = state_->contested_nodes.find(id);
+  if (held == state_->contested_nodes.end()) return failure("node " + to_string(id) + " is not contested");
+  const graph::Node& first = held->second.first.mapped();
+  if (first.submap_bytes == 0) return Bytes{};
+  auto rows = state_->db->prepare("SELECT bytes FROM submap WHERE agent = ? AND seq = ?");
+  if (!rows) return tl::unexpected(rows.error());
+  const auto row = rows->bind(1, id.agent.str()).bind(2, std::int64_t{id.seq}).step();
+  if (!row) return tl::unexpected(row.error());
+  const ByteView bytes = *row ? rows->blob(0) : ByteView();
+  if (content_hash(bytes) != first.submap_hash) {
+    return failure(state_->path.string() + ": the submap of contested node " + to_string(id) +
+                   " is not held");
+  }
+  return Bytes(bytes.begin(), bytes.end());
+}
+
+std::uint32_t Store::node_print(const SeqRange& range) const { return print_of(state_->node_prints, range); }
+std::uint32_t Store::alignment_print(const SeqRange& range) const {
+  return print_of(state_->alignment_prints, range);
+}
+
+std::uint64_t Store::revision() const {
+  const State& s = *state_;
+  return s.nodes.size() + s.alignments.size() +
+         2 * (s.contested_nodes.size() + s.contested_alignments.size());
+}
+
+const std::vector<std::string>& Store::damage() const { return state_->damage; }
 
 std::vector<const graph::Node*> Store::nodes_from(const SeqRange& range) const {
   std::vector<const graph::Node*> found;

@@ -17,6 +17,10 @@ std::size_t piece_size(std::uint32_t total, std::uint16_t index) {
   return first >= total ? 0 : std::min<std::size_t>(exchange::CloudFragment::kMaxPayload, total - first);
 }
 
+std::vector<std::uint32_t> first_of(const std::vector<std::uint32_t>& values, std::size_t limit) {
+  return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), limit))};
+}
+
 }  // namespace
 
 Bytes encode(const exchange::ProximityMatch& match) {
@@ -147,6 +151,8 @@ Bytes encode(const exchange::Digest& digest) {
   out.sender(agent_name(digest.from));
   out.nodes(ranges(digest.nodes, kMaxRanges));
   out.alignments(ranges(digest.alignments, kMaxRanges));
+  out.node_prints(first_of(digest.node_prints, kMaxRanges));
+  out.alignment_prints(first_of(digest.alignment_prints, kMaxRanges));
   return to_cdr(out);
 }
 
@@ -159,6 +165,11 @@ Result<exchange::Digest> decode(ByteView cdr) {
   digest.from = check.agent(in->sender(), "sender");
   digest.nodes = check.ranges(in->nodes(), kMaxRanges, "nodes");
   digest.alignments = check.ranges(in->alignments(), kMaxRanges, "alignments");
+  digest.node_prints = in->node_prints();
+  digest.alignment_prints = in->alignment_prints();
+  check.require(digest.node_prints.size() == digest.nodes.size() &&
+                    digest.alignment_prints.size() == digest.alignments.size(),
+                "there is not one print for each range");
   return check.finish(std::move(digest));
 }
 

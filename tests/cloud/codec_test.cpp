@@ -125,6 +125,28 @@ void seal(Bytes& bytes) {
   std::memcpy(bytes.data() + 4, &crc, 4);
 }
 
+TEST(Codec, FewBytesCannotClaimManyPoints) {
+  Bytes hostile = *encode(street_scene(400, 4), {0.05, true});
+  hostile.resize(25'000);
+  for (const std::uint32_t claimed : {200'001u, 4'000'000u, 1u << 22}) {
+    std::memcpy(hostile.data() + 8, &claimed, sizeof claimed);
+    seal(hostile);
+    EXPECT_THAT(decode(hostile).error().message, ::testing::HasSubstr("at most 200000 are accepted"))
+        << claimed;
+  }
+  // What is accepted is within the bound of 64 MB by far: 200,000 points are 3 MB as a cloud.
+  static_assert(max_points_in(25'000) == 200'000);
+  PointCloud same;
+  same.points.assign(70'000, Eigen::Vector3f(1.0f, -2.0f, 3.0f));
+  EXPECT_THAT(encode(same, {}).error().message, ::testing::HasSubstr("most are the same"));
+  // The densest real ones take some bits a point: every cell of a wall and a ground occupied.
+  PointCloud dense;
+  for (float x = 0.0f; x < 30.0f; x += 0.05f) {
+    for (float y = 0.0f; y < 15.0f; y += 0.05f) dense.points.emplace_back(x, y, 0.0f);
+  }
+  EXPECT_EQ(decode(*encode(dense, {0.05, false}))->size(), dense.size());
+}
+
 TEST(Codec, EveryTruncationAndBitFlipIsAnError) {
   const Bytes good = *encode(street_scene(300, 2), {0.05, true});
   for (std::size_t size = 0; size < good.size(); ++size) {

@@ -393,7 +393,7 @@ TEST(Fleet, refuses_strangers_and_reports_a_taken_name) {
   robot.exchange->on_message(CloudRequest{agent("r2"), agent("r1"), {agent("r2"), 0}, {}}, fleet.now());
   EXPECT_EQ(robot.exchange->stats().reconcile.hostile, 2u);
   EXPECT_EQ(robot.exchange->stats().bad_requests, 1u);
-  EXPECT_EQ(robot.exchange->queue().size(Priority::kBackfill), 1u);
+  EXPECT_EQ(robot.exchange->queue().size(Priority::kBackfill), 2u) << "both contents of the taken name";
 }
 
 /// How often this robot was told that its store lacks what others have of it.

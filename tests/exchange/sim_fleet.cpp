@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "fleetmap/exchange/reissue.hpp"
+
 namespace fleetmap::testing {
 
 std::size_t payload_size(const Message& message) {
@@ -15,7 +17,7 @@ std::size_t payload_size(const Message& message) {
     std::size_t operator()(const exchange::CloudRequest& m) const { return 44 + 2 * m.missing.size(); }
     std::size_t operator()(const graph::Alignment&) const { return 170; }
     std::size_t operator()(const exchange::Digest& m) const {
-      return 24 + 16 * (m.nodes.size() + m.alignments.size());
+      return 32 + 20 * (m.nodes.size() + m.alignments.size());
     }
     std::size_t operator()(const exchange::ItemRequest& m) const {
       return 32 + 16 * (m.nodes.size() + m.alignments.size());
@@ -53,6 +55,7 @@ void SimFleet::start(const std::string& name, std::uint16_t session) {
   const Status started =
       ExchangeFleet::start(agent(name), no_sync, Duration::zero(), [&](store::Store&) { return session; });
   if (!started) throw std::runtime_error(started.error().message);
+  name_anew(robot(name));
 }
 
 graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size_t submap_bytes) {
@@ -65,6 +68,22 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
   const auto put = r.exchange->on_own_node(node, submap, now());
   if (!put || *put != store::Put::kAdded) throw std::runtime_error("own node refused");
   return node;
+}
+
+void SimFleet::forge(const std::string& name, const Message& message) {
+  Robot& r = robot(name);
+  r.exchange->on_message(message, now());
+  for (auto& event : r.exchange->take_events()) {
+    r.events.push_back(event);
+    on_event(agent(name), r, event);
+  }
+}
+
+void SimFleet::name_anew(Robot& robot) {
+  const exchange::NewNames names{robot.session, [this]() -> Result<std::uint16_t> { return ++last_session_; },
+                                 [](const graph::Alignment& a) -> Result<graph::Alignment> { return a; }};
+  const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, now());
+  if (!told) throw std::runtime_error(told.error().message);
 }
 
 void SimFleet::add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse) {
@@ -101,6 +120,13 @@ std::vector<Duration> SimFleet::arrivals(const fault_injection::Packet& packet, 
 }
 
 void SimFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {
+  if (std::holds_alternative<exchange::SessionTaken>(event)) {
+    robot.session = ++last_session_;
+    robot.exchange->begin_session(robot.session);
+  }
+  if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event);
+      conflict && conflict->id.agent == name)
+    name_anew(robot);
   if (const auto* needed = std::get_if<exchange::CloudNeeded>(&event)) {
     auto& cloud = robot.clouds[needed->node];
     if (cloud.empty()) cloud = random_bytes(cloud_bytes, needed->node.seq + 31);

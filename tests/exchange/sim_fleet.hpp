@@ -46,6 +46,8 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   Robot& robot(const std::string& name) { return ExchangeFleet::robot(agent(name)); }
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
+  /// `message` comes to `name` now, whoever sent it.
+  void forge(const std::string& name, const Message& message);
   void add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse);
 
   /// `reachable(from, to, link)`: by default everyone hears everyone on the long-range link, nobody on the
@@ -71,8 +73,11 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   std::vector<Duration> arrivals(const fault_injection::Packet& packet, const AgentId& to) override;
   void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
 
+  void name_anew(Robot& robot);
+
   Network network_;
   std::mt19937 random_;
+  std::uint16_t last_session_ = 30'000;  ///< of those that are drawn while running
   std::vector<Sent> sent_;
 };
 

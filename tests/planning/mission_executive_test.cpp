@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "planning/sites.hpp"
 #include "planning/virtual_fleet.hpp"
 
@@ -257,8 +259,58 @@ TEST(MissionExecutive, ReportsAreSmallAndBrokenOnesAreIgnored) {
   odd.current = 4'000'000'000u;
   executive.on_report(odd, stamp_from_ns(3));
   executive.update({stamp_from_ns(4), plan->fleet[0].start});
-  EXPECT_EQ(executive.status().done, plan->mission.rows.size());
+  EXPECT_EQ(executive.status().done, plan->division.routes[1].visits.size())
+      << "of rows it does not own: hearsay";
   EXPECT_FALSE(MissionExecutive::create(plan, *AgentId::parse("nobody")));
+}
+
+/// Says that all rows are driven, in the name of the second robot.
+MissionReport forged_report(const FleetPlan& plan, Stamp now) {
+  MissionReport report;
+  report.agent = plan.fleet[1].id;
+  report.stamp = now;
+  report.position = plan.fleet[1].start.position;
+  const std::size_t rows = plan.mission.rows.size();
+  report.done = RowSet(rows, std::vector<std::uint8_t>((rows + 7) / 8, 0xff));
+  return report;
+}
+
+TEST(MissionExecutive, ForgedReportsMakeNobodySkipARow) {
+  for (const bool claims : {false, true}) {
+    VirtualFleet fleet(plan_for(3), kLoss, 4);
+    fleet.run(kLimit, [&] {
+      if (static_cast<int>(fleet.now) % 60 != 30 || fleet.now > 400.0) return;
+      MissionReport forged = forged_report(*fleet.plan, fleet.stamp());
+      if (claims) forged.claimed = forged.done;
+      for (const std::size_t victim : {0u, 2u})
+        fleet.robots[victim].executive->on_report(forged, fleet.stamp());
+    });
+    expect_all_driven(fleet);
+    expect_at_the_meeting(fleet);
+  }
+}
+
+TEST(MissionExecutive, WhatOthersOnlyHeardCountsWhereNodesLieAlongTheRow) {
+  const auto plan = plan_for(3);
+  auto executive = *MissionExecutive::create(plan, testing::name(0));
+  MissionInput input{stamp_from_ns(1), plan->fleet[0].start};
+  executive.update(input);
+  executive.on_report(forged_report(*plan, stamp_from_ns(2)), stamp_from_ns(2));
+  const std::size_t own = plan->division.routes[1].visits.size();
+  EXPECT_EQ(executive.status().done, own);
+  input.now = stamp_from_ns(3);
+  input.surveyed = RowSet(plan->mission.rows.size());
+  for (const RowVisit& visit : plan->division.routes[2].visits) {
+    const auto row = std::ranges::find(plan->mission.rows, visit.row, &Row::id);
+    input.surveyed.set(static_cast<std::size_t>(row - plan->mission.rows.begin()));
+  }
+  executive.update(input);
+  EXPECT_EQ(executive.status().done, own + plan->division.routes[2].visits.size());
+  // The next report of the second robot tells what it really drove.
+  MissionReport genuine = forged_report(*plan, stamp_from_ns(4));
+  genuine.done = {};
+  executive.on_report(genuine, stamp_from_ns(4));
+  EXPECT_EQ(executive.status().done, plan->division.routes[2].visits.size());
 }
 
 TEST(MissionExecutive, WithoutAPositionTheRobotStands) {

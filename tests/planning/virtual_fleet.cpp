@@ -9,7 +9,7 @@
 namespace fleetmap::planning::testing {
 
 VirtualFleet::VirtualFleet(std::shared_ptr<const FleetPlan> shared, double loss, std::uint64_t seed)
-    : plan(std::move(shared)), loss_(loss), random_(seed) {
+    : plan(std::move(shared)), loss_(loss), random_(seed), coverage_(plan->mission) {
   for (const RobotAbility& ability : plan->fleet) {
     Robot robot;
     robot.pose = ability.start;
@@ -39,6 +39,7 @@ void VirtualFleet::step() {
     input.stuck = following && robot.standing > 15.0;
     input.progress = robot.along;
     input.maps_exchanged = robot.exchanged;
+    input.surveyed = coverage_.covered();
     if (radio) {
       for (const std::size_t other : radio->even_with(k)) {
         input.exchanged_with.push_back(plan->fleet[other].id);
@@ -110,6 +111,7 @@ Eigen::Vector2d VirtualFleet::point(const Polyline& path, double along) {
 }
 
 void VirtualFleet::mark(const Eigen::Vector2d& p) {
+  coverage_.add(p);
   for (const Row& row : plan->mission.rows) {
     const Eigen::Vector2d d = row.waypoints.back() - row.waypoints.front();
     const double on = (p - row.waypoints.front()).dot(d.normalized());

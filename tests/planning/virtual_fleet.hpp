@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fleetmap/planning/mission_executive.hpp"
+#include "fleetmap/planning/row_coverage.hpp"
 #include "planning/map_radio.hpp"
 
 namespace fleetmap::planning::testing {
@@ -70,6 +71,7 @@ class VirtualFleet {
   double loss_;
   std::mt19937_64 random_;
   std::map<RowId, std::set<int>> visited_;
+  RowCoverage coverage_;  ///< by the nodes of all, which every robot gets
 };
 
 }  // namespace fleetmap::planning::testing

@@ -13,6 +13,8 @@ namespace fleetmap::store {
 namespace {
 
 using testing::agent;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
@@ -68,7 +70,6 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   auto other_alignment = alignment;
   other_alignment.modes.front().rmse += 1e-12;
   EXPECT_EQ(store.put_alignment(other_alignment).value(), Put::kConflict);
-  EXPECT_EQ(store.node({kSelf, 0})->G->position, node.G->position);
   EXPECT_EQ(store.stats().conflicts, 2u);
 }
 
@@ -205,8 +206,12 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
   run_sql(folder / "foreign.db", "CREATE TABLE song(name TEXT)");
   EXPECT_THAT(refusal("foreign.db"), HasSubstr("not a fleetmap store"));
   ASSERT_TRUE(Store::open(folder / "newer.db", kSelf));
-  run_sql(folder / "newer.db", "PRAGMA user_version = 4");
-  EXPECT_THAT(refusal("newer.db"), HasSubstr("schema version 4"));
+  run_sql(folder / "newer.db", "PRAGMA user_version = 1000");
+  EXPECT_THAT(refusal("newer.db"), AllOf(HasSubstr("schema version 1000"), HasSubstr("update this one")));
+  ASSERT_TRUE(Store::open(folder / "older.db", kSelf));
+  run_sql(folder / "older.db", "PRAGMA user_version = 2");
+  EXPECT_THAT(refusal("older.db"),
+              AllOf(HasSubstr("schema version 2"), HasSubstr("the program that wrote it")));
   ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
   EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
   EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));
@@ -263,6 +268,121 @@ TEST(Store, names_nodes_by_ranges) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0]->id.seq, 2u);
   EXPECT_EQ(found[1]->id.seq, 5u);
+}
+
+/// Makes a store that holds `node` into what the schema version before left.
+void make_version_3(const std::filesystem::path& path) {
+  run_sql(path,
+          "ALTER TABLE node DROP COLUMN hash; ALTER TABLE alignment DROP COLUMN hash;"
+          "DROP TABLE contested_node; DROP TABLE contested_alignment; PRAGMA user_version = 3");
+}
+
+TEST(Store, brings_the_schema_version_before_to_the_present_one) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  const Bytes submap = random_bytes(500, 1);
+  {
+    auto store = Store::open(path, kSelf).value();
+    ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), submap).value(), Put::kAdded);
+    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
+  }
+  make_version_3(path);
+  EXPECT_THAT(Store::open_read_only(path).error().message, HasSubstr("start the robot's program once"));
+  const auto foreign = Store::open(path, kPeer);
+  ASSERT_FALSE(foreign);
+  EXPECT_THAT(foreign.error().message, HasSubstr("store of agent 'r1'"));
+  for (int opened = 0; opened < 2; ++opened) {
+    auto store = Store::open(path, kSelf).value();
+    EXPECT_TRUE(store.damage().empty());
+    EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
+    EXPECT_TRUE(store.alignment({kPeer, 2}));
+    EXPECT_EQ(store.put_node(make_node(kPeer, static_cast<std::uint32_t>(opened), submap)).value(),
+              Put::kAdded);
+  }
+  EXPECT_TRUE(Store::open_read_only(path)) << "it is of this version now";
+}
+
+TEST(Store, drops_and_names_damaged_rows_and_takes_their_items_again) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  {
+    auto store = Store::open(path, kSelf).value();
+    for (std::uint32_t seq = 0; seq < 4; ++seq) {
+      ASSERT_EQ(store.put_node(make_node(kPeer, seq, Bytes{})).value(), Put::kAdded);
+    }
+    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
+  }
+  // One that cannot be decoded, and one whose content is another now.
+  run_sql(path, "UPDATE node SET item = x'00' WHERE seq = 1");
+  run_sql(path, "UPDATE node SET item = (SELECT item FROM node WHERE seq = 3) WHERE seq = 2");
+  run_sql(path, "UPDATE alignment SET item = zeroblob(length(item))");
+  EXPECT_EQ(Store::open_read_only(path).value().nodes().size(), 2u);
+  auto store = Store::open(path, kSelf).value();
+  EXPECT_THAT(store.damage(),
+              ElementsAre(HasSubstr("node r2/1 is damaged"), HasSubstr("node r2/2 is damaged"),
+                          HasSubstr("alignment r2/2 is damaged")));
+  EXPECT_EQ(store.node_set().ranges(), (std::vector<SeqRange>{{kPeer, 0, 1}, {kPeer, 3, 4}}));
+  EXPECT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kAdded);
+  EXPECT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
+}
+
+TEST(Store, a_name_with_two_contents_ends_the_same_whatever_came_first) {
+  const ScratchFolder folder;
+  const Bytes submap = random_bytes(700, 1);
+  const auto one = make_node(kPeer, 5, submap);
+  const auto two = make_node(kPeer, 5, submap, 30.0);
+  const auto alignment = [](double rmse) { return make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2, rmse); };
+  const NodeId id{kPeer, 5};
+  const SeqRange all{kPeer, 0, 100};
+  std::vector<std::uint32_t> prints;
+  for (const bool swapped : {false, true}) {
+    const auto path = folder / (swapped ? "b.db" : "a.db");
+    {
+      auto store = Store::open(path, kSelf).value();
+      ASSERT_EQ(store.put_node(swapped ? two : one).value(), Put::kAdded);
+      ASSERT_EQ(store.put_submap(id, submap).value(), Put::kAdded);
+      const std::uint32_t print = store.node_print(all);
+      const std::uint64_t revision = store.revision();
+      EXPECT_EQ(store.put_node(swapped ? one : two).value(), Put::kConflict);
+      EXPECT_NE(store.node_print(all), print);
+      EXPECT_GT(store.revision(), revision);
+      ASSERT_EQ(store.put_alignment(alignment(swapped ? 0.1 : 0.3)).value(), Put::kAdded);
+      EXPECT_EQ(store.put_alignment(alignment(swapped ? 0.3 : 0.1)).value(), Put::kConflict);
+    }
+    auto store = Store::open(path, kSelf).value();
+    EXPECT_FALSE(store.node(id));
+    EXPECT_FALSE(store.has_submap(id));
+    EXPECT_FALSE(store.alignment({kPeer, 2}));
+    EXPECT_TRUE(store.node_set().contains(kPeer, 5)) << "nobody need be asked for it";
+    ASSERT_EQ(store.contested_nodes(all).size(), 1u);
+    EXPECT_EQ(store.contested_nodes(all)[0].first->G->position, (swapped ? two : one).G->position);
+    EXPECT_EQ(store.contested_nodes(all)[0].second->G->position, (swapped ? one : two).G->position);
+    EXPECT_EQ(store.contested_alignments(all).size(), 1u);
+    EXPECT_TRUE(store.is_contested(id));
+    EXPECT_EQ(store.put_node(one).value(), Put::kKnown);
+    EXPECT_EQ(store.put_node(make_node(kPeer, 5, submap, 60.0)).value(), Put::kKnown) << "a third one";
+    prints.push_back(store.node_print(all) + store.alignment_print(all));
+  }
+  EXPECT_EQ(prints[0], prints[1]);
+}
+
+TEST(Store, keeps_the_submap_of_an_own_node_whose_name_is_contested) {
+  const ScratchFolder folder;
+  const Bytes submap = random_bytes(700, 1);
+  const NodeId id{kSelf, 5};
+  {
+    auto store = Store::open(folder / "store.db", kSelf).value();
+    ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 5, submap), submap).value(), Put::kAdded);
+    EXPECT_EQ(store.put_node(make_node(kSelf, 5, submap, 30.0)).value(), Put::kConflict);
+    EXPECT_EQ(store.put_node_with_submap(make_node(kSelf, 5, submap, 60.0), submap).value(), Put::kConflict)
+        << "no name for another node";
+  }
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  ASSERT_EQ(store.contested_nodes({kSelf, 0, kEndOfSeqs}).size(), 1u);
+  EXPECT_TRUE(store.contested_nodes({kPeer, 0, kEndOfSeqs}).empty());
+  EXPECT_EQ(store.contested_submap(id).value(), submap);
+  EXPECT_FALSE(store.contested_submap({kSelf, 6}));
+  EXPECT_EQ(store.next_node_seq(0), 6u);
 }
 
 }  // namespace

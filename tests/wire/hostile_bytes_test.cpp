@@ -154,6 +154,8 @@ TEST(HostileBytes, PiecesMustFitTheirWhole) {
   EXPECT_THAT(refusal<exchange::Digest>(encode(digest)), HasSubstr("nodes: range [9, 3) is out of order"));
   digest.nodes = {{id("r1"), 0, 0xffffffff}};
   EXPECT_THAT(refusal<exchange::Digest>(encode(digest)), HasSubstr("too large"));
+  digest.nodes = {{id("r1"), 0, 4}};
+  EXPECT_THAT(refusal<exchange::Digest>(encode(digest)), HasSubstr("one print for each range"));
 }
 
 TEST(HostileBytes, NumbersMustMakeSense) {

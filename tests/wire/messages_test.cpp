@@ -239,7 +239,7 @@ TEST(Wire, SizesOnTheWire) {
   EXPECT_EQ(encode(report).size(), 137u);
   EXPECT_EQ(encode(exchange::SubmapRequest{}).size(), 44u);
   const exchange::Range range{id("r1"), 0, 9};
-  EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}}).size(), 24u + 3 * 16u);
+  EXPECT_EQ(encode(exchange::Digest{id("r1"), {range, range}, {range}, {1, 2}, {3}}).size(), 32u + 3 * 20u);
   EXPECT_EQ(encode(exchange::SubmapDigest{id("r1"), {range, range}, {id("r2")}}).size(), 24u + 2 * 16u + 8u);
   EXPECT_EQ(encode(SpherizedCloud{node_id("r1", 1), 20, 0.1, 9, Bytes(kMaxCloudPayload)}).size(),
             kMaxEncodedCloud);
@@ -247,11 +247,15 @@ TEST(Wire, SizesOnTheWire) {
 
 TEST(Wire, LongListsAreCutToTheirBoundAndStillReadable) {
   exchange::Digest digest{id("r1"), {}, {}};
-  for (std::uint32_t k = 0; k < 1000; ++k) digest.nodes.push_back({id("r2"), 2 * k, 2 * k + 1});
+  for (std::uint32_t k = 0; k < 1000; ++k) {
+    digest.nodes.push_back({id("r2"), 2 * k, 2 * k + 1});
+    digest.node_prints.push_back(k);
+  }
   const auto received = decode<exchange::Digest>(encode(digest));
   ASSERT_TRUE(received) << received.error().message;
   ASSERT_EQ(received->nodes.size(), kMaxRanges);
   EXPECT_EQ(received->nodes.back(), digest.nodes[kMaxRanges - 1]);
+  EXPECT_EQ(received->node_prints.back(), kMaxRanges - 1);
 }
 
 TEST(Wire, BothByteOrdersAreRead) {

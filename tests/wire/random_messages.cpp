@@ -134,6 +134,14 @@ exchange::Hold RandomMessages::hold() {
   return hold;
 }
 
+exchange::Digest RandomMessages::digest() {
+  exchange::Digest digest{agent(), ranges(20), ranges(20)};
+  for (std::size_t k = 0; k < digest.nodes.size(); ++k) digest.node_prints.push_back(integer(0, 1u << 31));
+  for (std::size_t k = 0; k < digest.alignments.size(); ++k)
+    digest.alignment_prints.push_back(integer(0, 1u << 31));
+  return digest;
+}
+
 std::vector<exchange::Message> RandomMessages::one_of_each() {
   exchange::CloudRequest request{agent(), agent(), node_id(), {}, static_cast<float>(real(0, 20))};
   for (std::uint32_t k = integer(0, 23); k > 0; --k) request.missing.push_back(static_cast<std::uint16_t>(k));
@@ -143,7 +151,7 @@ std::vector<exchange::Message> RandomMessages::one_of_each() {
       exchange::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
       fragment(),
       request,
-      exchange::Digest{agent(), ranges(20), ranges(20)},
+      digest(),
       exchange::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
       exchange::AgentStatus{
           agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1, integer(0, 1) == 1, {{agent(), 1200}}},

@@ -43,6 +43,7 @@ class RandomMessages {
   SpherizedCloud cloud();
   exchange::CloudFragment fragment();
   exchange::SubmapChunk chunk();
+  exchange::Digest digest();
   exchange::Hold hold();
   /// One of every kind.
   std::vector<exchange::Message> one_of_each();

@@ -127,6 +127,9 @@ class Agent {
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
+  void handle(const exchange::OfferDoubted& doubted);
+  /// Own items whose names are contested get others.
+  void name_contested_anew();
   void handle(const exchange::OwnItemsElsewhere& found);
   void handle(const exchange::SessionTaken& taken);
   void handle(const exchange::StrangerHeard& heard);
@@ -163,7 +166,7 @@ class Agent {
   std::uint16_t session_;
   bool told_of_missing_gps_ = false;
   bool rest_frozen_for_meeting_ = false;
-  TrajectoryFile odometry_file_;
+  std::optional<TrajectoryFile> odometry_file_;  ///< none: it could not be begun, and holds no other frame
   GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
   OwnClouds own_clouds_;
@@ -176,6 +179,7 @@ class Agent {
   SessionTies session_ties_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
+  bool own_item_contested_ = true;           ///< perhaps: also before the start
   std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
   std::uint64_t clock_resets_ = 0;           ///< likewise
   std::size_t jobs_ = 0;                     ///< spherizations and registrations under way

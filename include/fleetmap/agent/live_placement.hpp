@@ -46,7 +46,7 @@ class LivePlacement {
   bus::Bus& bus_;
   const store::Store& store_;
   OnUsed on_used_;
-  std::size_t items_ = 0;  ///< in the store at the last solution
+  std::uint64_t items_ = 0;  ///< the store's revision at the last solution
   bool under_way_ = false;
   double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;

@@ -14,6 +14,7 @@
 #include "fleetmap/planning/fleet_plan.hpp"
 #include "fleetmap/planning/mission_executive.hpp"
 #include "fleetmap/planning/path_follower.hpp"
+#include "fleetmap/planning/row_coverage.hpp"
 
 namespace fleetmap::agent {
 
@@ -63,6 +64,8 @@ class Navigator {
   /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
   /// of. `exchanged_with`: robots in reach with whom nothing is left to be exchanged.
   void tick(bool maps_exchanged, std::vector<AgentId> exchanged_with = {});
+  /// A node of any robot became known: evidence that its surroundings were driven.
+  void on_node(const graph::Node& node);
   /// The order of an operator that is in force.
   void obey(const exchange::HoldOrder& order);
   /// Stands still from now on.
@@ -96,6 +99,7 @@ class Navigator {
   bus::Bus& bus_;
   Tell tell_;
   planning::MissionExecutive executive_;
+  planning::RowCoverage coverage_;
   planning::PathFollower follower_;
   planning::MissionAction action_;
   std::optional<planning::Pose2> pose_;

@@ -22,7 +22,9 @@ class Sessions {
   using Draw = std::function<std::uint16_t()>;
 
   static Result<Sessions> load(const store::Store& store);
-  /// A number that no own item in the store bears. It is stored before it is used.
+  /// A number that no own item in the store bears and that no session began with.
+  Result<std::uint16_t> draw(const store::Store& store, const Draw& draw) const;
+  /// The same, which is stored before it is used.
   Result<std::uint16_t> begin(store::Store& store, const Draw& draw);
   /// Counts from 0; nothing for a session that began with another store.
   std::optional<std::size_t> index_of(std::uint16_t session) const;

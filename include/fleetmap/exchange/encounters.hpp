@@ -94,6 +94,8 @@ class Encounters {
 
   /// A node became known, in any order, also at start from the store.
   void on_node(const graph::Node& node, Stamp now);
+  /// The name of a node became contested: it is no partner any more.
+  void forget(const NodeId& node);
   /// An alignment became known, whoever computed it.
   void on_alignment(const graph::Alignment& alignment, Stamp now);
   /// What the fleet's graph uses now (graph::Placement::used).

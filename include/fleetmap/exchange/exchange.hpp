@@ -81,11 +81,20 @@ struct MissionHeard {
 struct HoldChanged {
   HoldOrder order;
 };
-/// An item with a taken name and another content was refused: a session number drawn twice, a forged item, or
-/// damage.
+/// An item with a taken name and another content came: a session number drawn twice, a forged item, or
+/// damage. The name is contested from now on and has no item; of the running session's names that this agent
+/// has not given, the item was refused. Own items are told again with reissue_contested().
 struct ItemConflict {
   NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
   bool alignment = false;
+  Reach link = Reach::kLongRange;  ///< it came over
+};
+/// `peer` offers what it does not deliver: completion does not wait for it any more. It counts again once it
+/// comes.
+struct OfferDoubted {
+  AgentId peer;
+  std::uint64_t nodes = 0;
+  std::uint64_t alignments = 0;
 };
 /// `peer` holds items of this agent that are not in our store: it was lost, restored or replaced. Told once.
 struct OwnItemsElsewhere {
@@ -111,8 +120,8 @@ struct MapComplete {
   std::size_t alignments = 0;
 };
 using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           MissionHeard, HoldChanged, ItemConflict, OwnItemsElsewhere, SessionTaken,
-                           StrangerHeard, StoreFailed, MapComplete>;
+                           MissionHeard, HoldChanged, ItemConflict, OfferDoubted, OwnItemsElsewhere,
+                           SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -180,8 +189,9 @@ class Exchange {
   std::vector<Outgoing> tick(Stamp now);
   std::vector<Event> take_events();
 
-  /// Every node, alignment and submap that any agent has told of is held. Of the agents in `without`, which
-  /// are lost, what nobody else has is not waited for.
+  /// Every node, alignment and submap that any agent offers is held. Not waited for is what an agent offers
+  /// but does not deliver, a submap that every other agent has denied to hold, and, of the agents in
+  /// `without`, which are lost, what nobody else has.
   bool complete(const std::set<AgentId>& without = {}) const;
   /// Every other agent of the fleet, but for those in `without`, has told that it holds the nodes and
   /// alignments that we hold.
@@ -210,6 +220,10 @@ class Exchange {
   bool is_forged(const AgentId& maker, std::uint32_t seq, bool held) const;
   void note_own_items(const Digest& digest);
   void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment, Stamp now);
+  /// Of the ranges, those whose agents are of the fleet; counts the others.
+  std::vector<Range> of_fleet(const std::vector<Range>& ranges);
+  /// All others were heard, and none holds it.
+  bool nowhere(const NodeId& submap, const std::set<AgentId>& without) const;
 
   void handle(const graph::Node& node, Stamp now);
   void handle(const graph::Alignment& alignment, Stamp now);
@@ -261,6 +275,8 @@ class Exchange {
   bool drives_ = false;
   bool orders_to_store_ = false;
   std::map<NodeId, Needed> needed_;
+  std::map<NodeId, Stamp> without_submap_;  ///< nodes, since when
+  Reach link_ = Reach::kLongRange;          ///< of the message that is handled
   AgentStatus status_;
   std::optional<Stamp> next_status_;
   std::optional<std::uint16_t> session_;

@@ -50,11 +50,15 @@ struct CloudRequest {
 
 using Range = SeqRange;
 
-/// What `from` holds. Sent from time to time, so that whoever lacks something asks for it.
+/// What `from` holds. Sent from time to time, so that whoever lacks something asks for it. Each range has a
+/// fingerprint of its contents (store::Store::node_print), so that two robots that hold other contents under
+/// the same names find that out; a range may be cut to say where (ContentCheck).
 struct Digest {
   AgentId from;
   std::vector<Range> nodes;
   std::vector<Range> alignments;
+  std::vector<std::uint32_t> node_prints = {};  ///< of each range of `nodes`
+  std::vector<std::uint32_t> alignment_prints = {};
 };
 
 /// `from` asks `to` for items that the digest of `to` offered.

@@ -8,6 +8,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/content_check.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -27,6 +28,7 @@ struct ReconcileConfig {
   Duration peer_timeout = std::chrono::seconds(90);  ///< an agent not heard for so long is not asked
   std::size_t max_ranges = 28;   ///< in each list of a digest or request, so that it fits one datagram
   std::uint32_t max_items = 48;  ///< asked for at once of one agent
+  int max_barren = 8;  ///< requests in a row that bring nothing until what an agent offers is not waited for
   Status validate() const;
 };
 
@@ -37,11 +39,15 @@ struct ReconcileStats {
   std::uint64_t requests_served = 0;
   std::uint64_t items_served = 0;
   std::uint64_t timeouts = 0;
-  std::uint64_t hostile = 0;  ///< ranges that are reversed or beyond kEndOfSeqs
+  std::uint64_t hostile = 0;  ///< ranges that are reversed, beyond kEndOfSeqs or of several sessions
 };
 
 /// Makes the sets of nodes and alignments of all agents equal, whatever was lost: agents tell from time to
 /// time what they hold, and whoever lacks something asks one of those who have it, its maker or not.
+///
+/// An offer is a claim. The latest digest that shows all ranges replaces those before, so a forged or
+/// outdated one lasts until the next; and what an agent goes on offering but does not deliver is no longer
+/// waited for. ContentCheck finds names under which two robots hold different contents.
 class Reconcile {
  public:
   Reconcile(const AgentId& self, const ReconcileConfig& config);
@@ -56,13 +62,23 @@ class Reconcile {
   struct Items {
     std::vector<const graph::Node*> nodes;
     std::vector<const graph::Alignment*> alignments;
+    /// The second contents of contested names whose first are in the lists above.
+    std::vector<const graph::Node*> second_nodes;
+    std::vector<const graph::Alignment*> second_alignments;
   };
   /// What is held of what `request` asks for, at most max_items.
   Items answer(const ItemRequest& request, const store::Store& store);
 
+  /// What `peer` offers but does not deliver; told once, until it delivers again.
+  struct Doubt {
+    AgentId peer;
+    std::uint64_t nodes = 0;
+    std::uint64_t alignments = 0;
+  };
   struct Due {
     std::optional<Digest> digest;
     std::vector<ItemRequest> requests;
+    std::vector<Doubt> doubts;
   };
   Due tick(const store::Store& store, Stamp now);
 
@@ -70,7 +86,9 @@ class Reconcile {
   Digest near_digest(const store::Store& store) { return digest_of(store, next_near_range_); }
   /// An item that came could not be stored: others would go on sending what nobody can keep.
   void on_store_failure(Stamp now);
-  /// Everything that any agent, but for those in `without`, has told of is held.
+  /// A name was found to have two contents.
+  void on_contested(Stamp now);
+  /// Everything that any agent, but for those in `without`, offers is held, or was asked for in vain.
   bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
   /// `peer` has told that it holds all that we hold.
   bool caught_up(const AgentId& peer, const store::Store& store) const;
@@ -81,6 +99,8 @@ class Reconcile {
   struct Offer {
     store::SeqSet nodes;
     store::SeqSet alignments;
+    store::SeqSet doubted_nodes;  ///< of these, not delivered
+    store::SeqSet doubted_alignments;
     Stamp since;           ///< when it was first seen to have what we lack
     bool lacking = false;  ///< it has what we lack
   };
@@ -96,8 +116,12 @@ class Reconcile {
     Stamp heard;
     Stamp resting_until;  ///< after a request that brought nothing
     Duration rest = Duration::zero();
+    int barren = 0;     ///< requests in a row that brought nothing
+    bool told = false;  ///< of the doubt
   };
-  store::SeqSet accepted(const std::vector<Range>& ranges);
+  enum class Source : std::uint8_t { kRequest, kDigest };
+  store::SeqSet accepted(const std::vector<Range>& ranges, Source source);
+  void settle_doubts(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
   void settle_pending(Peer& peer, const store::Store& store, Stamp now);
   /// The next digest comes soon.
   void hurry(Stamp now);
@@ -107,6 +131,7 @@ class Reconcile {
   AgentId self_;
   ReconcileConfig config_;
   std::map<AgentId, Peer> peers_;
+  ContentCheck check_;
   Duration period_;
   std::optional<Stamp> next_digest_;
   std::optional<Stamp> last_digest_;

@@ -76,6 +76,8 @@ class SendQueue {
   /// overrides the recipient that the message names (for nodes and alignments, which name none). One to all
   /// goes to all peers.
   void push(Priority priority, Message message, std::optional<AgentId> to = std::nullopt);
+  /// The second content of a contested name, which does not replace the first one where that still waits.
+  void push_second(Priority priority, Message message, const AgentId& to);
   /// A piece of a cloud whose receiver hopes to learn `worth` nats: clouds that are worth most per byte go
   /// first.
   void push_fragment(CloudFragment fragment, float worth);
@@ -107,6 +109,7 @@ class SendQueue {
     std::size_t bytes = 0;           ///< of one datagram
     std::vector<AgentId> receivers;  ///< who still get a datagram of their own; nobody: it goes once
     double rank = 0.0;               ///< of a fragment: nats per byte of its cloud
+    bool second = false;             ///< the second content of its name
     std::size_t all_bytes() const { return bytes * std::max<std::size_t>(receivers.size(), 1); }
   };
   using Items = std::list<Item>;

@@ -76,6 +76,8 @@ class SubmapReceiver {
   bool is_near(const AgentId& peer, Stamp now) const;
   /// `peer` was heard, and told of no such submap.
   bool lacks(const AgentId& peer, const NodeId& id) const;
+  /// The same, by a digest that came after `since`.
+  bool lacks_since(const AgentId& peer, const NodeId& id, Stamp since) const;
   std::vector<AgentId> peers_in_reach(Stamp now) const;
   /// Peers that chunks are under way from.
   std::vector<AgentId> asked() const;
@@ -97,7 +99,8 @@ class SubmapReceiver {
   struct Peer {
     explicit Peer(const DelayWindowConfig& config) : window(config) {}
     bool has_room() const { return bytes_out + store::Store::kChunkBytes <= window.bytes(); }
-    store::SeqSet holds;
+    store::SeqSet holds;  ///< as of its last digests
+    Stamp told;           ///< when the last one came
     DelayWindow window;
     Stamp heard;
     bool hears_us = false;
@@ -113,6 +116,7 @@ class SubmapReceiver {
     AgentId peer;  ///< one submap comes from one peer at a time, so that a wrong one is known by its source
     Stamp last_arrival;                       ///< or when it was begun
     std::map<std::uint32_t, Flight> flights;  ///< by chunk
+    std::set<std::uint32_t> asked;            ///< chunks, also those that were given up
   };
   struct Distrust {
     Stamp until;
@@ -132,7 +136,7 @@ class SubmapReceiver {
   bool assign(const store::Store& store, const NodeId& id, Stamp now);
   void fill(const store::Store& store, const NodeId& id, Download& download, Stamp now,
             std::vector<SubmapRequest>& requests);
-  std::vector<NodeId> missing(const store::Store& store) const;
+  std::vector<NodeId> missing(const store::Store& store, Stamp now) const;
   bool may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const;
   static std::uint32_t chunk_bytes(const graph::Node& node, std::uint32_t chunk);
 

@@ -29,6 +29,8 @@ struct MissionInput {
   bool maps_exchanged = false;
   /// Robots within reach who hold all maps that this one holds, and the other way round.
   std::vector<AgentId> exchanged_with = {};
+  /// Rows along which the fleet's nodes lie (RowCoverage).
+  RowSet surveyed = {};
 };
 
 struct MissionAction {
@@ -44,7 +46,9 @@ struct MissionAction {
 
 /// One robot's part in a mission that nobody leads. All start from the same division; from then on each robot
 /// acts on its own knowledge and what it heard:
-/// - what is done is done: knowledge of driven rows only grows and is passed on in every report;
+/// - a row is driven if the robot that the plan gives it to says so, or if anyone does and the fleet's nodes
+/// lie along it;
+///   what is known is passed on in every report;
 /// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
 /// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
 /// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who

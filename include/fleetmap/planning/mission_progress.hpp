@@ -36,6 +36,7 @@ class RowSet {
   }
   void set(std::size_t row, bool value = true);
   RowSet& operator|=(const RowSet& other);
+  RowSet& operator&=(const RowSet& other);
   bool none() const;
   std::size_t count() const;
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
@@ -57,7 +58,8 @@ struct MissionReport {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< ENU, m
   double battery = 1.0;                                ///< share left, [0, 1]
   std::uint32_t current = kNoRow;                      ///< index of the row under way
-  RowSet done;                                         ///< driven by anyone, as far as the sender knows
+  RowSet done;                                         ///< driven by anyone, as far as the sender knows: of
+                                                       ///< rows that the plan gives to others this is hearsay
   RowSet claimed;                                      ///< planned by the sender, the one under way included
   RowSet failed;                                       ///< the sender tried and gave up
 };

@@ -36,7 +36,7 @@ struct StoreConfig {
 enum class Put : std::uint8_t {
   kAdded,     ///< committed: a kill -9 from now on does not lose it
   kKnown,     ///< held already, the same; nothing changed
-  kConflict,  ///< another item is held under this name; refused and counted
+  kConflict,  ///< another item is held under this name, which is contested from now on (Store)
   kInvalid    ///< breaks a rule of its type (not finite, too large, unknown node, wrong hash); refused and
               ///< counted
 };
@@ -44,7 +44,7 @@ enum class Put : std::uint8_t {
 struct StoreStats {
   std::uint64_t added = 0;
   std::uint64_t known = 0;
-  std::uint64_t conflicts = 0;
+  std::uint64_t conflicts = 0;  ///< names that became contested, and own new items whose name was taken
   std::uint64_t invalid = 0;
   std::uint64_t bad_submaps = 0;  ///< complete downloads whose content hash was wrong; dropped
   std::uint64_t lost_submaps =
@@ -53,6 +53,12 @@ struct StoreStats {
 
 /// The agent's durable set of immutable items: nodes, alignments, encoded submaps; also submaps that are half
 /// downloaded, and named values of the agent (site origin, counters). One SQLite file in WAL mode.
+///
+/// Contested names: an honest maker gives each name once, so two contents under one name prove that one is
+/// forged (or that the maker equivocates), and nothing here tells which. Such a name keeps both contents as
+/// the evidence, stays in node_set() or alignment_set(), and has no item. A name therefore only moves up from
+/// unknown to one content to contested, whatever comes first: a join-semilattice (CvRDT, Shapiro et al.
+/// 2011), so robots that exchange what they hold end with the same set.
 ///
 /// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
 /// items are also synced to the disk: after a power cut the agent must not give a second item a name that it
@@ -66,8 +72,10 @@ class Store {
   /// Bytes of one piece of a download; the last of a submap may be shorter.
   static constexpr std::uint32_t kChunkBytes = 8192;
 
-  /// Opens or makes the store of `self`. Fails with what to do when the file is no store, is corrupt, is of a
-  /// newer version, belongs to another agent, or is open in another process for writing.
+  /// Opens or makes the store of `self`. A store of the schema version before is brought to the present one.
+  /// Rows that are damaged are dropped and named by damage(). Fails with what to do when the file is no
+  /// store, its pages are corrupt, is of a newer version, belongs to another agent, or is open in another
+  /// process for writing.
   static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
                             const StoreConfig& config = {});
   /// Opens any agent's store to look at it; a running agent does not mind. Puts fail.
@@ -98,6 +106,27 @@ class Store {
   const graph::Alignment* alignment(const AlignmentId& id) const;
   const std::map<NodeId, graph::Node>& nodes() const;
   const std::map<AlignmentId, graph::Alignment>& alignments() const;
+  /// Both contents of each contested name.
+  struct ContestedNode {
+    const graph::Node* first = nullptr;  ///< the one held before
+    const graph::Node* second = nullptr;
+  };
+  struct ContestedAlignment {
+    const graph::Alignment* first = nullptr;
+    const graph::Alignment* second = nullptr;
+  };
+  std::vector<ContestedNode> contested_nodes(const SeqRange& range) const;
+  std::vector<ContestedAlignment> contested_alignments(const SeqRange& range) const;
+  bool is_contested(const NodeId& id) const;
+  /// Reads the submap of a contested own node, as far as it was held.
+  Result<Bytes> contested_submap(const NodeId& id) const;
+  /// Fingerprint of the contents held in `range`: the sum of those of the items, the same on every machine.
+  std::uint32_t node_print(const SeqRange& range) const;
+  std::uint32_t alignment_print(const SeqRange& range) const;
+  /// Grows with each change of nodes() and alignments().
+  std::uint64_t revision() const;
+  /// Rows that open() found damaged and dropped, by name.
+  const std::vector<std::string>& damage() const;
   /// The nodes held of `range`, in order.
   std::vector<const graph::Node*> nodes_from(const SeqRange& range) const;
   /// A submap of no bytes is held as soon as its node is.
@@ -128,6 +157,8 @@ class Store {
   struct State;
   explicit Store(std::unique_ptr<State> state);
   Result<Put> insert_node(const graph::Node& node, const ByteView* submap);
+  Status contest_node(const graph::Node& node, ByteView item);
+  Status contest_alignment(const graph::Alignment& alignment, ByteView item);
   Status complete_submap(const graph::Node& node, ByteView encoded);
   std::unique_ptr<State> state_;
 };

@@ -16,7 +16,7 @@
 namespace fleetmap::wire {
 
 /// First octet of every type of module fleetmap. Raised when a member changes.
-inline constexpr std::uint8_t kSchemaVersion = 4;
+inline constexpr std::uint8_t kSchemaVersion = 5;
 
 // Bounds that the IDL and decoding share.
 inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one spherized cloud
