@@ -15,8 +15,8 @@ class Draws {
   /// [0, 1)
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
-  /// [0, n)
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }
+  /// [0, n), and 0 for an n of 0.
+  std::size_t below(std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(bits() % n); }
   bool chance(double probability) { return uniform() < probability; }
   /// Box-Muller, standard deviation 1.
   double normal() {
