@@ -8,6 +8,7 @@
 #                         [--trace FILE] [--trace-from S]   what each pair of robots had in the field (link_trace.py)
 #                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
 #                                              of this agent's file; single keys
+#                         [--rate N]           recordings are replayed at N times real time
 #                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves;
 #                                              those of a small farm are made where it is not given
 #   deploy/netns/field.sh --list
@@ -17,6 +18,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$root/deploy/netns/medium.sh"
 . "$root/deploy/netns/scenarios.sh"
+. "$root/deploy/netns/fault_scenarios.sh"
 
 agents=4
 scenario=
@@ -35,7 +37,10 @@ settings=()
 patience=420
 seed=1
 wifi_from=0
-usage() { sed -n '2,16s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+rate=1
+environment=()
+MOUNTS=()
+usage() { sed -n '2,17s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   [[ $1 != --list ]] || { list_scenarios; exit 0; }
   (($# > 1)) || usage
@@ -57,6 +62,7 @@ while (($#)); do
     --patience) patience=$2 ;;
     --seed) seed=$2 ;;
     --wifi-from) wifi_from=$2 ;;
+    --rate) rate=$2 ;;
     *) usage ;;
   esac
   shift 2
@@ -74,7 +80,12 @@ scratch=$(mktemp -d)
 out=${out:-$scratch/out}
 [[ ! -e $out/r1.log ]] || { echo "--out $out: holds an earlier run" >&2; exit 2; }
 mkdir -p "$out"
-finish() { remove_spaces; rm -rf "$scratch"; }
+finish() {
+  local mounted
+  remove_spaces
+  for mounted in "${MOUNTS[@]}"; do umount "$mounted"; done
+  rm -rf "$scratch"
+}
 trap finish EXIT
 trap 'exit 130' INT TERM
 
