@@ -16,8 +16,8 @@ scenario_no_address() { # robots whose files name no own address refuse to start
 
 scenario_other_address() { # the radio of one robot has another address for 40 s while it maps
   other_address() {
-    ip -n "$(space robot1)" addr flush dev radio
     ip -n "$(space robot1)" addr add 10.77.99.1/32 dev radio
+    ip -n "$(space robot1)" addr del 10.77.1.2/30 dev radio
   }
   own_address() {
     ip -n "$(space robot1)" addr flush dev radio

@@ -113,8 +113,9 @@ now() { date +%s%N; }
 events=()
 highest=0 series=
 watch_radio() { # condition, seconds
-  local begin last second bytes kbit due
-  begin=$(now) second=$begin last=$(passed radio)
+  local begin last second bytes time kbit due
+  begin=$(now)
+  read -r last second < <(passed_when radio)
   worst=0 waited= series=
   while :; do
     sleep 0.1
@@ -127,13 +128,13 @@ watch_radio() { # condition, seconds
     fi
     if [[ -z $waited ]] && $1; then waited=$((($(now) - begin) / 1000000)); fi
     if (($(now) - second >= 1000000000)); then
-      bytes=$(passed radio)
-      kbit=$(((bytes - last) * 8000000 / ($(now) - second)))
+      read -r bytes time < <(passed_when radio)
+      kbit=$(((bytes - last) * 8000000 / (time - second)))
       worst=$((kbit > worst ? kbit : worst))
-      note_use
       highest=$((kbit > highest ? kbit : highest))
       series+=" $kbit"
-      last=$bytes second=$(now)
+      last=$bytes second=$time
+      note_use
     fi
     (($(now) - begin < $2 * 1000000000)) && [[ -z $waited || -z ${until_then:-} ]] || return 0
   done
