@@ -82,18 +82,21 @@ scenario_clock_back() { # the system clock of one robot is set back by 600 s whi
 
 # ---- the end
 
-scenario_sigterm() { # one robot is told to end while all map: the others end with its last node and submap, too
-  local left
+scenario_sigterm() { # one robot is told to end while all map: the others hold its last node, too
+  local left submaps
   begin_map
   end_one() { kill -TERM "$(cat "$scratch/r2.pid")"; }
   events=("60 end_one")
   until_then=end watch_radio all_ended "$patience"
   pkill -9 -f "replay -c $scratch/r2.yaml" || true
-  items_of_2() { # in the store of a robot
-    "$program" map info --json "$out/r$1/store.db" | python3 -c 'import json, sys; r2 = json.load(sys.stdin)["robots"]["r2"]; print(r2["nodes"], "nodes", r2["submaps"], "submaps")'
+  of_2() { # nodes or submaps of it in each store, a line for each different number
+    for ((i = 1; i <= agents; ++i)); do
+      "$program" map info --json "$out/r$i/store.db" | python3 -c 'import json, sys; print(json.load(sys.stdin)["robots"]["r2"][sys.argv[1]], sys.argv[1])' "$1"
+    done | sort | uniq -c | sed 's/^ *//'
   }
-  left=$(for ((i = 1; i <= agents; ++i)); do items_of_2 $i; done | sort | uniq -c | sed 's/^ *//')
-  verdict $([[ -n $waited && $left == "$agents "* ]] && echo 1 || echo 0) "of r2 the robots hold: $(tr '\n' ';' <<< "$left") radio $(radio_figures)"
+  left=$(of_2 nodes)
+  submaps=$(of_2 submaps)
+  verdict $([[ -n $waited && $left == "$agents "* ]] && echo 1 || echo 0) "of r2 the robots hold: $(tr '\n' ';' <<< "$left$submaps") radio $(radio_figures)"
 }
 
 # ---- a newcomer's path
