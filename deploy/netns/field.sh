@@ -9,6 +9,7 @@
 #                         [--qos DIR] [--robot FILE] [--set KEY=VALUE]...   of the agents: profiles; sensors and all else
 #                                              of this agent's file; single keys
 #                         [--keys]   the agents are members of a fleet with keys
+#                         [--rate N]           recordings are replayed at N times real time
 #                         [--recordings DIR]   DIR/r1, DIR/r2, ...: what `fleetmap run -c FLEET.yaml --record DIR` leaves;
 #                                              those of a small farm are made where it is not given
 #   deploy/netns/field.sh --list
@@ -18,6 +19,7 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$root/deploy/netns/medium.sh"
 . "$root/deploy/netns/scenarios.sh"
+. "$root/deploy/netns/fault_scenarios.sh"
 
 agents=4
 scenario=
@@ -37,7 +39,10 @@ patience=420
 seed=1
 wifi_from=0
 keys=
-usage() { sed -n '2,17s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+rate=1
+environment=()
+MOUNTS=()
+usage() { sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 while (($#)); do
   [[ $1 != --list ]] || { list_scenarios; exit 0; }
   [[ $1 != --keys ]] || { keys=yes; shift; continue; }
@@ -60,6 +65,7 @@ while (($#)); do
     --patience) patience=$2 ;;
     --seed) seed=$2 ;;
     --wifi-from) wifi_from=$2 ;;
+    --rate) rate=$2 ;;
     *) usage ;;
   esac
   shift 2
@@ -77,7 +83,12 @@ scratch=$(mktemp -d)
 out=${out:-$scratch/out}
 [[ ! -e $out/r1.log ]] || { echo "--out $out: holds an earlier run" >&2; exit 2; }
 mkdir -p "$out"
-finish() { remove_spaces; rm -rf "$scratch"; }
+finish() {
+  local mounted
+  remove_spaces
+  for mounted in "${MOUNTS[@]}"; do umount "$mounted"; done
+  rm -rf "$scratch"
+}
 trap finish EXIT
 trap 'exit 130' INT TERM
 

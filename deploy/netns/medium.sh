@@ -79,6 +79,10 @@ begin_traces() { # of the relays that have one
 
 # Bytes that passed the queue of a medium, and packets that it dropped.
 passed() { in_space "$1-air" cat /sys/class/net/out/statistics/tx_bytes; }
+# Bytes and the time (ns) at which they were read, by one process: on a busy machine two would be far apart.
+passed_when() {
+  in_space "$1-air" bash -c 'read -r bytes < /sys/class/net/out/statistics/tx_bytes; echo "$bytes ${EPOCHREALTIME/./}000"'
+}
 dropped() { in_space "$1-air" tc -s qdisc show dev out | sed -n 's/.*dropped \([0-9]*\).*/\1/p'; }
 
 remove_spaces() {

@@ -2,12 +2,13 @@
 """Forwards frames from one interface to another and loses, delays, reorders or doubles some: for kernels without netem.
 
     relay.py FROM TO [--both] [--to-mac MAC] [--loss PERCENT] [--duplicate PERCENT]
-                     [--delay MS] [--jitter MS] [--seed N] [--block SOURCE,DESTINATION]...
+                     [--delay MS] [--jitter MS] [--damage PERCENT] [--seed N] [--block SOURCE,DESTINATION]...
                      [--trace FILE --link LINK --names NAME=ADDRESS,...]
 
 --both      also from TO to FROM
 --to-mac    puts this destination address on what it forwards (FROM and TO are then ends of routes, not of a bridge)
 --jitter    each datagram waits up to so many ms more, so that datagrams overtake each other
+--damage    flips a bit in the second half of so many of the datagrams of more than 1000 bytes
 --block     loses all from SOURCE to DESTINATION; * is any address
 --trace     what each pair of robots had in the field, as docs/dds.md says: of that link, beginning with SIGUSR1, so
             many s after the file's first row (--trace-from); loss and delay are then the trace's
@@ -40,7 +41,7 @@ def parse():
     parser.add_argument("sink")
     parser.add_argument("--both", action="store_true")
     parser.add_argument("--to-mac")
-    for name in ("--loss", "--duplicate", "--delay", "--jitter"):
+    for name in ("--loss", "--duplicate", "--delay", "--jitter", "--damage"):
         parser.add_argument(name, type=float, default=0.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--trace-from", type=float, default=0.0)
@@ -66,6 +67,11 @@ def without_checksum(frame):
         return frame
     at = 14 + 4 * (frame[14] & 15) + 6
     return frame[:at] + b"\0\0" + frame[at + 2 :]
+
+
+def damaged(frame):
+    at = random.randrange(len(frame) // 2, len(frame))
+    return frame[:at] + bytes([frame[at] ^ 1 << random.randrange(8)]) + frame[at + 1 :]
 
 
 class Relay:
@@ -109,6 +115,8 @@ class Relay:
         if not passes:
             return
         frame = without_checksum(frame)
+        if len(frame) > 1000 and random.random() * 100 < self.options.damage:
+            frame = damaged(frame)
         for _ in range(2 if random.random() * 100 < self.options.duplicate else 1):
             self.order += 1
             heapq.heappush(self.waiting, (now + wait, self.order, to, frame))

@@ -346,7 +346,7 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
                                        drifts_around(target, source),
                                        {}});
   ++jobs_;
-  bus_.offload(
+  const bool taken = bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const CpuTimer all(job->registered.cpu_seconds);
@@ -370,6 +370,13 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
         --jobs_;
         conclude(job->target->node(), job->source->node(), job->registered, std::nullopt);
       });
+  if (!taken) note_refused_work();
+}
+
+void Agent::note_refused_work() {
+  --jobs_;
+  ++registrations_.failed;
+  spdlog::warn("{}: {} jobs wait already; one was let go", config_.id.str(), bus::Bus::kMostWork);
 }
 
 // ---- others
@@ -387,7 +394,7 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
   const std::shared_ptr<OwnCloud> own = own_clouds_.of(store_, *node);
   auto seconds = std::make_shared<double>(0.0);
   ++jobs_;
-  bus_.offload(
+  const bool taken = bus_.offload(
       bus::Lane::kBackground,
       [own, seconds] {
         const CpuTimer timer(*seconds);
@@ -411,6 +418,9 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
         const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
         if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
       });
+  if (taken) return;
+  note_refused_work();
+  exchange_->decline_cloud(needed.node);
 }
 
 void Agent::handle(const exchange::CloudArrived& arrived) {
@@ -436,7 +446,7 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
   auto job = std::make_shared<Job>(
       Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, *prior, drifts_around(*ours, *theirs), {}});
   ++jobs_;
-  bus_.offload(
+  const bool taken = bus_.offload(
       bus::Lane::kBackground,
       [this, job] {
         const CpuTimer all(job->registered.cpu_seconds);
@@ -451,6 +461,9 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
         --jobs_;
         conclude(job->target->node(), job->source, job->registered, pair);
       });
+  if (taken) return;
+  note_refused_work();
+  exchange_->on_rejected(arrived.pair, bus_.now());
 }
 
 registration::Drifts Agent::drifts_around(const graph::Node& target, const graph::Node& source) const {

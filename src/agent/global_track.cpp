@@ -35,11 +35,11 @@ bool parse(const std::string& line, GlobalPose& G) {
 Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& file) {
   std::error_code error;
   const bool fresh = !std::filesystem::exists(file, error) || std::filesystem::file_size(file, error) == 0;
-  std::ofstream out(file, std::ios::app);
+  Result<LineFile> lines = LineFile::open(file, std::ios::app);
+  if (!lines) return tl::unexpected(lines.error());
   // A line that a kill cut off stays a line of its own, and the empty one behind it says why.
-  out << (fresh ? kHeader : "\n") << '\n' << std::flush;
-  if (!out) return failure(file.string() + ": cannot be written");
-  return GlobalTrackFile(file, std::move(out));
+  if (const Status begun = lines->add(fresh ? kHeader : "\n"); !begun) return tl::unexpected(begun.error());
+  return GlobalTrackFile(std::move(*lines));
 }
 
 Status GlobalTrackFile::add(const GlobalPose& G) {
@@ -52,9 +52,7 @@ Status GlobalTrackFile::add(const GlobalPose& G) {
                 G.position.latitude / kDegree, G.position.longitude / kDegree, G.position.altitude, q.x(),
                 q.y(), q.z(), q.w(), std::sqrt(G.covariance(0, 0)), std::sqrt(G.covariance(1, 1)),
                 std::sqrt(G.covariance(2, 2)), std::sqrt(G.covariance(5, 5)) / kDegree);
-  out_ << line.data() << '\n' << std::flush;
-  if (!out_) return failure(path_.string() + ": cannot be written; is the disk full?");
-  return {};
+  return lines_.add(line.data());
 }
 
 Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file) {

@@ -37,7 +37,6 @@ void LivePlacement::refresh(std::uint16_t session) {
   const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
   if (!origin) return;
   items_ = store_.revision();
-  under_way_ = true;
   auto job = std::make_shared<Job>();
   job->origin = *origin;
   job->config = config_.placement;
@@ -45,7 +44,8 @@ void LivePlacement::refresh(std::uint16_t session) {
     job->newest = NodeId{config_.id, next - 1};
   job->nodes = nodes_of(store_);
   job->alignments = alignments_of(store_);
-  bus_.offload(
+  under_way_ = true;
+  const bool taken = bus_.offload(
       bus::Lane::kBackground, [job] { solve(*job); },
       [this, job] {
         under_way_ = false;
@@ -53,6 +53,9 @@ void LivePlacement::refresh(std::uint16_t session) {
         solution_ = job->solution;
         on_used_(job->used);
       });
+  if (taken) return;
+  under_way_ = false;
+  items_ = 0;  // no revision of a store that has an own node: the next refresh tries again
 }
 
 void LivePlacement::solve(Job& job) {

@@ -121,7 +121,7 @@ void Perception::start_next() {
   job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
-  bus_.offload(
+  const bool taken = bus_.offload(
       bus::Lane::kPerception,
       [this, job] {
         const double start = thread_cpu_seconds();
@@ -133,6 +133,9 @@ void Perception::start_next() {
         job->cpu_seconds = thread_cpu_seconds() - start;
       },
       [this, job] { finish(*job); });
+  if (taken) return;
+  busy_ = false;
+  warn("no thread for odometry", "a scan was dropped");
 }
 
 void Perception::finish(Job& job) {

@@ -70,15 +70,9 @@ Status write_trajectory(const std::filesystem::path& file, const std::vector<Sta
 }
 
 Result<TrajectoryFile> TrajectoryFile::create(const std::filesystem::path& file) {
-  std::ofstream out(file, std::ios::trunc);
-  if (!out) return failure(file.string() + ": cannot be written");
-  return TrajectoryFile(file, std::move(out));
-}
-
-Status TrajectoryFile::add(const StampedPose& pose) {
-  out_ << tum_line(pose) << '\n' << std::flush;
-  if (!out_) return failure(path_.string() + ": cannot be written; is the disk full?");
-  return {};
+  Result<LineFile> lines = LineFile::open(file, std::ios::trunc);
+  if (!lines) return tl::unexpected(lines.error());
+  return TrajectoryFile(std::move(*lines));
 }
 
 }  // namespace fleetmap::agent

@@ -25,8 +25,8 @@ using config::RobotConfig;
 constexpr const char* kNever = "never heard";
 /// For the answers to the last Hellos, and to those that are repeated because the radio lost one.
 constexpr double kAnswerTime = 2.0;  // s
-/// Between two Hellos of an observer.
-constexpr double kHelloPause = 0.065;  // s
+/// What an observer's Hello takes of the budget: bit, at the rate of the whole fleet.
+constexpr double kHelloBits = 9425.0;
 
 /// An observer that has the radios of `robot`.
 bus::DdsBusConfig observer_of(const RobotConfig& robot) {
@@ -170,7 +170,7 @@ Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions
   auto bus = join_dds(dds);
   if (!bus) return tl::unexpected(bus.error());
   const double hellos = static_cast<double>((*bus)->survey(link).places);
-  const double time = kAnswerTime + hellos * kHelloPause;
+  const double time = kAnswerTime + hellos * kHelloBits / radio.fleet_bits_per_second;
   std::cerr << to_string(link) << ": looking for " << check.missing().size() << " robots in the DDS domains "
             << options.domains.first << " to " << options.domains.second << ", " << std::ceil(time) << " s\n";
   if (const Status listened = listen(**bus, time); !listened) return listened;

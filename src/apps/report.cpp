@@ -52,6 +52,7 @@ json exchange_json(const exchange::ExchangeStats& stats) {
           {"cloud_requests", stats.cloud_receiver.requests},
           {"submaps_received", stats.submap_receiver.submaps},
           {"submap_chunks_received", stats.submap_receiver.chunks},
+          {"submaps_with_wrong_hash", stats.submap_receiver.bad_hash},
           {"submap_bytes_sent", stats.submap_sender.bytes},
           {"refused_from_strangers", stats.strangers},
           {"refused_hostile",

@@ -104,17 +104,19 @@ void LocalRobot::schedule(EventQueue& events, const std::shared_ptr<Timer>& time
   });
 }
 
-void LocalRobot::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+bool LocalRobot::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
   const auto index = static_cast<std::size_t>(lane);
   LaneState& state = state_->lanes[index];
+  if (state.waiting.size() >= kMostWork) return false;
   state.waiting.push_back({std::move(work), std::move(done)});
-  if (state.busy) return;
+  if (state.busy) return true;
   state.busy = true;
   events_.post(
       [&events = events_, &pool = pool_, owner = std::weak_ptr<State>(state_), index, round = state.round] {
         const auto alive = owner.lock();
         if (alive && alive->lanes[index].round == round) start_next(events, pool, alive, index);
       });
+  return true;
 }
 
 void LocalRobot::start_next(EventQueue& events, ThreadPool& pool, const std::shared_ptr<State>& state,

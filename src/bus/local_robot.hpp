@@ -29,7 +29,7 @@ class LocalRobot final : public Bus {
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
-  void offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
+  bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
 
   bool subscribes(const Topic& topic) const;

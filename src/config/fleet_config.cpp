@@ -249,6 +249,7 @@ Result<RobotConfig> read_robot(Document& document) {
   read_dds(top, robot.dds);
   read_keys(top, /*of_fleet=*/false, robot.agent, robot.dds);
   robot.agent.exchange.long_range.multicast = robot.dds.long_range.multicast;
+  robot.dds.long_range.fleet_bits_per_second = 8.0 * robot.agent.exchange.long_range.fleet_bytes_per_second;
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);

@@ -10,8 +10,12 @@ namespace {
 constexpr auto kNews = static_cast<std::size_t>(Priority::kNews);
 constexpr auto kBackfill = static_cast<std::size_t>(Priority::kBackfill);
 constexpr auto kCloud = static_cast<std::size_t>(Priority::kCloud);
-/// s of the share by which news and state may be ahead of backfill and clouds that wait.
-constexpr double kSmallLead = 1.0;
+/// s of the share by which what goes first may be ahead of what waits behind it: items of clouds, news and
+/// state of backfill.
+constexpr double kLead = 0.5;
+/// Bytes of items for each byte of clouds while both wait. Less than one, so that with the lead clouds have
+/// at least half of what goes in any time of five seconds' share.
+constexpr double kItemsPerCloud = 0.8;
 
 }  // namespace
 
@@ -182,11 +186,14 @@ std::optional<std::size_t> SendQueue::next() const {
     return from;
   };
   if (const std::size_t urgent = first_of(0, kNews); urgent < kNews) return urgent;
-  const std::size_t small = first_of(kNews, kBackfill), bulk = first_of(kBackfill, kPriorities);
-  if (small == kBackfill && bulk == kPriorities) return std::nullopt;
-  if (bulk == kPriorities || (small < kBackfill && small_lead_ < kSmallLead * pace_.rate())) return small;
-  if (waiting_[kCloud].empty() || waiting_[kBackfill].empty()) return bulk;
-  return cloud_lead_ > 0.0 ? kBackfill : kCloud;
+  // What is larger than the lead goes when there is none.
+  const auto may_lead = [&](std::size_t p, double lead) {
+    return lead <= 0.0 || lead + static_cast<double>(waiting_[p].front().bytes) <= kLead * pace_.rate();
+  };
+  std::size_t items = first_of(kNews, kCloud);  // kCloud: none
+  if (items < kBackfill && !waiting_[kBackfill].empty() && !may_lead(items, small_lead_)) items = kBackfill;
+  if (waiting_[kCloud].empty()) return items < kCloud ? std::optional(items) : std::nullopt;
+  return items < kCloud && may_lead(items, items_lead_) ? items : kCloud;
 }
 
 Outgoing SendQueue::take_one(const Place& place) {
@@ -206,11 +213,10 @@ Outgoing SendQueue::take_one(const Place& place) {
 void SendQueue::note_sent(std::size_t priority, double bytes) {
   if (priority < kNews) return;
   const auto waits = [&](std::size_t p) { return !waiting_[p].empty(); };
-  const bool small = priority < kBackfill;
-  const bool both_wait = (waits(kNews) || waits(kNews + 1)) && (waits(kBackfill) || waits(kCloud));
-  small_lead_ = both_wait ? std::max(small_lead_ + (small ? bytes : -bytes), 0.0) : 0.0;
-  if (small) return;
-  cloud_lead_ = waits(kBackfill) && waits(kCloud) ? cloud_lead_ + (priority == kCloud ? bytes : -bytes) : 0.0;
+  const auto after = [](double lead, double more) { return std::max(lead + more, 0.0); };
+  items_lead_ = waits(kCloud) ? after(items_lead_, priority < kCloud ? bytes : -kItemsPerCloud * bytes) : 0.0;
+  if (priority == kCloud) return;
+  small_lead_ = waits(kBackfill) ? after(small_lead_, priority < kBackfill ? bytes : -bytes) : 0.0;
 }
 
 std::vector<Outgoing> SendQueue::take(Stamp now) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <future>
 #include <thread>
 
 #include "bus/fleet.hpp"
@@ -242,6 +243,22 @@ TEST_P(BusSuite, WorkIsDoneInOrderAndFollowedOnTheCallbackThread) {
   ASSERT_TRUE(fleet->run_until([&] { return done.size() == 50; }));
   EXPECT_EQ(worked, done);
   EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+}
+
+TEST_P(BusSuite, WorkBeyondTheBoundIsRefusedAndWhatWasTakenIsDone) {
+  const auto fleet = make({.robots = 1});
+  Bus& bus = fleet->robot(0);
+  std::promise<void> may_begin;
+  std::size_t taken = 0, done = 0;
+  const auto offload = [&](std::function<void()> work) {
+    taken += bus.offload(Lane::kBackground, std::move(work), [&] { ++done; });
+  };
+  offload([begin = may_begin.get_future().share()] { begin.wait(); });
+  for (std::size_t k = 0; k < Bus::kMostWork + 10; ++k) offload([] {});
+  EXPECT_GE(taken, Bus::kMostWork);
+  EXPECT_LE(taken, Bus::kMostWork + 1) << "and the one under way";
+  may_begin.set_value();
+  EXPECT_TRUE(fleet->run_until([&] { return done == taken; }));
 }
 
 TEST_P(BusSuite, ABigPointCloudPassesOnboard) {

@@ -168,6 +168,13 @@ TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
               HasSubstr("--set lidar=[1: the value is not valid YAML"));
 }
 
+TEST_F(FleetConfigTest, TheBudgetOfTheRadioIsThatOfItsHellosToo) {
+  const auto robot = load_robot(write(kRobot), {{"long_range.budget_kbit_s", "36"}});
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_DOUBLE_EQ(robot->dds.long_range.fleet_bits_per_second, 36e3);
+  EXPECT_DOUBLE_EQ(robot->agent.exchange.long_range.fleet_bytes_per_second, 4500.0);
+}
+
 TEST_F(FleetConfigTest, WhatRobotsMustHaveAlikeGoesToTheRadios) {
   const auto settings = [&](const std::string& lines, const std::string& fleet = "[r1, r2]") {
     const auto robot = load_robot(write("id: r1\nfleet: " + fleet + "\ndirectory: out\n" + lines), {});

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
+#include <map>
 #include <set>
 
 #include "exchange/sim_fleet.hpp"
@@ -123,6 +125,76 @@ TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robot
     // Twenty robots at one place have 190 pairs, whose clouds and alignments take a while.
     fleet.run_for(std::chrono::minutes(10), [&] { return fleet.equal_sets(robots); });
     EXPECT_TRUE(fleet.equal_sets(robots)) << robots << " robots";
+  }
+}
+
+/// The least part that clouds of any robot had of what went below control in any window in which they waited.
+class CloudShare {
+ public:
+  explicit CloudShare(Duration window) : window_(window) {}
+  void after_step(const SimFleet& fleet) {
+    for (; looked_at_ < fleet.sent().size(); ++looked_at_) {
+      const auto& sent = fleet.sent()[looked_at_];
+      const Message& message = sent.outgoing.message;
+      const bool urgent =
+          std::holds_alternative<Hold>(message) || std::holds_alternative<AgentStatus>(message) ||
+          std::holds_alternative<ProximityMatch>(message) || std::holds_alternative<CloudRequest>(message) ||
+          std::holds_alternative<ItemRequest>(message);
+      if (urgent || sent.outgoing.reach != Reach::kLongRange) continue;
+      sent_[sent.from].push_back(
+          {sent.at, std::holds_alternative<CloudFragment>(message), static_cast<double>(sent.wire_bytes)});
+    }
+    for (const auto& [name, robot] : fleet.robots()) {
+      auto& sent = sent_[name];
+      const Stamp since = waiting_since_.try_emplace(name, fleet.now()).first->second;
+      if (robot.exchange->queue().size(Priority::kCloud) == 0) {
+        waiting_since_[name] = fleet.now();
+        sent.clear();
+      }
+      while (!sent.empty() && fleet.now() - sent.front().at >= window_) sent.pop_front();
+      if (fleet.now() - since < window_ || sent.empty()) continue;
+      double clouds = 0.0, all = 0.0;
+      for (const Piece& piece : sent) {
+        all += piece.bytes;
+        clouds += piece.cloud ? piece.bytes : 0.0;
+      }
+      least_ = std::min(least_, clouds / all);
+      ++windows_;
+    }
+  }
+  double least() const { return least_; }
+  std::size_t windows() const { return windows_; }
+
+ private:
+  struct Piece {
+    Stamp at;
+    bool cloud;
+    double bytes;
+  };
+  Duration window_;
+  std::size_t looked_at_ = 0, windows_ = 0;
+  std::map<AgentId, std::deque<Piece>> sent_;
+  std::map<AgentId, Stamp> waiting_since_;
+  double least_ = 1.0;
+};
+
+TEST(Fleet, clouds_that_wait_get_half_of_what_control_leaves_however_many_robots) {
+  for (const std::size_t robots : {5u, 10u, 20u}) {
+    std::vector<std::string> names;
+    for (std::size_t k = 1; k <= robots; ++k) names.push_back("r" + std::to_string(k));
+    SimFleet fleet(names, {.loss = 0.05}, 3);
+    for (const auto& name : names) fleet.start(name);
+    CloudShare share(std::chrono::seconds(10));
+    for (int k = 0; k < 30; ++k) {
+      for (std::size_t robot = 0; robot < robots; ++robot)
+        fleet.add_node(names[robot], 60.0 * static_cast<double>(robot) + 4.0 * k);
+      fleet.run_for(std::chrono::seconds(3), [&] {
+        share.after_step(fleet);
+        return false;
+      });
+    }
+    EXPECT_GT(share.windows(), 100u) << robots << " robots: this is no test of clouds that nobody wants";
+    EXPECT_GE(share.least(), 0.5) << robots << " robots";
   }
 }
 

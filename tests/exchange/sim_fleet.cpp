@@ -6,31 +6,11 @@
 #include <variant>
 
 #include "fleetmap/exchange/reissue.hpp"
+#include "fleetmap/wire/messages.hpp"
 
 namespace fleetmap::testing {
 
-std::size_t payload_size(const Message& message) {
-  struct Size {
-    std::size_t operator()(const graph::Node&) const { return 100; }
-    std::size_t operator()(const exchange::ProximityMatch&) const { return 56; }
-    std::size_t operator()(const exchange::CloudFragment& m) const { return 64 + m.payload.size(); }
-    std::size_t operator()(const exchange::CloudRequest& m) const { return 44 + 2 * m.missing.size(); }
-    std::size_t operator()(const graph::Alignment&) const { return 170; }
-    std::size_t operator()(const exchange::Digest& m) const {
-      return 32 + 20 * (m.nodes.size() + m.alignments.size());
-    }
-    std::size_t operator()(const exchange::ItemRequest& m) const {
-      return 32 + 16 * (m.nodes.size() + m.alignments.size());
-    }
-    std::size_t operator()(const exchange::AgentStatus&) const { return 72; }
-    std::size_t operator()(const exchange::MissionReport&) const { return 120; }
-    std::size_t operator()(const exchange::Hold& m) const { return 20 + 32 * m.orders.size(); }
-    std::size_t operator()(const exchange::SubmapDigest& m) const { return 20 + 16 * m.submaps.size(); }
-    std::size_t operator()(const exchange::SubmapRequest&) const { return 44; }
-    std::size_t operator()(const exchange::SubmapChunk& m) const { return 52 + m.payload.size(); }
-  };
-  return std::visit(Size{}, message);
-}
+std::size_t payload_size(const Message& message) { return wire::encode(message).size(); }
 
 SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
                    const std::function<void(exchange::ExchangeConfig&)>& adjust)
@@ -65,6 +45,7 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
   auto node = make_node(agent(name), seq, submap, east_m, static_cast<std::uint32_t>(name.back()));
   node.G->covariance = Matrix6d::Identity();
   node.session = r.session;
+  node.descriptor = random_bytes(graph::Node::kMaxDescriptorBytes, seq);
   const auto put = r.exchange->on_own_node(node, submap, now());
   if (!put || *put != store::Put::kAdded) throw std::runtime_error("own node refused");
   return node;

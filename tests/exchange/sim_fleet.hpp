@@ -17,7 +17,7 @@ namespace fleetmap::testing {
 
 using exchange::Message;
 
-/// About what CDR makes of a message.
+/// Bytes of a message as agents publish it.
 std::size_t payload_size(const Message& message);
 
 /// A fleet of exchanges on a network that loses, delays, reorders and doubles messages, in virtual time.

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <random>
 
 #include "exchange/sim_fleet.hpp"
@@ -242,6 +243,43 @@ TEST(SubmapTransfer, one_damaged_chunk_does_not_bar_its_source_for_ever) {
   for (const std::uint32_t offset : {0u, 8192u, 16384u}) {
     ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
   }
+  EXPECT_EQ(store.submap(id).value(), submap);
+}
+
+TEST(SubmapTransfer, a_stuck_download_leaves_its_peer_for_another) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), stuck = agent("r2"), other = agent("r3");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(20'000, 1);
+  const NodeId id{agent("r4"), 0};
+  ASSERT_TRUE(store.put_node(testing::make_node(id.agent, 0, submap)));
+  SubmapReceiver receiver(self, {});
+  const Stamp begun = stamp_from_ns(1'000'000'000);
+  std::map<AgentId, Stamp> first_asked;
+  int asked_of_stuck_later = 0;
+  for (Stamp now = begun; !store.has_submap(id) && now - begun < std::chrono::seconds(60);
+       now += std::chrono::milliseconds(100)) {
+    // Both are there all the time; the first sends digests and no chunk.
+    receiver.on_digest({stuck, {{id.agent, 0, 1}}, {self}}, now);
+    if (now - begun >= std::chrono::seconds(1)) receiver.on_digest({other, {{id.agent, 0, 1}}, {self}}, now);
+    for (const SubmapRequest& request : receiver.tick(store, now)) {
+      first_asked.try_emplace(request.to, now);
+      if (request.to == stuck) {
+        asked_of_stuck_later += first_asked.contains(other) ? 1 : 0;
+        continue;
+      }
+      for (std::uint32_t offset = request.offset; offset < request.offset + request.length; offset += 8192) {
+        SubmapChunk chunk{other, self, id, offset, 20'000, {}};
+        const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
+        chunk.payload.assign(part.begin(), part.end());
+        ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
+      }
+    }
+  }
+  ASSERT_TRUE(first_asked.contains(stuck));
+  ASSERT_TRUE(first_asked.contains(other)) << "it stays with the one that sends nothing";
+  EXPECT_LE(first_asked[other] - first_asked[stuck], std::chrono::seconds(10));
+  EXPECT_EQ(asked_of_stuck_later, 0);
   EXPECT_EQ(store.submap(id).value(), submap);
 }
 

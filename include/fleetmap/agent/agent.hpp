@@ -119,6 +119,8 @@ class Agent {
   bool worth_waiting_for_gps();
   /// Two own nodes, off this thread.
   void register_own(const graph::Node& target, const graph::Node& source, const registration::Prior& prior);
+  /// A job that was counted is not run: too many wait.
+  void note_refused_work();
 
   void on_events();
   void handle(const exchange::CloudNeeded& needed);

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <utility>
 #include <vector>
 
+#include "fleetmap/agent/line_file.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
 
@@ -14,13 +15,12 @@ namespace fleetmap::agent {
 class GlobalTrackFile {
  public:
   static Result<GlobalTrackFile> append_to(const std::filesystem::path& file);
+  /// As LineFile::add.
   Status add(const GlobalPose& G);
 
  private:
-  GlobalTrackFile(std::filesystem::path path, std::ofstream out)
-      : path_(std::move(path)), out_(std::move(out)) {}
-  std::filesystem::path path_;
-  std::ofstream out_;
+  explicit GlobalTrackFile(LineFile lines) : lines_(std::move(lines)) {}
+  LineFile lines_;
 };
 
 /// Stamp, position and attitude of each line; the covariance holds the four sigmas only. A last line that is

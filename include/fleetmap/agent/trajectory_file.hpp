@@ -1,9 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <utility>
 #include <vector>
 
+#include "fleetmap/agent/line_file.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
@@ -27,18 +28,16 @@ std::string tum_line(const StampedPose& pose);
 Result<std::vector<StampedPose>> read_trajectory(const std::filesystem::path& file);
 Status write_trajectory(const std::filesystem::path& file, const std::vector<StampedPose>& poses);
 
-/// Grows line by line; each line is with the operating system before `add` returns.
 class TrajectoryFile {
  public:
   /// Replaces what is there.
   static Result<TrajectoryFile> create(const std::filesystem::path& file);
-  Status add(const StampedPose& pose);
+  /// As LineFile::add.
+  Status add(const StampedPose& pose) { return lines_.add(tum_line(pose)); }
 
  private:
-  TrajectoryFile(std::filesystem::path path, std::ofstream out)
-      : path_(std::move(path)), out_(std::move(out)) {}
-  std::filesystem::path path_;
-  std::ofstream out_;
+  explicit TrajectoryFile(LineFile lines) : lines_(std::move(lines)) {}
+  LineFile lines_;
 };
 
 }  // namespace fleetmap::agent

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -85,9 +86,13 @@ class Bus {
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
   [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
 
+  /// Items of a lane that may wait.
+  static constexpr std::size_t kMostWork = 256;
+
   /// Runs `work` off the callback thread, then `done` on it. In virtual time `done` follows after a set time,
-  /// so results do not depend on the machine.
-  virtual void offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
+  /// so results do not depend on the machine. Returns false, and runs neither, while kMostWork items of the
+  /// lane wait.
+  virtual bool offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;
 };

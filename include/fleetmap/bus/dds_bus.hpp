@@ -41,6 +41,8 @@ struct DdsLinkConfig {
   bool multicast = false;
   /// On radios: DDS domains in whose ports others are looked for besides, at the addresses of `peers`.
   std::vector<std::uint32_t> other_domains = {};
+  /// On radios: bit/s that all robots together may send; their Hellos keep to a part of it.
+  double fleet_bits_per_second = 145e3;
   std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
   std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
   bool shared_memory = true;            ///< false leaves out the profile's shared memory transports
@@ -51,7 +53,7 @@ struct DdsBusConfig {
   std::filesystem::path qos_directory;  ///< holds onboard.xml, long_range.xml, short_range.xml
   DdsLinkConfig onboard{.domain = 0};
   DdsLinkConfig long_range{.domain = 1};
-  DdsLinkConfig short_range{.domain = 2};
+  DdsLinkConfig short_range{.domain = 2, .fleet_bits_per_second = 1450e3};
   std::optional<FleetSettings> settings = {};  ///< of a robot, that others compare with theirs
   /// On radios: listens, but not at a robot's port (the first of its address), and finds others faster.
   bool observes = false;
@@ -97,15 +99,15 @@ class DdsBus final : public Bus {
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
-  void offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
+  bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
 
   /// Waits for the work items under way and lets the waiting ones go, for good: afterwards nothing that was
   /// offloaded runs any more, so its owner may be destroyed. Call it while nobody runs the bus.
   void finish_work();
 
-  /// Runs `callback` on the callback thread.
-  void post(std::function<void()> callback);
+  /// Runs `callback` on the callback thread; false, and it does not, while thousands of them wait.
+  bool post(std::function<void()> callback);
 
   /// Runs callbacks until `stop()`, which may have been called already.
   void run();

@@ -20,8 +20,9 @@
 
 namespace fleetmap::exchange {
 
-/// What goes first. Safety and control go before all else. News and state, in this order, go before backfill
-/// and clouds, which share what those leave; but while all wait, backfill and clouds get half of the bytes.
+/// What goes first. Safety and control go before all else. News and state, in this order, go before backfill,
+/// and all three before clouds; but while clouds wait, they get more than half of what is left by safety and
+/// control, and backfill gets half of the rest.
 enum class Priority : std::uint8_t {
   kSafety,    ///< orders to stand still
   kControl,   ///< matches and requests: a few bytes that set others to work
@@ -134,8 +135,8 @@ class SendQueue {
   std::array<Items, kPriorities> waiting_;
   std::map<Key, Place> index_;
   std::size_t backlog_ = 0;
-  double cloud_lead_ = 0.0;  ///< bytes that clouds have had more than backfill while both waited
-  double small_lead_ = 0.0;  ///< bytes that news and state have had more than these two while both waited
+  double items_lead_ = 0.0;         ///< B that news, state and backfill have had more than clouds that wait
+  double small_lead_ = 0.0;         ///< B that news and state have had more than backfill that waits
   std::size_t first_receiver_ = 0;  ///< of the next message to all, by index: nobody is always the last
   SendQueueStats stats_;
 };

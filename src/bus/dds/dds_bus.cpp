@@ -131,8 +131,9 @@ Handle DdsBus::every(Duration period, std::function<void()> callback) {
   return Handle(state_->executor->add_timer(period, std::move(callback)));
 }
 
-void DdsBus::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
-  (lane == Lane::kPerception ? state_->perception : state_->background).add(std::move(work), std::move(done));
+bool DdsBus::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+  Worker& worker = lane == Lane::kPerception ? state_->perception : state_->background;
+  return worker.add(std::move(work), std::move(done));
 }
 
 void DdsBus::finish_work() {
@@ -167,7 +168,7 @@ std::vector<HeardTraffic> DdsBus::take_heard_traffic() {
   return all;
 }
 
-void DdsBus::post(std::function<void()> callback) { state_->executor->post(std::move(callback)); }
+bool DdsBus::post(std::function<void()> callback) { return state_->executor->try_post(std::move(callback)); }
 
 void DdsBus::run() {
   while (!state_->executor->stopped()) state_->executor->run_one(Executor::Clock::time_point::max());

@@ -13,6 +13,24 @@ void Executor::post(std::function<void()> callback) {
   changed_.notify_one();
 }
 
+bool Executor::try_post(std::function<void()> callback) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (posted_.size() >= kMostPosted) return false;
+    posted_.push_back(std::move(callback));
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void Executor::wake() {
+  {
+    const std::scoped_lock lock(mutex_);
+    woken_ = true;
+  }
+  changed_.notify_one();
+}
+
 void Executor::stop() {
   {
     const std::scoped_lock lock(mutex_);
@@ -38,7 +56,7 @@ std::function<void()> Executor::add_timer(Duration period, std::function<void()>
   };
 }
 
-std::function<void()> Executor::take_due(Clock::time_point now) {
+std::function<void()> Executor::take_timer(Clock::time_point now) {
   while (!timers_.empty() && timers_.begin()->first <= now) {
     auto entry = timers_.extract(timers_.begin());
     const auto timer = entry.mapped();
@@ -51,7 +69,20 @@ std::function<void()> Executor::take_due(Clock::time_point now) {
       if (timer->active) timer->callback();
     };
   }
-  if (posted_.empty()) return nullptr;
+  return nullptr;
+}
+
+std::function<void()> Executor::take_due(Clock::time_point now) {
+  // Timers that take longer than their period would else keep messages waiting for ever, and a flood of
+  // messages the timers.
+  const bool after_timer = std::exchange(timer_ran_last_, false);
+  if (!after_timer || posted_.empty()) {
+    if (auto timer = take_timer(now)) {
+      timer_ran_last_ = true;
+      return timer;
+    }
+  }
+  if (posted_.empty()) return std::exchange(woken_, false) ? [] {} : std::function<void()>();
   auto next = std::move(posted_.front());
   posted_.pop_front();
   return next;

@@ -12,13 +12,21 @@
 
 namespace fleetmap::bus {
 
-/// Runs posted callbacks and timers, one after the other, on the thread that asks it to.
+/// Runs posted callbacks and timers, one after the other, on the thread that calls it. Timers that are due
+/// and posted callbacks take turns.
 class Executor {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// From any thread.
+  static constexpr std::size_t kMostPosted = 4096;
+
+  /// From any thread, as the next three. For callers that bound what waits: one callback for each message in
+  /// an inbox, one for each work item.
   void post(std::function<void()> callback);
+  /// False, and nothing is posted, while kMostPosted callbacks wait.
+  [[nodiscard]] bool try_post(std::function<void()> callback);
+  /// Makes a waiting run_one return.
+  void wake();
   void stop();
   bool stopped() const;
 
@@ -37,11 +45,14 @@ class Executor {
   };
 
   std::function<void()> take_due(Clock::time_point now);
+  std::function<void()> take_timer(Clock::time_point now);
 
   mutable std::mutex mutex_;  ///< guards all below
   std::condition_variable changed_;
   std::deque<std::function<void()>> posted_;
   std::multimap<Clock::time_point, std::shared_ptr<Timer>> timers_;
+  bool timer_ran_last_ = false;
+  bool woken_ = false;
   bool stopped_ = false;
 };
 

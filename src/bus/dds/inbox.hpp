@@ -20,7 +20,9 @@ class Inbox {
   Inbox(std::size_t max_messages, std::size_t max_bytes)
       : max_messages_(max_messages), max_bytes_(max_bytes) {}
 
-  void put(Bytes cdr) {
+  /// True if a dispatch is to be posted: fewer wait than messages. One that takes the place of an older
+  /// message is taken by that one's, so no flood makes more callbacks wait than the inbox holds messages.
+  [[nodiscard]] bool put(Bytes cdr) {
     const std::scoped_lock lock(mutex_);
     bytes_ += cdr.size();
     messages_.push_back(std::move(cdr));
@@ -29,9 +31,14 @@ class Inbox {
       messages_.pop_front();
       ++dropped_;
     }
+    if (dispatches_ >= messages_.size()) return false;
+    ++dispatches_;
+    return true;
   }
+  /// For a dispatch.
   std::optional<Bytes> take() {
     const std::scoped_lock lock(mutex_);
+    if (dispatches_ > 0) --dispatches_;
     if (messages_.empty()) return std::nullopt;
     std::optional<Bytes> oldest(std::move(messages_.front()));
     messages_.pop_front();
@@ -53,6 +60,7 @@ class Inbox {
   mutable std::mutex mutex_;  ///< guards all below
   std::deque<Bytes> messages_;
   std::size_t bytes_ = 0;
+  std::size_t dispatches_ = 0;  ///< posted and not run
   std::uint64_t dropped_ = 0;
   std::uint64_t taken_messages_ = 0;
   std::uint64_t taken_bytes_ = 0;

@@ -28,7 +28,7 @@ class WriterListener final : public dds::DataWriterListener {
   explicit WriterListener(std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {}
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
     matched_ += status.current_count_change;
-    executor_->post([] {});  // wakes who waits for it
+    executor_->wake();  // whoever waits for it
   }
   std::size_t matched() const { return static_cast<std::size_t>(std::max(0, matched_.load())); }
 
@@ -49,14 +49,13 @@ class ReaderListener final : public dds::DataReaderListener {
     dds::SampleInfo info;
     while (reader->take_next_sample(&cdr, &info) == ReturnCode::RETCODE_OK) {
       if (!info.valid_data) continue;
-      inbox_->put(std::move(cdr));
-      executor_->post(dispatch_);
+      if (inbox_->put(std::move(cdr))) executor_->post(dispatch_);
       cdr = Bytes();
     }
   }
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
     matched_ += status.current_count_change;
-    executor_->post([] {});
+    executor_->wake();
   }
   std::size_t matched() const { return static_cast<std::size_t>(std::max(0, matched_.load())); }
   void forget_matches() { matched_ = 0; }

@@ -170,6 +170,7 @@ Status validate(const DdsLinkConfig& config, const std::string& link) {
                  " is another machine: give this robot's own address on " + "that radio; this machine has " +
                  names_of(interfaces()));
   }
+  if (!(config.fleet_bits_per_second > 0.0)) return wrong("fleet_bits_per_second must be > 0");
   if (config.queue_messages == 0) return wrong("queue_messages must be > 0");
   if (config.queue_bytes == 0) return wrong("queue_bytes must be > 0");
   return {};

@@ -25,14 +25,9 @@ using rtps::IPLocator;
 constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until who is known hears of other topics
 /// On the wire, each of the two by which a pair gets to know each other; with keys three, in the mean.
 constexpr double kHelloBits = 8.0 * 260.0, kGreetingBits = 8.0 * 345.0 * 3.0 / 2.0;
-/// What Hellos of all robots together may take of the medium, bit/s: in the mean while a fleet starts, and in
-/// any second.
-struct HelloRates {
-  double mean, most;
-};
-constexpr HelloRates rates_of(Link link) {
-  return link == Link::kLongRange ? HelloRates{62e3, 135e3} : HelloRates{620e3, 1350e3};
-}
+/// What Hellos of all robots together may take of the link's fleet_bits_per_second: in the mean while a fleet
+/// starts, and in any second.
+constexpr double kMeanPart = 0.43, kMostPart = 0.93;
 constexpr double kLongestSpread = 6.0;  // s: a fleet is to know itself within ten
 constexpr double kFirstPause = 0.5;     // s until a Hello is repeated, and what answers may take besides
 constexpr auto kLongestPause = std::chrono::seconds(2);  // and a second for each other robot
@@ -73,14 +68,15 @@ double RadioLink::hello_time(double rate) const { return others() * (others() + 
 /// Over which they are spread.
 RadioLink::Clock::duration RadioLink::spread() const {
   if (observes_) return {};
-  return to_duration(std::min(hello_time(rates_of(link_).mean), kLongestSpread));
+  return to_duration(std::min(hello_time(kMeanPart * config_.fleet_bits_per_second), kLongestSpread));
 }
 
 /// Until a Hello that was not answered is repeated: while a fleet starts answers wait for their turn, too.
 RadioLink::Clock::duration RadioLink::first_pause() const {
   // Of the time that all Hellos take at the highest rate. Of three messages the radio loses one more often.
   const double answered = guard_ ? 0.4 : 0.75;
-  return to_duration(kFirstPause + (observes_ ? 0.0 : answered * hello_time(rates_of(link_).most)));
+  return to_duration(kFirstPause +
+                     (observes_ ? 0.0 : answered * hello_time(kMostPart * config_.fleet_bits_per_second)));
 }
 
 Status RadioLink::add_place(const Locator& locator, bool configured) {
@@ -207,7 +203,8 @@ void RadioLink::name_who_was_never_heard(Clock::time_point now) {
 
 /// The longest due first, no faster than this robot's share of what Hellos may take.
 void RadioLink::say_due_hellos(Clock::time_point now) {
-  const Clock::duration pause = to_duration((others() + 1.0) * hello_bits() / rates_of(link_).most);
+  const Clock::duration pause =
+      to_duration((others() + 1.0) * hello_bits() / (kMostPart * config_.fleet_bits_per_second));
   std::vector<Place*> due;
   for (const auto& place : places_) {
     if (place->next <= now) due.push_back(place.get());
@@ -309,7 +306,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello, const Acquaintanc
   } else if (peer.greeted == Clock::time_point{}) {
     peer.greeted = Clock::now();  // by what made it know us
   }
-  executor_->post([] {});  // wakes who waits for it
+  executor_->wake();  // whoever waits for it
 }
 
 /// For survey().

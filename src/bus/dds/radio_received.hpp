@@ -73,7 +73,7 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
       count(robot, key_of(writer.entityId), number, cdr->size(), delay);
       const auto topic = received_->topics.find(key_of(writer.entityId));
       if (topic == received_->topics.end()) return;
-      topic->second.inbox->put(*std::move(cdr));
+      if (!topic->second.inbox->put(*std::move(cdr))) return;
       dispatch = topic->second.dispatch;
     }
     executor_->post(dispatch);

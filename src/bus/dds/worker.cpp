@@ -18,12 +18,14 @@ void Worker::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Worker::add(std::function<void()> work, std::function<void()> done) {
+bool Worker::add(std::function<void()> work, std::function<void()> done) {
   {
     const std::scoped_lock lock(mutex_);
+    if (items_.size() >= Bus::kMostWork) return false;
     items_.push_back({std::move(work), std::move(done)});
   }
   changed_.notify_one();
+  return true;
 }
 
 void Worker::loop() {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "executor.hpp"
+#include "fleetmap/bus/bus.hpp"
 
 namespace fleetmap::bus {
 
@@ -22,7 +23,8 @@ class Worker {
 
   /// Waits for the item under way; the others, and those that are added later, are let go.
   void finish();
-  void add(std::function<void()> work, std::function<void()> done);
+  /// False, and it is not added, while Bus::kMostWork items wait.
+  bool add(std::function<void()> work, std::function<void()> done);
 
  private:
   struct Item {
