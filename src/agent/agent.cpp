@@ -287,7 +287,10 @@ void Agent::freeze_node(const Perceived& perceived) {
   node.stamp = update.stamp;
   node.T_odom_base = update.T_odom_base;
   node.up_in_base = level_.up_in_base(update.T_odom_base);
-  if (perceived.G) node.G = levelled(*perceived.G, node.up_in_base);
+  if (perceived.G) {
+    const auto variance = perceived.up_is_measured ? level_.variance() : std::nullopt;
+    node.G = levelled(*perceived.G, node.up_in_base, variance);
+  }
   if (node.id.seq != first_seq(session_)) node.odom_covariance = motion_.lost_since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();

@@ -146,8 +146,14 @@ void Perception::finish(Job& job) {
     report_loss(update);
     bus_.publish(wire::topics::odometry(),
                  wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
-    const Eigen::Vector3d up = up_in(update.T_odom_base);
-    Perceived perceived{std::move(*job.update), ekf_.pose_at(update.stamp), up, job.cpu_seconds, job.heard};
+    const localization::Filter& filter = ekf_.newest();
+    const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(update.T_odom_base.linear());
+    Perceived perceived{std::move(*job.update),
+                        ekf_.pose_at(update.stamp),
+                        R.transpose() * Eigen::Vector3d::UnitZ(),
+                        filter.attitude_set,
+                        job.cpu_seconds,
+                        job.heard};
     if (perceived.G) bus_.publish(wire::topics::global_pose(), wire::encode(*perceived.G));
     on_perceived_(std::move(perceived));
   } else {
@@ -165,12 +171,6 @@ void Perception::report_loss(const odometry::OdometryUpdate& update) {
   } else if (const std::uint64_t lost = std::exchange(lost_in_a_row_, 0); lost > 0) {
     spdlog::info("the odometry has its way again after {} lost scans", lost);
   }
-}
-
-Eigen::Vector3d Perception::up_in(const Pose& T_odom_base) const {
-  const localization::Filter& filter = ekf_.newest();
-  const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(T_odom_base.linear());
-  return R.transpose() * Eigen::Vector3d::UnitZ();
 }
 
 void Perception::warn(const std::string& kind, const std::string& detail) {

@@ -15,7 +15,7 @@ constexpr double kOdometryFloorM = 1e-3;       // m a step: a node's pose is rou
 constexpr double kOdometryFloorRad = 2e-4;     // rad a step
 constexpr double kMostSigma = 1e3;             // m; what is worse is no fix
 constexpr double kLeastRestVariance = 0.01;    // m^2, of a window's mean fix
-constexpr double kLeastTiltVariance = 1.2e-5;  // rad^2, (0.2 deg)^2
+constexpr double kLeastTiltVariance = 2.5e-7;  // rad^2, (0.03 deg)^2
 constexpr double kMostRotationVariance = 4.0;  // rad^2
 /// Variance that a filter adds each second that it reckons by wheels and gyro.
 constexpr double kReckoning = 0.01;         // m^2/s

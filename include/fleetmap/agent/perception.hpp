@@ -40,8 +40,9 @@ struct Perceived {
   /// Against gravity, in base_link. From the IMU, also where there is no GPS; without an IMU the odometry's
   /// z, which is up if the robot started level.
   Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
-  double cpu_seconds = 0.0;  ///< that LOAM took
-  Stamp heard;               ///< when the scan came, on the bus's clock
+  bool up_is_measured = false;  ///< by the IMU
+  double cpu_seconds = 0.0;     ///< that LOAM took
+  Stamp heard;                  ///< when the scan came, on the bus's clock
 };
 
 struct PerceptionCounters {
@@ -100,7 +101,6 @@ class Perception {
   void finish(Job& job);
   /// Logs when the odometry loses its way and when it has it again.
   void report_loss(const odometry::OdometryUpdate& update);
-  Eigen::Vector3d up_in(const Pose& T_odom_base) const;
   /// `kind` is what repeats; `detail` is of this time.
   void warn(const std::string& kind, const std::string& detail);
 
