@@ -39,7 +39,7 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   const exchange::Message request = exchange::ItemRequest{id("r2"), id("r1"), {{id("r1"), 0, 1}}, {}};
   const bus::Handle heard = other.subscribe(wire::topic_of(exchange::ItemRequest{id("r1"), id("r2"), {}, {}}),
                                             [&](const Bytes&) { ++asked; });
-  say(exchange::Digest{id("r2"), {{id("r2"), 0, 3}}, {}});
+  say(exchange::Digest{id("r2"), {{id("r2"), 0, 3}}, {}, {0}, {}});
   network->run_until(Stamp{} + 120s);
   EXPECT_GE(asked, 2) << "r1 asks for what it lacks, again and again";
   EXPECT_EQ(link.counters().last_useful, Stamp{});

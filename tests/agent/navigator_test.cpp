@@ -242,10 +242,18 @@ TEST_F(NavigatorTest, HearsOfItsBattery) {
   EXPECT_NEAR(told_.back().battery, 0.25, 1e-6);
 }
 
-TEST_F(NavigatorTest, RowsThatOthersDroveAreDriven) {
+TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
   stand(at({0.0, 0.0}, 0.0), 2);
   EXPECT_FALSE(navigator_->all_rows_driven());
   navigator_->on_report(report_of("r2", {0b11}));
+  stand(at({0.0, 0.0}, 0.0), 2);
+  EXPECT_FALSE(navigator_->all_rows_driven()) << "one of the two is this robot's, and no node lies along it";
+  for (double east = 2.0; east <= 22.0; east += 4.0) {
+    graph::Node node;
+    node.G.emplace();
+    node.G->position = LocalFrame(site_).to_geo({east, 0.0, 0.0});
+    navigator_->on_node(node);
+  }
   stand(at({0.0, 0.0}, 0.0), 2);
   EXPECT_TRUE(navigator_->all_rows_driven());
 }

@@ -105,10 +105,16 @@ TEST(Fleet, keeps_the_budget_of_the_radio_in_every_window) {
 }
 
 TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robots) {
-  for (const std::size_t robots : {3u, 5u, 10u, 20u}) {
+  struct Case {
+    std::size_t robots;
+    bool multicast;
+  };
+  for (const auto [robots, multicast] :
+       {Case{3, false}, Case{5, false}, Case{10, false}, Case{20, false}, Case{20, true}}) {
     std::vector<std::string> names;
     for (std::size_t k = 1; k <= robots; ++k) names.push_back("r" + std::to_string(k));
-    SimFleet fleet(names, {}, 3);
+    SimFleet fleet(names, {}, 3,
+                   [&](exchange::ExchangeConfig& config) { config.long_range.multicast = multicast; });
     for (const auto& name : names) fleet.start(name);
     fleet.run_for(std::chrono::minutes(1));
     fleet.forget_sent();
@@ -122,7 +128,9 @@ TEST(Fleet, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many_robot
       bytes += fixed ? static_cast<double>(sent.wire_bytes) : 0.0;
     }
     EXPECT_LT(bytes, 0.25 * fleet.config().long_range.fleet_bytes_per_second * 240.0) << robots << " robots";
-    // Twenty robots at one place have 190 pairs, whose clouds and alignments take a while.
+    // Twenty robots at one place have 190 pairs. Without multicast the copies of their alignments fill the
+    // radio for longer than anybody would wait (docs/dds.md, "More robots").
+    if (robots == 20 && !multicast) continue;
     fleet.run_for(std::chrono::minutes(10), [&] { return fleet.equal_sets(robots); });
     EXPECT_TRUE(fleet.equal_sets(robots)) << robots << " robots";
   }
