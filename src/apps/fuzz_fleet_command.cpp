@@ -31,8 +31,9 @@ struct FuzzOptions {
   std::vector<std::size_t> keep;
   std::vector<std::size_t> robots;
   std::string faults =
-      "loss,delay,duplication,one_way,partition,crash,lost_store,old_store,full_disk,clock_step,stranger";
-  std::string invariants = "converges,same_map,nothing_lost,budget,bounded,alive,own_items,starts";
+      "loss,delay,duplication,one_way,partition,crash,lost_store,old_store,full_disk,clock_step,stranger,"
+      "liar";
+  std::string invariants = "all";
   double mapping = 150.0;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool no_shrink = false;
