@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <utility>
 
 #include "fleetmap/agent/results.hpp"
@@ -378,8 +377,8 @@ void FaultyFleet::check_maps() {
   std::optional<store::MergedMap> first_map;
   for (const auto& [name, robot] : robots()) {
     graph::Placement placement = placement_of(robot);
-    const auto load = [&](const NodeId& id) -> Result<cloud::PointCloud> {
-      const auto bytes = robot.store->submap(id);
+    const auto load = [&store = *robot.store](const NodeId& id) -> Result<cloud::PointCloud> {
+      const auto bytes = store.submap(id);
       if (!bytes) return tl::unexpected(bytes.error());
       return SyntheticSurvey::decode_submap(*bytes);
     };
@@ -391,8 +390,7 @@ void FaultyFleet::check_maps() {
     }
     const bool same_placement =
         std::ranges::equal(placement.T_enu_node, first->T_enu_node, [](const auto& a, const auto& b) {
-          return a.first == b.first &&
-                 std::memcmp(a.second.data(), b.second.data(), 16 * sizeof(double)) == 0;
+          return a.first == b.first && a.second.matrix() == b.second.matrix();
         });
     if (!same_placement) monitor_.note(Invariant::kSameMap, name, now(), "other places");
     if (map.cloud.points != first_map->cloud.points || map.unreadable != first_map->unreadable)

@@ -120,7 +120,7 @@ TEST_F(DdsFleet, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   for (const auto& [id, node] : store->nodes()) {
     if (id.agent.str() == "r2") sessions.insert(node.session);
   }
-  EXPECT_EQ(sessions.size(), 2u);
+  EXPECT_EQ(sessions.size(), 2u) << r2->output();
   expect_equal_complete_maps();
 }
 
