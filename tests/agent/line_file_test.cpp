@@ -6,25 +6,11 @@
 #include <csignal>
 #include <sstream>
 
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
 namespace {
-
-/// Files cannot grow beyond so many bytes while it lives: a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit full{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &full);
-  }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -38,14 +24,14 @@ TEST(LineFile, LeavesOutWholeLinesWhileTheDiskIsFullAndSaysSoOnce) {
   auto file = LineFile::open(path, std::ios::trunc).value();
   ASSERT_TRUE(file.add("first"));
   {
-    const FullDisk full(9);  // three bytes of the next line fit
+    const testing::FullDisk full(9);  // three bytes of the next line fit
     EXPECT_FALSE(file.add("second"));
     EXPECT_TRUE(file.add("third")) << "said already";
     EXPECT_EQ(text_of(path), "first\n");
   }
   EXPECT_TRUE(file.add("fourth"));
   EXPECT_EQ(text_of(path), "first\nfourth\n");
-  const FullDisk full(16);
+  const testing::FullDisk full(16);
   EXPECT_FALSE(file.add("fifth")) << "full again";
 }
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "exchange/sim_fleet.hpp"
+#include "support/full_disk.hpp"
 
 namespace fleetmap::exchange {
 namespace {
@@ -283,21 +284,6 @@ TEST(SubmapTransfer, a_stuck_download_leaves_its_peer_for_another) {
   EXPECT_EQ(store.submap(id).value(), submap);
 }
 
-/// Files cannot grow beyond so many bytes while it lives: a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(std::uintmax_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit full{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &full);
-  }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
 TEST(SubmapTransfer, completes_what_it_holds_when_the_full_disk_has_room_again) {
   const testing::ScratchFolder folder;
   const AgentId self = agent("r1"), peer = agent("r2");
@@ -320,7 +306,7 @@ TEST(SubmapTransfer, completes_what_it_holds_when_the_full_disk_has_room_again) 
   for (std::uint32_t offset = 0; offset + 8192 < 100'000; offset += 8192) ASSERT_TRUE(hear(offset));
   {
     // The last chunk still fits, the whole does not.
-    const FullDisk full(std::filesystem::file_size(folder / "store.db-wal") + 50'000);
+    const testing::FullDisk full(std::filesystem::file_size(folder / "store.db-wal") + 50'000);
     EXPECT_FALSE(hear(12 * 8192));
     EXPECT_TRUE(store.missing_chunks(id).empty());
     EXPECT_FALSE(store.has_submap(id));

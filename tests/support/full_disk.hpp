@@ -1,0 +1,24 @@
+#pragma once
+
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace fleetmap::testing {
+
+/// Files cannot grow beyond so many bytes while it lives: a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit full{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+  }
+  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+}  // namespace fleetmap::testing
