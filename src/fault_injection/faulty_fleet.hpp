@@ -22,6 +22,7 @@ namespace fleetmap::fault_injection {
 class FaultyFleet : private ExchangeFleet {
  public:
   FaultyFleet(const Scenario& scenario, const RunConfig& config, const std::filesystem::path& folder);
+  ~FaultyFleet() override { close_stores(); }
 
   Outcome run();
 

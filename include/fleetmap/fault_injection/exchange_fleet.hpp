@@ -61,6 +61,8 @@ class ExchangeFleet {
                const DrawSession& draw_session);
   /// As kill -9 does: memory is gone, files stay as they are at this moment.
   void kill(const AgentId& name);
+  /// A derived class that owns the disks of the stores calls this before these go: to close a store writes.
+  void close_stores() { robots_.clear(); }
   /// The robot's files as they are now go to a copy, and back to what the copy holds (none: no store). Those
   /// of a robot that runs may only be copied.
   void keep_store(const AgentId& name, const std::string& copy) const;
