@@ -6,10 +6,13 @@
 #include <limits>
 
 #include "placed_fleet.hpp"
+#include "support/measured.hpp"
 
 namespace fleetmap::graph {
 namespace {
 
+using fleetmap::testing::expect_at_most;
+using fleetmap::testing::seeds_to_run;
 using testing::count;
 using testing::joint_error;
 using testing::judgements;
@@ -22,14 +25,17 @@ using testing::SimulatedFleet;
 
 TEST(AbsurdNumbers, ARobotWhoseHeadingIsFalseDoesNotKeepTheOthersApart) {
   for (const double turn : {0.5, 1.0, M_PI}) {
-    SimulatedFleet fleet(2);
-    for (Node& node : fleet.nodes) {
-      if (node.id.agent == kR3)
-        node.G->q_enu_base = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * node.G->q_enu_base;
+    for (unsigned seed = 1; seed <= seeds_to_run(3); ++seed) {
+      SimulatedFleet fleet(seed);
+      for (Node& node : fleet.nodes) {
+        if (node.id.agent == kR3)
+          node.G->q_enu_base = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * node.G->q_enu_base;
+      }
+      const Placement placement = place(fleet);
+      EXPECT_GE(placement.credits.at(kR1).used, 4u) << turn << ' ' << of(seed);
+      expect_at_most(joint_error(fleet, placement, {kR1, kR2}), 0.58, "joint error beside a false heading",
+                     seed);
     }
-    const Placement placement = place(fleet);
-    EXPECT_GE(placement.credits.at(kR1).used, 4u) << turn;
-    EXPECT_LT(joint_error(fleet, placement, {kR1, kR2}), 0.8) << turn;
   }
 }
 
@@ -89,7 +95,7 @@ TEST(AbsurdNumbers, ARobotOfAbsurdNumbersHurtsItselfAlone) {
     node.G->q_enu_base = Eigen::Quaterniond(anyhow(fleet, 2.0));
   };
   for (const Spoil& spoil : {wrong_motion, far, jumping, all}) {
-    for (unsigned seed = 0; seed < 4; ++seed) {
+    for (unsigned seed = 1; seed <= seeds_to_run(4); ++seed) {
       SimulatedFleet fleet(seed);
       for (Node& node : fleet.nodes)
         if (node.id.agent == kR3) spoil(fleet, node);
@@ -99,7 +105,8 @@ TEST(AbsurdNumbers, ARobotOfAbsurdNumbersHurtsItselfAlone) {
         const bool of_others = a.i.agent != kR3 && a.j.agent != kR3;
         EXPECT_EQ(judged.at({a.computed_by, a.seq}) == Judgement::used, of_others) << of(seed);
       }
-      EXPECT_LT(joint_error(fleet, placement, {kR1, kR2}), 0.8) << of(seed);
+      expect_at_most(joint_error(fleet, placement, {kR1, kR2}), 0.58, "joint error beside absurd nodes",
+                     seed);
       EXPECT_EQ(placement.components.size(), 2u) << of(seed);
       ASSERT_EQ(placement.T_enu_node.size(), fleet.nodes.size());
       for (const auto& [id, T] : placement.T_enu_node) EXPECT_TRUE(T.matrix().allFinite()) << to_string(id);
