@@ -55,8 +55,8 @@ class KittiDrive : public ::testing::Test {
   std::filesystem::path drive_;
 };
 
-/// Five runs of three public odometries lie within 0.028 m of their mean.
-constexpr double kMaxRmse = 0.05;
+/// Five runs of three public odometries lie within 0.028 m of their mean; this one 0.030 m from it.
+constexpr double kMaxRmse = 0.04;
 
 TEST_F(KittiDrive, LidarAloneStaysNearTheConsensus) {
   const DriveResult run = run_drive(drive_, {}, false, false);

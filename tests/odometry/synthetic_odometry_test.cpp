@@ -6,6 +6,7 @@
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/measured.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::odometry {
@@ -44,11 +45,16 @@ DriveResult drive(const testing::SyntheticWorld& world, const SyntheticDrive& mo
   return run;
 }
 
-constexpr double kMaxDrift = 0.005;  // of 20 m
+/// Bounds (one drive each, a third more than measured): docs/test_sensitivity.md.
+void expect_drift(const std::vector<Pose>& estimate, const std::vector<Pose>& truth, double most_per_cent,
+                  const std::string& what) {
+  fleetmap::testing::expect_at_most(100.0 * testing::relative_drift(estimate, truth, 20.0), most_per_cent,
+                                    "drift over 20 m, %, " + what, 1);
+}
 
 TEST(SyntheticOdometry, Vlp16DriftsLittleOverErrands) {
   const DriveResult run = drive(testing::yard_world(), SyntheticDrive(kErrands), vlp16(), vlp16(), {});
-  EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
+  expect_drift(run.estimate, run.truth, 0.058, "VLP-16");
   EXPECT_EQ(run.counters.lost, 0u);
 }
 
@@ -56,28 +62,28 @@ TEST(SyntheticOdometry, Vlp16WithoutRingsOrTimes) {
   ScanOptions options;
   options.has_ring = options.has_time = false;
   const DriveResult run = drive(testing::yard_world(), SyntheticDrive(kErrands), vlp16(), vlp16(), options);
-  EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
+  expect_drift(run.estimate, run.truth, 0.058, "VLP-16 without rings or times");
 }
 
 TEST(SyntheticOdometry, HalfOfTheRaysMissing) {
   ScanOptions options;
   options.keep = 0.5;
   const DriveResult run = drive(testing::yard_world(), SyntheticDrive(kErrands), vlp16(), vlp16(), options);
-  EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
+  expect_drift(run.estimate, run.truth, 0.032, "half of the rays");
   EXPECT_EQ(run.counters.lost, 0u);
 }
 
 TEST(SyntheticOdometry, NonRepeatingPatternWithoutRings) {
   const DriveResult run =
       drive(testing::yard_world(), SyntheticDrive(kErrands), generic_lidar(), generic_lidar(), {});
-  EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift);
+  expect_drift(run.estimate, run.truth, 0.01, "non-repeating");
 }
 
 TEST(SyntheticOdometry, NeverLostBetweenRowsOfPanels) {
   const SyntheticDrive motion({{1, 0, 0}, {12, 1.5, 0}, {1, 0, 0}, {4, 0, 0.8}, {1, 0, 0}, {8, 1.5, 0}});
   for (const LidarModel& model : {vlp16(), generic_lidar()}) {
     const DriveResult run = drive(testing::panel_world(), motion, model, model, {});
-    EXPECT_LT(testing::relative_drift(run.estimate, run.truth, 20.0), kMaxDrift) << model.name;
+    expect_drift(run.estimate, run.truth, model.has_rings() ? 0.037 : 0.108, "between panels, " + model.name);
     EXPECT_EQ(run.counters.lost, 0u) << model.name;
   }
 }
@@ -140,7 +146,7 @@ TEST(SyntheticOdometry, GyroPriorWithBiasDoesNoHarm) {
     truth.push_back(motion.at(t));
     if (k >= kLearned) uncertainty.add(*update);
   }
-  EXPECT_LT(testing::relative_drift(estimate, truth, 20.0), kMaxDrift);
+  expect_drift(estimate, truth, 0.058, "gyro with a bias");
   const auto error_between = [&](std::size_t from, std::size_t to) {
     return Vector6d(
         se3_log((truth[from].inverse() * truth[to]).inverse() * (estimate[from].inverse() * estimate[to])));

@@ -8,6 +8,7 @@
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "registration/made_world.hpp"
+#include "support/measured.hpp"
 #include "support/shared_data.hpp"
 
 namespace fleetmap::registration {
@@ -17,6 +18,13 @@ using cloud::PointCloud;
 using fleetmap::testing::shared_data;
 using testing::error_between;
 using testing::kDegree;
+
+/// Bounds: docs/test_sensitivity.md.
+void expect_near(const testing::PoseError& error, double most_m, double most_deg, const std::string& what,
+                 unsigned number = 0) {
+  fleetmap::testing::expect_at_most(error.translation_m, most_m, what + ", m", number);
+  fleetmap::testing::expect_at_most(error.rotation_rad / kDegree, most_deg, what + ", deg", number);
+}
 
 struct SmallGicpPair : ::testing::Test {
   void SetUp() override {
@@ -36,8 +44,7 @@ TEST_F(SmallGicpPair, IsRegisteredWithoutAPrior) {
   const auto result = register_clouds(target, source, {});
   EXPECT_EQ(result.verdict, Verdict::accepted) << result.reason;
   const auto error = error_between(T_target_source, result.T_target_source);
-  EXPECT_LT(error.translation_m, 0.1);
-  EXPECT_LT(error.rotation_rad, 0.5 * kDegree);
+  expect_near(error, 0.025, 0.24, "small_gicp pair");
 }
 
 TEST_F(SmallGicpPair, IsRegisteredByThePapersMethodWithoutAPrior) {
@@ -46,8 +53,7 @@ TEST_F(SmallGicpPair, IsRegisteredByThePapersMethodWithoutAPrior) {
   const auto result = register_clouds(target, source, config);
   EXPECT_EQ(result.verdict, Verdict::accepted) << result.reason;
   const auto error = error_between(T_target_source, result.T_target_source);
-  EXPECT_LT(error.translation_m, 0.15);
-  EXPECT_LT(error.rotation_rad, 0.5 * kDegree);
+  expect_near(error, 0.036, 0.51, "small_gicp pair, paper's method");
 }
 
 TEST_F(SmallGicpPair, IsRecoveredFromFiveMetresAndFortyDegreesWithoutAPrior) {
@@ -59,8 +65,7 @@ TEST_F(SmallGicpPair, IsRecoveredFromFiveMetresAndFortyDegreesWithoutAPrior) {
     const auto result = register_clouds(target, transformed(source, T_moved_source), {});
     EXPECT_EQ(result.verdict, Verdict::accepted) << result.reason;
     const auto error = error_between(T_target_source * T_moved_source.inverse(), result.T_target_source);
-    EXPECT_LT(error.translation_m, 0.1) << k;
-    EXPECT_LT(error.rotation_rad, 0.5 * kDegree) << k;
+    expect_near(error, 0.051, 0.55, "small_gicp pair, moved", static_cast<unsigned>(k));
   }
 }
 
@@ -71,8 +76,7 @@ TEST_F(SmallGicpPair, IsRegisteredAfterSpherization) {
   const auto result = register_clouds(a->decoded, b->decoded, {});
   EXPECT_EQ(result.verdict, Verdict::accepted) << result.reason;
   const auto error = error_between(T_target_source, result.T_target_source);
-  EXPECT_LT(error.translation_m, 0.1);
-  EXPECT_LT(error.rotation_rad, 0.5 * kDegree);
+  expect_near(error, 0.01, 0.29, "small_gicp pair, spherized");
 }
 
 PointCloud raw_points(const std::filesystem::path& path) {
@@ -110,8 +114,7 @@ TEST(Kitti07, ScansUpToSeventeenMetresApartAreRegisteredAndNoneWrongly) {
         EXPECT_EQ(result.verdict, Verdict::accepted) << i << " " << j << " " << result.reason;
       }
       if (result.verdict != Verdict::accepted) continue;
-      EXPECT_LT(error.translation_m, 0.1) << i << " " << j;
-      EXPECT_LT(error.rotation_rad, 0.5 * kDegree) << i << " " << j;
+      expect_near(error, 0.058, 0.36, "KITTI 07", static_cast<unsigned>(10 * i + j));
     }
   }
   EXPECT_EQ(near, 7);
