@@ -40,6 +40,26 @@ YAML::Node with_value_at(const YAML::Node& map, const std::vector<std::string>& 
   return copy;
 }
 
+constexpr int kDeepest = 64;
+constexpr std::size_t kMostValues = 100'000;
+constexpr const char* kTooLarge =
+    "anchors (&) and aliases (*) repeat each other without end, or there are more than 100000 values; "
+    "write the values out";
+
+/// False for a document without end: an anchor may hold itself, and a few that hold each other ten times
+/// over stand for billions of values. All who walk through a document would follow them.
+bool has_an_end(const YAML::Node& node, std::size_t& values, int depth = 0) {
+  if (depth > kDeepest || ++values > kMostValues) return false;
+  if (!node.IsMap() && !node.IsSequence()) return true;
+  for (const auto& entry : node) {
+    const bool ends = node.IsMap() ? has_an_end(entry.first, values, depth + 1) &&
+                                         has_an_end(entry.second, values, depth + 1)
+                                   : has_an_end(entry, values, depth + 1);
+    if (!ends) return false;
+  }
+  return true;
+}
+
 using Repeated = std::function<void(const std::string& path, const YAML::Mark& again, int first_line)>;
 
 /// YAML forbids a key to stand twice in a map; the parser takes the first and says nothing. `visited` keeps
@@ -93,6 +113,7 @@ Result<Document> Document::load(const std::filesystem::path& file) {
     if (root.size() == 0) {
       return failure(file.string() + ": empty; give a fleet, an agent, a world, a sensor or an experiment");
     }
+    if (std::size_t values = 0; !has_an_end(root, values)) return failure(file.string() + ": " + kTooLarge);
     Document document = from(root, file.string());
     std::set<int> visited;
     find_repeated_keys(root, "", visited, [&](const std::string& path, const YAML::Mark& again, int first) {
@@ -123,7 +144,10 @@ Status Document::apply(const std::vector<Override>& overrides) {
       return failure("--set " + entry.key + "=" + entry.value + ": the key must look like lidar.translation");
     }
     try {
-      root_ = with_value_at(root_, keys, 0, YAML::Load(entry.value));
+      const YAML::Node value = YAML::Load(entry.value);
+      if (std::size_t values = 0; !has_an_end(value, values))
+        return failure("--set " + entry.key + ": " + kTooLarge);
+      root_ = with_value_at(root_, keys, 0, value);
     } catch (const YAML::Exception& e) {
       return failure("--set " + entry.key + "=" + entry.value + ": the value is not valid YAML: " + e.msg);
     }

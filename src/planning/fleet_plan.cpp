@@ -112,7 +112,7 @@ Polyline route_of(const FleetPlan& plan, std::size_t index) {
   Polyline route =
       timed_path(plan.planner, plan.mission, plan.fleet[index], plan.division.routes[index].visits, end)
           .points;
-  route.erase(std::ranges::unique(route).begin(), route.end());
+  route.erase(std::unique(route.begin(), route.end()), route.end());
   return route;
 }
 

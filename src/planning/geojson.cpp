@@ -217,10 +217,18 @@ std::size_t line_of(const std::string& text, std::size_t byte) {
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
 }
 
-/// JSON nested deeper than any mission would exhaust the stack of those who walk through it.
+/// JSON nested deeper than any mission would exhaust the stack of those who walk through it. Brackets in
+/// strings do not count.
 bool too_deep(const std::string& text) {
   int depth = 0;
+  bool in_string = false, escaped = false;
   for (const char c : text) {
+    if (in_string) {
+      in_string = escaped || c != '"';
+      escaped = !escaped && c == '\\';
+      continue;
+    }
+    in_string = c == '"';
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
     if (depth > 200) return true;

@@ -76,7 +76,7 @@ Status lay_out(PcdHeader& header, const std::vector<std::string>& fields,
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const std::size_t size = to_count(sizes[k]);
     const std::size_t count = k < counts.size() ? to_count(counts[k]) : 1;
-    if (size == 0 || size > 8 || count > 4096)
+    if (size == 0 || size > 8 || count == 0 || count > 4096)
       return failure(file + ": PCD header: field " + fields[k] + " has an absurd size");
     for (std::size_t wanted = 0; wanted < 4; ++wanted) {
       if (fields[k] != kWanted[wanted] || size != 4 || types[k] != "F") continue;

@@ -137,7 +137,9 @@ std::optional<graph::Node> decode_node(ByteView bytes) {
   node.id = r.id();
   node.session = r.value<std::uint16_t>();
   node.stamp = stamp_from_ns(r.value<std::int64_t>());
-  if (r.value<std::uint8_t>() != 0) {
+  const auto has_G = r.value<std::uint8_t>();
+  if (has_G > 1) return std::nullopt;
+  if (has_G == 1) {
     GlobalPose& G = node.G.emplace();
     G.stamp = stamp_from_ns(r.value<std::int64_t>());
     G.position.latitude = r.value<double>();

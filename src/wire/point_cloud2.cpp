@@ -157,6 +157,8 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
 void read_points(const PointCloud2_& in, const Layout& layout, DecodedScan& out) {
   std::vector<double> times;
   const std::size_t count = std::size_t{in.height()} * in.width();
+  out.scan.has_ring = layout.ring.has_value();
+  if (count == 0) return;  // billions of rows without a point would still be walked
   out.scan.points.reserve(count);
   if (layout.time) times.reserve(count);
   for (std::uint32_t row = 0; row < in.height(); ++row) {
@@ -180,7 +182,6 @@ void read_points(const PointCloud2_& in, const Layout& layout, DecodedScan& out)
       out.scan.points.push_back(point);
     }
   }
-  out.scan.has_ring = layout.ring.has_value();
   if (layout.time && !times.empty()) resolve_times(times, *layout.time, out.scan.stamp, out);
 }
 

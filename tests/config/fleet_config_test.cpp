@@ -65,6 +65,12 @@ TEST_F(FleetConfigTest, AKeyThatStandsTwiceIsRefusedWithBothLines) {
   EXPECT_EQ(robot_error(kRobot + "lidar: &l {max_range: 30}\nodometry: {deskew: true}\n"), "no error");
 }
 
+TEST_F(FleetConfigTest, AnchorsThatHoldThemselvesAreRefused) {
+  EXPECT_THAT(fleet_error("defaults: &d {lidar: *d}\nagents:\n  - &a {id: a, lidar: *a}\n"),
+              HasSubstr("config.yaml: anchors (&) and aliases (*) repeat each other"));
+  EXPECT_THAT(robot_error(kRobot, {{"lidar", "&l {model: *l}"}}), HasSubstr("--set lidar: anchors (&)"));
+}
+
 TEST_F(FleetConfigTest, BrokenYamlGivesFileAndLine) {
   EXPECT_THAT(robot_error("id: r1\nfleet: [r1\n"), HasSubstr("config.yaml:3: not valid YAML"));
 }

@@ -93,6 +93,10 @@ TEST(GeoJson, ErrorsNameThePlaceAndTheRemedy) {
               HasSubstr("feature 1: row 1 is there twice"));
   EXPECT_THAT(error_of("{\"type\":\"FeatureCollection\",\"features\":" + std::string(100'000, '[')),
               HasSubstr("too deeply"));
+  // Brackets in a text close nothing.
+  EXPECT_THAT(error_of("{\"name\":\"\\\"" + std::string(200'000, ']') +
+                       "\",\"features\":" + std::string(200'000, '[') + std::string(200'000, ']') + "}"),
+              HasSubstr("too deeply"));
 }
 
 TEST(GeoJson, AnyCutOfAFileIsRefusedOrRead) {

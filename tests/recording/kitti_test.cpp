@@ -229,9 +229,14 @@ TEST_F(Kitti, DamagedFilesNeverCrash) {
   folder.write("velodyne_points/" + number(7) + ".pcd", pcd("ascii", "1 2 3 4\n5 6"));
   folder.write("velodyne_points/" + number(8) + ".pcd", pcd("binary_compressed", ""));
   folder.write("velodyne_points/" + number(9) + ".pcd", "FIELDS x y z\nSIZE 4 4\nTYPE F F F\nDATA binary\n");
+  const std::string counts = "\nPOINTS 2\nDATA binary\n" + std::string(24, 'A');
+  folder.write("velodyne_points/" + number(10) + ".pcd",
+               "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 0 0 0" + counts);
+  folder.write("velodyne_points/" + number(11) + ".pcd",
+               "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 0" + counts);
   read();
   EXPECT_EQ(counters.scans, 1u);
-  EXPECT_EQ(counters.unreadable_scan_files, 9u);
+  EXPECT_EQ(counters.unreadable_scan_files, 11u);
 }
 
 TEST_F(Kitti, DegradedFixesAreTheSameForTheSameSeed) {

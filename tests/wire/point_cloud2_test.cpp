@@ -210,6 +210,14 @@ TEST(PointCloud2, OrganisedCloudsWithPaddedRows) {
   EXPECT_EQ(scan.points[1].position, Eigen::Vector3f(3, 6, 9));
 }
 
+TEST(PointCloud2, RowsWithoutPointsTakeNoTime) {
+  auto m = message(xyz(), 12);
+  m.height(0xffffffff);
+  m.width(0);
+  m.row_step(0);
+  EXPECT_TRUE(read(m).scan.points.empty());
+}
+
 TEST(PointCloud2, ContradictionsAreRefused) {
   auto m = message(xyz(), 12);
   m.width(4);

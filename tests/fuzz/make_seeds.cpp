@@ -1,0 +1,249 @@
+// Writes valid inputs of the binary formats into a folder of corpora: make_fuzz_seeds tests/fuzz/corpus
+// Inputs of the formats of text are written by hand.
+#include <lzma.h>
+#include <sqlite3.h>
+
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <random>
+
+#include "bus/dds/hello.hpp"
+#include "checks.hpp"
+#include "fixed_keys.hpp"
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/store/store.hpp"
+#include "fleetmap/trust/introduction.hpp"
+#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/wire/topics.hpp"
+#include "store/item_codec.hpp"
+#include "store/items.hpp"
+#include "trust/key_files.hpp"
+#include "wire/random_messages.hpp"
+
+namespace fleetmap::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Seeds {
+ public:
+  Seeds(const fs::path& corpus, const std::string& target) : folder_(corpus / target) {
+    fs::create_directories(folder_);
+  }
+  void add(const std::string& name, ByteView bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text_of(bytes);
+  }
+  /// Behind a first byte that chooses.
+  void add(const std::string& name, std::size_t choice, ByteView bytes) const {
+    Bytes input{static_cast<std::uint8_t>(choice)};
+    input.insert(input.end(), bytes.begin(), bytes.end());
+    add(name, input);
+  }
+  void add(const std::string& name, std::size_t choice, const std::string& text) const {
+    add(name, choice, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  }
+
+ private:
+  fs::path folder_;
+};
+
+sensor::Scan small_scan() {
+  sensor::Scan scan;
+  scan.stamp = kNow;
+  scan.has_time = scan.has_ring = true;
+  for (int k = 0; k < 4; ++k)
+    scan.points.push_back(
+        {{1.0f + static_cast<float>(k), 2.0f, 0.5f}, 7.0f, 0.01f, static_cast<std::uint16_t>(k)});
+  return scan;
+}
+
+sensor::Imu small_imu() {
+  sensor::Imu imu;
+  imu.stamp = kNow;
+  imu.specific_force.z() = 9.81;
+  return imu;
+}
+
+sensor::Fix small_fix() {
+  sensor::Fix fix;
+  fix.stamp = kNow;
+  fix.position = geo_point_from_degrees(49.0, 8.4, 110.0);
+  return fix;
+}
+
+void wire_messages(const fs::path& corpus) {
+  const Seeds seeds(corpus, "wire_messages");
+  wire::testing::RandomMessages random(1);
+  for (const exchange::Message& message : random.one_of_each())
+    seeds.add("message_" + std::to_string(message.index()), message.index(), wire::encode(message));
+  constexpr std::size_t kMessages = std::variant_size_v<exchange::Message>;
+  seeds.add("global_pose", kMessages, wire::encode(random.global_pose()));
+  seeds.add("spherized_cloud", kMessages + 1, wire::encode(random.cloud()));
+}
+
+void ros_messages(const fs::path& corpus) {
+  const Seeds seeds(corpus, "ros_messages");
+  seeds.add("point_cloud2", 0, wire::encode(small_scan()));
+  seeds.add("imu", 1, wire::encode(small_imu()));
+  seeds.add("fix", 2, wire::encode(small_fix()));
+  seeds.add("wheel", 3, wire::encode(sensor::Wheel{kNow, 1.0, 0.1}));
+  seeds.add("battery", 4, wire::encode(sensor::Battery{}));
+  seeds.add("odometry", 5, wire::encode(wire::OdometryMsg{.stamp = kNow}));
+  seeds.add("velocity", 6, wire::encode(wire::VelocityCommand{1.0, 0.1}));
+}
+
+/// Small clouds, and as many points as 25 kB may claim, which a sender of ours would not encode.
+void encoded_clouds(const fs::path& corpus) {
+  const Seeds seeds(corpus, "encoded_cloud");
+  const auto add = [&](const std::string& name, const cloud::PointCloud& cloud, bool filled) {
+    const Bytes bytes = cloud::encode(cloud, {.resolution_m = 0.05}).value();
+    seeds.add(name, (filled ? 0u : 254u) + bytes[3], ByteView(bytes).subspan(8));
+  };
+  const auto many_times = [&](const std::string& name, const cloud::PointCloud& cloud) {
+    Bytes bytes = cloud::encode(cloud, {.resolution_m = 0.05}).value();
+    constexpr std::uint32_t kClaimed = 200'000;
+    std::memcpy(bytes.data() + 8, &kClaimed, sizeof kClaimed);
+    seeds.add(name, bytes[3], ByteView(bytes).subspan(8));
+  };
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> metres(-20.0f, 20.0f);
+  cloud::PointCloud cloud;
+  for (int k = 0; k < 50; ++k) cloud.points.emplace_back(metres(engine), metres(engine), metres(engine));
+  add("fifty_points", cloud, false);
+  cloud.intensities.assign(cloud.points.size(), 3.0f);
+  add("fifty_points_with_intensities", cloud, false);
+  cloud::PointCloud many;
+  many.points.assign(65'000, Eigen::Vector3f(1.0f, 2.0f, 3.0f));
+  many_times("one_place_200000_times", many);
+  many.intensities.assign(many.points.size(), 1.0f);
+  many_times("one_place_200000_times_with_intensities", many);
+  add("no_points", {}, true);
+}
+
+void radio(const fs::path& corpus) {
+  const Seeds seeds(corpus, "radio_datagrams");
+  const trust::Session session{1, 15, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  const trust::Credentials r1 = credentials_of("r1", key_of_r1(), 1);
+  const Bytes text{'h', 'e', 'l', 'l', 'o'};
+  trust::DatagramSealer sealer(r1, r1.certificate.name, 1, session);
+  seeds.add("greeting", 0, sealer.seal(trust::DatagramKind::kGreeting, text));
+  seeds.add("message", 0, sealer.seal(trust::DatagramKind::kMessage, text));
+  seeds.add("introduction", 1, trust::Introducer(r1, 1, session).introduce(text, {}, true, true));
+  seeds.add("sealed", 2, text);
+  seeds.add("changed", 3, Bytes{9, 1, 'h', 'e', 'l', 'l', 'o'});
+
+  bus::Hello hello;
+  hello.sender = r1.certificate.name;
+  hello.address = {10, 0, 0, 1};
+  hello.port = 7660;
+  hello.link = bus::Link::kLongRange;
+  hello.settings = bus::FleetSettings{.wire_schema = 5, .fleet = 1};
+  hello.reads = {1, 2, 3};
+  const Bytes cdr = bus::encode(hello);
+  Bytes rtps{'R', 'T', 'P', 'S', 2, 3, 1, 15, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0x15, 5, 0, 0};
+  rtps.insert(rtps.end(), {0, 0, 16, 0, 0, 0, 0, 0, 0xff, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 0});
+  rtps.insert(rtps.end(), cdr.begin(), cdr.end());
+  const Seeds hellos(corpus, "radio_hellos");
+  hellos.add("hello", cdr);
+  hellos.add("hello_in_rtps", rtps);
+}
+
+void keys(const fs::path& corpus) {
+  const Seeds seeds(corpus, "key_files");
+  const trust::Credentials r2 = credentials_of("r2", key_of_r2(), 2);
+  const Bytes crl = trust::sign_revocations(r2.authority, authority_key(), {3, {1, 7}}, kNow);
+  seeds.add("authority", 0, trust::to_pem(r2.authority.der, trust::kCertificatePem));
+  seeds.add("certificate", 1, trust::to_pem(r2.certificate.der, trust::kCertificatePem));
+  seeds.add("key", 2, r2.key.to_pem());
+  seeds.add("fleet_keys", 3, trust::to_text(r2.fleet_keys));
+  seeds.add("revocations", 4, trust::to_pem(crl, trust::kRevocationsPem));
+  seeds.add("certificate_der", 6, r2.certificate.der);
+  seeds.add("revocations_der", 6, crl);
+}
+
+/// Pages of 512 bytes and nothing that is not needed: a database in a few kB.
+void shrink(const fs::path& file) {
+  sqlite3* database = nullptr;
+  require(sqlite3_open(file.c_str(), &database) == SQLITE_OK, "the database cannot be opened");
+  const char* sql = "PRAGMA journal_mode = DELETE; PRAGMA page_size = 512; VACUUM;";
+  require(sqlite3_exec(database, sql, nullptr, nullptr, nullptr) == SQLITE_OK,
+          "the database cannot be shrunk");
+  sqlite3_close(database);
+}
+
+void add_file(const Seeds& seeds, const std::string& name, const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  seeds.add(name, ByteView(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));
+}
+
+void bag(const fs::path& corpus) {
+  const Folder folder;
+  {
+    auto bag = recording::BagWriter::create(folder.path() / "drive").value();
+    const auto put = [&](const bus::Topic& topic, const Bytes& cdr) {
+      require(bag.write(topic.name, topic.type, kNow, cdr).has_value(), "the bag cannot be written");
+    };
+    put(wire::topics::points(), wire::encode(small_scan()));
+    put(wire::topics::imu(), wire::encode(small_imu()));
+    put(wire::topics::fix(), wire::encode(small_fix()));
+    put(wire::topics::wheel_odometry(), wire::encode(sensor::Wheel{kNow, 1.0, 0.1}));
+  }
+  for (const auto& entry : fs::directory_iterator(folder.path() / "drive")) {
+    if (entry.path().extension() == ".yaml") add_file({corpus, "bag_metadata"}, "metadata", entry.path());
+    if (entry.path().extension() != ".db3") continue;
+    shrink(entry.path());
+    add_file({corpus, "bag"}, "four_messages", entry.path());
+  }
+}
+
+void stores(const fs::path& corpus) {
+  const Folder folder;
+  const AgentId self = AgentId::parse("r1").value();
+  const AgentId other = AgentId::parse("r2").value();
+  const fs::path file = folder.path() / "store.db";
+  const Bytes submap = testing::random_bytes(100, 1);
+  const auto own = testing::make_node(self, first_seq(1), submap);
+  const auto foreign = testing::make_node(other, first_seq(2), submap);
+  const auto alignment = testing::make_alignment(own.id, foreign.id, self, first_seq(1));
+  {
+    auto store = store::Store::open(file, self).value();
+    require(store.put_node_with_submap(own, submap) == store::Put::kAdded, "the node is refused");
+    require(store.put_node(foreign) == store::Put::kAdded, "the node is refused");
+    require(store.put_alignment(alignment) == store::Put::kAdded, "the alignment is refused");
+  }
+  shrink(file);
+  add_file({corpus, "store_file"}, "two_nodes", file);
+  const Seeds items(corpus, "store_items");
+  items.add("node", store::encode(own));
+  items.add("alignment", store::encode(alignment));
+}
+
+void scans(const fs::path& corpus) {
+  const Seeds seeds(corpus, "kitti");
+  const Bytes scan(64, 0x41);
+  Bytes packed(1024);
+  std::size_t size = 0;
+  require(lzma_easy_buffer_encode(0, LZMA_CHECK_CRC32, nullptr, scan.data(), scan.size(), packed.data(),
+                                  &size, packed.size()) == LZMA_OK,
+          "xz cannot be packed");
+  packed.resize(size);
+  seeds.add("bin", 0, scan);
+  seeds.add("xz", 1, packed);
+}
+
+}  // namespace
+}  // namespace fleetmap::fuzz
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: make_fuzz_seeds tests/fuzz/corpus\n";
+    return 2;
+  }
+  using namespace fleetmap::fuzz;
+  for (const auto make : {wire_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, scans})
+    make(argv[1]);
+  return 0;
+}

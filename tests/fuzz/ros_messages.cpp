@@ -1,0 +1,46 @@
+// The ROS 2 messages of sensors and of the base, as a driver or a bag gives them.
+#include <array>
+
+#include "checks.hpp"
+#include "fleetmap/wire/sensors.hpp"
+
+namespace fleetmap::fuzz {
+namespace {
+
+template <class T>
+void decode(ByteView cdr) {
+  const MemoryPeak memory;
+  const auto message = wire::decode<T>(cdr);
+  require(memory.bytes() <= 65'536 + 32 * cdr.size(), "decoding allocates far more than its bytes");
+  if (!message) return require(!message.error().message.empty(), "refused without a reason");
+  require(wire::decode<T>(wire::encode(*message)).has_value(), "what was accepted is refused when recorded");
+}
+
+void decode_scan(ByteView cdr) {
+  const auto stamp = wire::stamp_of_scan(cdr);
+  const auto decoded = wire::decode_scan(cdr);
+  if (!decoded) return;
+  require(stamp.has_value(), "a scan that can be decoded has no stamp");
+  for (const auto& point : decoded->scan.points)
+    require(point.position.allFinite(), "a point that is not finite is left in a scan");
+  decode<sensor::Scan>(cdr);
+}
+
+using Decoder = void (*)(ByteView);
+constexpr std::array<Decoder, 7> kDecoders{&decode_scan,
+                                           &decode<sensor::Imu>,
+                                           &decode<sensor::Fix>,
+                                           &decode<sensor::Wheel>,
+                                           &decode<sensor::Battery>,
+                                           &decode<wire::OdometryMsg>,
+                                           &decode<wire::VelocityCommand>};
+
+}  // namespace
+}  // namespace fleetmap::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fleetmap::fuzz;
+  const Input input = split(data, size);
+  kDecoders.at(input.choice % kDecoders.size())(input.rest);
+  return 0;
+}
