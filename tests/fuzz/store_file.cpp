@@ -24,6 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::Folder folder;
   const auto path = folder.write("store.db", ByteView(data, size));
   fuzz::read_all(store::Store::open_read_only(path));
-  fuzz::read_all(store::Store::open(path, AgentId::parse("r1").value(), {.sync_own_items = false}));
+  fuzz::read_all(
+      store::Store::open(path, AgentId::parse("r1").value(), {.sync_own_items = false, .file_system = {}}));
   return 0;
 }
