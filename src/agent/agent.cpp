@@ -47,6 +47,13 @@ store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, 
            prior.sigma_height_m, prior.up_target}};
 }
 
+const char* item(bool alignment) { return alignment ? "alignment" : "node"; }
+
+std::string handed_over(exchange::Reach link, const std::optional<AgentId>& from) {
+  const std::string over = link == exchange::Reach::kLongRange ? "over the radio" : "over the Wi-Fi";
+  return from ? over + " from " + from->str() : over;
+}
+
 /// An odometry that a lost store has left must not be written over: its nodes may come back from others.
 Result<TrajectoryFile> begin_odometry(const std::filesystem::path& directory, std::size_t index) {
   const std::filesystem::path file = odometry_file(directory, index);
@@ -580,13 +587,40 @@ void Agent::handle(const exchange::PeerStatus& status) {
 void Agent::handle(const exchange::ItemConflict& conflict) {
   const bool own = conflict.id.agent == config_.id;
   own_item_contested_ = own_item_contested_ || own;
+  const std::string maker = conflict.id.agent.str();
+  const std::string why =
+      conflict.signed_twice
+          ? maker +
+                " signed both: its keys are on a second machine, as after a copy of its disk, or its "
+                "program was changed; if nobody knows of a second one, revoke " +
+                maker
+          : "a robot bears the id of another one, or an item is forged";
+  spdlog::error("{}: another {} came {} under the name {}, which counts no more{}: {}", config_.id.str(),
+                item(conflict.alignment), handed_over(conflict.link, conflict.from), to_string(conflict.id),
+                own ? "; the own one is told under another name" : "", why);
+}
+
+void Agent::handle(const exchange::ItemRefused& refused) {
+  if (refused.proof == exchange::ItemProof::kUnknownMaker) {
+    return spdlog::warn(
+        "{}: {} {} came {} and is refused until the certificate of {} comes with a greeting, or "
+        "with a new copy of this robot's folder of keys",
+        config_.id.str(), item(refused.alignment), to_string(refused.id),
+        handed_over(refused.link, refused.from), refused.id.agent.str());
+  }
   spdlog::error(
-      "{}: another {} came over the {} under the name {}, which counts no more{}: a robot bears the id of "
-      "another "
-      "one, or an item is forged",
-      config_.id.str(), conflict.alignment ? "alignment" : "node",
-      conflict.link == exchange::Reach::kLongRange ? "radio" : "Wi-Fi", to_string(conflict.id),
-      own ? "; the own one is told under another name" : "");
+      "{}: {} {} came {} and is refused: {}; the robot that handed it over is compromised, damages "
+      "what it stores, or has no keys yet (others of that kind are counted in report.json)",
+      config_.id.str(), item(refused.alignment), to_string(refused.id),
+      handed_over(refused.link, refused.from), to_string(refused.proof));
+}
+
+void Agent::handle(const exchange::ItemsAdopted& adopted) {
+  spdlog::warn(
+      "{}: the store is of a time without keys, or of other keys: {} own items are signed now, {} "
+      "contents without a signature that counts were dropped and are fetched again once their makers "
+      "have signed them",
+      config_.id.str(), adopted.items.signed_own, adopted.items.dropped);
 }
 
 void Agent::handle(const exchange::OfferDoubted& doubted) {

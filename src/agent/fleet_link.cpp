@@ -68,7 +68,7 @@ void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
   }
   if (moves_items(*message)) counters_.last_useful = bus_.now();
   if (moves_submaps(*message)) counters_.last_submap = bus_.now();
-  exchange_.on_message(*message, wire::reach_of(topic.link), bus_.now());
+  exchange_.on_message(*message, wire::reach_of(topic.link), bus_.now(), bus_.sender());
   on_events_();
 }
 

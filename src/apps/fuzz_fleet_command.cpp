@@ -37,6 +37,7 @@ struct FuzzOptions {
   double mapping = 150.0;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   bool no_shrink = false;
+  bool signatures = false;
 };
 
 /// The seed's scenario with these of its faults alone.
@@ -73,6 +74,7 @@ std::string failure_of(const Scenario& scenario, const Outcome& outcome, const R
       << " faults:\n"
       << faults_of(scenario, kept) << "  fleetmap fuzz-fleet --replay " << scenario.seed;
   for (std::size_t k = 0; k < kept.size(); ++k) out << (k == 0 ? " --keep " : ",") << kept[k];
+  if (config.signatures) out << " --signatures";
   out << '\n';
   return out.str();
 }
@@ -120,6 +122,7 @@ int fuzz(const FuzzOptions& options) {
   if (!invariants) return report(invariants.error(), kUsage);
   RunConfig run_config;
   run_config.invariants = *invariants;
+  run_config.signatures = options.signatures;
   ScenarioConfig config;
   config.kinds = *kinds;
   config.mapping = from_seconds(options.mapping);
@@ -164,6 +167,8 @@ void add_fuzz_fleet(CLI::App& app, int& exit_code) {
   command->add_option("--mapping", options->mapping, "s that the robots map while faults happen")
       ->check(positive_number());
   command->add_option("--jobs", options->jobs, "fleets at a time")->check(whole_number(1, 256));
+  command->add_flag("--signatures", options->signatures,
+                    "robots sign their items, as a fleet with keys does");
   command->add_flag("--no-shrink", options->no_shrink, "does not look for the fewest faults that fail");
   command->callback([options, &exit_code] {
     spdlog::set_level(spdlog::level::off);  // the robots' own logs of faults that are meant

@@ -42,6 +42,9 @@ json links_json(const std::vector<bus::LinkUse>& links) {
 }
 
 json exchange_json(const exchange::ExchangeStats& stats) {
+  const auto proofs = [&](exchange::ItemProof proof) {
+    return stats.proofs[static_cast<std::size_t>(proof)];
+  };
   return {{"long_range_wire_bytes", stats.long_range.wire_bytes},
           {"encounters_found", stats.encounters.found},
           {"encounters_alike", stats.encounters.alike},
@@ -55,6 +58,10 @@ json exchange_json(const exchange::ExchangeStats& stats) {
           {"submaps_with_wrong_hash", stats.submap_receiver.bad_hash},
           {"submap_bytes_sent", stats.submap_sender.bytes},
           {"refused_from_strangers", stats.strangers},
+          {"items_verified", proofs(exchange::ItemProof::kGenuine)},
+          {"refused_unsigned", proofs(exchange::ItemProof::kUnsigned)},
+          {"refused_wrongly_signed", proofs(exchange::ItemProof::kWrong)},
+          {"refused_of_unknown_makers", proofs(exchange::ItemProof::kUnknownMaker)},
           {"refused_hostile",
            stats.cloud_receiver.hostile + stats.submap_receiver.hostile + stats.reconcile.hostile}};
 }

@@ -82,7 +82,7 @@ struct LocalNetwork::State {
 
   void deliver(const Transmission& arrived) {
     const auto robot = robots.find(arrived.to);
-    if (robot != robots.end()) robot->second->deliver(arrived.topic, arrived.cdr);
+    if (robot != robots.end()) robot->second->deliver(arrived.from, arrived.topic, arrived.cdr);
   }
 
   void count_drop(const Transmission& dropped) {

@@ -72,10 +72,13 @@ void LocalRobot::run_subscribers(TopicState& state, const Bytes& cdr) {
   }
 }
 
-void LocalRobot::deliver(const Topic& topic, const std::shared_ptr<const Bytes>& cdr) {
+void LocalRobot::deliver(const AgentId& from, const Topic& topic, const std::shared_ptr<const Bytes>& cdr) {
   const auto alive = state_;  // a callback may switch this robot off
   const auto entry = alive->topics.find({topic.link, topic.name});
-  if (entry != alive->topics.end()) run_subscribers(entry->second, *cdr);
+  if (entry == alive->topics.end()) return;
+  alive->sender = from;
+  run_subscribers(entry->second, *cdr);
+  alive->sender.reset();
 }
 
 Handle LocalRobot::subscribe(const Topic& topic, OnMessage on_message) {

@@ -6,6 +6,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,14 @@ class LocalRobot final : public Bus {
   Stamp now() const override;
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
+  std::optional<AgentId> sender() const override { return state_->sender; }
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
   bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
 
   bool subscribes(const Topic& topic) const;
   /// From a link: runs the subscribers' callbacks now.
-  void deliver(const Topic& topic, const std::shared_ptr<const Bytes>& cdr);
+  void deliver(const AgentId& from, const Topic& topic, const std::shared_ptr<const Bytes>& cdr);
   void count_drop(const Topic& topic);
   void finish_work();
 
@@ -70,6 +72,7 @@ class LocalRobot final : public Bus {
   struct State {
     std::array<LaneState, 2> lanes;
     std::map<std::pair<Link, std::string>, TopicState> topics;
+    std::optional<AgentId> sender;  ///< of the message that is delivered
   };
 
   static void schedule(EventQueue& events, const std::shared_ptr<Timer>& timer,

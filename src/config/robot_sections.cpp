@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fleetmap/agent/item_keys.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/trust/credentials.hpp"
 
@@ -445,6 +446,7 @@ void read_keys(Section& top, bool of_fleet, agent::AgentConfig& agent, bus::DdsB
   }
   dds.keys = std::make_shared<const trust::Credentials>(*std::move(keys));
   agent.exchange.long_range.overhead_bytes += bus::kSealBytes;
+  agent.exchange.authenticator = std::make_shared<const agent::ItemKeys>(dds.keys);
 }
 
 void read_dds(Section& top, bus::DdsBusConfig& dds) {

@@ -29,6 +29,20 @@ std::vector<AgentId> others_of(const std::vector<AgentId>& fleet, const AgentId&
 
 Duration longer(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
+template <class Item>
+Item with_signature(Item item, const ItemAuthenticator* authenticator) {
+  item.signature.reset();
+  if (authenticator) item.signature = authenticator->sign(item);
+  return item;
+}
+
+/// Who cannot verify signatures keeps none, so that every signature in a store was verified.
+template <class Item>
+Item to_store(Item item, const ItemAuthenticator* authenticator) {
+  if (!authenticator) item.signature.reset();
+  return item;
+}
+
 }  // namespace
 
 Status ExchangeConfig::validate(const AgentId& self) const {
@@ -75,6 +89,12 @@ ExchangeConfig for_fleet(ExchangeConfig config) {
 
 Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
+  AdoptedItems adopted;
+  if (config.authenticator) {
+    const auto result = adopt_items(store, *config.authenticator);
+    if (!result) return tl::unexpected(result.error());
+    adopted = *result;
+  }
   const ExchangeConfig adapted = for_fleet(config);
   Exchange exchange(adapted, store, now);
   // A large fleet that starts at once would else tell all at once, and while its links still say Hello.
@@ -91,6 +111,7 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
   const auto orders = store.meta(kHoldKey);
   if (!orders) return tl::unexpected(orders.error());
   if (*orders) exchange.holds_.load(**orders);
+  if (adopted.signed_own + adopted.dropped > 0) exchange.events_.push_back(ItemsAdopted{adopted});
   return exchange;
 }
 
@@ -122,7 +143,8 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
 // ---- from the agent
 // ------------------------------------------------------------------------------------------------
 
-Result<Put> Exchange::on_own_node(const graph::Node& node, ByteView submap, Stamp now) {
+Result<Put> Exchange::on_own_node(const graph::Node& made, ByteView submap, Stamp now) {
+  const graph::Node node = with_signature(made, config_.authenticator.get());
   const auto put = store_->put_node_with_submap(node, submap);
   if (!put || *put != Put::kAdded) return put;
   tell_all(Priority::kNews, node);
@@ -131,7 +153,8 @@ Result<Put> Exchange::on_own_node(const graph::Node& node, ByteView submap, Stam
   return put;
 }
 
-Result<Put> Exchange::on_own_alignment(const graph::Alignment& alignment, Stamp now) {
+Result<Put> Exchange::on_own_alignment(const graph::Alignment& made, Stamp now) {
+  const graph::Alignment alignment = with_signature(made, config_.authenticator.get());
   const auto put = store_->put_alignment(alignment);
   if (!put || *put != Put::kAdded) return put;
   tell_all(Priority::kNews, alignment);
@@ -217,9 +240,10 @@ bool Exchange::admit(const Message& message, Reach link, Stamp now) {
   return !recipient || *recipient == self_;
 }
 
-void Exchange::on_message(const Message& message, Reach link, Stamp now) {
+void Exchange::on_message(const Message& message, Reach link, Stamp now, std::optional<AgentId> from) {
   if (!admit(message, link, now)) return;
   link_ = link;
+  from_ = from;
   std::visit([&](const auto& m) { handle(m, now); }, message);
 }
 
@@ -236,8 +260,21 @@ void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& 
       without_submap_.erase(id);
     }
     reconcile_.on_contested(now);
-    events_.push_back(ItemConflict{id, alignment, link_});
+    events_.push_back(ItemConflict{id, alignment, link_, config_.authenticator != nullptr, from_});
   }
+}
+
+template <class Item>
+bool Exchange::is_proven(const Item& item, const NodeId& name, bool alignment) {
+  if (!config_.authenticator || store_->holds(item)) return true;
+  const ItemProof proof = config_.authenticator->verify(item);
+  ++proofs_[static_cast<std::size_t>(proof)];
+  if (proof == ItemProof::kGenuine) return true;
+  constexpr std::size_t kMost = 64;
+  if (refusals_told_of_.size() < kMost &&
+      refusals_told_of_.insert({name.agent, from_.value_or(AgentId{}), proof}).second)
+    events_.push_back(ItemRefused{name, alignment, proof, link_, from_});
+  return false;
 }
 
 bool Exchange::is_forged(const AgentId& maker, std::uint32_t seq, bool held) const {
@@ -249,9 +286,10 @@ void Exchange::handle(const graph::Node& node, Stamp now) {
     ++strangers_;
     return;
   }
+  if (!is_proven(node, node.id, false)) return;
   if (is_forged(node.id.agent, node.id.seq, store_->node_set().contains(node.id.agent, node.id.seq)))
-    return events_.push_back(ItemConflict{node.id, false, link_});
-  const auto put = store_->put_node(node);
+    return events_.push_back(ItemConflict{node.id, false, link_, config_.authenticator != nullptr, from_});
+  const auto put = store_->put_node(to_store(node, config_.authenticator.get()));
   on_put(put, NodeAdded{node.id}, node.id, false, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
@@ -266,9 +304,10 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
   }
   const store::AlignmentId id{alignment.computed_by, alignment.seq};
   const NodeId name{alignment.computed_by, alignment.seq};
+  if (!is_proven(alignment, name, true)) return;
   if (is_forged(id.computed_by, id.seq, store_->alignment_set().contains(id.computed_by, id.seq)))
-    return events_.push_back(ItemConflict{name, true, link_});
-  const auto put = store_->put_alignment(alignment);
+    return events_.push_back(ItemConflict{name, true, link_, config_.authenticator != nullptr, from_});
+  const auto put = store_->put_alignment(to_store(alignment, config_.authenticator.get()));
   on_put(put, AlignmentAdded{id}, name, true, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
@@ -567,14 +606,17 @@ bool Exchange::others_busy(Stamp now) const {
 }
 
 ExchangeStats Exchange::stats() const {
-  return {queue_.stats(),     cloud_sender_.stats(),    cloud_receiver_.stats(), encounters_.stats(),
-          reconcile_.stats(), submap_receiver_.stats(), submap_sender_.stats(),  strangers_,
-          bad_requests_};
+  return {queue_.stats(),          cloud_sender_.stats(),
+          cloud_receiver_.stats(), encounters_.stats(),
+          reconcile_.stats(),      submap_receiver_.stats(),
+          submap_sender_.stats(),  strangers_,
+          bad_requests_,           proofs_};
 }
 
 TableSizes Exchange::table_sizes() const {
   return {reconcile_.peers(),           submap_receiver_.peers(), submap_sender_.peers(),
-          submap_receiver_.downloads(), needed_.size(),           strangers_told_of_.size()};
+          submap_receiver_.downloads(), needed_.size(),           strangers_told_of_.size(),
+          refusals_told_of_.size()};
 }
 
 }  // namespace fleetmap::exchange

@@ -11,19 +11,13 @@ using graph::Node;
 
 constexpr SeqRange all_of(const AgentId& agent) { return {agent, 0, kEndOfSeqs}; }
 
-/// The same node under another name.
-bool same_place(const Node& a, const Node& b) {
-  return a.stamp == b.stamp && a.submap_hash == b.submap_hash &&
-         a.T_odom_base.matrix() == b.T_odom_base.matrix();
-}
-
 /// Contested own nodes that no other own node stands for, by odometry frame.
 std::map<std::uint16_t, std::vector<const Node*>> nodes_to_name(const store::Store& store) {
   const auto own = store.nodes_from(all_of(store.self()));
   std::map<std::uint16_t, std::vector<const Node*>> found;
   std::vector<const Node*> chosen;
   for (const auto& [node, second] : store.contested_nodes(all_of(store.self()))) {
-    const auto stands_for = [&, held = node](const Node* other) { return same_place(*other, *held); };
+    const auto stands_for = [&, held = node](const Node* other) { return is_same_place(*other, *held); };
     if (std::ranges::any_of(own, stands_for) || std::ranges::any_of(chosen, stands_for)) continue;
     chosen.push_back(node);
     found[node->session].push_back(node);
@@ -121,6 +115,11 @@ class Reissue {
 };
 
 }  // namespace
+
+bool is_same_place(const Node& a, const Node& b) {
+  return a.stamp == b.stamp && a.submap_hash == b.submap_hash &&
+         a.T_odom_base.matrix() == b.T_odom_base.matrix();
+}
 
 Result<std::size_t> reissue_contested(Exchange& exchange, store::Store& store, const NewNames& names,
                                       Stamp now) {

@@ -33,8 +33,8 @@ std::vector<SeqRange> everything(const std::vector<AgentId>& fleet) {
 
 }  // namespace
 
-Attacker::Attacker(std::uint64_t seed, std::vector<AgentId> fleet)
-    : draws_(seed, kAttackStream), fleet_(std::move(fleet)) {}
+Attacker::Attacker(std::uint64_t seed, std::vector<AgentId> fleet, bool signatures)
+    : draws_(seed, kAttackStream), fleet_(std::move(fleet)), signatures_(signatures) {}
 
 void Attacker::overhear(const Packet& packet) {
   if (draws_.chance(0.9)) return;
@@ -92,6 +92,25 @@ exchange::Message Attacker::forged_item() {
   return alignment;
 }
 
+std::optional<Signature> Attacker::overheard_signature() {
+  for (const exchange::Outgoing& outgoing : overheard_) {
+    const auto* node = std::get_if<graph::Node>(&outgoing.message);
+    if (node && draws_.chance(0.2)) return node->signature;
+  }
+  return {};
+}
+
+exchange::Message Attacker::with_false_signature(exchange::Message item) {
+  if (!signatures_) return item;
+  std::optional<Signature> signature = overheard_signature();
+  if (!signature && draws_.chance(0.5)) {
+    for (auto& byte : signature.emplace()) byte = static_cast<std::uint8_t>(draws_.bits());
+  }
+  if (auto* node = std::get_if<graph::Node>(&item)) node->signature = signature;
+  if (auto* alignment = std::get_if<graph::Alignment>(&item)) alignment->signature = signature;
+  return item;
+}
+
 std::optional<exchange::Message> Attacker::damaged() {
   if (overheard_.empty()) return {};
   const exchange::Outgoing& outgoing = overheard_[draws_.below(overheard_.size())];
@@ -115,11 +134,11 @@ std::optional<Attacker::Injected> Attacker::forged() {
       return to_anyone(std::move(*message), reach);
     }
     default:
-      return to_anyone(forged_item(), reach);
+      return to_anyone(with_false_signature(forged_item()), reach);
   }
 }
 
-exchange::Message Attacker::lie(exchange::Message message) {
+exchange::Message Attacker::lie(exchange::Message message, const AgentId& liar) {
   if (auto* digest = std::get_if<exchange::Digest>(&message)) {
     digest->nodes = digest->alignments = everything(fleet_);
   } else if (auto* submaps = std::get_if<exchange::SubmapDigest>(&message)) {
@@ -133,6 +152,13 @@ exchange::Message Attacker::lie(exchange::Message message) {
   } else if (auto* fragment = std::get_if<exchange::CloudFragment>(&message)) {
     for (auto& byte : fragment->payload) byte = static_cast<std::uint8_t>(draws_.bits());
   }
+  if (!signatures_) return message;
+  // Without signatures it could take the name of any item that it hands over.
+  if (auto* node = std::get_if<graph::Node>(&message); node && node->id.agent != liar && draws_.chance(0.5))
+    node->T_odom_base.translation().x() += 10.0;
+  if (auto* alignment = std::get_if<graph::Alignment>(&message);
+      alignment && alignment->computed_by != liar && draws_.chance(0.5))
+    alignment->signature.reset();
   return message;
 }
 

@@ -12,7 +12,8 @@ namespace fleetmap::fault_injection {
 /// Packets of a radio that nobody of the fleet owns, and lies of a robot that is one of the fleet.
 class Attacker {
  public:
-  Attacker(std::uint64_t seed, std::vector<AgentId> fleet);
+  /// `signatures`: robots sign their items.
+  Attacker(std::uint64_t seed, std::vector<AgentId> fleet, bool signatures);
 
   /// Every packet can be recorded.
   void overhear(const Packet& packet);
@@ -26,18 +27,22 @@ class Attacker {
   std::optional<Injected> stranger();
   /// In the name of a robot of the fleet: items with numbers of its, digests, damaged packets.
   std::optional<Injected> forged();
-  /// What a lying robot sends instead.
-  exchange::Message lie(exchange::Message message);
+  /// What the lying robot `liar` sends instead.
+  exchange::Message lie(exchange::Message message, const AgentId& liar);
 
  private:
   const AgentId& anyone() { return fleet_[draws_.below(fleet_.size())]; }
   NodeId any_id();
   exchange::Message forged_item();
+  exchange::Message with_false_signature(exchange::Message item);
+  /// That of an item which was overheard, or none.
+  std::optional<Signature> overheard_signature();
   std::optional<exchange::Message> damaged();
   Injected to_anyone(exchange::Message message, exchange::Reach reach);
 
   Draws draws_;
   std::vector<AgentId> fleet_;
+  bool signatures_;
   std::deque<exchange::Outgoing> overheard_;
 };
 

@@ -28,7 +28,8 @@ void ExchangeFleet::step() {
     in_flight_.pop();
     const auto robot = robots_.find(flight.to);
     if (robot == robots_.end()) continue;
-    robot->second.exchange->on_message(*flight.message, flight.reach, now_ + robot->second.clock_offset);
+    robot->second.exchange->on_message(*flight.message, flight.reach, now_ + robot->second.clock_offset,
+                                       flight.from);
   }
   for (auto& [name, robot] : robots_) {
     for (auto& outgoing : robot.exchange->tick(now_ + robot.clock_offset)) send(name, outgoing, robot);
@@ -78,8 +79,9 @@ void ExchangeFleet::lose_store(const AgentId& name) const {
 }
 
 void ExchangeFleet::deliver(const AgentId& to, exchange::Reach reach,
-                            std::shared_ptr<const exchange::Message> message, Duration delay) {
-  in_flight_.push({now_ + delay, order_++, to, reach, std::move(message)});
+                            std::shared_ptr<const exchange::Message> message, Duration delay,
+                            std::optional<AgentId> from) {
+  in_flight_.push({now_ + delay, order_++, to, reach, std::move(message), std::move(from)});
 }
 
 std::shared_ptr<const exchange::Message> ExchangeFleet::on_air(const Packet& packet) {
@@ -96,7 +98,7 @@ void ExchangeFleet::send(const AgentId& from, const exchange::Outgoing& outgoing
   if (!message) return;
   for (const auto& [to, receiver] : robots_) {
     if (to == from || (outgoing.to && *outgoing.to != to)) continue;
-    for (const Duration delay : arrivals(packet, to)) deliver(to, outgoing.reach, message, delay);
+    for (const Duration delay : arrivals(packet, to)) deliver(to, outgoing.reach, message, delay, from);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/exchange/reissue.hpp"
+#include "fleetmap/fault_injection/stand_in_signatures.hpp"
 #include "fleetmap/graph/place.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/wire/messages.hpp"
@@ -25,9 +26,10 @@ constexpr std::uint64_t kFleetStream = 7;
 
 std::string backup_name(std::size_t fault) { return std::string(".").append(std::to_string(fault)); }
 
-exchange::ExchangeConfig config_of(std::size_t robots) {
+exchange::ExchangeConfig config_of(const Scenario& scenario, bool signatures) {
   exchange::ExchangeConfig config;
-  for (std::size_t k = 0; k < robots; ++k)
+  if (signatures) config.authenticator = std::make_shared<StandInSignatures>(scenario.seed);
+  for (std::size_t k = 0; k < scenario.robots; ++k)
     config.fleet.push_back(AgentId::parse(std::string("r").append(std::to_string(k + 1))).value());
   // So small that a small fleet fills them.
   config.long_range.max_small = 24;
@@ -41,13 +43,13 @@ exchange::ExchangeConfig config_of(std::size_t robots) {
 
 FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
                          const std::filesystem::path& folder)
-    : ExchangeFleet(folder, config_of(scenario.robots), kTick),
+    : ExchangeFleet(folder, config_of(scenario, config.signatures), kTick),
       scenario_(scenario),
       run_(config),
       start_(now()),
       survey_(scenario.seed, scenario.robots),
       links_(scenario.seed),
-      attacker_(scenario.seed, config_.fleet),
+      attacker_(scenario.seed, config_.fleet, config.signatures),
       monitor_(now(), config_, config.invariants),
       draws_(scenario.seed, kFleetStream),
       next_check_(now()) {
@@ -223,7 +225,7 @@ void FaultyFleet::on_sent(const Packet& packet) {
 std::shared_ptr<const exchange::Message> FaultyFleet::on_air(const Packet& packet) {
   const bool lies = liars_.contains(packet.from);
   const exchange::Message& message = packet.outgoing.message;
-  const Bytes cdr = wire::encode(lies ? attacker_.lie(message) : message);
+  const Bytes cdr = wire::encode(lies ? attacker_.lie(message, packet.from) : message);
   auto decoded = wire::decode_message(wire::topic_of(packet.outgoing), cdr);
   if (!decoded) {
     if (!lies)
@@ -260,6 +262,8 @@ void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Ev
     monitor_.on_conflict(name, *conflict, now());
     trace(name.str() + ": conflict " + to_string(conflict->id));
     if (conflict->id.agent == name) reissue(name, robot);
+  } else if (const auto* refused = std::get_if<exchange::ItemRefused>(&event)) {
+    trace(name.str() + ": " + to_string(refused->id) + " is refused: " + to_string(refused->proof));
   } else if (std::holds_alternative<exchange::SessionTaken>(event)) {
     begin_session(name, robot);
   } else if (const auto* failed = std::get_if<exchange::StoreFailed>(&event)) {

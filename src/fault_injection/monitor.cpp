@@ -128,6 +128,7 @@ void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robo
   bound("downloads", tables.submap_downloads, robot.store->nodes().size());
   bound("clouds to make", tables.clouds_to_make, robot.store->nodes().size());
   bound("strangers", tables.strangers, kMostStrangers);
+  bound("refusals told of", tables.refusals, kMostStrangers);
 }
 
 void Monitor::check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now) {

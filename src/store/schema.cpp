@@ -8,7 +8,7 @@ namespace fleetmap::store {
 namespace {
 
 constexpr std::int64_t kApplicationId = 0x464c4d50;  // "FLMP", in the file's header
-constexpr std::int64_t kSchemaVersion = 4;
+constexpr std::int64_t kSchemaVersion = 5;
 
 // WITHOUT ROWID keeps an item in its index; large blobs want the ordinary layout instead.
 constexpr const char* kTables = R"sql(
@@ -28,6 +28,14 @@ constexpr const char* kContestedTables = R"sql(
                               PRIMARY KEY(agent, seq)) WITHOUT ROWID;
   CREATE TABLE contested_alignment(agent TEXT, seq INTEGER, item BLOB NOT NULL, hash BLOB NOT NULL DEFAULT x'',
                                    PRIMARY KEY(agent, seq)) WITHOUT ROWID;
+)sql";
+
+// Of its maker; empty in a fleet without keys.
+constexpr const char* kSignatureColumns = R"sql(
+  ALTER TABLE node ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
+  ALTER TABLE alignment ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
+  ALTER TABLE contested_node ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
+  ALTER TABLE contested_alignment ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
 )sql";
 
 Status set_version(Database& db, std::int64_t version) {
@@ -72,12 +80,16 @@ Status to_version_4(Database& db) {
   return db.execute(kContestedTables);
 }
 
+/// 4 to 5: rows carry the signature of their item. The hash of a row covers it, too, and that of a row
+/// without stays what it was.
+Status to_version_5(Database& db) { return db.execute(kSignatureColumns); }
+
 /// A step brings a store of version `from` to the next one.
 struct Step {
   std::int64_t from;
   Status (*apply)(Database&);
 };
-constexpr std::array kSteps{Step{3, to_version_4}};
+constexpr std::array kSteps{Step{3, to_version_4}, Step{4, to_version_5}};
 static_assert(kSteps.back().from + 1 == kSchemaVersion);
 
 /// All steps or none: a store that fails half way stays what it was.
@@ -123,8 +135,9 @@ Result<AgentId> owner_of(const Database& db, const std::filesystem::path& path) 
 Status make_tables(Database& db, const AgentId& self) {
   auto transaction = Transaction::begin(db);
   if (!transaction) return tl::unexpected(transaction.error());
-  if (auto status = db.execute(kTables); !status) return status;
-  if (auto status = db.execute(kContestedTables); !status) return status;
+  for (const char* sql : {kTables, kContestedTables, kSignatureColumns}) {
+    if (auto status = db.execute(sql); !status) return status;
+  }
   const std::string application = "PRAGMA application_id = " + std::to_string(kApplicationId);
   if (auto status = db.execute(application.c_str()); !status) return status;
   if (auto status = set_version(db, kSchemaVersion); !status) return status;

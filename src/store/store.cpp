@@ -40,6 +40,18 @@ std::uint32_t print_of(const std::map<NodeId, std::uint32_t>& prints, const SeqR
 
 NodeId name_of(const AlignmentId& id) { return {id.computed_by, id.seq}; }
 
+ByteView bytes_of(const std::optional<Signature>& signature) {
+  return signature ? ByteView(*signature) : ByteView();
+}
+
+/// What shows that a row is whole.
+ContentHash row_hash(ByteView item, ByteView signature) {
+  if (signature.empty()) return content_hash(item);
+  Bytes all(item.begin(), item.end());
+  all.insert(all.end(), signature.begin(), signature.end());
+  return content_hash(all);
+}
+
 std::uint32_t chunk_count(const graph::Node& node) {
   return node.submap_bytes / Store::kChunkBytes + (node.submap_bytes % Store::kChunkBytes != 0);
 }
@@ -121,7 +133,8 @@ struct Store::State {
   Status load();
   Status load_items();
   Status load_contested();
-  /// Gives (agent, seq, item) of each row to `use`; those whose hash differs or that it refuses are dropped.
+  /// Gives (agent, seq, item, signature) of each row to `use`; those whose hash differs or that it refuses
+  /// are dropped.
   template <class Use>
   Status load_rows(const char* table, const Use& use);
   /// Moves the name of a held item to the contested ones.
@@ -131,8 +144,23 @@ struct Store::State {
   Partial& partial(const graph::Node& node);
   /// Runs one statement whose first two parameters are agent and seq.
   Status run(std::string_view sql, const AgentId& agent, std::uint32_t seq, const ByteView* blob = nullptr);
-  /// Puts an encoded item and its hash into `table`.
-  Status insert(const char* table, const NodeId& name, ByteView item);
+  /// Puts an encoded item, its signature and the hash of both into `table`.
+  Status insert(const char* table, const NodeId& name, ByteView item,
+                const std::optional<Signature>& signature);
+  Status remove(const char* table, const NodeId& name);
+  struct Tables {
+    const char* items;
+    const char* contested;
+  };
+  /// Writes the contents of one name that `sign` signs, counts the others, and returns whether the first
+  /// stays.
+  template <class Item, class Sign>
+  Result<bool> resign_name(const Tables& tables, const NodeId& name, const Item& first, const Item* second,
+                           const Sign& sign, std::size_t& dropped);
+  Status resign_nodes(const SignNode& sign, std::size_t& dropped);
+  Status resign_alignments(const SignAlignment& sign, std::size_t& dropped);
+  /// Removes the submap of a node, and what there is of one.
+  Status remove_submap(const NodeId& name);
   Status sync(bool full);
   Put count(Put put);
 };
@@ -164,15 +192,26 @@ Status Store::State::run(std::string_view sql, const AgentId& agent, std::uint32
   return statement->run();
 }
 
-Status Store::State::insert(const char* table, const NodeId& name, ByteView item) {
-  auto statement = db->prepare("INSERT INTO " + std::string(table) + " VALUES(?, ?, ?, ?)");
+Status Store::State::insert(const char* table, const NodeId& name, ByteView item,
+                            const std::optional<Signature>& signature) {
+  auto statement = db->prepare("INSERT INTO " + std::string(table) + " VALUES(?, ?, ?, ?, ?)");
   if (!statement) return tl::unexpected(statement.error());
-  const ContentHash hash = content_hash(item);
+  const ContentHash hash = row_hash(item, bytes_of(signature));
   return statement->bind(1, name.agent.str())
       .bind(2, std::int64_t{name.seq})
       .bind(3, item)
       .bind(4, ByteView(hash))
+      .bind(5, bytes_of(signature))
       .run();
+}
+
+Status Store::State::remove(const char* table, const NodeId& name) {
+  return run("DELETE FROM " + std::string(table) + " WHERE agent = ? AND seq = ?", name.agent, name.seq);
+}
+
+Status Store::State::remove_submap(const NodeId& name) {
+  if (auto status = remove("submap", name); !status) return status;
+  return remove("submap_chunk", name);
 }
 
 Status Store::State::sync(bool full) {
@@ -187,15 +226,19 @@ Status Store::State::load_rows(const char* table, const Use& use) {
   };
   std::vector<Name> damaged;
   {
-    auto rows = db->prepare("SELECT agent, seq, item, hash FROM " + std::string(table));
+    auto rows = db->prepare("SELECT agent, seq, item, hash, signature FROM " + std::string(table));
     if (!rows) return tl::unexpected(rows.error());
     for (auto row = rows->step();; row = rows->step()) {
       if (!row) return tl::unexpected(row.error());
       if (!*row) break;
       const ByteView item = rows->blob(2);
-      const ContentHash hash = content_hash(item);
-      const bool whole =
-          std::ranges::equal(rows->blob(3), hash) && use(rows->text(0), rows->integer(1), item);
+      const ByteView bytes = rows->blob(4);
+      std::optional<Signature> signature;
+      if (bytes.size() == sizeof(Signature)) std::ranges::copy(bytes, signature.emplace().begin());
+      const ContentHash hash = row_hash(item, bytes);
+      const bool whole = std::ranges::equal(rows->blob(3), hash) &&
+                         bytes.size() == bytes_of(signature).size() &&
+                         use(rows->text(0), rows->integer(1), item, signature);
       if (!whole) damaged.push_back({std::string(rows->text(0)), rows->integer(1)});
     }
   }
@@ -216,24 +259,28 @@ Status Store::State::load_items() {
   // A limit that was lowered since concerns what is to come.
   StoreConfig unlimited;
   unlimited.max_submap_bytes = 1u << 30;
-  const auto add_node = [&](std::string_view agent, std::int64_t seq, ByteView item) {
-    const auto node = decode_node(item);
+  using Signed = std::optional<Signature>;
+  const auto add_node = [&](std::string_view agent, std::int64_t seq, ByteView item, const Signed& by) {
+    auto node = decode_node(item);
     if (!node || node->id.agent.str() != agent || node->id.seq != seq || !valid(*node, unlimited))
       return false;
     node_set.insert(node->id.agent, node->id.seq);
     if (node->submap_bytes == 0) submap_set.insert(node->id.agent, node->id.seq);
     node_prints[node->id] = fingerprint(*node);
+    node->signature = by;
     nodes.emplace(node->id, *node);
     return true;
   };
   if (auto status = load_rows("node", add_node); !status) return status;
-  const auto add_alignment = [this](std::string_view agent, std::int64_t seq, ByteView item) {
-    const auto alignment = decode_alignment(item);
+  const auto add_alignment = [this](std::string_view agent, std::int64_t seq, ByteView item,
+                                    const Signed& by) {
+    auto alignment = decode_alignment(item);
     if (!alignment || alignment->computed_by.str() != agent || alignment->seq != seq || !valid(*alignment))
       return false;
     const AlignmentId id{alignment->computed_by, alignment->seq};
     alignment_set.insert(id.computed_by, id.seq);
     alignment_prints[name_of(id)] = fingerprint(*alignment);
+    alignment->signature = by;
     alignments.emplace(id, *alignment);
     return true;
   };
@@ -243,19 +290,23 @@ Status Store::State::load_items() {
 
 /// A second content whose first was damaged is held alone, until others show the evidence again.
 Status Store::State::load_contested() {
-  const auto contest_node = [this](std::string_view, std::int64_t, ByteView item) {
-    const auto node = decode_node(item);
+  using Signed = std::optional<Signature>;
+  const auto contest_node = [this](std::string_view, std::int64_t, ByteView item, const Signed& by) {
+    auto node = decode_node(item);
     if (!node || !nodes.contains(node->id)) return false;
+    node->signature = by;
     contest(*node);
     return true;
   };
   if (auto status = load_rows("contested_node", contest_node); !status) return status;
-  return load_rows("contested_alignment", [this](std::string_view, std::int64_t, ByteView item) {
-    const auto alignment = decode_alignment(item);
+  const auto contest_alignment = [this](std::string_view, std::int64_t, ByteView item, const Signed& by) {
+    auto alignment = decode_alignment(item);
     if (!alignment || !alignments.contains({alignment->computed_by, alignment->seq})) return false;
+    alignment->signature = by;
     contest(*alignment);
     return true;
-  });
+  };
+  return load_rows("contested_alignment", contest_alignment);
 }
 
 void Store::State::contest(const graph::Node& second) {
@@ -295,6 +346,13 @@ Status Store::State::load_submap_names() {
 }
 
 Status Store::State::load() {
+  for (auto* names : {&node_prints, &alignment_prints}) names->clear();
+  for (auto* set : {&node_set, &alignment_set, &submap_set}) *set = {};
+  nodes.clear();
+  alignments.clear();
+  contested_nodes.clear();
+  contested_alignments.clear();
+  partials.clear();
   if (auto status = load_items(); !status) return status;
   return load_submap_names();
 }
@@ -378,7 +436,7 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
   const auto insert = [&]() -> Status {
     auto transaction = Transaction::begin(*s.db);
     if (!transaction) return tl::unexpected(transaction.error());
-    if (auto status = s.insert("node", node.id, item); !status) return status;
+    if (auto status = s.insert("node", node.id, item, node.signature); !status) return status;
     if (submap && !submap->empty()) {
       auto status =
           s.run("INSERT OR REPLACE INTO submap VALUES(?, ?, ?)", node.id.agent, node.id.seq, submap);
@@ -403,7 +461,7 @@ Status Store::contest_node(const graph::Node& node, ByteView item) {
   auto transaction = Transaction::begin(*s.db);
   if (!transaction) return tl::unexpected(transaction.error());
   const auto& [agent, seq] = node.id;
-  if (auto status = s.insert("contested_node", node.id, item); !status) return status;
+  if (auto status = s.insert("contested_node", node.id, item, node.signature); !status) return status;
   if (auto status = s.run("DELETE FROM submap_chunk WHERE agent = ? AND seq = ?", agent, seq); !status)
     return status;
   // Its own submap the agent still needs, to name the node anew.
@@ -417,8 +475,8 @@ Status Store::contest_node(const graph::Node& node, ByteView item) {
 }
 
 Status Store::contest_alignment(const graph::Alignment& alignment, ByteView item) {
-  if (auto status = state_->insert("contested_alignment", {alignment.computed_by, alignment.seq}, item);
-      !status)
+  const NodeId name{alignment.computed_by, alignment.seq};
+  if (auto status = state_->insert("contested_alignment", name, item, alignment.signature); !status)
     return status;
   state_->contest(alignment);
   return {};
@@ -445,7 +503,7 @@ Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
   if (own) {
     if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
   }
-  const Status inserted = s.insert("alignment", name_of(id), item);
+  const Status inserted = s.insert("alignment", name_of(id), item, alignment.signature);
   if (own) {
     if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
   }
@@ -526,6 +584,91 @@ Result<Put> Store::finish_download(const NodeId& id) {
   s.partials.erase(node.id);
   ++s.stats.bad_submaps;
   return s.count(Put::kInvalid);
+}
+
+template <class Item, class Sign>
+Result<bool> Store::State::resign_name(const Tables& tables, const NodeId& name, const Item& first,
+                                       const Item* second, const Sign& sign, std::size_t& dropped) {
+  const std::optional<Signature> of_first = sign(first);
+  const std::optional<Signature> of_second = second ? sign(*second) : std::nullopt;
+  dropped += (of_first ? 0 : 1) + (second && !of_second ? 1 : 0);
+  if (!second && of_first && of_first == first.signature) return true;
+  for (const char* table : {tables.items, tables.contested}) {
+    if (auto status = remove(table, name); !status) return tl::unexpected(status.error());
+  }
+  if (of_first || of_second) {
+    const Item& left = of_first ? first : *second;
+    const Status kept = insert(tables.items, name, encode(left), of_first ? of_first : of_second);
+    if (!kept) return tl::unexpected(kept.error());
+  }
+  if (of_first && of_second) {
+    const Status kept = insert(tables.contested, name, encode(*second), of_second);
+    if (!kept) return tl::unexpected(kept.error());
+  }
+  return of_first.has_value();
+}
+
+Status Store::State::resign_nodes(const SignNode& sign, std::size_t& dropped) {
+  const auto resign = [&](const graph::Node& first, const graph::Node* second) -> Status {
+    const auto stays = resign_name({"node", "contested_node"}, first.id, first, second, sign, dropped);
+    if (!stays) return tl::unexpected(stays.error());
+    return *stays ? Status{} : remove_submap(first.id);
+  };
+  for (const auto& [id, node] : nodes) {
+    if (auto status = resign(node, nullptr); !status) return status;
+  }
+  for (const auto& [id, contents] : contested_nodes) {
+    if (auto status = resign(contents.first.mapped(), &contents.second); !status) return status;
+  }
+  return {};
+}
+
+Status Store::State::resign_alignments(const SignAlignment& sign, std::size_t& dropped) {
+  const auto resign = [&](const graph::Alignment& first, const graph::Alignment* second) -> Status {
+    const auto stays = resign_name({"alignment", "contested_alignment"}, {first.computed_by, first.seq},
+                                   first, second, sign, dropped);
+    return stays ? Status{} : tl::unexpected(stays.error());
+  };
+  for (const auto& [id, alignment] : alignments) {
+    if (auto status = resign(alignment, nullptr); !status) return status;
+  }
+  for (const auto& [id, contents] : contested_alignments) {
+    if (auto status = resign(contents.first.mapped(), &contents.second); !status) return status;
+  }
+  return {};
+}
+
+Result<Store::Resigned> Store::resign(const SignNode& node, const SignAlignment& alignment) {
+  State& s = *state_;
+  Resigned done;
+  auto transaction = Transaction::begin(*s.db);
+  if (!transaction) return tl::unexpected(transaction.error());
+  if (auto status = s.resign_nodes(node, done.dropped_nodes); !status) return tl::unexpected(status.error());
+  if (auto status = s.resign_alignments(alignment, done.dropped_alignments); !status)
+    return tl::unexpected(status.error());
+  if (auto status = transaction->commit(); !status) return tl::unexpected(status.error());
+  if (auto status = s.load(); !status) return tl::unexpected(status.error());
+  return done;
+}
+
+bool Store::holds(const graph::Node& node) const {
+  const State& s = *state_;
+  const Bytes item = encode(node);
+  if (const auto held = s.nodes.find(node.id); held != s.nodes.end()) return encode(held->second) == item;
+  const auto names = s.contested_nodes.find(node.id);
+  return names != s.contested_nodes.end() &&
+         (encode(names->second.first.mapped()) == item || encode(names->second.second) == item);
+}
+
+bool Store::holds(const graph::Alignment& alignment) const {
+  const State& s = *state_;
+  const AlignmentId id{alignment.computed_by, alignment.seq};
+  const Bytes item = encode(alignment);
+  if (const auto held = s.alignments.find(id); held != s.alignments.end())
+    return encode(held->second) == item;
+  const auto names = s.contested_alignments.find(id);
+  return names != s.contested_alignments.end() &&
+         (encode(names->second.first.mapped()) == item || encode(names->second.second) == item);
 }
 
 const graph::Node* Store::node(const NodeId& id) const {

@@ -1,5 +1,7 @@
 #include "fleetmap/trust/credentials.hpp"
 
+#include <algorithm>
+
 #include "key_files.hpp"
 
 namespace fleetmap::trust {
@@ -83,6 +85,18 @@ Result<Credentials> load_credentials(const fs::path& folder, Stamp now) {
   }
   return Credentials{*authority,  *certificate, *key,
                      *fleet_keys, *revocations, members_of(folder, *authority)};
+}
+
+void LearnedCertificates::add(const Certificate& certificate) {
+  const std::scoped_lock lock(mutex_);
+  const auto same = [&](const Certificate& other) { return other.der == certificate.der; };
+  if (certificates_.size() < kMost && std::ranges::none_of(certificates_, same))
+    certificates_.push_back(certificate);
+}
+
+std::vector<Certificate> LearnedCertificates::all() const {
+  const std::scoped_lock lock(mutex_);
+  return certificates_;
 }
 
 }  // namespace fleetmap::trust

@@ -49,7 +49,8 @@ Introducer::Introducer(const Credentials& credentials, std::uint8_t radio, const
       key_(credentials.key),
       revocations_(credentials.revocations),
       radio_(radio),
-      session_(session) {
+      session_(session),
+      learned_(credentials.learned) {
   for (const Certificate& member : credentials.members) members_.emplace(fingerprint(member), member);
 }
 
@@ -81,6 +82,7 @@ Result<Certificate> Introducer::verify(const Introduction& introduction, const S
     if (fingerprint(*certificate) != introduction.fingerprint)
       return failure("its certificate is another one");
     if (members_.size() >= kMostMembers) return failure("the fleet has too many certificates");
+    learned_->add(*certificate);
     known = members_.emplace(introduction.fingerprint, *std::move(certificate)).first;
   }
   if (known == members_.end()) return failure("its certificate is still to come");

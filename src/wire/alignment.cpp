@@ -5,6 +5,7 @@
 #include "fields.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap_long_range.h"
+#include "rounding.hpp"
 #include "type_names.hpp"
 
 namespace fleetmap::wire {
@@ -32,11 +33,9 @@ graph::AlignmentMode decoded(const msg::AlignmentMode& in, FieldCheck& check) {
   return mode;
 }
 
-}  // namespace
-
-Bytes encode(const graph::Alignment& alignment) {
+/// Without schema version and signature.
+msg::Alignment unsigned_message(const graph::Alignment& alignment) {
   msg::Alignment out;
-  out.schema(kSchemaVersion);
   out.computed_by(agent_name(alignment.computed_by));
   out.agent_i(agent_name(alignment.i.agent));
   out.agent_j(agent_name(alignment.j.agent));
@@ -45,8 +44,26 @@ Bytes encode(const graph::Alignment& alignment) {
   out.seq_j(alignment.j.seq);
   const std::size_t modes = std::min(alignment.modes.size(), graph::Alignment::kMaxModes);
   for (std::size_t k = 0; k < modes; ++k) out.modes().push_back(encoded(alignment.modes[k]));
+  return out;
+}
+
+bool is_encoding_of(const graph::Alignment& alignment, const msg::Alignment& message) {
+  msg::Alignment again = unsigned_message(alignment);
+  again.schema(message.schema());
+  again.signature(message.signature());
+  return again == message;
+}
+
+}  // namespace
+
+Bytes encode(const graph::Alignment& alignment) {
+  msg::Alignment out = unsigned_message(alignment);
+  out.schema(kSchemaVersion);
+  out.signature(signature_bytes(alignment.signature));
   return to_cdr(out);
 }
+
+Bytes signed_bytes(const graph::Alignment& alignment) { return to_cdr(unsigned_message(alignment)); }
 
 template <>
 Result<graph::Alignment> decode(ByteView cdr) {
@@ -64,11 +81,13 @@ Result<graph::Alignment> decode(ByteView cdr) {
   alignment.modes.clear();
   for (std::size_t k = 0; k < modes; ++k) alignment.modes.push_back(decoded(in->modes()[k], check));
   check.require(alignment.i != alignment.j, "nodes i and j are the same");
+  alignment.signature = check.signature(in->signature());
+  // Else another content than the signed one could bear the signature.
+  if (alignment.signature)
+    check.require(is_encoding_of(alignment, *in), "is signed and is not what encoding it again gives");
   return check.finish(alignment);
 }
 
-Result<graph::Alignment> quantised(const graph::Alignment& alignment) {
-  return decode<graph::Alignment>(encode(alignment));
-}
+Result<graph::Alignment> quantised(const graph::Alignment& alignment) { return rounded(alignment); }
 
 }  // namespace fleetmap::wire

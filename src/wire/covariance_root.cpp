@@ -12,7 +12,11 @@ constexpr double kMost = 100.0;
 // Rounding what was rounded must change nothing: only what is clearly beyond kMost is scaled down to it.
 constexpr double kClearlyBeyond = 1.1 * kMost;
 
-std::uint16_t to_half(double value) { return Eigen::half(static_cast<float>(value)).x; }
+/// Of a number that is zero but for rounding no sign is left, which would differ between processors.
+std::uint16_t to_half(double value) {
+  const std::uint16_t bits = Eigen::half(static_cast<float>(value)).x;
+  return (bits & 0x7fff) == 0 ? std::uint16_t{0} : bits;
+}
 
 double from_half(std::uint16_t bits) {
   return static_cast<double>(static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(bits))));

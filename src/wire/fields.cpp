@@ -41,6 +41,10 @@ Bytes bounded(const Bytes& payload, std::size_t limit) {
   return {payload.begin(), payload.begin() + static_cast<std::ptrdiff_t>(std::min(payload.size(), limit))};
 }
 
+Bytes signature_bytes(const std::optional<Signature>& signature) {
+  return signature ? Bytes(signature->begin(), signature->end()) : Bytes();
+}
+
 float to_float(double value) {
   constexpr double kLimit = std::numeric_limits<float>::max();
   return static_cast<float>(std::isnan(value) ? value : std::clamp(value, -kLimit, kLimit));
@@ -119,6 +123,14 @@ double FieldCheck::size(double value, double limit, const char* member) {
   if (!(value >= 0.0 && value <= limit))
     refuse(std::string(member) + " is negative, not finite or too large");
   return value;
+}
+
+std::optional<Signature> FieldCheck::signature(const Bytes& bytes) {
+  Signature signature{};
+  require(bytes.empty() || bytes.size() == signature.size(), "the signature has not 64 bytes");
+  if (bytes.size() != signature.size()) return std::nullopt;
+  std::ranges::copy(bytes, signature.begin());
+  return signature;
 }
 
 Eigen::Vector3d FieldCheck::translation(const std::array<float, 3>& t, const char* member) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/core/signature.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
@@ -27,6 +29,8 @@ msg::NodeRef node_ref(const NodeId& node);
 std::vector<msg::Range> ranges(const std::vector<exchange::Range>& ranges, std::size_t limit);
 /// At most `limit` bytes.
 Bytes bounded(const Bytes& payload, std::size_t limit);
+/// No bytes for none.
+Bytes signature_bytes(const std::optional<Signature>& signature);
 /// Clamps to the finite floats; NaN stays NaN and so is refused by the reader.
 float to_float(double value);
 std::array<float, 3> to_floats(const Eigen::Vector3d& v);
@@ -50,6 +54,8 @@ class FieldCheck {
   double within(double value, double limit, const char* member);
   /// Finite and 0 <= value <= limit.
   double size(double value, double limit, const char* member);
+  /// Of 64 bytes, or none.
+  std::optional<Signature> signature(const Bytes& bytes);
   Eigen::Vector3d translation(const std::array<float, 3>& t, const char* member);
 
   template <class T>

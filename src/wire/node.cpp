@@ -6,6 +6,7 @@
 #include "fields.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap_long_range.h"
+#include "rounding.hpp"
 #include "type_names.hpp"
 
 namespace fleetmap::wire {
@@ -86,11 +87,9 @@ Eigen::Vector3d read_up(const std::array<std::int16_t, 3>& codes, FieldCheck& ch
   return up;
 }
 
-}  // namespace
-
-Bytes encode(const graph::Node& node) {
+/// Without schema version and signature.
+msg::Node unsigned_message(const graph::Node& node) {
   msg::Node out;
-  out.schema(kSchemaVersion);
   out.agent(agent_name(node.id.agent));
   out.seq(node.id.seq);
   out.stamp(to_ns(node.stamp));
@@ -102,8 +101,26 @@ Bytes encode(const graph::Node& node) {
   out.odom_covariance(encode_covariance(node.odom_covariance));
   out.submap_hash(node.submap_hash);
   out.submap_bytes(node.submap_bytes);
+  return out;
+}
+
+bool is_encoding_of(const graph::Node& node, const msg::Node& message) {
+  msg::Node again = unsigned_message(node);
+  again.schema(message.schema());
+  again.signature(message.signature());
+  return again == message;
+}
+
+}  // namespace
+
+Bytes encode(const graph::Node& node) {
+  msg::Node out = unsigned_message(node);
+  out.schema(kSchemaVersion);
+  out.signature(signature_bytes(node.signature));
   return to_cdr(out);
 }
+
+Bytes signed_bytes(const graph::Node& node) { return to_cdr(unsigned_message(node)); }
 
 template <>
 Result<graph::Node> decode(ByteView cdr) {
@@ -127,9 +144,13 @@ Result<graph::Node> decode(ByteView cdr) {
   node.submap_hash = in->submap_hash();
   node.submap_bytes = in->submap_bytes();
   check.require(node.submap_bytes <= kMaxSubmapBytes, "submap_bytes is beyond 64 MiB");
+  node.signature = check.signature(in->signature());
+  // Else another content than the signed one could bear the signature.
+  if (node.signature)
+    check.require(is_encoding_of(node, *in), "is signed and is not what encoding it again gives");
   return check.finish(node);
 }
 
-Result<graph::Node> quantised(const graph::Node& node) { return decode<graph::Node>(encode(node)); }
+Result<graph::Node> quantised(const graph::Node& node) { return rounded(node); }
 
 }  // namespace fleetmap::wire

@@ -48,7 +48,11 @@ TEST_P(EveryTopic, CarriesBytesUnchangedAndInOrder) {
   const auto fleet = kind.make({});
   const std::size_t to = topic.link == Link::kOnboard ? 0 : 1;
   std::vector<Message> received;
-  const Handle handle = fleet->robot(to).subscribe(topic, into(received));
+  std::optional<AgentId> sender;
+  const Handle handle = fleet->robot(to).subscribe(topic, [&](const Bytes& cdr) {
+    received.push_back({cdr});
+    sender = fleet->robot(to).sender();
+  });
   ASSERT_TRUE(fleet->connect(topic, 0, 1, to, 1));
 
   // One after the other, since best effort may lose what comes faster than it is taken.
@@ -59,6 +63,9 @@ TEST_P(EveryTopic, CarriesBytesUnchangedAndInOrder) {
     ASSERT_TRUE(fleet->run_until([&] { return received.size() == sent.size(); })) << "message " << int{i};
   }
   EXPECT_EQ(received, sent);
+  EXPECT_EQ(sender,
+            topic.link == Link::kOnboard ? std::nullopt : std::optional(AgentId::parse("r0").value()));
+  EXPECT_EQ(fleet->robot(to).sender(), std::nullopt);
 }
 
 TEST_P(EveryTopic, CountsMessagesAndBytes) {

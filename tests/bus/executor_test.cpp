@@ -61,7 +61,7 @@ TEST(Inbox, a_flood_makes_no_more_dispatches_wait_than_messages) {
   EXPECT_EQ(stats.dropped_messages, 9'996u);
   // A large message takes the place of all; the dispatches of those find nothing.
   EXPECT_FALSE(inbox.put(Bytes(1000)));
-  EXPECT_EQ(inbox.take()->size(), 1000u);
+  EXPECT_EQ(inbox.take()->cdr.size(), 1000u);
   for (int k = 1; k < 4; ++k) EXPECT_FALSE(inbox.take());
   for (int k = 0; k < 4; ++k) EXPECT_TRUE(inbox.put(Bytes(1))) << "each message has its dispatch again";
   for (int k = 0; k < 4; ++k) EXPECT_TRUE(inbox.take());

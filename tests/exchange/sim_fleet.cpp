@@ -51,9 +51,9 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
   return node;
 }
 
-void SimFleet::forge(const std::string& name, const Message& message) {
+void SimFleet::forge(const std::string& name, const Message& message, std::optional<AgentId> from) {
   Robot& r = robot(name);
-  r.exchange->on_message(message, now());
+  r.exchange->on_message(message, exchange::usual_reach(message), now(), std::move(from));
   for (auto& event : r.exchange->take_events()) {
     r.events.push_back(event);
     on_event(agent(name), r, event);

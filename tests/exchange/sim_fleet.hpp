@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <random>
 #include <span>
@@ -36,6 +37,10 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 
   /// Of those that start from now on: these alone are on their radio.
   void share_radio(std::span<const std::string> names);
+  /// Those that start from now on sign their items.
+  void authenticate(std::shared_ptr<const exchange::ItemAuthenticator> authenticator) {
+    config_.authenticator = std::move(authenticator);
+  }
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
   void kill(const std::string& name) { ExchangeFleet::kill(agent(name)); }
@@ -47,7 +52,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
   /// `message` comes to `name` now, whoever sent it.
-  void forge(const std::string& name, const Message& message);
+  void forge(const std::string& name, const Message& message, std::optional<AgentId> from = std::nullopt);
   void add_alignment(const std::string& name, const exchange::NodePair& pair, double rmse);
 
   /// `reachable(from, to, link)`: by default everyone hears everyone on the long-range link, nobody on the

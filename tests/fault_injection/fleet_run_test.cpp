@@ -44,6 +44,18 @@ TEST_P(FleetRun, keeps_its_invariants_whatever_fails) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, FleetRun, ::testing::Values(1, 26, 51, 76));
 
+/// With signed items forged ones and altered ones that a liar hands over change nothing, either.
+TEST(FleetRun, keeps_its_invariants_whatever_is_forged_where_items_are_signed) {
+  RunConfig config = checking("all");
+  config.signatures = true;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const std::string faults = std::string(kFaults) + ",forged";
+    const Outcome outcome = run(make_scenario(seed, small_fleets(faults.c_str())), config);
+    for (const Violation& violation : outcome.violations)
+      ADD_FAILURE() << "seed " << seed << ": " << to_string(violation);
+  }
+}
+
 TEST(FleetRun, replays_a_seed_packet_by_packet) {
   const Scenario scenario = make_scenario(7, small_fleets(kFaults));
   const Outcome first = run(scenario, checking("all")), second = run(scenario, checking("all"));

@@ -270,8 +270,15 @@ TEST(Store, names_nodes_by_ranges) {
   EXPECT_EQ(found[1]->id.seq, 5u);
 }
 
-/// Makes a store that holds `node` into what the schema version before left.
+/// Makes a store of items without signatures into what earlier schema versions left.
+void make_version_4(const std::filesystem::path& path) {
+  run_sql(path,
+          "ALTER TABLE node DROP COLUMN signature; ALTER TABLE alignment DROP COLUMN signature;"
+          "ALTER TABLE contested_node DROP COLUMN signature;"
+          "ALTER TABLE contested_alignment DROP COLUMN signature; PRAGMA user_version = 4");
+}
 void make_version_3(const std::filesystem::path& path) {
+  make_version_4(path);
   run_sql(path,
           "ALTER TABLE node DROP COLUMN hash; ALTER TABLE alignment DROP COLUMN hash;"
           "DROP TABLE contested_node; DROP TABLE contested_alignment; PRAGMA user_version = 3");
@@ -300,6 +307,111 @@ TEST(Store, brings_the_schema_version_before_to_the_present_one) {
               Put::kAdded);
   }
   EXPECT_TRUE(Store::open_read_only(path)) << "it is of this version now";
+}
+
+TEST(Store, brings_schema_version_4_with_its_contested_names_to_the_present_one) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  {
+    auto store = Store::open(path, kSelf).value();
+    ASSERT_EQ(store.put_node(make_node(kPeer, 0, Bytes{})).value(), Put::kAdded);
+    ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kAdded);
+    ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{}, 30.0)).value(), Put::kConflict);
+    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
+  }
+  make_version_4(path);
+  for (int opened = 0; opened < 2; ++opened) {
+    auto store = Store::open(path, kSelf).value();
+    EXPECT_TRUE(store.damage().empty());
+    ASSERT_TRUE(store.node({kPeer, 0}));
+    EXPECT_FALSE(store.node({kPeer, 0})->signature);
+    EXPECT_TRUE(store.is_contested({kPeer, 1}));
+    EXPECT_TRUE(store.alignment({kPeer, 2}));
+    auto node = make_node(kPeer, 5 + static_cast<std::uint32_t>(opened), Bytes{});
+    node.signature.emplace().fill(7);
+    EXPECT_EQ(store.put_node(node).value(), Put::kAdded);
+  }
+  EXPECT_EQ(Store::open_read_only(path).value().node({kPeer, 5})->signature->front(), 7);
+}
+
+TEST(Store, keeps_signatures_and_checks_them_with_the_row) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  const auto with_signature = [](auto item, std::uint8_t fill) {
+    item.signature.emplace().fill(fill);
+    return item;
+  };
+  {
+    auto store = Store::open(path, kSelf).value();
+    for (const std::uint32_t seq : {0u, 1u, 2u})
+      ASSERT_EQ(store.put_node(with_signature(make_node(kPeer, seq, Bytes{}), 9)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_node(with_signature(make_node(kPeer, 2, Bytes{}, 5.0), 10)).value(), Put::kConflict);
+    EXPECT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kKnown) << "the same content";
+    EXPECT_TRUE(store.holds(make_node(kPeer, 1, Bytes{})));
+    EXPECT_TRUE(store.holds(make_node(kPeer, 2, Bytes{}, 5.0)));
+    EXPECT_FALSE(store.holds(make_node(kPeer, 2, Bytes{}, 6.0)));
+    const auto alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2);
+    ASSERT_EQ(store.put_alignment(with_signature(alignment, 11)).value(), Put::kAdded);
+    EXPECT_TRUE(store.holds(alignment));
+  }
+  run_sql(path, "UPDATE node SET signature = zeroblob(64) WHERE seq = 0");
+  auto store = Store::open(path, kSelf).value();
+  EXPECT_THAT(store.damage(), ElementsAre(HasSubstr("node r2/0 is damaged")));
+  EXPECT_EQ(store.node({kPeer, 1})->signature->front(), 9);
+  const auto names = store.contested_nodes({kPeer, 0, 9});
+  ASSERT_EQ(names.size(), 1u);
+  EXPECT_EQ(names[0].first->signature->front(), 9);
+  EXPECT_EQ(names[0].second->signature->front(), 10);
+  EXPECT_EQ(store.alignment({kPeer, 2})->signature->front(), 11);
+}
+
+TEST(Store, drops_what_is_not_signed_and_gives_a_contested_name_to_the_signed_content) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  const Bytes submap = random_bytes(700, 1);
+  const auto node = [&](const AgentId& maker, std::uint32_t seq, double east) {
+    return make_node(maker, seq, submap, east);
+  };
+  const auto is_east = [](const graph::Node& n, double east) {
+    return make_node(n.id.agent, n.id.seq, Bytes{}, east).G->position == n.G->position;
+  };
+  {
+    auto store = Store::open(path, kSelf).value();
+    ASSERT_EQ(store.put_node_with_submap(node(kSelf, 0, 0.0), submap).value(), Put::kAdded);
+    for (const std::uint32_t seq : {0u, 1u, 2u, 3u}) {
+      ASSERT_EQ(store.put_node(node(kPeer, seq, 0.0)).value(), Put::kAdded);
+      ASSERT_EQ(store.put_submap({kPeer, seq}, submap).value(), Put::kAdded);
+    }
+    for (const std::uint32_t seq : {1u, 2u, 3u})
+      ASSERT_EQ(store.put_node(node(kPeer, seq, 50.0)).value(), Put::kConflict);
+    ASSERT_EQ(store.put_node_with_submap(node(kSelf, 1, 0.0), submap).value(), Put::kAdded);
+    ASSERT_EQ(store.put_node(node(kSelf, 1, 50.0)).value(), Put::kConflict);
+    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 0}, kPeer, 2)).value(), Put::kAdded);
+    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 0}, kSelf, 2)).value(), Put::kAdded);
+    const auto done = store.resign(
+        [&](const graph::Node& n) -> std::optional<Signature> {
+          const bool first = is_east(n, 0.0);
+          const bool kept = n.id.agent == kSelf ? first : (n.id.seq == 1 && !first) || n.id.seq == 2;
+          return kept ? std::optional(Signature{1}) : std::nullopt;
+        },
+        [&](const graph::Alignment& a) -> std::optional<Signature> {
+          return a.computed_by == kSelf ? std::optional(Signature{2}) : std::nullopt;
+        });
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(done->dropped_nodes, 1u + 1u + 2u + 1u) << "r2/0, a content of r2/1, both of r2/3, one of r1/1";
+    EXPECT_EQ(done->dropped_alignments, 1u);
+  }
+  auto store = Store::open(path, kSelf).value();
+  EXPECT_TRUE(store.damage().empty());
+  EXPECT_EQ(store.node_set().ranges(), (std::vector<SeqRange>{{kSelf, 0, 2}, {kPeer, 1, 3}}));
+  EXPECT_EQ(store.node({kSelf, 0})->signature, Signature{1});
+  EXPECT_EQ(store.submap({kSelf, 1}).value(), submap) << "it is the item's again";
+  EXPECT_TRUE(is_east(*store.node({kPeer, 1}), 50.0));
+  EXPECT_FALSE(store.has_submap({kPeer, 1})) << "it was of the other content";
+  EXPECT_TRUE(store.is_contested({kPeer, 2}));
+  EXPECT_EQ(store.put_submap({kPeer, 0}, submap).value(), Put::kInvalid);
+  EXPECT_EQ(store.alignments().size(), 1u);
+  EXPECT_EQ(store.alignment({kSelf, 2})->signature, Signature{2});
 }
 
 TEST(Store, drops_and_names_damaged_rows_and_takes_their_items_again) {

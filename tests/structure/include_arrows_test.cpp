@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"sim", {"cloud", "sensor"}},
     {"planning", {"geometry"}},
     {"eval", {"cloud", "graph"}},
-    {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning"}},
+    {"agent", {"odometry", "localization", "registration", "exchange", "wire", "planning", "trust"}},
     {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
     {"fault_injection", {"agent"}},
     {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval", "fault_injection"}},

@@ -51,6 +51,16 @@ TEST_F(Introductions, SurviveTheirEncoding) {
   }
 }
 
+TEST_F(Introductions, CertificatesThatComeAreKeptForTheItemsOfTheirOwners) {
+  EXPECT_TRUE(r2_.learned->all().empty());
+  for (int k = 0; k < 2; ++k) EXPECT_TRUE(listener_.verify(introduce(r1_), session_, kNow));
+  ASSERT_EQ(r2_.learned->all().size(), 1u);
+  EXPECT_EQ(r2_.learned->all()[0].name, agent("r1"));
+  EXPECT_EQ(r2_.learned->all()[0].key, r1_.key.public_key());
+  EXPECT_EQ(refusal(FleetOfKeys().member("r3")).find("its certificate"), 0u) << "of another fleet";
+  EXPECT_EQ(r2_.learned->all().size(), 1u);
+}
+
 TEST_F(Introductions, NoPartOfOneProvesAnything) {
   const Bytes whole = Introducer(r1_, kRadio, session_).introduce(kText, {}, true, true);
   for (std::size_t k = 0; k < whole.size(); ++k) {

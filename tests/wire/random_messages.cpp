@@ -50,6 +50,12 @@ Bytes RandomMessages::bytes(std::size_t size) {
 
 ContentHash RandomMessages::hash() { return content_hash(bytes(8)); }
 
+Signature RandomMessages::signature() {
+  Signature signature{};
+  for (auto& byte : signature) byte = static_cast<std::uint8_t>(integer(0, 255));
+  return signature;
+}
+
 GeoPoint RandomMessages::position() { return {real(-1.57, 1.57), real(-3.14, 3.14), real(-400.0, 9000.0)}; }
 
 Eigen::Matrix3d RandomMessages::rotation() {
@@ -89,6 +95,7 @@ graph::Node RandomMessages::node() {
   node.odom_covariance = covariance();
   node.submap_hash = hash();
   node.submap_bytes = integer(0, kMaxSubmapBytes);
+  if (integer(0, 1) > 0) node.signature = signature();
   return node;
 }
 
@@ -101,6 +108,7 @@ graph::Alignment RandomMessages::alignment() {
   alignment.modes.resize(integer(1, graph::Alignment::kMaxModes));
   for (graph::AlignmentMode& mode : alignment.modes)
     mode = {pose(), real(0.0, 2.0), real(0.0, 1.0), real(0.0, 1.0), covariance()};
+  if (integer(0, 1) > 0) alignment.signature = signature();
   return alignment;
 }
 

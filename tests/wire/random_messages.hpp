@@ -30,6 +30,7 @@ class RandomMessages {
   Stamp stamp();
   Bytes bytes(std::size_t size);
   ContentHash hash();
+  Signature signature();
   GeoPoint position();
   /// Half of them within a hundredth of a degree of half a turn, where rotation vectors are least tame.
   Eigen::Matrix3d rotation();

@@ -129,6 +129,8 @@ class Agent {
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
+  void handle(const exchange::ItemRefused& refused);
+  void handle(const exchange::ItemsAdopted& adopted);
   void handle(const exchange::OfferDoubted& doubted);
   /// Own items whose names are contested get others.
   void name_contested_anew();

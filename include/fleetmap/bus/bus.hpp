@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
 
 namespace fleetmap::bus {
@@ -82,6 +84,9 @@ class Bus {
   /// counted.
   virtual void publish(const Topic& topic, const Bytes& cdr) = 0;
   [[nodiscard]] virtual Handle subscribe(const Topic& topic, OnMessage on_message) = 0;
+  /// During a callback of subscribe(): the robot that sent the message, as far as the link knows it. Nothing
+  /// onboard. A member of the fleet that changed its program can send under another robot's name.
+  virtual std::optional<AgentId> sender() const = 0;
 
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
   [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;

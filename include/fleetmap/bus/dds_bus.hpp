@@ -98,6 +98,7 @@ class DdsBus final : public Bus {
   void advertise(const Topic& topic) override;
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
+  std::optional<AgentId> sender() const override;
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
   bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;

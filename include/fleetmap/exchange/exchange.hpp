@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -13,6 +16,7 @@
 #include "fleetmap/exchange/cloud_transfer.hpp"
 #include "fleetmap/exchange/encounters.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
+#include "fleetmap/exchange/item_proof.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile.hpp"
 #include "fleetmap/exchange/routing.hpp"
@@ -35,6 +39,9 @@ struct ExchangeConfig {
   Duration status_period = std::chrono::seconds(5);
   /// Bytes of a message as the bus publishes it (CDR with its encapsulation header).
   std::function<std::size_t(const Message&)> payload_size;
+  /// Own items are signed, and those of others accepted only with the signature of their maker. None: items
+  /// bear no signatures, and anyone may make them in any name.
+  std::shared_ptr<const ItemAuthenticator> authenticator;
   Status validate(const AgentId& self) const;
   const std::vector<AgentId>& all_on_radio() const { return on_radio.empty() ? fleet : on_radio; }
 };
@@ -82,12 +89,29 @@ struct HoldChanged {
   HoldOrder order;
 };
 /// An item with a taken name and another content came: a session number drawn twice, a forged item, or
-/// damage. The name is contested from now on and has no item; of the running session's names that this agent
-/// has not given, the item was refused. Own items are told again with reissue_contested().
+/// damage. Where items are signed, the maker signed both: somebody else has its key, as on a copied disk, or
+/// it equivocates. The name is contested from now on and has no item; of the running session's names that
+/// this agent has not given, the item was refused. Own items are told again with reissue_contested().
 struct ItemConflict {
   NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
   bool alignment = false;
   Reach link = Reach::kLongRange;  ///< it came over
+  bool signed_twice = false;       ///< by its maker
+  std::optional<AgentId> from;     ///< who handed it over, where the link tells
+};
+/// An item was refused, since its signature does not prove that the robot whose name it bears made it. Told
+/// once of each maker, reason and robot that hands such items over. The genuine item is accepted when it
+/// comes.
+struct ItemRefused {
+  NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
+  bool alignment = false;
+  ItemProof proof = ItemProof::kUnsigned;
+  Reach link = Reach::kLongRange;  ///< it came over
+  std::optional<AgentId> from;     ///< who handed it over, where the link tells
+};
+/// The store was of a time without keys, or of other keys.
+struct ItemsAdopted {
+  AdoptedItems items;
 };
 /// `peer` offers what it does not deliver: completion does not wait for it any more. It counts again once it
 /// comes.
@@ -120,8 +144,8 @@ struct MapComplete {
   std::size_t alignments = 0;
 };
 using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           MissionHeard, HoldChanged, ItemConflict, OfferDoubted, OwnItemsElsewhere,
-                           SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
+                           MissionHeard, HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferDoubted,
+                           OwnItemsElsewhere, SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
@@ -133,6 +157,8 @@ struct ExchangeStats {
   SubmapSenderStats submap_sender;
   std::uint64_t strangers = 0;     ///< messages and items of agents that are not of the fleet, and own echoes
   std::uint64_t bad_requests = 0;  ///< for clouds of nodes that are not ours
+  /// Items that were verified, by what came out; all but the genuine ones were refused.
+  std::array<std::uint64_t, kItemProofs> proofs{};
 };
 
 /// Entries of the tables that what others send can fill.
@@ -143,6 +169,7 @@ struct TableSizes {
   std::size_t submap_downloads = 0;
   std::size_t clouds_to_make = 0;
   std::size_t strangers = 0;
+  std::size_t refusals = 0;
 };
 
 /// All that one agent says to the others and hears from them, as a state machine: messages and time in,
@@ -183,8 +210,8 @@ class Exchange {
   /// The order in force for this agent; nothing if there never was one. It survives a restart.
   std::optional<HoldOrder> hold_in_force() const { return holds_.in_force(); }
 
-  /// `message` came over `link`.
-  void on_message(const Message& message, Reach link, Stamp now);
+  /// `message` came over `link`, from a robot that the link may tell. Of items this is who hands them over.
+  void on_message(const Message& message, Reach link, Stamp now, std::optional<AgentId> from = std::nullopt);
   void on_message(const Message& message, Stamp now) { on_message(message, usual_reach(message), now); }
   std::vector<Outgoing> tick(Stamp now);
   std::vector<Event> take_events();
@@ -218,6 +245,9 @@ class Exchange {
   void note_stranger(const AgentId& name);
   /// The item bears a number that only this agent gives, and has not given.
   bool is_forged(const AgentId& maker, std::uint32_t seq, bool held) const;
+  /// The item is held, or its maker signed it; else it is counted and told of.
+  template <class Item>
+  bool is_proven(const Item& item, const NodeId& name, bool alignment);
   void note_own_items(const Digest& digest);
   void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment, Stamp now);
   /// Of the ranges, those whose agents are of the fleet; counts the others.
@@ -277,6 +307,7 @@ class Exchange {
   std::map<NodeId, Needed> needed_;
   std::map<NodeId, Stamp> without_submap_;  ///< nodes, since when
   Reach link_ = Reach::kLongRange;          ///< of the message that is handled
+  std::optional<AgentId> from_;             ///< of the message that is handled, by the link
   AgentStatus status_;
   std::optional<Stamp> next_status_;
   std::optional<std::uint16_t> session_;
@@ -293,6 +324,8 @@ class Exchange {
   std::set<AgentId> strangers_told_of_;
   std::uint64_t strangers_ = 0;
   std::uint64_t bad_requests_ = 0;
+  std::array<std::uint64_t, kItemProofs> proofs_{};
+  std::set<std::tuple<AgentId, AgentId, ItemProof>> refusals_told_of_;  ///< maker, who handed it over
 };
 
 }  // namespace fleetmap::exchange

@@ -8,6 +8,9 @@
 
 namespace fleetmap::exchange {
 
+/// The same node, perhaps under another name.
+bool is_same_place(const graph::Node& a, const graph::Node& b);
+
 /// What naming own items anew needs of the agent.
 struct NewNames {
   std::uint16_t session = 0;                                 ///< the running one, which names alignments

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <string>
 #include <tuple>
@@ -69,9 +70,9 @@ class ExchangeFleet {
   void put_back_store(const AgentId& name, const std::string& copy) const;
   void lose_store(const AgentId& name) const;
 
-  /// Arrives `delay` from now, whoever sent it.
+  /// Arrives `delay` from now, from `from` as far as the link can tell.
   void deliver(const AgentId& to, exchange::Reach reach, std::shared_ptr<const exchange::Message> message,
-               Duration delay);
+               Duration delay, std::optional<AgentId> from = std::nullopt);
 
   virtual void on_sent(const Packet& packet) = 0;
   /// What of the message is on the air; nothing: it is not sent.
@@ -89,6 +90,7 @@ class ExchangeFleet {
     AgentId to;
     exchange::Reach reach;
     std::shared_ptr<const exchange::Message> message;
+    std::optional<AgentId> from;
     bool operator>(const Flight& other) const {
       return std::tie(at, order) > std::tie(other.at, other.order);
     }

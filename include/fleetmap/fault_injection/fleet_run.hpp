@@ -42,6 +42,9 @@ struct RunConfig {
   Duration settling = std::chrono::minutes(10);
   std::set<Invariant> invariants;  ///< that are checked
   bool trace = false;
+  /// Robots sign their items, forged items bear wrong signatures, and a liar alters items of others that it
+  /// hands over.
+  bool signatures = false;
 };
 
 struct Outcome {

@@ -4,6 +4,7 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/signature.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
 #include "fleetmap/geometry/se3.hpp"
@@ -39,6 +40,8 @@ struct Node {
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
+  /// Of the maker, over all the rest and so also over the submap's hash; none in a fleet without keys.
+  std::optional<Signature> signature;
 
   static constexpr std::size_t kMaxDescriptorBytes = 200;
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -60,6 +61,9 @@ struct StoreStats {
 /// unknown to one content to contested, whatever comes first: a join-semilattice (CvRDT, Shapiro et al.
 /// 2011), so robots that exchange what they hold end with the same set.
 ///
+/// Signatures are stored with their items and are no part of what makes two contents equal. Whoever puts an
+/// item has verified it.
+///
 /// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
 /// items are also synced to the disk: after a power cut the agent must not give a second item a name that it
 /// has already told the others. Items of others are not; a power cut may lose the last of them, and the
@@ -72,7 +76,8 @@ class Store {
   /// Bytes of one piece of a download; the last of a submap may be shorter.
   static constexpr std::uint32_t kChunkBytes = 8192;
 
-  /// Opens or makes the store of `self`. A store of the schema version before is brought to the present one.
+  /// Opens or makes the store of `self`. A store of schema version 3 or later is brought to the
+  /// present one.
   /// Rows that are damaged are dropped and named by damage(). Fails with what to do when the file is no
   /// store, its pages are corrupt, is of a newer version, belongs to another agent, or is open in another
   /// process for writing.
@@ -102,6 +107,22 @@ class Store {
   /// from put_submap_chunk(), or when a chunk is missing.
   Result<Put> finish_download(const NodeId& id);
 
+  /// What resign() did.
+  struct Resigned {
+    std::size_t dropped_nodes = 0;       ///< contents
+    std::size_t dropped_alignments = 0;  ///< contents
+  };
+  using SignNode = std::function<std::optional<Signature>(const graph::Node&)>;
+  using SignAlignment = std::function<std::optional<Signature>(const graph::Alignment&)>;
+  /// Gives each content the signature that the functions return for it and drops those for which they return
+  /// none, with their submaps. A contested name of which one content is left has this as its item again. All
+  /// or nothing on the disk. Pointers to items become invalid, and revision() may fall: to be called before
+  /// anything else uses the store.
+  Result<Resigned> resign(const SignNode& node, const SignAlignment& alignment);
+
+  /// This content is held under its name, be the name contested or not. Signatures are not compared.
+  bool holds(const graph::Node& node) const;
+  bool holds(const graph::Alignment& alignment) const;
   const graph::Node* node(const NodeId& id) const;  ///< null when not held
   const graph::Alignment* alignment(const AlignmentId& id) const;
   const std::map<NodeId, graph::Node>& nodes() const;

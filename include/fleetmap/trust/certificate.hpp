@@ -9,6 +9,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/core/signature.hpp"
 #include "fleetmap/core/time.hpp"
 
 struct evp_pkey_st;  // OpenSSL's key
@@ -23,7 +24,7 @@ Result<Role> parse_role(const std::string& text);
 /// First bytes of the SHA-256 of the fleet's authority key.
 using FleetId = std::array<std::uint8_t, 8>;
 using PublicKey = std::array<std::uint8_t, 32>;  ///< Ed25519
-using Signature = std::array<std::uint8_t, 64>;  ///< Ed25519, RFC 8032
+using fleetmap::Signature;
 /// First bytes of the SHA-256 of a certificate.
 using Fingerprint = std::array<std::uint8_t, 4>;
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "fleetmap/trust/certificate.hpp"
@@ -31,6 +33,18 @@ inline constexpr const char* kMembers =
     "members.pem";  ///< certificates of all members, which the radio then spares
 }  // namespace file
 
+/// Certificates that came in greetings and were not in the folder. From any thread.
+class LearnedCertificates {
+ public:
+  void add(const Certificate& certificate);
+  std::vector<Certificate> all() const;
+
+ private:
+  static constexpr std::size_t kMost = 1024;
+  mutable std::mutex mutex_;  ///< guards all below
+  std::vector<Certificate> certificates_;
+};
+
 /// All that one member has.
 struct Credentials {
   Authority authority;
@@ -39,6 +53,8 @@ struct Credentials {
   FleetKeys fleet_keys;
   Revocations revocations;
   std::vector<Certificate> members;
+  /// Grows while the robot runs.
+  std::shared_ptr<LearnedCertificates> learned = std::make_shared<LearnedCertificates>();
 
   std::uint16_t epoch() const { return fleet_keys.rbegin()->first; }
 };

@@ -36,7 +36,8 @@ class Introducer {
   Bytes introduce(ByteView text, Flags flags, bool sign, bool with_certificate) const;
 
   bool has_certificate(const Fingerprint& fingerprint) const { return members_.contains(fingerprint); }
-  /// Verifies the signature of `sender` and its certificate, which is kept. Fails with the reason.
+  /// Verifies the signature of `sender` and its certificate, which is kept, in the credentials as well. Fails
+  /// with the reason.
   Result<Certificate> verify(const Introduction& introduction, const Session& sender, Stamp now);
   /// Every certificate of that name which is known was revoked.
   bool was_revoked(const AgentId& name) const;
@@ -52,6 +53,7 @@ class Introducer {
   const std::uint8_t radio_;
   const Session session_;
   std::map<Fingerprint, Certificate> members_;
+  std::shared_ptr<LearnedCertificates> learned_;
 };
 
 }  // namespace fleetmap::trust

@@ -16,7 +16,7 @@
 namespace fleetmap::wire {
 
 /// First octet of every type of module fleetmap. Raised when a member changes.
-inline constexpr std::uint8_t kSchemaVersion = 5;
+inline constexpr std::uint8_t kSchemaVersion = 6;
 
 // Bounds that the IDL and decoding share.
 inline constexpr std::size_t kMaxCloudPayload = 25'000;      ///< bytes of one spherized cloud
@@ -63,6 +63,13 @@ Bytes encode(const exchange::Message& message);
 Bytes encode(const GlobalPose& pose);
 Bytes encode(const SpherizedCloud& cloud);
 
+/// What the maker of an item signs: its encoding with schema version 0 and no signature, so that a new
+/// version which leaves the type as it is leaves signatures valid. decode() keeps these bytes, whatever the
+/// processor, and the store keeps what decode() made of them. decode() refuses a signed item that is not the
+/// encoding of what it decodes to, so that a signature holds for one content alone.
+Bytes signed_bytes(const graph::Node& node);
+Bytes signed_bytes(const graph::Alignment& alignment);
+
 /// T is any type with an encode() above except exchange::Message. Errors say which type and why.
 template <class T>
 Result<T> decode(ByteView cdr);
@@ -104,8 +111,8 @@ Result<exchange::Message> decode_message(const bus::Topic& topic, ByteView cdr);
 /// The value that every receiver of `node` will hold. Its owner must keep this one too, so that the whole
 /// fleet computes with the same numbers; rounding it again changes nothing. Of G's covariance remain the
 /// position's variances and east-north covariance, the mean variance of the tilts, and the yaw's. An
-/// odom_covariance that is none counts as unknown, and so is very large. Fails when `node` could not be
-/// decoded (non-finite pose, position off the Earth, ...).
+/// odom_covariance that is none counts as unknown, and so is very large. A signature is left out. Fails when
+/// `node` could not be decoded (non-finite pose, position off the Earth, ...).
 Result<graph::Node> quantised(const graph::Node& node);
 /// Likewise for an alignment. The first Alignment::kMaxModes modes are kept.
 Result<graph::Alignment> quantised(const graph::Alignment& alignment);

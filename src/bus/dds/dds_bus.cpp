@@ -126,6 +126,13 @@ Handle DdsBus::subscribe(const Topic& topic, OnMessage on_message) {
   return link ? link->subscribe(topic, std::move(on_message)) : Handle();
 }
 
+std::optional<AgentId> DdsBus::sender() const {
+  for (const auto& [link, end] : state_->links) {
+    if (end->sender()) return end->sender();
+  }
+  return std::nullopt;
+}
+
 Handle DdsBus::every(Duration period, std::function<void()> callback) {
   if (period <= Duration::zero()) throw std::logic_error("a timer's period must be > 0");
   return Handle(state_->executor->add_timer(period, std::move(callback)));

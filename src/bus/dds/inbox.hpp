@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -17,17 +18,24 @@ namespace fleetmap::bus {
 /// in messages and bytes; the oldest gives way and is counted.
 class Inbox {
  public:
+  /// A participant's RTPS prefix; zeros: not told.
+  using Sender = std::array<std::uint8_t, 12>;
+  struct Message {
+    Bytes cdr;
+    Sender sender{};
+  };
+
   Inbox(std::size_t max_messages, std::size_t max_bytes)
       : max_messages_(max_messages), max_bytes_(max_bytes) {}
 
   /// True if a dispatch is to be posted: fewer wait than messages. One that takes the place of an older
   /// message is taken by that one's, so no flood makes more callbacks wait than the inbox holds messages.
-  [[nodiscard]] bool put(Bytes cdr) {
+  [[nodiscard]] bool put(Bytes cdr, const Sender& sender = {}) {
     const std::scoped_lock lock(mutex_);
     bytes_ += cdr.size();
-    messages_.push_back(std::move(cdr));
+    messages_.push_back({std::move(cdr), sender});
     while (messages_.size() > max_messages_ || (bytes_ > max_bytes_ && messages_.size() > 1)) {
-      bytes_ -= messages_.front().size();
+      bytes_ -= messages_.front().cdr.size();
       messages_.pop_front();
       ++dropped_;
     }
@@ -36,15 +44,15 @@ class Inbox {
     return true;
   }
   /// For a dispatch.
-  std::optional<Bytes> take() {
+  std::optional<Message> take() {
     const std::scoped_lock lock(mutex_);
     if (dispatches_ > 0) --dispatches_;
     if (messages_.empty()) return std::nullopt;
-    std::optional<Bytes> oldest(std::move(messages_.front()));
+    std::optional<Message> oldest(std::move(messages_.front()));
     messages_.pop_front();
-    bytes_ -= oldest->size();
+    bytes_ -= oldest->cdr.size();
     ++taken_messages_;
-    taken_bytes_ += oldest->size();
+    taken_bytes_ += oldest->cdr.size();
     return oldest;
   }
   void add_to(TopicStats& stats) const {
@@ -58,7 +66,7 @@ class Inbox {
   const std::size_t max_messages_;
   const std::size_t max_bytes_;
   mutable std::mutex mutex_;  ///< guards all below
-  std::deque<Bytes> messages_;
+  std::deque<Message> messages_;
   std::size_t bytes_ = 0;
   std::size_t dispatches_ = 0;  ///< posted and not run
   std::uint64_t dropped_ = 0;

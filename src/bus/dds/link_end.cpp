@@ -69,17 +69,19 @@ void LinkEnd::cancel(const std::string& topic, const std::shared_ptr<Subscriptio
 
 void LinkEnd::dispatch(const std::string& topic) {
   std::vector<std::shared_ptr<Subscription>> subscriptions;
-  std::optional<Bytes> cdr;
+  std::optional<Inbox::Message> message;
   {
     const std::scoped_lock lock(mutex_);
     const Entry& entry = topics_.at(topic);
     subscriptions = entry.subscriptions;  // a callback may subscribe or cancel
-    cdr = entry.inbox->take();
+    message = entry.inbox->take();
+    if (message) sender_ = robot_of(message->sender);
   }
-  if (!cdr) return;
+  if (!message) return;
   for (const auto& subscription : subscriptions) {
-    if (subscription->active) subscription->on_message(*cdr);
+    if (subscription->active) subscription->on_message(message->cdr);
   }
+  sender_.reset();
 }
 
 DdsBus::Matches LinkEnd::matches(const Topic& topic) const {

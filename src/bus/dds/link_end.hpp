@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   void add_stats(std::vector<TopicStats>& all) const;
   /// Appends what came from each robot since the last call. Only radios tell robots apart.
   virtual void take_heard_traffic(std::vector<HeardTraffic>&) {}
+  /// Who sent the message that is being dispatched; on the callback thread.
+  const std::optional<AgentId>& sender() const { return sender_; }
   /// What a radio heard.
   virtual RadioSurvey survey() const { return {}; }
   /// What the profile asks for and this machine has not; empty if all is there.
@@ -49,6 +52,8 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   LinkEnd(Link link, const DdsLinkConfig& config, std::shared_ptr<Executor> executor);
   /// Throws std::logic_error for a topic that the link's profiles do not know.
   virtual std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) = 0;
+  /// The robot that the participant belongs to. Only radios know.
+  virtual std::optional<AgentId> robot_of(const Inbox::Sender&) const { return std::nullopt; }
   /// A message of `topic` lies in its inbox. From any thread; takes no lock.
   std::function<void()> dispatcher(const std::string& topic);
 
@@ -80,6 +85,7 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   void cancel(const std::string& topic, const std::shared_ptr<Subscription>& subscription);
 
   std::map<std::string, Entry> topics_;
+  std::optional<AgentId> sender_;  ///< callback thread only
 };
 
 }  // namespace fleetmap::bus

@@ -184,6 +184,13 @@ RadioSurvey RadioLink::survey() const {
   return survey;
 }
 
+std::optional<AgentId> RadioLink::robot_of(const Inbox::Sender& sender) const {
+  Prefix prefix;
+  std::ranges::copy(sender, prefix.value);
+  const auto peer = peers_.find(prefix);
+  return peer == peers_.end() ? std::nullopt : std::optional(peer->second.agent);
+}
+
 void RadioLink::take_heard_traffic(std::vector<HeardTraffic>& all) {
   const std::scoped_lock lock(mutex_);
   const std::scoped_lock received(received_->mutex);

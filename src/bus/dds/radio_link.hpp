@@ -35,6 +35,7 @@ class RadioLink final : public LinkEnd {
   ~RadioLink() override;
   void take_heard_traffic(std::vector<HeardTraffic>& all) override;
   RadioSurvey survey() const override;
+  std::optional<AgentId> robot_of(const Inbox::Sender& sender) const override;
 
  private:
   class End;

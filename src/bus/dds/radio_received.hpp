@@ -73,13 +73,18 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
       count(robot, key_of(writer.entityId), number, cdr->size(), delay);
       const auto topic = received_->topics.find(key_of(writer.entityId));
       if (topic == received_->topics.end()) return;
-      if (!topic->second.inbox->put(*std::move(cdr))) return;
+      if (!topic->second.inbox->put(*std::move(cdr), sender_of(writer))) return;
       dispatch = topic->second.dispatch;
     }
     executor_->post(dispatch);
   }
 
  private:
+  static Inbox::Sender sender_of(const eprosima::fastrtps::rtps::GUID_t& writer) {
+    Inbox::Sender sender{};
+    std::copy_n(writer.guidPrefix.value, sender.size(), sender.begin());
+    return sender;
+  }
   void count(Received::Robot& robot, EntityKey writer, std::uint64_t number, std::size_t payload,
              Duration delay) const {
     const auto [last, first] = robot.numbers.try_emplace(writer, number);

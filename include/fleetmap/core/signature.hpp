@@ -1,0 +1,11 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fleetmap {
+
+/// Of an item by its maker: Ed25519, RFC 8032.
+using Signature = std::array<std::uint8_t, 64>;
+
+}  // namespace fleetmap
