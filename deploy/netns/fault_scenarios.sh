@@ -26,7 +26,7 @@ scenario_other_address() { # the radio of one robot has another address for 40 s
   }
   begin_map
   events=("30 other_address" "70 own_address")
-  check() { (($(says 1 'silent until it is there.*radio 10\.77\.99\.1') == 1)); }
+  check() { (($(says 1 'radio 10\.77\.99\.1.*silent until it is there') == 1)); }
   check=check
   map_verdict
 }
