@@ -34,7 +34,7 @@ struct Alignment {
   std::uint32_t seq =
       0;  ///< the seq-th alignment of `computed_by`, from 0 without gaps: (computed_by, seq) names it
   std::vector<AlignmentMode> modes{AlignmentMode{}};  ///< 1 to kMaxModes, best first
-  std::optional<Signature> signature;  ///< of `computed_by`, over all the rest; none without keys
+  std::optional<Signature> signature{};  ///< of `computed_by`, over all the rest; none without keys
 
   const AlignmentMode& best() const { return modes.front(); }
   /// The registration could not tell which of its modes is right.

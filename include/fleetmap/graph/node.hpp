@@ -41,7 +41,7 @@ struct Node {
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
   /// Of the maker, over all the rest and so also over the submap's hash; none in a fleet without keys.
-  std::optional<Signature> signature;
+  std::optional<Signature> signature{};
 
   static constexpr std::size_t kMaxDescriptorBytes = 200;
 
