@@ -130,31 +130,38 @@ TEST(SubmapTransfer, goes_on_after_cuts_and_kills_without_sending_again_what_is_
   }
 }
 
+/// A chunk that is late may be taken for lost and asked of the other: of ten seeds two had up to 2 % twice.
 TEST(SubmapTransfer, takes_each_chunk_from_one_peer_and_shares_the_work) {
-  SimFleet fleet({"r1", "r2", "r3"}, {}, 3, no_encounters);
-  bool open = false;
-  bool r3_reached = false;
-  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
-    const bool with_r3 = from == agent("r3") || to == agent("r3");
-    return reach == Reach::kLongRange || (with_r3 ? r3_reached : open);
-  };
-  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
-  for (int k = 0; k < 30; ++k) fleet.add_node("r1", 5.0 * k, 100'000);
-  open = true;
-  fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r2")) && fleet.equal_sets(30); });
-  ASSERT_TRUE(whole(fleet.robot("r2")));
-  fleet.forget_sent();
-  r3_reached = true;
-  fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r3")); });
-  ASSERT_TRUE(whole(fleet.robot("r3")));
-  EXPECT_EQ(chunk_bytes_sent(fleet), 3'000'000u);
+  std::uint64_t all = 0;
   std::map<AgentId, std::uint64_t> served;
-  for (const auto& sent : fleet.sent()) {
-    if (const auto* chunk = std::get_if<SubmapChunk>(&sent.outgoing.message))
-      served[sent.from] += chunk->payload.size();
+  constexpr unsigned kSeeds = 6;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    SimFleet fleet({"r1", "r2", "r3"}, {}, seed, no_encounters);
+    bool open = false;
+    bool r3_reached = false;
+    fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+      const bool with_r3 = from == agent("r3") || to == agent("r3");
+      return reach == Reach::kLongRange || (with_r3 ? r3_reached : open);
+    };
+    for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+    for (int k = 0; k < 30; ++k) fleet.add_node("r1", 5.0 * k, 100'000);
+    open = true;
+    fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r2")) && fleet.equal_sets(30); });
+    ASSERT_TRUE(whole(fleet.robot("r2")));
+    fleet.forget_sent();
+    r3_reached = true;
+    fleet.run_for(std::chrono::minutes(1), [&] { return whole(fleet.robot("r3")); });
+    ASSERT_TRUE(whole(fleet.robot("r3")));
+    EXPECT_LE(chunk_bytes_sent(fleet), 3'080'000u) << "seed " << seed;
+    all += chunk_bytes_sent(fleet);
+    for (const auto& sent : fleet.sent()) {
+      if (const auto* chunk = std::get_if<SubmapChunk>(&sent.outgoing.message))
+        served[sent.from] += chunk->payload.size();
+    }
   }
-  EXPECT_GT(served[agent("r1")], 750'000u);
-  EXPECT_GT(served[agent("r2")], 750'000u);
+  EXPECT_LE(all, kSeeds * 3'020'000u);
+  EXPECT_GT(served[agent("r1")], kSeeds * 900'000u);
+  EXPECT_GT(served[agent("r2")], kSeeds * 900'000u);
 }
 
 TEST(SubmapTransfer, is_passed_on_by_a_third_robot) {
