@@ -148,6 +148,10 @@ struct Store::State {
   Status insert(const char* table, const NodeId& name, ByteView item,
                 const std::optional<Signature>& signature);
   Status remove(const char* table, const NodeId& name);
+  /// The content is held under its name, be the name contested or not.
+  template <class Id, class Item>
+  static bool holds(const std::map<Id, Item>& items, const std::map<Id, Contested<Item>>& contested,
+                    const Id& id, const Item& item);
   struct Tables {
     const char* items;
     const char* contested;
@@ -651,24 +655,23 @@ Result<Store::Resigned> Store::resign(const SignNode& node, const SignAlignment&
   return done;
 }
 
+template <class Id, class Item>
+bool Store::State::holds(const std::map<Id, Item>& items, const std::map<Id, Contested<Item>>& contested,
+                         const Id& id, const Item& item) {
+  const Bytes content = encode(item);
+  if (const auto held = items.find(id); held != items.end()) return encode(held->second) == content;
+  const auto names = contested.find(id);
+  return names != contested.end() &&
+         (encode(names->second.first.mapped()) == content || encode(names->second.second) == content);
+}
+
 bool Store::holds(const graph::Node& node) const {
-  const State& s = *state_;
-  const Bytes item = encode(node);
-  if (const auto held = s.nodes.find(node.id); held != s.nodes.end()) return encode(held->second) == item;
-  const auto names = s.contested_nodes.find(node.id);
-  return names != s.contested_nodes.end() &&
-         (encode(names->second.first.mapped()) == item || encode(names->second.second) == item);
+  return State::holds(state_->nodes, state_->contested_nodes, node.id, node);
 }
 
 bool Store::holds(const graph::Alignment& alignment) const {
-  const State& s = *state_;
-  const AlignmentId id{alignment.computed_by, alignment.seq};
-  const Bytes item = encode(alignment);
-  if (const auto held = s.alignments.find(id); held != s.alignments.end())
-    return encode(held->second) == item;
-  const auto names = s.contested_alignments.find(id);
-  return names != s.contested_alignments.end() &&
-         (encode(names->second.first.mapped()) == item || encode(names->second.second) == item);
+  return State::holds(state_->alignments, state_->contested_alignments,
+                      AlignmentId{alignment.computed_by, alignment.seq}, alignment);
 }
 
 const graph::Node* Store::node(const NodeId& id) const {

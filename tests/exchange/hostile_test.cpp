@@ -8,6 +8,7 @@ namespace fleetmap::exchange {
 namespace {
 
 using testing::agent;
+using testing::events;
 using testing::make_alignment;
 using testing::make_node;
 using testing::SimFleet;
@@ -15,15 +16,6 @@ using testing::SimFleet;
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
 void no_encounters(ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; }
-
-template <class Kind>
-std::vector<Kind> events(const SimFleet::Robot& robot) {
-  std::vector<Kind> found;
-  for (const Event& event : robot.events) {
-    if (const auto* kind = std::get_if<Kind>(&event)) found.push_back(*kind);
-  }
-  return found;
-}
 
 /// Every robot holds the same contents under the same names.
 bool equal_contents(const SimFleet& fleet) {

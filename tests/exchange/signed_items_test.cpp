@@ -12,20 +12,12 @@ namespace {
 
 using fault_injection::StandInSignatures;
 using testing::agent;
+using testing::events;
 using testing::make_alignment;
 using testing::make_node;
 using testing::SimFleet;
 
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
-
-template <class Kind>
-std::vector<Kind> events(const SimFleet::Robot& robot) {
-  std::vector<Kind> found;
-  for (const Event& event : robot.events) {
-    if (const auto* kind = std::get_if<Kind>(&event)) found.push_back(*kind);
-  }
-  return found;
-}
 
 std::uint64_t refused(const SimFleet::Robot& robot, ItemProof proof) {
   return robot.exchange->stats().proofs[static_cast<std::size_t>(proof)];

@@ -89,4 +89,14 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 /// The clouds that came.
 std::vector<exchange::CloudArrived> arrived(const SimFleet::Robot& robot);
 
+/// Those of one kind that a robot told.
+template <class Kind>
+std::vector<Kind> events(const SimFleet::Robot& robot) {
+  std::vector<Kind> found;
+  for (const exchange::Event& event : robot.events) {
+    if (const auto* kind = std::get_if<Kind>(&event)) found.push_back(*kind);
+  }
+  return found;
+}
+
 }  // namespace fleetmap::testing
