@@ -26,7 +26,8 @@ struct EvaluationInputs {
   bool page = true;  ///< evaluation.html
   /// Combinations of registration and placement to evaluate beside the run's own, of mode_names().
   std::set<std::string> modes = mode_names();
-  bool overlap = true;  ///< also measure what two robots saw
+  bool register_again = false;  ///< in `modes`, by the run's own method too: what this program makes of it
+  bool overlap = true;          ///< also measure what two robots saw
 };
 
 /// Measures what a run left in `directory`. Writes evaluation.json, and as asked evaluation.html and

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -162,39 +163,40 @@ std::set<std::string> mode_names() {
 }
 
 json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
-                const json& evaluation, const std::set<std::string>& wanted) {
-  if (nodes.empty() || wanted.empty()) return nullptr;
+                const json& evaluation, const EvaluationInputs& inputs) {
+  if (nodes.empty() || inputs.modes.empty()) return nullptr;
   const RegistrationLogs logs = read_registration_logs(run);
-  const registration::Method own = logs.method;
-  const bool any_again = std::ranges::any_of(
-      kCombinations, [&](const Combination& c) { return c.registration != own && wanted.contains(c.name); });
-  ReplayedRegistrations replayed;
-  if (any_again) {
-    replayed = register_again(
-        logs, held,
-        own == registration::Method::paper ? registration::Method::correlation : registration::Method::paper);
-    run.notes.insert(run.notes.end(), replayed.notes.begin(), replayed.notes.end());
+  std::map<registration::Method, ReplayedRegistrations> replayed;
+  for (const Combination& combination : kCombinations) {
+    const registration::Method method = combination.registration;
+    if (!inputs.modes.contains(combination.name) || replayed.contains(method)) continue;
+    if (method == logs.method && !inputs.register_again) continue;
+    const ReplayedRegistrations& done =
+        replayed.emplace(method, register_again(logs, held, method)).first->second;
+    run.notes.insert(run.notes.end(), done.notes.begin(), done.notes.end());
   }
   const graph::Placement run_placement = held.placement;
   json modes = json::object();
   for (const Combination& combination : kCombinations) {
-    if (!wanted.contains(combination.name)) continue;
-    const bool again = combination.registration != own;
-    if (again && replayed.accepted + replayed.ambiguous + replayed.rejected == 0) continue;
-    if (again) std::swap(held.alignments, replayed.alignments);
+    if (!inputs.modes.contains(combination.name)) continue;
+    const auto found = replayed.find(combination.registration);
+    ReplayedRegistrations* again = found == replayed.end() ? nullptr : &found->second;
+    if (again != nullptr && again->accepted + again->ambiguous + again->rejected == 0) continue;
+    if (again != nullptr) std::swap(held.alignments, again->alignments);
     const bool graph = combination.placement == graph::PlacementMethod::graph;
     held.placement = placed(held, combination.placement, graph ? some_of(nodes) : std::vector<NodeId>{});
     json& mode = modes[combination.name];
-    mode = !again && same_places(held.placement, run_placement) ? own_json(evaluation)
-                                                                : combination_json(run, held, nodes, maps);
+    mode = again == nullptr && same_places(held.placement, run_placement)
+               ? own_json(evaluation)
+               : combination_json(run, held, nodes, maps);
     mode["registration"] = registration::to_string(combination.registration);
     mode["placement"] = graph::to_string(combination.placement);
-    if (again) mode["registrations"] = replay_json(replayed);
+    if (again != nullptr) mode["registrations"] = replay_json(*again);
     if (graph) {
       mode["judgements"] = judgements_json(held.placement, held.alignments, nodes);
       mode["calibration"] = consistency_json(placement_errors(held.placement, nodes));
     }
-    if (again) std::swap(held.alignments, replayed.alignments);
+    if (again != nullptr) std::swap(held.alignments, again->alignments);
   }
   held.placement = run_placement;
   return modes;

@@ -12,12 +12,13 @@ namespace fleetmap::apps {
 ///   correlation_paper  the correlative registration, the paper's placement
 ///   paper_graph        the paper's registration, the fleet's graph
 ///   fleet              the correlative registration, the fleet's graph (mode `fleet`)
-/// The method that the run did not use registers the same pairs of the same clouds again (RegistrationLog).
-/// Each has "fleet", "alignments" and "map" as in the evaluation itself; those of the graph also the
-/// judgement of the alignments and the NEES of placed nodes. Where that is how the run was made, `evaluation`
-/// is copied. Combinations whose registrations were not logged are left out, with a note. Only those named in
-/// `modes` are made. Null without truth.
+/// The method that the run did not use registers the same pairs of the same clouds again (RegistrationLog);
+/// if asked for (`EvaluationInputs::register_again`) the run's own method too. Each has "fleet", "alignments"
+/// and "map" as in the evaluation itself; those of the graph also the judgement of the alignments and the
+/// NEES of placed nodes. Where that is how the run was made, `evaluation` is copied. Combinations whose
+/// registrations were not logged are left out, with a note. Only those named in `inputs.modes` are made. Null
+/// without truth.
 nlohmann::json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, MapEvaluation& maps,
-                          const nlohmann::json& evaluation, const std::set<std::string>& modes);
+                          const nlohmann::json& evaluation, const EvaluationInputs& inputs);
 
 }  // namespace fleetmap::apps

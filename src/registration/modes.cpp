@@ -152,6 +152,18 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
+/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant.
+void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
+            const Bendings& bendings, FoundMode& mode) {
+  IcpConfig icp = fine;
+  icp.sides = Sides::of_sensors;
+  icp.iterations_per_stage = 12;
+  const IcpResult refined = align(target.surfels, points, mode.T_level, icp, &bendings);
+  if (!refined.converged) return;
+  mode.icp = refined;
+  mode.T_level = refined.T_target_source;
+}
+
 }  // namespace
 
 std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const PreparedCloud::Data& source,
@@ -175,8 +187,10 @@ std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const Prepa
   fine.kernels_m = {config.icp.kernels_m.back()};
   fine.far_stages = 0;
   const Bendings bendings{{drifts.target, target.R_level_cloud}, {drifts.source, source.R_level_cloud}};
-  return aligned(target, source, contenders.size() == 1 ? source.all : source.fine, contenders, fine, window,
-                 config, &bendings);
+  const MovingPoints& points = contenders.size() == 1 ? source.all : source.fine;
+  std::vector<FoundMode> modes = aligned(target, source, points, contenders, fine, window, config, &bendings);
+  for (FoundMode& mode : modes) refine(target, points, fine, bendings, mode);
+  return modes;
 }
 
 }  // namespace fleetmap::registration

@@ -9,7 +9,7 @@
 namespace fleetmap::registration {
 namespace {
 
-/// Below this the sensor was about within the plane: no telling which side it saw.
+/// Nearer than this to the plane, or abreast of the post, the sensor saw no side of it alone.
 constexpr float kUnsureSide = 0.15f;  // m
 
 /// Normals err by some degrees, so that planes seem to constrain even what they do not: information below
@@ -35,6 +35,17 @@ bool agree(const Surfel& target, const Facing& source, const Eigen::Matrix3f& R,
   if (std::abs(cosine) < config.min_normal_agreement) return false;
   if (!sides || std::abs(target.side) < kUnsureSide || std::abs(source.side) < kUnsureSide) return true;
   return (cosine > 0.0f) == ((target.side > 0.0f) == (source.side > 0.0f));
+}
+
+/// How many of the surfel's directions hold for a point that a sensor at `sensor` saw. A panel seen from
+/// behind is another surface, and of a post the other side is: to take one for the other draws two maps
+/// together by the thickness of all that stands between them.
+std::size_t directions_for(const Surfel& surfel, const Eigen::Vector3f& sensor) {
+  if (std::abs(surfel.side) < kUnsureSide || surfel.directions == 0 || surfel.directions == 3)
+    return surfel.directions;
+  const float side = surfel.axes[surfel.directions - 1u].dot(sensor - surfel.mean);
+  const bool other = std::abs(side) >= kUnsureSide && (side > 0.0f) != (surfel.side > 0.0f);
+  return surfel.directions - (other ? 1u : 0u);
 }
 
 /// Rows of the Jacobian, summed up many at a time: in single precision over a block, then in double.
@@ -83,9 +94,9 @@ class Rows {
   Eigen::Array<float, 1, kMost> weights_, residuals_;
 };
 
-/// What one point next to `surfel` adds to `rows`.
-void add_rows(const Surfel& surfel, const Eigen::Vector3f& d, const Eigen::Vector3f& u, float kernel2,
-              Rows& rows) {
+/// What one point next to `surfel` adds to `rows`, in the first `directions` of it.
+void add_rows(const Surfel& surfel, std::size_t directions, const Eigen::Vector3f& d,
+              const Eigen::Vector3f& u, float kernel2, Rows& rows) {
   std::array<Eigen::Vector3f, 3> axes{surfel.axes[0], surfel.axes[1], Eigen::Vector3f::Zero()};
   if (surfel.directions == 3) axes[2] = axes[0].cross(axes[1]);
   std::array<float, 3> r{};
@@ -96,7 +107,7 @@ void add_rows(const Surfel& surfel, const Eigen::Vector3f& d, const Eigen::Vecto
   }
   const float robust = kernel2 / (kernel2 + squares);
   if (robust < 0.02f) return;
-  for (std::size_t k = 0; k < surfel.directions; ++k)
+  for (std::size_t k = 0; k < directions; ++k)
     rows.add(axes[k], u, surfel.weights[k & 1u] * robust * robust, r[k]);
 }
 
@@ -121,10 +132,15 @@ System linearize(const SurfelMap& target, const MovingPoints& source, const Pose
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = from + k;
       if (surfels[k] == nullptr) continue;
-      if (!source.facing.empty() && !agree(*surfels[k], source.facing[i], R, !far, config)) continue;
+      const bool by_normals = !far && config.sides == Sides::of_normals;
+      if (!source.facing.empty() && !agree(*surfels[k], source.facing[i], R, by_normals, config)) continue;
+      const std::size_t directions =
+          !far && config.sides == Sides::of_sensors
+              ? directions_for(*surfels[k], R * sensor_beside(source.points[i]) + t)
+              : surfels[k]->directions;
       if (!rows.has_room()) rows.move_into(system);
       const int first = rows.size();
-      add_rows(*surfels[k], moved[k] - surfels[k]->mean, moved[k] - t, kernel2, rows);
+      add_rows(*surfels[k], directions, moved[k] - surfels[k]->mean, moved[k] - t, kernel2, rows);
       if (!with_patches || rows.size() == first) continue;
       const std::size_t patch = source.patches[i];
       rows.add_to(system.patch_gradients[patch], system.patch_informations[patch], first);

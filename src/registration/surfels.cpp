@@ -35,8 +35,8 @@ struct Moments {
   }
 };
 
-/// A post is seen from one side, and from the other by who passes there: what it says towards the sensor is
-/// worth less than what it says across.
+/// A post is seen from one side, and from the other by who passes there: what it says towards the sensor,
+/// along axes[1], is worth less than what it says across.
 void discount_depth(const Eigen::Vector3f& along, const Eigen::Vector3f& sensor, float variance,
                     const SurfelConfig& config, Surfel& surfel) {
   const Eigen::Vector3f across = along.cross(sensor - surfel.mean);
@@ -47,6 +47,7 @@ void discount_depth(const Eigen::Vector3f& along, const Eigen::Vector3f& sensor,
   const float certain = std::max(0.0f, variance) + config.noise_m * config.noise_m;
   surfel.weights[0] = 1.0f / certain;
   surfel.weights[1] = 1.0f / (certain + config.hidden_depth_m * config.hidden_depth_m);
+  surfel.side = surfel.axes[1].dot(sensor - surfel.mean);
 }
 
 Surfel surfel_of(const Moments& m, const Eigen::Vector3f& middle, const SurfelConfig& config) {
@@ -66,7 +67,7 @@ Surfel surfel_of(const Moments& m, const Eigen::Vector3f& middle, const SurfelCo
     surfel.weights[k] = 1.0f / (variances[static_cast<int>(k)] + config.noise_m * config.noise_m);
   surfel.planar = constraining == 1;
   surfel.directions = static_cast<std::uint8_t>(constraining);
-  const Eigen::Vector3f sensor(surfel.mean.x(), 0.0f, config.sensor_height_m);
+  const Eigen::Vector3f sensor = sensor_beside(surfel.mean);
   surfel.side = surfel.axes[0].dot(sensor - surfel.mean);
   if (constraining == 2)
     discount_depth(eigen.eigenvectors().col(2), sensor, eigen.eigenvalues()[1], config, surfel);

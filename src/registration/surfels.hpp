@@ -16,10 +16,19 @@ struct alignas(64) Surfel {
   std::array<Eigen::Vector3f, 2> axes;  ///< unit, of the first two directions; the third is across both
   std::array<float, 2> weights{0,
                                0};  ///< 1/m^2, inverse variance along them; the third has that of the first
-  float side = 0.0f;  ///< m, how far the sensor was on the side that axes[0] points to; negative behind
+  /// m, how far the sensor was on the side that the normal of a plane, or axes[1] of a post, points to;
+  /// negative behind.
+  float side = 0.0f;
   std::uint8_t directions = 0;
   bool planar = false;  ///< axes[0] is a normal
 };
+
+/// m, about how high over the cloud's origin the sensor passed.
+constexpr float kSensorHeight = 0.35f;
+/// About where the sensor was when it saw a point: beside it on the x axis, along which robots drive.
+inline Eigen::Vector3f sensor_beside(const Eigen::Vector3f& point) {
+  return {point.x(), 0.0f, kSensorHeight};
+}
 
 struct SurfelConfig {
   float voxel_m = 0.35f;     ///< m
@@ -28,8 +37,6 @@ struct SurfelConfig {
   int min_points = 4;
   float sparse_voxel_m =
       1.75f;  ///< m, where points lie too wide apart for surfels of `voxel_m`: thinned ground
-  /// m, about how high over the cloud's origin the sensor passed, along the x axis as robots drive.
-  float sensor_height_m = 0.35f;
   float hidden_depth_m = 0.12f;  ///< m, how far the middle of a post may lie behind the side that was seen
 };
 

@@ -7,6 +7,12 @@
 
 namespace fleetmap::registration {
 
+/// What tells that a point and a surfel are of opposite sides of a thing, which its thickness sets apart.
+enum class Sides {
+  of_normals,  ///< planes whose normals, turned to the sensors, face apart
+  of_sensors,  ///< planes and posts between the two sensors: the point's was behind what the target's saw
+};
+
 /// Alignment of points to surfels.
 struct IcpConfig {
   /// m, widths of the robust kernel (Geman-McClure), one stage each. The first stages look for surfels
@@ -14,6 +20,7 @@ struct IcpConfig {
   std::vector<float> kernels_m{0.5f, 0.25f, 0.1f, 0.06f};
   std::size_t far_stages = 2;
   int iterations_per_stage = 6;
+  Sides sides = Sides::of_normals;    ///< from the first stage on that is not far
   float min_normal_agreement = 0.7f;  ///< |cos| between normals, where both sides have one
   double converged_m = 1e-3;          ///< m, a smaller step ends the stage (a tenth of it the last one)
   double converged_rad = 1e-4;        ///< rad
