@@ -12,7 +12,7 @@ const AgentId kPeer = testing::agent("r2");
 
 StoreConfig no_sync() {
   StoreConfig config;
-  config.sync_own_items = false;
+  config.power_safe = false;
   return config;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <random>
@@ -40,6 +41,10 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   /// Those that start from now on sign their items.
   void authenticate(std::shared_ptr<const exchange::ItemAuthenticator> authenticator) {
     config_.authenticator = std::move(authenticator);
+  }
+  /// Of a robot that starts from now on: its store lies in this SQLite VFS, which is synced as on a robot.
+  void put_on_disk(const std::string& name, std::string file_system) {
+    disks_[agent(name)] = std::move(file_system);
   }
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
@@ -84,6 +89,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   std::mt19937 random_;
   std::uint16_t last_session_ = 30'000;  ///< of those that are drawn while running
   std::vector<Sent> sent_;
+  std::map<AgentId, std::string> disks_;
 };
 
 /// The clouds that came.
