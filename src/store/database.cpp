@@ -24,7 +24,7 @@ std::string advice(int code) {
     case SQLITE_PERM:
       return "; check the folder, its permissions and whether its disk is mounted read-only";
     case SQLITE_IOERR:
-      return "; the disk fails or was removed (see dmesg): check it, then start again";
+      return "; the disk fails, became read-only or was removed: look why (dmesg), mend it, then start again";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "; another process holds the file";

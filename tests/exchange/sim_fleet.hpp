@@ -53,6 +53,9 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   void keep_store(const std::string& name) { ExchangeFleet::keep_store(agent(name), ".kept"); }
   void put_back_store(const std::string& name) { ExchangeFleet::put_back_store(agent(name), ".kept"); }
   void lose_store(const std::string& name) { ExchangeFleet::lose_store(agent(name)); }
+  std::filesystem::path store_file(const std::string& name) const {
+    return static_cast<const ScratchFolder&>(*this) / (name + ".db");
+  }
   Robot& robot(const std::string& name) { return ExchangeFleet::robot(agent(name)); }
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
