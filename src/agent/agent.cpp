@@ -74,7 +74,10 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   std::error_code error;
   std::filesystem::create_directories(config.directory, error);
-  if (error) return failure(config.directory.string() + ": cannot be made: " + error.message());
+  if (error) {
+    return failure(config.directory.string() + ": cannot be made: " + error.message() +
+                   "; give another `directory`, or make this one and let the program's user write there");
+  }
   Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
   if (!store) return tl::unexpected(store.error());
   Result<Sessions> sessions = Sessions::load(*store);
@@ -109,7 +112,8 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessi
       submap_(config.submap),
       node_generator_(config.nodes),
       loop_closures_(config.loop_closures),
-      session_ties_(config.exchange.encounters) {
+      session_ties_(config.exchange.encounters),
+      store_failures_(kStoreFailurePeriod) {
   session_ties_.begin(own_nodes(store_));
 }
 
@@ -318,9 +322,8 @@ void Agent::freeze_node(const Perceived& perceived) {
   const Result<store::Put> put = exchange_->on_own_node(node, submap->encoded, bus_.now());
   if (!put || *put != store::Put::kAdded) {
     // The points stay and go into the next node.
-    spdlog::error("{}: node not stored: {}", to_string(node.id),
-                  put ? "its name is taken" : put.error().message);
-    return;
+    if (!put) return handle(exchange::StoreFailed{put.error()});
+    return spdlog::error("{}: node not stored: its name is taken", to_string(node.id));
   }
   motion_.restart();
   submap_.clear();
@@ -529,8 +532,11 @@ void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registere
         session_ties_.on_accepted(i, j);
       return on_events();
     }
-    spdlog::error("{}: alignment with {} not stored: {}", to_string(i.id), to_string(j.id),
-                  put ? "its name is taken" : put.error().message);
+    if (!put) {
+      handle(exchange::StoreFailed{put.error()});
+    } else {
+      spdlog::error("{}: alignment with {} not stored: its name is taken", to_string(i.id), to_string(j.id));
+    }
   }
   if (pair) exchange_->on_rejected(*pair, bus_.now());
 }
@@ -668,14 +674,20 @@ void Agent::handle(const exchange::NodeAdded& added) {
 }
 
 void Agent::handle(const exchange::StoreFailed& failed) {
-  // A full disk refuses every item that comes.
-  ++store_failures_untold_;
-  if (store_failure_told_ && bus_.now() - *store_failure_told_ < kStoreFailurePeriod) return;
+  // A full or read-only disk refuses every item that comes.
+  added_before_failure_ = store_.stats().added;
+  if (!store_failures_.on_failure(bus_.now())) return;
   spdlog::error(
-      "{}: {} ({} times since this was last said); what was refused is fetched again when there is room",
-      config_.id.str(), failed.error.message, store_failures_untold_);
-  store_failure_told_ = bus_.now();
-  store_failures_untold_ = 0;
+      "{}: {}; until it works nothing new is kept, and this is not said again; what others have is "
+      "fetched then",
+      config_.id.str(), failed.error.message);
+}
+
+void Agent::note_store_that_works() {
+  if (!store_failures_.failing() || store_.stats().added == added_before_failure_) return;
+  if (const std::uint64_t failures = store_failures_.on_success(); failures > 0)
+    spdlog::warn("{}: {} works again; {} writes were refused", config_.id.str(), store_.path().string(),
+                 failures);
 }
 
 void Agent::handle(const exchange::AlignmentAdded& added) {
@@ -700,6 +712,7 @@ void Agent::update_status() {
   if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
   name_contested_anew();
+  note_store_that_works();
 }
 
 }  // namespace fleetmap::agent

@@ -292,6 +292,7 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
                  {"largest_cloud_bytes", registrations.largest_cloud_bytes},
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
+                 {"store_failures", agent.store_failures()},
                  {"exchange", exchange_json(agent.exchange_stats())}};
   add_holdings(report, agent.store(), results);
   return report;

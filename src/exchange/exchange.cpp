@@ -508,12 +508,14 @@ void Exchange::tick_status(Stamp now) {
 }
 
 void Exchange::tick_holds(Stamp now) {
-  if (std::exchange(orders_to_store_, false)) {
-    if (const Status kept = store_->set_meta(kHoldKey, holds_.encoded()); !kept)
-      events_.push_back(StoreFailed{kept.error()});
-  }
   auto orders = holds_.tick(now);
   if (!orders) return;
+  if (orders_to_store_) {
+    // A disk that fails keeps nobody from standing still; it is tried again when the orders are repeated.
+    const Status kept = store_->set_meta(kHoldKey, holds_.encoded());
+    orders_to_store_ = !kept;
+    if (!kept) events_.push_back(StoreFailed{kept.error()});
+  }
   const auto driving = !drives_        ? Hold::Driving::kNoMission
                        : holds_.held() ? Hold::Driving::kHeld
                                        : Hold::Driving::kFree;
@@ -543,6 +545,18 @@ void Exchange::tick_short_range(std::vector<Outgoing>& out, Stamp now) {
   for (SubmapChunk& chunk : submap_sender_.tick(*store_, now)) send(std::move(chunk));
 }
 
+void Exchange::keep_what_is_told(std::vector<Outgoing>& out) {
+  const auto promises = [](const Outgoing& outgoing) {
+    return std::holds_alternative<Digest>(outgoing.message) ||
+           std::holds_alternative<SubmapDigest>(outgoing.message);
+  };
+  if (std::ranges::none_of(out, promises)) return;
+  const Status synced = store_->sync();
+  if (synced) return;
+  std::erase_if(out, promises);
+  events_.push_back(StoreFailed{synced.error()});
+}
+
 void Exchange::note_completion() {
   const bool is_complete = complete();
   if (is_complete && !was_complete_)
@@ -561,6 +575,7 @@ std::vector<Outgoing> Exchange::tick(Stamp now) {
   std::vector<Outgoing> out;
   tick_short_range(out, now);
   for (Outgoing& outgoing : queue_.take(now)) out.push_back(std::move(outgoing));
+  keep_what_is_told(out);
   note_completion();
   return out;
 }

@@ -10,7 +10,7 @@ namespace {
 /// SQLite allocates szOsFile bytes for each: this one, then the file of the system behind it.
 struct File {
   sqlite3_file base;
-  const std::atomic<bool>* full;
+  const std::atomic<int>* refusal;  ///< what a write returns
 };
 
 sqlite3_file* real(sqlite3_file* file) {
@@ -18,7 +18,7 @@ sqlite3_file* real(sqlite3_file* file) {
 }
 
 int write(sqlite3_file* file, const void* data, int bytes, sqlite3_int64 offset) {
-  if (*reinterpret_cast<const File*>(file)->full) return SQLITE_FULL;
+  if (const int refusal = *reinterpret_cast<const File*>(file)->refusal; refusal != SQLITE_OK) return refusal;
   sqlite3_file* behind = real(file);
   return behind->pMethods->xWrite(behind, data, bytes, offset);
 }
@@ -65,13 +65,13 @@ const sqlite3_io_methods kMethods = {
 
 struct FaultyFileSystem::State {
   std::string name;
-  std::atomic<bool> full = false;
+  std::atomic<int> refusal = SQLITE_OK;
   sqlite3_vfs* system = nullptr;
   sqlite3_vfs vfs{};
 
   static int open(sqlite3_vfs* vfs, const char* path, sqlite3_file* file, int flags, int* flags_out) {
     const auto* state = static_cast<const State*>(vfs->pAppData);
-    reinterpret_cast<File*>(file)->full = &state->full;
+    reinterpret_cast<File*>(file)->refusal = &state->refusal;
     file->pMethods = nullptr;
     const int code = state->system->xOpen(state->system, path, real(file), flags, flags_out);
     if (code == SQLITE_OK) file->pMethods = &kMethods;
@@ -96,6 +96,10 @@ FaultyFileSystem::FaultyFileSystem() : state_(std::make_unique<State>()) {
 FaultyFileSystem::~FaultyFileSystem() { sqlite3_vfs_unregister(&state_->vfs); }
 
 const std::string& FaultyFileSystem::name() const { return state_->name; }
-void FaultyFileSystem::set_full(bool full) { state_->full = full; }
+void FaultyFileSystem::set_full(bool full) { state_->refusal = full ? SQLITE_FULL : SQLITE_OK; }
+void FaultyFileSystem::set_read_only(bool read_only) {
+  // What SQLite makes of EROFS on a file that it opened for writing.
+  state_->refusal = read_only ? SQLITE_IOERR_WRITE : SQLITE_OK;
+}
 
 }  // namespace fleetmap::fault_injection

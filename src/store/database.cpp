@@ -7,19 +7,24 @@ namespace {
 
 constexpr int kBusyTimeoutMs = 2000;  // a reader's checkpoint may hold the file for a moment
 
+constexpr const char* kBadDisk =
+    "the disk fails (see dmesg): others are not told what came since, replace the disk";
+
 std::string advice(int code) {
   switch (code & 0xff) {
     case SQLITE_FULL:
       return "; free space and start again";
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      return "; the file is damaged or is no database: move it away to start an empty store, the others' "
-             "items come "
-             "back over the links";
+      return "; the file is damaged or is no database: the robot's program keeps what is whole when it "
+             "starts, "
+             "and the rest comes back from other robots";
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
-      return "; check the folder and its permissions";
+      return "; check the folder, its permissions and whether its disk is mounted read-only";
+    case SQLITE_IOERR:
+      return "; the disk fails, became read-only or was removed: look why (dmesg), mend it, then start again";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "; another process holds the file";
@@ -109,10 +114,36 @@ Result<std::int64_t> Database::integer(const char* sql) const {
   return *row ? statement->integer(0) : 0;
 }
 
+Status Database::sync_log() {
+  // SQLite has no call for this, but gives out the log's file, whose first sync is one of the folder, too.
+  sqlite3_file* log = nullptr;
+  sqlite3_file_control(db_.get(), "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&log));
+  if (!log || !log->pMethods) return {};  // nothing was written
+  if (log->pMethods->xSync(log, SQLITE_SYNC_NORMAL) == SQLITE_OK) return {};
+  return failure(file() + ": cannot be synced to the disk; " + kBadDisk);
+}
+
+bool Database::is_damaged() const {
+  const int code = sqlite3_extended_errcode(db_.get());
+  switch (code & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return true;
+    case SQLITE_IOERR:
+      return code == SQLITE_IOERR_READ || code == SQLITE_IOERR_SHORT_READ || code == SQLITE_IOERR_CORRUPTFS;
+    default:
+      return false;
+  }
+}
+
+std::string Database::file() const {
+  const char* name = sqlite3_db_filename(db_.get(), "main");
+  return name ? name : "store";
+}
+
 tl::unexpected<Error> Database::error(std::string_view doing) const {
-  const char* file = sqlite3_db_filename(db_.get(), "main");
-  return failure(std::string(file ? file : "store") + ": " + sqlite3_errmsg(db_.get()) + " (" +
-                 std::string(doing.substr(0, 60)) + ")" + advice(sqlite3_errcode(db_.get())));
+  return failure(file() + ": " + sqlite3_errmsg(db_.get()) + " (" + std::string(doing.substr(0, 60)) + ")" +
+                 advice(sqlite3_errcode(db_.get())));
 }
 
 Result<Transaction> Transaction::begin(Database& db) {

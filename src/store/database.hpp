@@ -45,9 +45,17 @@ class Database {
   Status execute(const char* sql);
   Result<Statement> prepare(std::string_view sql) const;
   Result<std::int64_t> integer(const char* sql) const;
+  /// Rows that were inserted, updated or deleted since the file was opened.
+  std::int64_t changes() const { return sqlite3_total_changes64(db_.get()); }
+  /// What was committed to the write-ahead log survives a power cut from now on.
+  Status sync_log();
+  /// The last error shows that the file is damaged or that parts of it cannot be read.
+  bool is_damaged() const;
+  std::string last_error() const { return sqlite3_errmsg(db_.get()); }
   tl::unexpected<Error> error(std::string_view doing) const;
 
  private:
+  std::string file() const;
   struct Close {
     void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
   };

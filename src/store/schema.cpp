@@ -1,14 +1,18 @@
 #include "schema.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
+
+#include "fleetmap/store/store.hpp"
+#include "row_hash.hpp"
 
 namespace fleetmap::store {
 namespace {
 
 constexpr std::int64_t kApplicationId = 0x464c4d50;  // "FLMP", in the file's header
-constexpr std::int64_t kSchemaVersion = 5;
+constexpr std::int64_t kSchemaVersion = Store::kSchemaVersion;
 
 // WITHOUT ROWID keeps an item in its index; large blobs want the ordinary layout instead.
 constexpr const char* kTables = R"sql(
@@ -37,6 +41,10 @@ constexpr const char* kSignatureColumns = R"sql(
   ALTER TABLE contested_node ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
   ALTER TABLE contested_alignment ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
 )sql";
+
+// Of key and value.
+constexpr const char* kHashOfValues = "ALTER TABLE meta ADD COLUMN hash BLOB NOT NULL DEFAULT x''";
+constexpr std::int64_t kFirstWithHashOfValues = 6;
 
 Status set_version(Database& db, std::int64_t version) {
   return db.execute(("PRAGMA user_version = " + std::to_string(version)).c_str());
@@ -84,12 +92,34 @@ Status to_version_4(Database& db) {
 /// without stays what it was.
 Status to_version_5(Database& db) { return db.execute(kSignatureColumns); }
 
+/// 5 to 6: named values carry a hash, too.
+Status to_version_6(Database& db) {
+  if (auto status = db.execute(kHashOfValues); !status) return status;
+  std::vector<std::pair<std::string, ContentHash>> hashed;
+  {
+    auto rows = db.prepare("SELECT key, value FROM meta");
+    if (!rows) return tl::unexpected(rows.error());
+    for (auto row = rows->step();; row = rows->step()) {
+      if (!row) return tl::unexpected(row.error());
+      if (!*row) break;
+      hashed.emplace_back(rows->text(0), value_hash(rows->text(0), rows->blob(1)));
+    }
+  }
+  for (const auto& [key, hash] : hashed) {
+    auto update = db.prepare("UPDATE meta SET hash = ? WHERE key = ?");
+    if (!update) return tl::unexpected(update.error());
+    if (auto status = update->bind(1, ByteView(hash)).bind(2, std::string_view(key)).run(); !status)
+      return status;
+  }
+  return {};
+}
+
 /// A step brings a store of version `from` to the next one.
 struct Step {
   std::int64_t from;
   Status (*apply)(Database&);
 };
-constexpr std::array kSteps{Step{3, to_version_4}, Step{4, to_version_5}};
+constexpr std::array kSteps{Step{3, to_version_4}, Step{4, to_version_5}, Step{5, to_version_6}};
 static_assert(kSteps.back().from + 1 == kSchemaVersion);
 
 /// All steps or none: a store that fails half way stays what it was.
@@ -121,34 +151,53 @@ Status wrong_version(const std::filesystem::path& path, std::int64_t version) {
   return failure(which + "; use the program that wrote it, or move the file away to start an empty store");
 }
 
-Result<AgentId> owner_of(const Database& db, const std::filesystem::path& path) {
-  auto owner = db.prepare("SELECT value FROM meta WHERE key = 'self'");
-  if (!owner) return tl::unexpected(owner.error());
-  const auto row = owner->step();
-  if (!row) return tl::unexpected(row.error());
-  const ByteView name = *row ? owner->blob(0) : ByteView();
-  auto self = AgentId::parse(std::string(name.begin(), name.end()));
-  if (!self) return failure(path.string() + ": the store names no owner; the file is damaged");
-  return self;
-}
-
 Status make_tables(Database& db, const AgentId& self) {
   auto transaction = Transaction::begin(db);
   if (!transaction) return tl::unexpected(transaction.error());
-  for (const char* sql : {kTables, kContestedTables, kSignatureColumns}) {
+  for (const char* sql : {kTables, kContestedTables, kSignatureColumns, kHashOfValues}) {
     if (auto status = db.execute(sql); !status) return status;
   }
   const std::string application = "PRAGMA application_id = " + std::to_string(kApplicationId);
   if (auto status = db.execute(application.c_str()); !status) return status;
   if (auto status = set_version(db, kSchemaVersion); !status) return status;
-  auto owner = db.prepare("INSERT INTO meta VALUES('self', ?)");
+  auto owner = db.prepare("INSERT INTO meta VALUES(?, ?, ?)");
   if (!owner) return tl::unexpected(owner.error());
   const Bytes name(self.str().begin(), self.str().end());
-  if (auto status = owner->bind(1, ByteView(name)).run(); !status) return status;
+  const ContentHash hash = value_hash(kOwnerKey, name);
+  owner->bind(1, std::string_view(kOwnerKey)).bind(2, ByteView(name)).bind(3, ByteView(hash));
+  if (auto status = owner->run(); !status) return status;
   return transaction->commit();
 }
 
 }  // namespace
+
+Result<Recognised> recognise(const Database& db) {
+  const auto application = db.integer("PRAGMA application_id");
+  if (!application) return tl::unexpected(application.error());
+  const auto version = db.integer("PRAGMA user_version");
+  if (!version) return tl::unexpected(version.error());
+  const auto tables = db.integer("SELECT count(*) FROM sqlite_master WHERE name = 'submap_chunk'");
+  if (!tables) return tl::unexpected(tables.error());
+  if (*application != kApplicationId) return *tables > 0 ? Recognised::kStoreWithoutMark : Recognised::kOther;
+  const bool read_here = *version >= kSteps.front().from && *version <= kSchemaVersion;
+  return read_here ? Recognised::kStore : Recognised::kOther;
+}
+
+Result<AgentId> owner_of(const Database& db, const std::filesystem::path& path) {
+  const auto version = db.integer("PRAGMA user_version");
+  if (!version) return tl::unexpected(version.error());
+  const bool hashed = *version >= kFirstWithHashOfValues;
+  auto owner = db.prepare(hashed ? "SELECT value, hash FROM meta WHERE key = ?"
+                                 : "SELECT value FROM meta WHERE key = ?");
+  if (!owner) return tl::unexpected(owner.error());
+  const auto row = owner->bind(1, std::string_view(kOwnerKey)).step();
+  if (!row) return tl::unexpected(row.error());
+  const ByteView name = *row ? owner->blob(0) : ByteView();
+  auto self = AgentId::parse(std::string(name.begin(), name.end()));
+  const bool whole = !hashed || (*row && std::ranges::equal(owner->blob(1), value_hash(kOwnerKey, name)));
+  if (!self || !whole) return failure(path.string() + ": the store names no owner; the file is damaged");
+  return self;
+}
 
 Result<AgentId> check_schema(const Database& db, const std::filesystem::path& path) {
   const auto application = db.integer("PRAGMA application_id");

@@ -10,6 +10,8 @@
 #include "fingerprint.hpp"
 #include "fleetmap/core/file_lock.hpp"
 #include "item_codec.hpp"
+#include "row_hash.hpp"
+#include "salvage.hpp"
 #include "schema.hpp"
 
 namespace fleetmap::store {
@@ -42,14 +44,6 @@ NodeId name_of(const AlignmentId& id) { return {id.computed_by, id.seq}; }
 
 ByteView bytes_of(const std::optional<Signature>& signature) {
   return signature ? ByteView(*signature) : ByteView();
-}
-
-/// What shows that a row is whole.
-ContentHash row_hash(ByteView item, ByteView signature) {
-  if (signature.empty()) return content_hash(item);
-  Bytes all(item.begin(), item.end());
-  all.insert(all.end(), signature.begin(), signature.end());
-  return content_hash(all);
 }
 
 std::uint32_t chunk_count(const graph::Node& node) {
@@ -128,9 +122,12 @@ struct Store::State {
   SeqSet alignment_set;
   SeqSet submap_set;
   std::map<NodeId, Partial> partials;
+  /// Database::changes() at the last sync; none yet: a process that was killed leaves what was not synced.
+  std::optional<std::int64_t> synced_changes;
   StoreStats stats;
 
   Status load();
+  Status load_values();
   Status load_items();
   Status load_contested();
   /// Gives (agent, seq, item, signature) of each row to `use`; those whose hash differs or that it refuses
@@ -140,7 +137,10 @@ struct Store::State {
   /// Moves the name of a held item to the contested ones.
   void contest(const graph::Node& second);
   void contest(const graph::Alignment& second);
-  Status load_submap_names();
+  Status load_submaps();
+  Status load_chunk_names();
+  /// The held node that the first two columns name; null when there is none.
+  const graph::Node* node_of_row(const Statement& row) const;
   Partial& partial(const graph::Node& node);
   /// Runs one statement whose first two parameters are agent and seq.
   Status run(std::string_view sql, const AgentId& agent, std::uint32_t seq, const ByteView* blob = nullptr);
@@ -165,7 +165,9 @@ struct Store::State {
   Status resign_alignments(const SignAlignment& sign, std::size_t& dropped);
   /// Removes the submap of a node, and what there is of one.
   Status remove_submap(const NodeId& name);
-  Status sync(bool full);
+  /// Runs `write`, which commits. What it wrote survives a power cut if `durable`, or nothing is written.
+  template <class Write>
+  Status commit(bool durable, const Write& write);
   Put count(Put put);
 };
 
@@ -218,8 +220,14 @@ Status Store::State::remove_submap(const NodeId& name) {
   return remove("submap_chunk", name);
 }
 
-Status Store::State::sync(bool full) {
-  return db->execute(full ? "PRAGMA synchronous = FULL" : "PRAGMA synchronous = NORMAL");
+template <class Write>
+Status Store::State::commit(bool durable, const Write& write) {
+  if (!durable || !config.power_safe) return write();
+  if (auto status = db->execute("PRAGMA synchronous = FULL"); !status) return status;
+  const Status written = write();
+  if (auto status = db->execute("PRAGMA synchronous = NORMAL"); !status) return status;
+  if (written) synced_changes = db->changes();  // the log is synced as a whole
+  return written;
 }
 
 template <class Use>
@@ -255,6 +263,28 @@ Status Store::State::load_rows(const char* table, const Use& use) {
     if (!drop) return tl::unexpected(drop.error());
     if (auto status = drop->bind(1, std::string_view(name.agent)).bind(2, name.seq).run(); !status)
       return status;
+  }
+  return {};
+}
+
+Status Store::State::load_values() {
+  std::vector<std::string> damaged;
+  {
+    auto rows = db->prepare("SELECT key, value, hash FROM meta");
+    if (!rows) return tl::unexpected(rows.error());
+    for (auto row = rows->step();; row = rows->step()) {
+      if (!row) return tl::unexpected(row.error());
+      if (!*row) break;
+      if (!std::ranges::equal(rows->blob(2), value_hash(rows->text(0), rows->blob(1))))
+        damaged.emplace_back(rows->text(0));
+    }
+  }
+  for (const std::string& key : damaged) {
+    damage.push_back(path.string() + ": the value of '" + key + "' is damaged; it was dropped");
+    if (read_only) continue;
+    auto drop = db->prepare("DELETE FROM meta WHERE key = ?");
+    if (!drop) return tl::unexpected(drop.error());
+    if (auto status = drop->bind(1, std::string_view(key)).run(); !status) return status;
   }
   return {};
 }
@@ -326,27 +356,56 @@ void Store::State::contest(const graph::Alignment& second) {
   alignment_prints[name_of(id)] = fingerprint_of_contested(name_of(id));
 }
 
-Status Store::State::load_submap_names() {
-  auto rows =
-      db->prepare("SELECT agent, seq, -1 FROM submap UNION ALL SELECT agent, seq, chunk FROM submap_chunk");
+Status Store::State::load_submaps() {
+  std::vector<NodeId> damaged;
+  {
+    // Whoever only looks at the store need not read all of it.
+    auto rows =
+        db->prepare(read_only ? "SELECT agent, seq FROM submap" : "SELECT agent, seq, bytes FROM submap");
+    if (!rows) return tl::unexpected(rows.error());
+    for (auto row = rows->step();; row = rows->step()) {
+      if (!row) return tl::unexpected(row.error());
+      if (!*row) break;
+      const graph::Node* node = node_of_row(*rows);
+      if (!node) continue;
+      if (read_only || content_hash(rows->blob(2)) == node->submap_hash) {
+        submap_set.insert(node->id.agent, node->id.seq);
+      } else {
+        damaged.push_back(node->id);
+      }
+    }
+  }
+  for (const NodeId& id : damaged) {
+    damage.push_back(path.string() + ": the submap of node " + to_string(id) +
+                     " is damaged; it was dropped and is fetched from other robots");
+    if (auto status = remove("submap", id); !status) return status;
+  }
+  return {};
+}
+
+Status Store::State::load_chunk_names() {
+  auto rows = db->prepare("SELECT agent, seq, chunk FROM submap_chunk");
   if (!rows) return tl::unexpected(rows.error());
   for (auto row = rows->step();; row = rows->step()) {
     if (!row) return tl::unexpected(row.error());
     if (!*row) return {};
-    const auto agent = AgentId::parse(rows->text(0));
-    const auto seq = rows->integer(1);
+    const graph::Node* node = node_of_row(*rows);
     const auto chunk = rows->integer(2);
-    if (!agent || seq < 0 || seq >= kEndOfSeqs) continue;
-    const auto node = nodes.find({*agent, static_cast<std::uint32_t>(seq)});
-    if (node == nodes.end()) continue;
-    if (chunk < 0) {
-      submap_set.insert(*agent, node->first.seq);
-    } else if (chunk < chunk_count(node->second)) {
-      Partial& held = partial(node->second);
-      if (!held.held[static_cast<std::size_t>(chunk)]) --held.missing;
-      held.held[static_cast<std::size_t>(chunk)] = true;
-    }
+    if (!node || submap_set.contains(node->id.agent, node->id.seq) || chunk < 0 ||
+        chunk >= chunk_count(*node))
+      continue;
+    Partial& held = partial(*node);
+    if (!held.held[static_cast<std::size_t>(chunk)]) --held.missing;
+    held.held[static_cast<std::size_t>(chunk)] = true;
   }
+}
+
+const graph::Node* Store::State::node_of_row(const Statement& row) const {
+  const auto agent = AgentId::parse(row.text(0));
+  const auto seq = row.integer(1);
+  if (!agent || seq < 0 || seq >= kEndOfSeqs) return nullptr;
+  const auto node = nodes.find({*agent, static_cast<std::uint32_t>(seq)});
+  return node == nodes.end() ? nullptr : &node->second;
 }
 
 Status Store::State::load() {
@@ -357,8 +416,10 @@ Status Store::State::load() {
   contested_nodes.clear();
   contested_alignments.clear();
   partials.clear();
+  if (auto status = load_values(); !status) return status;
   if (auto status = load_items(); !status) return status;
-  return load_submap_names();
+  if (auto status = load_submaps(); !status) return status;
+  return load_chunk_names();
 }
 
 Partial& Store::State::partial(const graph::Node& node) {
@@ -386,13 +447,22 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
   if (!lock) return tl::unexpected(lock.error());
   if (!*lock) return failure(path.string() + ": another process is writing this store; stop it first");
   state->lock = std::move(**lock);
+  if (auto status = finish_salvage(path); !status) return tl::unexpected(status.error());
+  const auto damage = find_damage(path, config.file_system);
+  if (!damage) return tl::unexpected(damage.error());
+  if (*damage) {
+    auto salvaged = salvage(path, self, config, **damage);
+    if (!salvaged) return tl::unexpected(salvaged.error());
+    state->damage.push_back(std::move(*salvaged));
+  }
   auto db = Database::open(path, false, config.file_system);
   if (!db) return tl::unexpected(db.error());
   state->db.emplace(std::move(*db));
   if (auto status = prepare_schema(*state->db, path, self); !status) return tl::unexpected(status.error());
   if (auto status = state->db->execute("PRAGMA journal_mode = WAL"); !status)
     return tl::unexpected(status.error());
-  if (auto status = state->sync(false); !status) return tl::unexpected(status.error());
+  if (auto status = state->db->execute("PRAGMA synchronous = NORMAL"); !status)
+    return tl::unexpected(status.error());
   if (auto status = state->load(); !status) return tl::unexpected(status.error());
   Store store(std::move(state));
   // The process may have died between the last chunk of a download and its completion.
@@ -433,10 +503,6 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
     if (auto status = contest_node(node, item); !status) return tl::unexpected(status.error());
     return s.count(Put::kConflict);
   }
-  const bool own = node.id.agent == s.self && s.config.sync_own_items;
-  if (own) {
-    if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
-  }
   const auto insert = [&]() -> Status {
     auto transaction = Transaction::begin(*s.db);
     if (!transaction) return tl::unexpected(transaction.error());
@@ -448,10 +514,7 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
     }
     return transaction->commit();
   };
-  const Status inserted = insert();
-  if (own) {
-    if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
-  }
+  const Status inserted = s.commit(node.id.agent == s.self, insert);
   if (!inserted) return tl::unexpected(inserted.error());
   s.nodes.emplace(node.id, node);
   s.node_prints[node.id] = fingerprint(node);
@@ -503,14 +566,9 @@ Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
     if (auto status = contest_alignment(alignment, item); !status) return tl::unexpected(status.error());
     return s.count(Put::kConflict);
   }
-  const bool own = alignment.computed_by == s.self && s.config.sync_own_items;
-  if (own) {
-    if (auto status = s.sync(true); !status) return tl::unexpected(status.error());
-  }
-  const Status inserted = s.insert("alignment", name_of(id), item, alignment.signature);
-  if (own) {
-    if (auto status = s.sync(false); !status) return tl::unexpected(status.error());
-  }
+  const Status inserted = s.commit(id.computed_by == s.self, [&] {
+    return s.insert("alignment", name_of(id), item, alignment.signature);
+  });
   if (!inserted) return tl::unexpected(inserted.error());
   s.alignments.emplace(id, alignment);
   s.alignment_prints[name_of(id)] = fingerprint(alignment);
@@ -645,12 +703,17 @@ Status Store::State::resign_alignments(const SignAlignment& sign, std::size_t& d
 Result<Store::Resigned> Store::resign(const SignNode& node, const SignAlignment& alignment) {
   State& s = *state_;
   Resigned done;
+  // What is dropped must not be found again when a damaged file is searched for whole rows.
+  if (auto status = s.db->execute("PRAGMA secure_delete = ON"); !status)
+    return tl::unexpected(status.error());
   auto transaction = Transaction::begin(*s.db);
   if (!transaction) return tl::unexpected(transaction.error());
   if (auto status = s.resign_nodes(node, done.dropped_nodes); !status) return tl::unexpected(status.error());
   if (auto status = s.resign_alignments(alignment, done.dropped_alignments); !status)
     return tl::unexpected(status.error());
   if (auto status = transaction->commit(); !status) return tl::unexpected(status.error());
+  if (auto status = s.db->execute("PRAGMA secure_delete = OFF"); !status)
+    return tl::unexpected(status.error());
   if (auto status = s.load(); !status) return tl::unexpected(status.error());
   return done;
 }
@@ -754,14 +817,12 @@ bool Store::has_submap(const NodeId& id) const { return state_->submap_set.conta
 Result<Bytes> Store::submap(const NodeId& id) {
   const graph::Node* held = node(id);
   if (!held || !has_submap(id)) return failure("submap of node " + to_string(id) + " is not held");
+  State& s = *state_;
   auto bytes = submap_part(id, 0, held->submap_bytes);
   if (bytes && bytes->size() == held->submap_bytes && content_hash(*bytes) == held->submap_hash) return bytes;
-  if (!bytes) return bytes;
-  State& s = *state_;
-  if (!s.read_only) {
-    const auto status = s.run("DELETE FROM submap WHERE agent = ? AND seq = ?", id.agent, id.seq);
-    if (!status) return tl::unexpected(status.error());
-  }
+  if (!bytes && !s.db->is_damaged()) return bytes;
+  // Where its pages are damaged it may stay in the file, until the next start replaces that.
+  if (!s.read_only) static_cast<void>(s.remove("submap", id));
   s.submap_set.erase(id.agent, id.seq);
   ++s.stats.lost_submaps;
   return failure(s.path.string() + ": submap of node " + to_string(id) +
@@ -809,6 +870,15 @@ std::uint32_t Store::next_alignment_seq(std::uint16_t session) const {
   return state_->alignment_set.end_within(items_of(state_->self, session));
 }
 
+Status Store::sync() {
+  State& s = *state_;
+  const std::int64_t changes = s.db->changes();
+  if (!s.config.power_safe || s.read_only || s.synced_changes == changes) return {};
+  if (auto status = s.db->sync_log(); !status) return status;
+  s.synced_changes = changes;
+  return {};
+}
+
 Result<std::optional<Bytes>> Store::meta(std::string_view key) const {
   auto rows = state_->db->prepare("SELECT value FROM meta WHERE key = ?");
   if (!rows) return tl::unexpected(rows.error());
@@ -820,10 +890,12 @@ Result<std::optional<Bytes>> Store::meta(std::string_view key) const {
 }
 
 Status Store::set_meta(std::string_view key, ByteView value) {
-  if (key == "self") return failure("store: the owner of a store cannot be changed");
-  auto statement = state_->db->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+  if (key == kOwnerKey) return failure("store: the owner of a store cannot be changed");
+  auto statement = state_->db->prepare("INSERT OR REPLACE INTO meta VALUES(?, ?, ?)");
   if (!statement) return tl::unexpected(statement.error());
-  return statement->bind(1, key).bind(2, value).run();
+  const ContentHash hash = value_hash(key, value);
+  statement->bind(1, key).bind(2, value).bind(3, ByteView(hash));
+  return state_->commit(true, [&] { return statement->run(); });
 }
 
 const StoreStats& Store::stats() const { return state_->stats; }

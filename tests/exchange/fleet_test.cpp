@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -360,6 +362,39 @@ TEST(Fleet, a_robot_on_a_new_disk_gets_its_items_back_and_nothing_conflicts) {
   fleet.run_for(std::chrono::seconds(180), [&] { return fleet.equal_sets(34); });
   EXPECT_TRUE(fleet.equal_sets(34)) << fleet.robot("r1").store->nodes().size();
   EXPECT_EQ(warnings_of_lost_items(fleet.robot("r1")), 1);
+  EXPECT_TRUE(fleet.all([](const auto& robot) { return !conflicts(robot); }));
+}
+
+TEST(Fleet, a_robot_whose_store_is_damaged_keeps_what_is_whole_and_gets_the_rest_back) {
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 61);
+  fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
+  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+  drive(fleet, kThree, 20);
+  const auto same = [&](std::size_t nodes) {
+    return fleet.equal_sets(nodes) &&
+           fleet.all([&](const auto& robot) { return robot.store->submap_set().size() == nodes; });
+  };
+  fleet.run_for(std::chrono::minutes(2), [&] { return same(60); });
+  ASSERT_TRUE(same(60));
+  fleet.kill("r1");
+  const std::filesystem::path file = fleet.store_file("r1");
+  ASSERT_TRUE(store::Store::open(file, agent("r1"))) << "which moves the log into the file";
+  {
+    const auto size = static_cast<std::size_t>(std::filesystem::file_size(file));
+    std::fstream damaged(file, std::ios::in | std::ios::out | std::ios::binary);
+    damaged.seekp(static_cast<std::streamoff>(size / 3));
+    const std::string hole(size / 3, '\xff');
+    damaged.write(hole.data(), static_cast<std::streamsize>(hole.size()));
+  }
+  fleet.start("r1", 4711);
+  const store::Store& store = *fleet.robot("r1").store;
+  EXPECT_EQ(store.damage().size(), 1u);
+  const std::size_t kept = store.submap_set().size();
+  EXPECT_GE(kept, 20u);
+  EXPECT_LT(kept, 60u);
+  drive(fleet, {"r1"}, 5, 100.0);
+  fleet.run_for(std::chrono::minutes(3), [&] { return same(65); });
+  EXPECT_TRUE(same(65)) << store.nodes().size() << " nodes, " << store.submap_set().size() << " submaps";
   EXPECT_TRUE(fleet.all([](const auto& robot) { return !conflicts(robot); }));
 }
 

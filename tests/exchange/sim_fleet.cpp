@@ -28,12 +28,14 @@ void SimFleet::share_radio(std::span<const std::string> names) {
 }
 
 void SimFleet::start(const std::string& name, std::uint16_t session) {
-  // Virtual time knows no power cuts, and a real disk sync for every node would take most of the test's
-  // time.
-  store::StoreConfig no_sync;
-  no_sync.sync_own_items = false;
+  // Without such a disk virtual time knows no power cuts, and a real disk sync for every node would take most
+  // of the test's time.
+  store::StoreConfig config;
+  const auto disk = disks_.find(agent(name));
+  config.power_safe = disk != disks_.end();
+  if (disk != disks_.end()) config.file_system = disk->second;
   const Status started =
-      ExchangeFleet::start(agent(name), no_sync, Duration::zero(), [&](store::Store&) { return session; });
+      ExchangeFleet::start(agent(name), config, Duration::zero(), [&](store::Store&) { return session; });
   if (!started) throw std::runtime_error(started.error().message);
   name_anew(robot(name));
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <random>
@@ -41,6 +42,10 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   void authenticate(std::shared_ptr<const exchange::ItemAuthenticator> authenticator) {
     config_.authenticator = std::move(authenticator);
   }
+  /// Of a robot that starts from now on: its store lies in this SQLite VFS, which is synced as on a robot.
+  void put_on_disk(const std::string& name, std::string file_system) {
+    disks_[agent(name)] = std::move(file_system);
+  }
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
   void kill(const std::string& name) { ExchangeFleet::kill(agent(name)); }
@@ -48,6 +53,9 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   void keep_store(const std::string& name) { ExchangeFleet::keep_store(agent(name), ".kept"); }
   void put_back_store(const std::string& name) { ExchangeFleet::put_back_store(agent(name), ".kept"); }
   void lose_store(const std::string& name) { ExchangeFleet::lose_store(agent(name)); }
+  std::filesystem::path store_file(const std::string& name) const {
+    return static_cast<const ScratchFolder&>(*this) / (name + ".db");
+  }
   Robot& robot(const std::string& name) { return ExchangeFleet::robot(agent(name)); }
 
   graph::Node add_node(const std::string& name, double east_m, std::size_t submap_bytes = 3000);
@@ -84,6 +92,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   std::mt19937 random_;
   std::uint16_t last_session_ = 30'000;  ///< of those that are drawn while running
   std::vector<Sent> sent_;
+  std::map<AgentId, std::string> disks_;
 };
 
 /// The clouds that came.

@@ -25,6 +25,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto path = folder.write("store.db", ByteView(data, size));
   fuzz::read_all(store::Store::open_read_only(path));
   fuzz::read_all(
-      store::Store::open(path, AgentId::parse("r1").value(), {.sync_own_items = false, .file_system = {}}));
+      store::Store::open(path, AgentId::parse("r1").value(), {.power_safe = false, .file_system = {}}));
   return 0;
 }

@@ -185,8 +185,14 @@ TEST(Store, drops_a_submap_that_the_disk_damaged) {
     auto store = Store::open(path, kSelf).value();
     ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), submap).value(), Put::kAdded);
   }
-  run_sql(path, "UPDATE submap SET bytes = zeroblob(5000)");
+  const char* damage = "UPDATE submap SET bytes = zeroblob(5000)";
+  run_sql(path, damage);
   auto store = Store::open(path, kSelf).value();
+  EXPECT_THAT(store.damage(), ElementsAre(HasSubstr("the submap of node r1/0 is damaged")));
+  EXPECT_FALSE(store.has_submap({kSelf, 0})) << "nobody need read it to find out";
+  // While it runs.
+  ASSERT_EQ(store.put_submap({kSelf, 0}, submap).value(), Put::kAdded);
+  run_sql(path, damage);
   const auto read = store.submap({kSelf, 0});
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, HasSubstr("damaged"));
@@ -201,8 +207,6 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
     const auto store = Store::open(folder / name, kSelf);
     return store ? std::string("opened") : store.error().message;
   };
-  std::ofstream(folder / "text.db") << std::string(5000, 'x');
-  EXPECT_THAT(refusal("text.db"), HasSubstr("no database"));
   run_sql(folder / "foreign.db", "CREATE TABLE song(name TEXT)");
   EXPECT_THAT(refusal("foreign.db"), HasSubstr("not a fleetmap store"));
   ASSERT_TRUE(Store::open(folder / "newer.db", kSelf));
@@ -215,29 +219,6 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
   ASSERT_TRUE(Store::open(folder / "peer.db", kPeer));
   EXPECT_THAT(refusal("peer.db"), HasSubstr("store of agent 'r2'"));
   EXPECT_THAT(refusal("no/such/folder.db"), HasSubstr("folder"));
-}
-
-TEST(Store, says_so_when_its_pages_are_damaged) {
-  const ScratchFolder folder;
-  const auto path = folder / "store.db";
-  {
-    auto store = Store::open(path, kSelf).value();
-    for (std::uint32_t seq = 0; seq < 200; ++seq) {
-      ASSERT_EQ(store.put_node(make_node(kPeer, seq, random_bytes(10, seq))).value(), Put::kAdded);
-    }
-  }
-  const auto size = std::filesystem::file_size(path);
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  for (std::uintmax_t at = 8192; at < size; at += 64) {
-    file.seekp(static_cast<std::streamoff>(at));
-    file.write("\xff\xff\xff\xff\xff\xff\xff\xff", 8);
-  }
-  file.close();
-  const auto store = Store::open(path, kSelf);
-  ASSERT_FALSE(store);
-  EXPECT_THAT(store.error().message, HasSubstr("damaged"));
-  std::filesystem::resize_file(path, size / 2 + 100);
-  EXPECT_FALSE(Store::open(path, kSelf));
 }
 
 TEST(Store, has_one_writer_and_any_number_of_readers) {
@@ -268,70 +249,6 @@ TEST(Store, names_nodes_by_ranges) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0]->id.seq, 2u);
   EXPECT_EQ(found[1]->id.seq, 5u);
-}
-
-/// Makes a store of items without signatures into what earlier schema versions left.
-void make_version_4(const std::filesystem::path& path) {
-  run_sql(path,
-          "ALTER TABLE node DROP COLUMN signature; ALTER TABLE alignment DROP COLUMN signature;"
-          "ALTER TABLE contested_node DROP COLUMN signature;"
-          "ALTER TABLE contested_alignment DROP COLUMN signature; PRAGMA user_version = 4");
-}
-void make_version_3(const std::filesystem::path& path) {
-  make_version_4(path);
-  run_sql(path,
-          "ALTER TABLE node DROP COLUMN hash; ALTER TABLE alignment DROP COLUMN hash;"
-          "DROP TABLE contested_node; DROP TABLE contested_alignment; PRAGMA user_version = 3");
-}
-
-TEST(Store, brings_the_schema_version_before_to_the_present_one) {
-  const ScratchFolder folder;
-  const auto path = folder / "store.db";
-  const Bytes submap = random_bytes(500, 1);
-  {
-    auto store = Store::open(path, kSelf).value();
-    ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), submap).value(), Put::kAdded);
-    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
-  }
-  make_version_3(path);
-  EXPECT_THAT(Store::open_read_only(path).error().message, HasSubstr("start the robot's program once"));
-  const auto foreign = Store::open(path, kPeer);
-  ASSERT_FALSE(foreign);
-  EXPECT_THAT(foreign.error().message, HasSubstr("store of agent 'r1'"));
-  for (int opened = 0; opened < 2; ++opened) {
-    auto store = Store::open(path, kSelf).value();
-    EXPECT_TRUE(store.damage().empty());
-    EXPECT_EQ(store.submap({kSelf, 0}).value(), submap);
-    EXPECT_TRUE(store.alignment({kPeer, 2}));
-    EXPECT_EQ(store.put_node(make_node(kPeer, static_cast<std::uint32_t>(opened), submap)).value(),
-              Put::kAdded);
-  }
-  EXPECT_TRUE(Store::open_read_only(path)) << "it is of this version now";
-}
-
-TEST(Store, brings_schema_version_4_with_its_contested_names_to_the_present_one) {
-  const ScratchFolder folder;
-  const auto path = folder / "store.db";
-  {
-    auto store = Store::open(path, kSelf).value();
-    ASSERT_EQ(store.put_node(make_node(kPeer, 0, Bytes{})).value(), Put::kAdded);
-    ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{})).value(), Put::kAdded);
-    ASSERT_EQ(store.put_node(make_node(kPeer, 1, Bytes{}, 30.0)).value(), Put::kConflict);
-    ASSERT_EQ(store.put_alignment(make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2)).value(), Put::kAdded);
-  }
-  make_version_4(path);
-  for (int opened = 0; opened < 2; ++opened) {
-    auto store = Store::open(path, kSelf).value();
-    EXPECT_TRUE(store.damage().empty());
-    ASSERT_TRUE(store.node({kPeer, 0}));
-    EXPECT_FALSE(store.node({kPeer, 0})->signature);
-    EXPECT_TRUE(store.is_contested({kPeer, 1}));
-    EXPECT_TRUE(store.alignment({kPeer, 2}));
-    auto node = make_node(kPeer, 5 + static_cast<std::uint32_t>(opened), Bytes{});
-    node.signature.emplace().fill(7);
-    EXPECT_EQ(store.put_node(node).value(), Put::kAdded);
-  }
-  EXPECT_EQ(Store::open_read_only(path).value().node({kPeer, 5})->signature->front(), 7);
 }
 
 TEST(Store, keeps_signatures_and_checks_them_with_the_row) {

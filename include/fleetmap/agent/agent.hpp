@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/agent/failure_log.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/level_track.hpp"
@@ -90,6 +91,8 @@ class Agent {
   /// Whom submaps are fetched from at this moment.
   std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
+  /// Writes that the disk refused.
+  std::uint64_t store_failures() const { return store_failures_.total(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const RegistrationCounters& registrations() const { return registrations_; }
   /// What drives the robot, if this agent does.
@@ -138,6 +141,7 @@ class Agent {
   void handle(const exchange::SessionTaken& taken);
   void handle(const exchange::StrangerHeard& heard);
   void handle(const exchange::StoreFailed& failed);
+  void note_store_that_works();
   void handle(const exchange::NodeAdded& added);
   void handle(const exchange::AlignmentAdded& added);
   void handle(const exchange::SubmapAdded&) {}
@@ -200,8 +204,8 @@ class Agent {
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
   Stamp session_begun_{};  ///< if it was not with the program's start
-  std::optional<Stamp> store_failure_told_;
-  std::uint64_t store_failures_untold_ = 0;
+  FailureLog store_failures_;
+  std::uint64_t added_before_failure_ = 0;  ///< StoreStats::added
 };
 
 }  // namespace fleetmap::agent

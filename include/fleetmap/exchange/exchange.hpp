@@ -281,6 +281,8 @@ class Exchange {
   /// Emits HoldChanged if `before` is in force no more. The robot obeys before the disk is written to.
   void note_orders(const std::optional<HoldOrder>& before);
   void tick_short_range(std::vector<Outgoing>& out, Stamp now);
+  /// Syncs the store before digests go out, since others rely on what they name; without that they stay here.
+  void keep_what_is_told(std::vector<Outgoing>& out);
   void note_completion();
 
   struct Needed {

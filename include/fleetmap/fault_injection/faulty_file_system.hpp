@@ -5,8 +5,9 @@
 
 namespace fleetmap::fault_injection {
 
-/// A SQLite file system (VFS) over the system's own that has no room left when it is told so, and that syncs
-/// nothing: virtual time has no power cuts. One object a disk; it must outlive the stores on it.
+/// A SQLite file system (VFS) over the system's own that has no room left or is read-only when it is told so,
+/// and that syncs nothing: virtual time has no power cuts. One object a disk; it must outlive the stores on
+/// it.
 class FaultyFileSystem {
  public:
   FaultyFileSystem();
@@ -18,6 +19,8 @@ class FaultyFileSystem {
   const std::string& name() const;
   /// Every write fails as on a full disk until it is set back.
   void set_full(bool full);
+  /// Every write fails as after a remount, which the system does when the disk has errors.
+  void set_read_only(bool read_only);
 
  private:
   struct State;

@@ -28,8 +28,10 @@ struct AlignmentId {
 
 struct StoreConfig {
   std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
-  bool sync_own_items = true;  ///< own nodes and alignments survive a power cut too (one disk sync each)
-  std::string file_system;     ///< name of the SQLite VFS that holds the file; empty: the system's own
+  /// Own items and named values survive a power cut as soon as they are put (one disk sync each), and all
+  /// else after Store::sync(). Without it SQLite syncs its checkpoints alone.
+  bool power_safe = true;
+  std::string file_system;  ///< name of the SQLite VFS that holds the file; empty: the system's own
   Status validate() const;
 };
 
@@ -65,9 +67,9 @@ struct StoreStats {
 /// item has verified it.
 ///
 /// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
-/// items are also synced to the disk: after a power cut the agent must not give a second item a name that it
-/// has already told the others. Items of others are not; a power cut may lose the last of them, and the
-/// digests fetch them again.
+/// items and named values are also synced to the disk: after a power cut the agent must not give a second
+/// item a name that it has already told the others. Items of others are not; a power cut may lose those that
+/// came since the last sync(), which therefore comes before others are told what is held (Exchange::tick).
 ///
 /// Nodes and alignments are held in memory as well; submaps stay on disk. One thread at a time. A Result that
 /// fails means that the file failed (disk full, I/O error, corrupt); the set in memory is then unchanged.
@@ -75,12 +77,14 @@ class Store {
  public:
   /// Bytes of one piece of a download; the last of a submap may be shorter.
   static constexpr std::uint32_t kChunkBytes = 8192;
+  /// Of the file. Whoever raises it adds a step to schema.cpp and a file to tests/store/versions.
+  static constexpr std::int64_t kSchemaVersion = 6;
 
-  /// Opens or makes the store of `self`. A store of schema version 3 or later is brought to the
-  /// present one.
-  /// Rows that are damaged are dropped and named by damage(). Fails with what to do when the file is no
-  /// store, its pages are corrupt, is of a newer version, belongs to another agent, or is open in another
-  /// process for writing.
+  /// Opens or makes the store of `self`. A store of schema version 3 or later is brought to the present one.
+  /// Reads the whole file: rows and submaps that are damaged are dropped, and a file whose pages are is moved
+  /// aside and replaced by a store of what is whole in it; damage() says so. Fails with what to do when the
+  /// file is no store, is of a newer version, belongs to another agent, is open in another process for
+  /// writing, or cannot be written.
   static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
                             const StoreConfig& config = {});
   /// Opens any agent's store to look at it; a running agent does not mind. Puts fail.
@@ -146,7 +150,7 @@ class Store {
   std::uint32_t alignment_print(const SeqRange& range) const;
   /// Grows with each change of nodes() and alignments().
   std::uint64_t revision() const;
-  /// Rows that open() found damaged and dropped, by name.
+  /// What open() found damaged and where the damaged file lies, a sentence each.
   const std::vector<std::string>& damage() const;
   /// The nodes held of `range`, in order.
   std::vector<const graph::Node*> nodes_from(const SeqRange& range) const;
@@ -167,6 +171,10 @@ class Store {
   /// Sequence number of the next own node and alignment of a session.
   std::uint32_t next_node_seq(std::uint16_t session) const;
   std::uint32_t next_alignment_seq(std::uint16_t session) const;
+
+  /// All that was put survives a power cut from now on. Costs a disk sync if something was put since the last
+  /// one, else nothing. Fails when the disk does, and nothing may then be promised to others.
+  Status sync();
 
   Result<std::optional<Bytes>> meta(std::string_view key) const;
   Status set_meta(std::string_view key, ByteView value);
