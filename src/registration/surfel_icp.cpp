@@ -213,13 +213,13 @@ std::vector<Vector6d> block_gradients(const System& system) {
 
 /// Covariance of the gradient at `T` from the drift of both maps.
 Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& T, const Bendings& bendings) {
-  const std::size_t side = side_of(system);
+  const std::size_t side = side_of(system), half = side / 2;
   std::vector<PatchInformation> in_source, in_target;
   for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
     if (system.patch_used[k] == 0) continue;
     const auto middle = [&](std::size_t cell) {
-      return static_cast<double>(source.patch_m) *
-             (static_cast<double>(cell) - static_cast<double>(side / 2) + 0.5);
+      const auto cells_from_center = static_cast<std::ptrdiff_t>(cell) - static_cast<std::ptrdiff_t>(half);
+      return static_cast<double>(source.patch_m) * (static_cast<double>(cells_from_center) + 0.5);
     };
     const Eigen::Vector3d center(middle(k % side), middle(k / side), 0.0);
     in_source.push_back({center.head<2>(), system.patch_informations[k].cast<double>()});
