@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace fleetmap::exchange {
 namespace {
@@ -20,6 +19,16 @@ constexpr Duration kBaseHistory = std::chrono::minutes(1);
 
 }  // namespace
 
+double LeastDelay::queueing_of(double delay_s, Stamp now) {
+  if (!begun_ || now - *begun_ > kBaseHistory) {
+    before_ = recent_;
+    recent_ = delay_s;
+    begun_ = now;
+  }
+  recent_ = std::min(recent_, delay_s);
+  return delay_s - std::min(recent_, before_);
+}
+
 Status DelayWindowConfig::validate() const {
   if (!(target_s >= kLeastTarget) || !std::isfinite(target_s))
     return failure("submap_transfer.window.target_s must be at least 0.05");
@@ -32,23 +41,12 @@ Status DelayWindowConfig::validate() const {
 }
 
 DelayWindow::DelayWindow(const DelayWindowConfig& config)
-    : config_(config),
-      window_(config.first_bytes),
-      least_delay_(std::numeric_limits<double>::infinity()),
-      older_least_delay_(least_delay_),
-      target_(config.target_s) {}
+    : config_(config), window_(config.first_bytes), target_(config.target_s) {}
 
-void DelayWindow::on_arrival(double delay_s, std::uint32_t bytes, Stamp now) {
-  if (!history_begun_ || now - *history_begun_ > kBaseHistory) {
-    older_least_delay_ = least_delay_;
-    least_delay_ = delay_s;
-    history_begun_ = now;
-  }
-  least_delay_ = std::min(least_delay_, delay_s);
-  const double queueing = delay_s - std::min(least_delay_, older_least_delay_);
+void DelayWindow::on_arrival(double queueing_s, std::uint32_t bytes) {
   const double rounds = bytes / window_;
-  queueing_ += std::min(rounds, 1.0) * (queueing - queueing_);
-  const double off_target = 1.0 - queueing / target_;
+  queueing_ += std::min(rounds, 1.0) * (queueing_s - queueing_);
+  const double off_target = 1.0 - queueing_s / target_;
   // It ends before the queue is full: what is under way then still has to fit.
   if (off_target < 0.5) slow_start_ = false;
   window_ += slow_start_ ? bytes : std::max(off_target, -1.0) * rounds * config_.step_bytes;

@@ -46,7 +46,7 @@ Status SubmapTransferConfig::validate() const {
 }
 
 SubmapReceiver::SubmapReceiver(const AgentId& self, const SubmapTransferConfig& config)
-    : self_(self), config_(config) {}
+    : self_(self), config_(config), window_(config.window) {}
 
 std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t chunk) {
   return std::min(kChunk, node.submap_bytes - chunk * kChunk);
@@ -56,7 +56,9 @@ void SubmapReceiver::on_heard(const AgentId& name, Stamp now) {
   Peer& known = peer(name);
   // Another place, another channel: what the link carried then tells little.
   if (now - known.heard > config_.peer_timeout) {
+    if (peers_in_reach(now).empty()) window_ = DelayWindow(config_.window);
     known.window = DelayWindow(config_.window);
+    known.least_delay = {};
     known.hears_us = false;
   }
   known.heard = now;
@@ -151,8 +153,10 @@ void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t ch
   }
   peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
   peer.delay += 0.125 * (delay - peer.delay);
-  peer.window.on_arrival(delay, flight->second.bytes, now);
-  peer.bytes_out -= flight->second.bytes;
+  const double queueing = peer.least_delay.queueing_of(delay, now);
+  peer.window.on_arrival(queueing, flight->second.bytes);
+  window_.on_arrival(queueing, flight->second.bytes);
+  no_longer_out(peer, flight->second.bytes);
   peer.answered = std::max(peer.answered, flight->second.order);
   download.flights.erase(flight);
 }
@@ -258,7 +262,7 @@ SubmapReceiver::Finished SubmapReceiver::finish_downloads(store::Store& store, S
 void SubmapReceiver::stop(std::map<NodeId, Download>::iterator download) {
   // Bytes still on their way no longer count against the window.
   Peer& peer = this->peer(download->second.peer);
-  for (const auto& [chunk, flight] : download->second.flights) peer.bytes_out -= flight.bytes;
+  for (const auto& [chunk, flight] : download->second.flights) no_longer_out(peer, flight.bytes);
   downloads_.erase(download);
 }
 
@@ -283,7 +287,8 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
       }
       ++stats_.timeouts;
       peer.window.on_loss(flight->second.sent, now);
-      peer.bytes_out -= flight->second.bytes;
+      window_.on_loss(flight->second.sent, now);
+      no_longer_out(peer, flight->second.bytes);
       flight = download.flights.erase(flight);
     }
   }
@@ -313,16 +318,22 @@ bool SubmapReceiver::may_serve(const AgentId& name, const Peer& peer, const Node
   return hears_us(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusts(name, id, now);
 }
 
-bool SubmapReceiver::has_room(Stamp now) const {
-  return std::ranges::any_of(
-      peers_, [&](const auto& entry) { return in_reach(entry.first, now) && entry.second.has_room(); });
+bool SubmapReceiver::any_has_room(Stamp now) const {
+  return std::ranges::any_of(peers_, [&](const auto& entry) {
+    return in_reach(entry.first, now) && has_room(entry.second, kChunk);
+  });
+}
+
+void SubmapReceiver::no_longer_out(Peer& peer, std::uint32_t bytes) {
+  peer.bytes_out -= bytes;
+  bytes_out_ -= bytes;
 }
 
 bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp now) {
   if (downloads_.contains(id) || store.has_submap(id)) return false;
   const AgentId* best = nullptr;
   for (const auto& [name, peer] : peers_) {
-    if (!may_serve(name, peer, id, now) || !peer.has_room()) continue;
+    if (!may_serve(name, peer, id, now) || !has_room(peer, kChunk)) continue;
     if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
   }
   if (!best) return false;
@@ -337,8 +348,9 @@ void SubmapReceiver::fill(const store::Store& store, const NodeId& id, Download&
   for (const std::uint32_t chunk : store.missing_chunks(id)) {
     if (download.flights.contains(chunk)) continue;
     const std::uint32_t bytes = chunk_bytes(node, chunk);
-    if (peer.bytes_out + bytes > peer.window.bytes()) return;
+    if (!has_room(peer, bytes)) return;
     peer.bytes_out += bytes;
+    bytes_out_ += bytes;
     download.asked.insert(chunk);
     download.flights[chunk] = {bytes, ++peer.asked, now, now + timeout(peer)};
     const bool extends = !requests.empty() && requests.back().node == id &&
@@ -358,7 +370,7 @@ std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp
   std::vector<SubmapRequest> requests;
   if (paused_until_) return requests;
   for (auto& [id, download] : downloads_) fill(store, id, download, now, requests);
-  if (has_room(now) && store.submap_set().size() < store.node_set().size()) {
+  if (any_has_room(now) && store.submap_set().size() < store.node_set().size()) {
     for (const NodeId& id : missing(store, now)) {
       if (assign(store, id, now)) fill(store, id, downloads_.at(id), now, requests);
     }

@@ -1,6 +1,7 @@
 #include "exchange/sim_fleet.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -89,17 +90,46 @@ bool SimFleet::equal_sets(std::size_t nodes) const {
   });
 }
 
+void SimFleet::on_sent(const fault_injection::Packet& packet) {
+  sent_.push_back(packet);
+  const bool queues = network_.short_range && packet.outgoing.reach == exchange::Reach::kShortRange;
+  queued_ = queues ? queueing(packet) : Duration::zero();
+}
+
 std::vector<Duration> SimFleet::arrivals(const fault_injection::Packet& packet, const AgentId& to) {
   std::vector<Duration> delays;
   if (!reachable(packet.from, to, packet.outgoing.reach)) return delays;
   const double chance = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
   if (chance < network_.loss) return delays;
+  if (!queued_) return delays;
   const int copies = chance > 1.0 - network_.duplication ? 2 : 1;
   for (int copy = 0; copy < copies; ++copy) {
-    delays.emplace_back(std::uniform_int_distribution<std::int64_t>(network_.min_delay.count(),
+    delays.emplace_back(queued_->count() +
+                        std::uniform_int_distribution<std::int64_t>(network_.min_delay.count(),
                                                                     network_.max_delay.count())(random_));
   }
   return delays;
+}
+
+std::optional<Duration> SimFleet::queueing(const fault_injection::Packet& packet) {
+  constexpr double kMtu = 1500.0,
+                   kHeaders = 90.0;  // B; headers as submap_transfer.overhead_bytes counts them
+  queue_empty_ = std::max(queue_empty_, now());
+  bool whole = true;
+  const auto payload = static_cast<double>(packet.wire_bytes);
+  const auto packets = static_cast<int>(std::ceil(payload / (kMtu - kHeaders)));
+  for (int k = 0; k < packets; ++k) {
+    const double bytes = payload / packets + kHeaders;
+    const double backlog = to_seconds(queue_empty_ - now()) * network_.short_range->bytes_per_second;
+    if (backlog + bytes > network_.short_range->bytes) {
+      ++short_range_drops_;
+      whole = false;
+      continue;
+    }
+    short_range_bytes_ += bytes;
+    queue_empty_ += from_seconds(bytes / network_.short_range->bytes_per_second);
+  }
+  return whole ? std::optional(queue_empty_ - now()) : std::nullopt;
 }
 
 void SimFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {

@@ -30,6 +30,12 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
     double duplication = 0.0;
     Duration min_delay = std::chrono::milliseconds(5);
     Duration max_delay = std::chrono::milliseconds(60);
+    /// What all send on the short range passes one queue, in IP packets; nothing: it is not limited.
+    struct Queue {
+      double bytes_per_second;
+      double bytes;  ///< B that it holds
+    };
+    std::optional<Queue> short_range = std::nullopt;
   };
   using Sent = fault_injection::Packet;
 
@@ -77,21 +83,30 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 
   const std::vector<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
+  /// B that passed the queue of the short range, and how many packets it dropped.
+  double short_range_bytes() const { return short_range_bytes_; }
+  std::size_t short_range_drops() const { return short_range_drops_; }
   bool all(const std::function<bool(const Robot&)>& holds) const;
   /// Every running robot holds the same nodes and alignments, and `nodes` of them.
   bool equal_sets(std::size_t nodes) const;
 
  private:
-  void on_sent(const fault_injection::Packet& packet) override { sent_.push_back(packet); }
+  void on_sent(const fault_injection::Packet& packet) override;
   std::vector<Duration> arrivals(const fault_injection::Packet& packet, const AgentId& to) override;
   void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
 
   void name_anew(Robot& robot);
+  /// Until the last packet of `packet` has left the queue; nothing if it dropped one.
+  std::optional<Duration> queueing(const fault_injection::Packet& packet);
 
   Network network_;
   std::mt19937 random_;
   std::uint16_t last_session_ = 30'000;  ///< of those that are drawn while running
   std::vector<Sent> sent_;
+  Stamp queue_empty_;               ///< when the queue of the short range will be
+  std::optional<Duration> queued_;  ///< of the last packet
+  double short_range_bytes_ = 0.0;
+  std::size_t short_range_drops_ = 0;
   std::map<AgentId, std::string> disks_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "fleetmap/core/result.hpp"
@@ -10,14 +11,26 @@ namespace fleetmap::exchange {
 
 struct DelayWindowConfig {
   double target_s = 0.25;                ///< s of queueing, above the least delay seen, that a flow may cause
-  std::uint32_t least_bytes = 16'384;    ///< B
-  std::uint32_t first_bytes = 65'536;    ///< B
+  std::uint32_t least_bytes = 8'192;     ///< B
+  std::uint32_t first_bytes = 32'768;    ///< B
   std::uint32_t most_bytes = 1'048'576;  ///< B
   std::uint32_t step_bytes = 8'192;      ///< B that it grows by in each round trip without queueing
   Status validate() const;
 };
 
-/// How many bytes may be under way from one peer: LEDBAT (RFC 6817) with slow start, driven by the receiver.
+/// The least delay of a path within the last one to two minutes: what it takes without any queue.
+class LeastDelay {
+ public:
+  /// s of queueing in a delay of `delay_s`, which counts from now on.
+  double queueing_of(double delay_s, Stamp now);
+
+ private:
+  double recent_ = std::numeric_limits<double>::infinity();  ///< s, since begun_
+  double before_ = std::numeric_limits<double>::infinity();  ///< s, of the history before
+  std::optional<Stamp> begun_;
+};
+
+/// How many bytes may be under way: LEDBAT (RFC 6817) with slow start, driven by the receiver.
 /// The bottleneck may be far from the own interface (a channel that others use, a mesh), so its rate shows
 /// only in what arrives: the window grows while requests are answered without queueing and shrinks as the
 /// queue grows, before the queue overflows.
@@ -26,8 +39,8 @@ class DelayWindow {
   explicit DelayWindow(const DelayWindowConfig& config);
 
   std::uint32_t bytes() const { return static_cast<std::uint32_t>(window_); }
-  /// `bytes` arrived `delay_s` after they were asked for.
-  void on_arrival(double delay_s, std::uint32_t bytes, Stamp now);
+  /// `bytes` arrived after they waited `queueing_s` on their way.
+  void on_arrival(double queueing_s, std::uint32_t bytes);
   /// Something asked for at `asked` did not come. Losses of one round trip count once. The window is halved
   /// if there was a queue that may have overflowed, else it shrinks by a tenth: radios lose without
   /// congestion, too.
@@ -36,9 +49,6 @@ class DelayWindow {
  private:
   DelayWindowConfig config_;
   double window_;
-  double least_delay_;        ///< s, since history_begun_
-  double older_least_delay_;  ///< s, of the history before
-  std::optional<Stamp> history_begun_;
   double queueing_ = 0.0;  ///< s, smoothed, of what arrived
   double target_;          ///< s, current target: at most config.target_s, lowered at losses by a full queue
   bool slow_start_ = true;

@@ -20,7 +20,7 @@ struct SubmapTransferConfig {
   double bytes_per_second = 1'875'000;   ///< B/s that this agent sends at most: a link of 15 Mbit/s
   double burst_bytes = 131'072;          ///< B; at least bytes_per_second times the time between two ticks
   std::size_t overhead_bytes = 540;      ///< B a chunk: headers of its three datagrams of two IP packets each
-  DelayWindowConfig window;              ///< B asked for and not yet here, of one peer
+  DelayWindowConfig window;              ///< B asked for and not yet here, of one peer and of all
   std::uint32_t request_bytes = 65'536;  ///< B asked for by one message at most
   Duration digest_period = std::chrono::seconds(1);
   Duration peer_timeout = std::chrono::seconds(4);        ///< s, a peer not heard for so long is out of reach
@@ -50,7 +50,8 @@ struct SubmapReceiverStats {
 };
 
 /// Fetches the submaps that this agent lacks from whoever is within reach and has them, maker or not. Keeps a
-/// window of chunks under way to each peer; never asks two peers for one chunk at the same time; goes on
+/// window of chunks under way from each peer, since each may be behind another path, and one from all of
+/// them, since they mostly share a channel; never asks two peers for one chunk at the same time; goes on
 /// where it stopped.
 class SubmapReceiver {
  public:
@@ -98,10 +99,11 @@ class SubmapReceiver {
   };
   struct Peer {
     explicit Peer(const DelayWindowConfig& config) : window(config) {}
-    bool has_room() const { return bytes_out + store::Store::kChunkBytes <= window.bytes(); }
+    bool has_room(std::uint32_t bytes) const { return bytes_out + bytes <= window.bytes(); }
     store::SeqSet holds;  ///< as of its last digests
     Stamp told;           ///< when the last one came
     DelayWindow window;
+    LeastDelay least_delay;
     Stamp heard;
     bool hears_us = false;
     std::deque<Stamp> heard_by_it;  ///< digests of the last peer_timeout that named us
@@ -132,7 +134,11 @@ class SubmapReceiver {
   void distrust(const AgentId& name, const NodeId& id, Stamp now);
   void expire(const store::Store& store, Stamp now);
   void stop(std::map<NodeId, Download>::iterator download);
-  bool has_room(Stamp now) const;
+  bool has_room(const Peer& peer, std::uint32_t bytes) const {
+    return peer.has_room(bytes) && bytes_out_ + bytes <= window_.bytes();
+  }
+  bool any_has_room(Stamp now) const;
+  void no_longer_out(Peer& peer, std::uint32_t bytes);
   bool assign(const store::Store& store, const NodeId& id, Stamp now);
   void fill(const store::Store& store, const NodeId& id, Download& download, Stamp now,
             std::vector<SubmapRequest>& requests);
@@ -142,6 +148,8 @@ class SubmapReceiver {
 
   AgentId self_;
   SubmapTransferConfig config_;
+  DelayWindow window_;           ///< of all peers together
+  std::uint64_t bytes_out_ = 0;  ///< of all peers together
   std::map<AgentId, Peer> peers_;
   std::map<NodeId, Download> downloads_;
   std::map<NodeId, std::set<AgentId>> sources_;  ///< who has given chunks of a submap that is not whole
