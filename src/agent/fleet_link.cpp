@@ -48,6 +48,10 @@ FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exc
 }
 
 void FleetLink::tick() {
+  const std::uint64_t discovery_bytes = bus_.discovery_bytes(bus::Link::kLongRange);
+  if (discovery_bytes > discovery_bytes_)
+    exchange_.on_discovery(discovery_bytes - discovery_bytes_, bus_.now());
+  discovery_bytes_ = discovery_bytes;
   for (const exchange::Outgoing& outgoing : exchange_.tick(bus_.now())) {
     if (!asks(outgoing.message)) {
       if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();

@@ -24,9 +24,18 @@ bool Pace::take(double bytes, Stamp now, double reserve) {
   const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
   if (!below_peak && !last_second_.empty()) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;
+  note(bytes, now);
+  return true;
+}
+
+void Pace::spend(double bytes, Stamp now) {
+  bucket_.spend(bytes, now);
+  note(bytes, now);
+}
+
+void Pace::note(double bytes, Stamp now) {
   last_second_.emplace_back(now, bytes);
   in_last_second_ += bytes;
-  return true;
 }
 
 }  // namespace fleetmap::exchange

@@ -5,6 +5,7 @@
 #include "fleetmap/bus/local_bus.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
+#include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
@@ -47,6 +48,61 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   say(request);
   network->run_until(Stamp{} + 130s);
   EXPECT_GT(link.counters().last_useful, Stamp{} + 120s) << "who asks us is there";
+}
+
+/// A bus whose radio says so much itself each 20 ms.
+class TalkativeRadio final : public bus::Bus {
+ public:
+  TalkativeRadio(bus::Bus& bus, std::uint64_t bytes_a_tick) : bus_(bus), bytes_a_tick_(bytes_a_tick) {}
+  Stamp now() const override { return bus_.now(); }
+  void publish(const bus::Topic& topic, const Bytes& cdr) override { bus_.publish(topic, cdr); }
+  bus::Handle subscribe(const bus::Topic& topic, OnMessage on_message) override {
+    return bus_.subscribe(topic, std::move(on_message));
+  }
+  std::optional<AgentId> sender() const override { return bus_.sender(); }
+  bus::Handle every(Duration period, std::function<void()> callback) override {
+    return bus_.every(period, std::move(callback));
+  }
+  bool offload(bus::Lane lane, std::function<void()> work, std::function<void()> done) override {
+    return bus_.offload(lane, std::move(work), std::move(done));
+  }
+  std::vector<bus::TopicStats> stats() const override { return bus_.stats(); }
+  std::uint64_t discovery_bytes(bus::Link link) const override {
+    return link == bus::Link::kLongRange ? static_cast<std::uint64_t>(now().time_since_epoch() / 20ms) * bytes_a_tick_ : 0;
+  }
+
+ private:
+  bus::Bus& bus_;
+  std::uint64_t bytes_a_tick_;
+};
+
+/// B that r1 sends in 20 s while clouds wait, beside a radio that says `bytes_a_tick` itself.
+std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
+  const testing::TemporaryFolder folder;
+  const auto network = bus::LocalNetwork::create({}).value();
+  TalkativeRadio radio(network->add_robot(id("r1")), bytes_a_tick);
+  network->add_robot(id("r2"));
+  auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
+  exchange::Exchange exchange = make_exchange(store);
+  const NodeId node{id("r1"), 0};
+  EXPECT_TRUE(store.put_node_with_submap(testing::make_node(id("r1"), 0, Bytes(100, 1)), Bytes(100, 1)));
+  EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));
+  FleetLink link(id("r1"), radio, exchange, [] {});
+  for (int k = 0; k < 20; ++k) {
+    const exchange::Message request = exchange::CloudRequest{id("r2"), id("r1"), node, {}};
+    exchange.on_message(request, radio.now());
+    network->run_until(radio.now() + 1s);
+  }
+  std::uint64_t bytes = 0;
+  for (const bus::TopicStats& stats : radio.stats())
+    bytes += stats.link == bus::Link::kLongRange ? stats.sent_bytes : 0;
+  return bytes;
+}
+
+TEST(FleetLink, WhatTheRadioItselfSaysCountsAgainstTheShare) {
+  const std::uint64_t alone = sent_beside(0), beside = sent_beside(150);  // 7500 B/s of a part of 9062
+  EXPECT_GT(alone, 100'000u);
+  EXPECT_LT(beside, alone / 3);
 }
 
 }  // namespace

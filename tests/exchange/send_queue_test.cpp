@@ -77,6 +77,20 @@ TEST(Pace, no_second_has_more_than_the_peak_whatever_the_rate_was) {
   }
 }
 
+TEST(Pace, what_the_link_itself_sends_leaves_less_for_the_rest) {
+  Pace pace(5000.0, {.burst_seconds = 0.5, .peak = 1.1});
+  double own = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const Stamp now = kStart + k * std::chrono::milliseconds(20);
+    pace.spend(80.0, now);  // 4000 B/s
+    while (pace.take(100.0, now)) own += 100.0;
+  }
+  EXPECT_NEAR(own, 20.0 * 1000.0, 3000.0) << "with the burst of 2500 B";
+  pace.spend(1e6, kStart + std::chrono::seconds(20));
+  EXPECT_FALSE(pace.take(100.0, kStart + std::chrono::milliseconds(20'900)));
+  EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(22'000))) << "nobody pays for longer";
+}
+
 TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) {
   Pace pace(500.0, {});
   EXPECT_TRUE(pace.take(1400.0, kStart));

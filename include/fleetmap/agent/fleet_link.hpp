@@ -38,6 +38,7 @@ class FleetLink {
   exchange::Exchange& exchange_;
   std::function<void()> on_events_;
   FleetLinkCounters counters_;
+  std::uint64_t discovery_bytes_ = 0;  ///< of the long range, as of the last tick
   std::map<std::string, std::uint64_t> warned_;
   std::vector<bus::Handle> handles_;
 };

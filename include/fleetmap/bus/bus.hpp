@@ -100,6 +100,13 @@ class Bus {
   virtual bool offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;
+
+  /// B on the wire that the link itself has sent to find other robots, beside what was published, since the
+  /// bus was made.
+  virtual std::uint64_t discovery_bytes(Link link) const {
+    static_cast<void>(link);
+    return 0;
+  }
 };
 
 }  // namespace fleetmap::bus

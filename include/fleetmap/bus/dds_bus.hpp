@@ -102,6 +102,7 @@ class DdsBus final : public Bus {
   [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
   bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
+  std::uint64_t discovery_bytes(Link link) const override;
 
   /// Waits for the work items under way and lets the waiting ones go, for good: afterwards nothing that was
   /// offloaded runs any more, so its owner may be destroyed. Call it while nobody runs the bus.

@@ -213,6 +213,8 @@ class Exchange {
   /// `message` came over `link`, from a robot that the link may tell. Of items this is who hands them over.
   void on_message(const Message& message, Reach link, Stamp now, std::optional<AgentId> from = std::nullopt);
   void on_message(const Message& message, Stamp now) { on_message(message, usual_reach(message), now); }
+  /// The long range itself has sent `bytes` on the wire, to find other robots: they count against the share.
+  void on_discovery(std::size_t bytes, Stamp now) { queue_.spend(bytes, now); }
   std::vector<Outgoing> tick(Stamp now);
   std::vector<Event> take_events();
 

@@ -25,8 +25,11 @@ class Pace {
   double burst() const { return bucket_.burst(); }
   /// As TokenBucket::take. An item that is larger than a second's worth goes when nothing went for a second.
   bool take(double bytes, Stamp now, double reserve = 0.0);
+  /// Something else sent `bytes` that count against the rate.
+  void spend(double bytes, Stamp now);
 
  private:
+  void note(double bytes, Stamp now);
   double burst_at(double rate) const;
 
   PaceConfig config_;

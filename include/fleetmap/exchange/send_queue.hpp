@@ -73,6 +73,8 @@ class SendQueue {
 
   /// Of the fleet's budget, B/s; at first the even part.
   void set_share(double bytes_per_second, Stamp now) { pace_.set_rate(bytes_per_second, now); }
+  /// B on the wire that did not pass this queue but count against the share.
+  void spend(std::size_t bytes, Stamp now) { pace_.spend(static_cast<double>(bytes), now); }
   /// A message of the same kind about the same thing that still waits is replaced and keeps its place. `to`
   /// overrides the recipient that the message names (for nodes and alignments, which name none). One to all
   /// goes to all peers.

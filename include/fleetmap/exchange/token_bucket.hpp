@@ -21,6 +21,11 @@ class TokenBucket {
     tokens_ -= bytes;
     return true;
   }
+  /// Takes `bytes` that went already; a debt is at most what comes in within a second.
+  void spend(double bytes, Stamp now) {
+    refill(now);
+    tokens_ = std::max(tokens_ - bytes, std::min(tokens_, -rate_));
+  }
   /// What was let in before `now` came at the rate before.
   void set_rate(double bytes_per_second, double burst_bytes, Stamp now) {
     refill(now);

@@ -169,6 +169,11 @@ std::vector<TopicStats> DdsBus::stats() const {
   return all;
 }
 
+std::uint64_t DdsBus::discovery_bytes(Link link) const {
+  const auto entry = state_->links.find(link);
+  return entry == state_->links.end() ? 0 : entry->second->discovery_bytes();
+}
+
 std::vector<HeardTraffic> DdsBus::take_heard_traffic() {
   std::vector<HeardTraffic> all;
   for (const auto& [link, made] : state_->links) made->take_heard_traffic(all);

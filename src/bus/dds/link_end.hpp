@@ -29,6 +29,8 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   void add_stats(std::vector<TopicStats>& all) const;
   /// Appends what came from each robot since the last call. Only radios tell robots apart.
   virtual void take_heard_traffic(std::vector<HeardTraffic>&) {}
+  /// B on the wire of this end's own, so far. Only radios have such.
+  virtual std::uint64_t discovery_bytes() const { return 0; }
   /// Who sent the message that is being dispatched; on the callback thread.
   const std::optional<AgentId>& sender() const { return sender_; }
   /// What a radio heard.

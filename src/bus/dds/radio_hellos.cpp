@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "fleetmap/bus/wire_overhead.hpp"
 #include "participant_qos.hpp"
 #include "radio_link.hpp"
 #include "radio_received.hpp"
@@ -114,7 +115,9 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   for (const EntityKey key : reads_) {
     if (hello.reads.size() < kMostReads) hello.reads.push_back(key);
   }
-  send(*place.writer, *place.history, guard_ ? greeting_of(hello, place) : encode(hello), 1);
+  const Bytes cdr = guard_ ? greeting_of(hello, place) : encode(hello);
+  send(*place.writer, *place.history, cdr, 1);
+  hello_bytes_ += wire_bytes(cdr.size(), {.seal = guard_ ? kSealBytes : 0});
   const auto now = Clock::now();
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);

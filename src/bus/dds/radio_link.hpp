@@ -3,6 +3,7 @@
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/builtin/data/ReaderProxyData.h>
 
+#include <atomic>
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 #include <map>
 #include <memory>
@@ -34,6 +35,7 @@ class RadioLink final : public LinkEnd {
                                                  std::shared_ptr<Executor> executor);
   ~RadioLink() override;
   void take_heard_traffic(std::vector<HeardTraffic>& all) override;
+  std::uint64_t discovery_bytes() const override { return hello_bytes_; }
   RadioSurvey survey() const override;
   std::optional<AgentId> robot_of(const Inbox::Sender& sender) const override;
 
@@ -142,6 +144,7 @@ class RadioLink final : public LinkEnd {
   std::function<void()> stop_timer_;
   Locator own_;  ///< where this robot listens
   std::mt19937 random_{std::random_device{}()};
+  std::atomic<std::uint64_t> hello_bytes_ = 0;  ///< sent, on the wire
 
   // Guarded by mutex_.
   std::vector<std::unique_ptr<Place>> places_;
