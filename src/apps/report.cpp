@@ -162,6 +162,17 @@ json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
   return drops;
 }
 
+json stalls_json(const std::vector<bus::StallCounters>& threads) {
+  json rows = json::array();
+  for (const bus::StallCounters& thread : threads) {
+    rows.push_back({{"thread", thread.thread},
+                    {"times", thread.times},
+                    {"longest_s", to_seconds(thread.longest)},
+                    {"longest_in", thread.longest_work}});
+  }
+  return rows;
+}
+
 /// Trajectories seen from above, north up; empty when there is none.
 std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
   std::vector<eval::LineSeries> tracks;
@@ -321,11 +332,13 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 }
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results, const RadioAccess& access) {
+                    const agent::Results* results, const RadioAccess& access,
+                    const std::vector<bus::StallCounters>& stalls) {
   json report = agent_report(agent, results);
   report["radio_access"] = {{"who_may_join", access.keys ? "members of the fleet" : "anyone"},
                             {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
+  report["stalls"] = stalls_json(stalls);
   return write_text(directory / "report.json", report.dump(2) + "\n");
 }
 
