@@ -71,13 +71,17 @@ json perception_json(const agent::Agent& agent) {
   const odometry::LoamCounters& loam = agent.perception().odometry_counters();
   const Distribution cpu = distribution(agent.scan_seconds());
   json behind = json::object();
+  json slow = json::object();
   for (std::size_t k = 0; k < sensor::kSources; ++k) {
     const auto source = static_cast<sensor::Source>(k);
     if (const auto seconds = agent.perception().clock_offsets().behind(source))
       behind[sensor::to_string(source)] = *seconds;
+    if (const auto ppm = agent.perception().clock_offsets().slow_ppm(source))
+      slow[sensor::to_string(source)] = *ppm;
   }
   return {
       {"stamps_behind_s", behind},
+      {"clocks_slow_ppm", slow},
       {"scans", seen.scans},
       {"imu", seen.imu},
       {"fixes", seen.fixes},
