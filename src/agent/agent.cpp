@@ -142,7 +142,7 @@ Status Agent::start() {
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
     for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
-    navigator_timer_ = bus_.every(kNavigatorPeriod, [this] { navigate(); });
+    navigator_timer_ = bus_.every(kNavigatorPeriod, {"navigation", [this] { navigate(); }});
     exchange_->set_drives(true);
     if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
   }
@@ -152,9 +152,10 @@ Status Agent::start() {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
-    live_timer_ = bus_.every(kLivePlacementPeriod, [this] { live_placement_->refresh(session_); });
+    live_timer_ =
+        bus_.every(kLivePlacementPeriod, {"placement", [this] { live_placement_->refresh(session_); }});
   }
-  status_timer_ = bus_.every(kStatusPeriod, [this] { update_status(); });
+  status_timer_ = bus_.every(kStatusPeriod, {"status", [this] { update_status(); }});
   if (const std::size_t index = *sessions_.index_of(session_); index > 0) {
     spdlog::info("{}: session {}, going on from {} nodes, {} alignments and {} submaps in the store, as {}",
                  config_.id.str(), index, store_.nodes().size(), store_.alignments().size(),
@@ -359,30 +360,32 @@ void Agent::register_own(const graph::Node& target, const graph::Node& source,
                                        drifts_around(target, source),
                                        {}});
   ++jobs_;
-  const bool taken = bus_.offload(
-      bus::Lane::kBackground,
-      [this, job] {
-        const CpuTimer all(job->registered.cpu_seconds);
-        {
-          const CpuTimer timer(job->registered.spherize_seconds);
-          job->target->spherized();
-          job->source->spherized();
-        }
-        const auto target = job->target->prepared(config_.registration);
-        const auto source = job->source->prepared(config_.registration);
-        if (target && source) {
-          job->registered.input = input_of(*job->target, job->source->node(), job->source->spherized()->bytes,
-                                           job->prior, config_.registration.method);
-          job->registered.result =
-              registration::register_clouds(*target, *source, config_.registration, job->prior, job->drifts);
-        } else {
-          job->registered.result = tl::unexpected(target ? source.error() : target.error());
-        }
-      },
-      [this, job] {
-        --jobs_;
-        conclude(job->target->node(), job->source->node(), job->registered, std::nullopt);
-      });
+  const bool taken =
+      bus_.offload(bus::Lane::kBackground,
+                   {"registration",
+                    [this, job] {
+                      const CpuTimer all(job->registered.cpu_seconds);
+                      {
+                        const CpuTimer timer(job->registered.spherize_seconds);
+                        job->target->spherized();
+                        job->source->spherized();
+                      }
+                      const auto target = job->target->prepared(config_.registration);
+                      const auto source = job->source->prepared(config_.registration);
+                      if (target && source) {
+                        job->registered.input =
+                            input_of(*job->target, job->source->node(), job->source->spherized()->bytes,
+                                     job->prior, config_.registration.method);
+                        job->registered.result = registration::register_clouds(
+                            *target, *source, config_.registration, job->prior, job->drifts);
+                      } else {
+                        job->registered.result = tl::unexpected(target ? source.error() : target.error());
+                      }
+                    }},
+                   [this, job] {
+                     --jobs_;
+                     conclude(job->target->node(), job->source->node(), job->registered, std::nullopt);
+                   });
   if (!taken) note_refused_work();
 }
 
@@ -407,30 +410,31 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
   const std::shared_ptr<OwnCloud> own = own_clouds_.of(store_, *node);
   auto seconds = std::make_shared<double>(0.0);
   ++jobs_;
-  const bool taken = bus_.offload(
-      bus::Lane::kBackground,
-      [own, seconds] {
-        const CpuTimer timer(*seconds);
-        own->spherized();
-      },
-      [this, own, seconds] {
-        --jobs_;
-        work_.spherization += *seconds;
-        const NodeId id = own->node().id;
-        const auto& cloud = own->spherized();
-        if (!cloud) {
-          ++registrations_.failed;
-          spdlog::warn("{}: no spherized cloud: {}", to_string(id), cloud.error().message);
-          return exchange_->decline_cloud(id);
-        }
-        ++registrations_.clouds_made;
-        registrations_.largest_cloud_bytes =
-            std::max(registrations_.largest_cloud_bytes, cloud->bytes.size());
-        wire::SpherizedCloud message{id, config_.spherize.radius_m, cloud->voxel_m,
-                                     static_cast<std::uint32_t>(cloud->encoded), cloud->bytes};
-        const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
-        if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
-      });
+  const bool taken =
+      bus_.offload(bus::Lane::kBackground,
+                   {"spherization",
+                    [own, seconds] {
+                      const CpuTimer timer(*seconds);
+                      own->spherized();
+                    }},
+                   [this, own, seconds] {
+                     --jobs_;
+                     work_.spherization += *seconds;
+                     const NodeId id = own->node().id;
+                     const auto& cloud = own->spherized();
+                     if (!cloud) {
+                       ++registrations_.failed;
+                       spdlog::warn("{}: no spherized cloud: {}", to_string(id), cloud.error().message);
+                       return exchange_->decline_cloud(id);
+                     }
+                     ++registrations_.clouds_made;
+                     registrations_.largest_cloud_bytes =
+                         std::max(registrations_.largest_cloud_bytes, cloud->bytes.size());
+                     wire::SpherizedCloud message{id, config_.spherize.radius_m, cloud->voxel_m,
+                                                  static_cast<std::uint32_t>(cloud->encoded), cloud->bytes};
+                     const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
+                     if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
+                   });
   if (taken) return;
   note_refused_work();
   exchange_->decline_cloud(needed.node);
@@ -459,21 +463,22 @@ void Agent::handle(const exchange::CloudArrived& arrived) {
   auto job = std::make_shared<Job>(
       Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, *prior, drifts_around(*ours, *theirs), {}});
   ++jobs_;
-  const bool taken = bus_.offload(
-      bus::Lane::kBackground,
-      [this, job] {
-        const CpuTimer all(job->registered.cpu_seconds);
-        {
-          const CpuTimer timer(job->registered.spherize_seconds);
-          job->target->spherized();
-        }
-        job->registered.result = register_encoded(*job->target, job->source, job->encoded, job->prior,
-                                                  job->drifts, job->registered.input);
-      },
-      [this, job, pair = arrived.pair] {
-        --jobs_;
-        conclude(job->target->node(), job->source, job->registered, pair);
-      });
+  const bool taken = bus_.offload(bus::Lane::kBackground,
+                                  {"registration",
+                                   [this, job] {
+                                     const CpuTimer all(job->registered.cpu_seconds);
+                                     {
+                                       const CpuTimer timer(job->registered.spherize_seconds);
+                                       job->target->spherized();
+                                     }
+                                     job->registered.result =
+                                         register_encoded(*job->target, job->source, job->encoded, job->prior,
+                                                          job->drifts, job->registered.input);
+                                   }},
+                                  [this, job, pair = arrived.pair] {
+                                    --jobs_;
+                                    conclude(job->target->node(), job->source, job->registered, pair);
+                                  });
   if (taken) return;
   note_refused_work();
   exchange_->on_rejected(arrived.pair, bus_.now());

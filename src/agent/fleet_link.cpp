@@ -44,7 +44,7 @@ FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exc
   for (const bus::Topic& topic : wire::inbox_topics(self)) {
     handles_.push_back(bus_.subscribe(topic, [this, topic](const Bytes& cdr) { receive(topic, cdr); }));
   }
-  handles_.push_back(bus_.every(kTickPeriod, [this] { tick(); }));
+  handles_.push_back(bus_.every(kTickPeriod, {"exchange", [this] { tick(); }}));
 }
 
 void FleetLink::tick() {

@@ -45,14 +45,12 @@ void LivePlacement::refresh(std::uint16_t session) {
   job->nodes = nodes_of(store_);
   job->alignments = alignments_of(store_);
   under_way_ = true;
-  const bool taken = bus_.offload(
-      bus::Lane::kBackground, [job] { solve(*job); },
-      [this, job] {
-        under_way_ = false;
-        cpu_seconds_ += job->cpu_seconds;
-        solution_ = job->solution;
-        on_used_(job->used);
-      });
+  const bool taken = bus_.offload(bus::Lane::kBackground, {"placement", [job] { solve(*job); }}, [this, job] {
+    under_way_ = false;
+    cpu_seconds_ += job->cpu_seconds;
+    solution_ = job->solution;
+    on_used_(job->used);
+  });
   if (taken) return;
   under_way_ = false;
   items_ = 0;  // no revision of a store that has an own node: the next refresh tries again

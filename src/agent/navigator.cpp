@@ -98,7 +98,7 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
     guided_at_ = bus_.now();
     guard_.on_pose(guided_at_);
   }));
-  watch_ = bus_.every(DriveGuard::kPeriod, [this] { watch(); });
+  watch_ = bus_.every(DriveGuard::kPeriod, {"drive guard", [this] { watch(); }});
 }
 
 /// Also when an exception ends the program.

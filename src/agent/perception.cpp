@@ -121,18 +121,19 @@ void Perception::start_next() {
   job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
-  const bool taken = bus_.offload(
-      bus::Lane::kPerception,
-      [this, job] {
-        const double start = thread_cpu_seconds();
-        for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
-        for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
-        Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
-        if (decoded) decoded->scan.stamp += job->clock_correction;
-        job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
-        job->cpu_seconds = thread_cpu_seconds() - start;
-      },
-      [this, job] { finish(*job); });
+  const bool taken =
+      bus_.offload(bus::Lane::kPerception,
+                   {"odometry",
+                    [this, job] {
+                      const double start = thread_cpu_seconds();
+                      for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
+                      for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
+                      Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
+                      if (decoded) decoded->scan.stamp += job->clock_correction;
+                      job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
+                      job->cpu_seconds = thread_cpu_seconds() - start;
+                    }},
+                   [this, job] { finish(*job); });
   if (taken) return;
   busy_ = false;
   warn("no thread for odometry", "a scan was dropped");

@@ -77,7 +77,17 @@ bool misses_scans(const agent::Perception& perception) {
   return perception.last_heard() - perception.last_scan() > kNoScan;
 }
 
-void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
+/// What threads were stuck so far, for the log; nothing if none was.
+void print_stalls(const AgentId& agent, const bus::DdsBus& bus) {
+  for (const bus::StallCounters& thread : bus.stalls()) {
+    if (thread.times == 0) continue;
+    spdlog::warn("{}: {} was stuck {} times so far, at most {:.1f} s in {}", agent.str(), thread.thread,
+                 thread.times, to_seconds(thread.longest), thread.longest_work);
+  }
+}
+
+void print_progress(const agent::Agent& agent, const bus::DdsBus& bus) {
+  print_stalls(agent.config().id, bus);
   const store::Store& store = agent.store();
   const bool none_yet = agent.perception().counters().scans == 0;
   if (misses_scans(agent.perception())) {
@@ -144,17 +154,19 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
 void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWatchdog* watchdog,
                     double exit_after_idle) {
   const std::atomic<bool>& stop = stop_on_signals();
-  const bus::Handle report = bus.every(kReportPeriod, [&] { print_progress(agent, bus); });
-  const bus::Handle traffic = bus.every(kTrafficPeriod, [&] {
-    log.add_traffic(bus.take_heard_traffic(), agent.asked_for_submaps(), bus.now());
-  });
-  const bus::Handle nodes = bus.every(kNodesPeriod, [&] { log.add_nodes(agent.store().nodes(), bus.now()); });
+  const bus::Handle report = bus.every(kReportPeriod, {"progress", [&] { print_progress(agent, bus); }});
+  const bus::Handle traffic = bus.every(
+      kTrafficPeriod, {"traffic log", [&] {
+                         log.add_traffic(bus.take_heard_traffic(), agent.asked_for_submaps(), bus.now());
+                       }});
+  const bus::Handle nodes =
+      bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().nodes(), bus.now()); }});
   bus::Handle check;
   bool rest_frozen = false;
   if (exit_after_idle > 0.0) {
-    check = bus.every(kCheckPeriod, [&, patience = from_seconds(exit_after_idle)] {
-      if (time_to_end(agent, bus, patience, rest_frozen)) bus.stop();
-    });
+    check = bus.every(kCheckPeriod, {"end of the mission", [&, patience = from_seconds(exit_after_idle)] {
+                                       if (time_to_end(agent, bus, patience, rest_frozen)) bus.stop();
+                                     }});
   }
   bus.run_until(stop);
   // Before anything that takes time.
@@ -269,7 +281,7 @@ int run(const AgentOptions& options) {
   const auto results = agent::write_results((*agent)->store(), (*agent)->config());
   if (!results) spdlog::warn("{}", results.error().message);
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
-                                      radio_access(config->dds, **bus));
+                                      radio_access(config->dds, **bus), (*bus)->stalls());
   if (!written) return report(written.error(), kFailed);
   if (results) {
     std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map.points

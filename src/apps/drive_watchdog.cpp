@@ -22,7 +22,7 @@ std::int64_t steady_ns() { return Duration(std::chrono::steady_clock::now().time
 DriveWatchdog::DriveWatchdog(bus::DdsBus& bus, const std::atomic<bool>& stop)
     : bus_(bus), stop_(stop), last_beat_(steady_ns()) {
   bus_.advertise(wire::topics::cmd_vel());
-  beat_ = bus_.every(kPeriod, [this] { last_beat_ = steady_ns(); });
+  beat_ = bus_.every(kPeriod, {"drive watchdog", [this] { last_beat_ = steady_ns(); }});
   thread_ = std::jthread([this](const std::stop_token& end) { run(end); });
 }
 

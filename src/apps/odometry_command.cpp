@@ -1,3 +1,4 @@
+#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -17,7 +18,9 @@
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
+#include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
 #include "options.hpp"
 #include "report.hpp"
 
@@ -91,7 +94,9 @@ class OdometryFeed {
   explicit OdometryFeed(const agent::PerceptionConfig& config)
       : config_(config), loam_(config.odometry, config.lidar) {}
 
-  void add(recording::Sample sample) {
+  /// `recorded` as Reader::recorded() has it.
+  void add(recording::Sample sample, std::optional<Stamp> recorded) {
+    if (!correct_clock(sample, recorded)) return;
     if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
       const Stamp end = sensor::end_of(*scan);
       waiting_.push_back({std::move(*scan), end});
@@ -124,6 +129,16 @@ class OdometryFeed {
     Stamp end;  ///< of its sweep
   };
 
+  /// False while it is too early to tell what the stamp means.
+  bool correct_clock(recording::Sample& sample, std::optional<Stamp> recorded) {
+    const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
+    now_ = std::max(now_, times_.of(sample, recorded));
+    clocks_.add(source, recording::stamp_of(sample), now_);
+    for (const std::string& news : clocks_.take_news()) spdlog::warn("{}", news);
+    std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
+    return !clocks_.unclear(source);
+  }
+
   bool due(const Waiting& first) const {
     const bool seen_through = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
     return seen_through || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
@@ -153,6 +168,9 @@ class OdometryFeed {
   OdometryRun run_;
   std::deque<Waiting> waiting_;
   std::optional<Stamp> imu_, wheel_;  ///< last heard
+  recording::PlayTimes times_;
+  sensor::ClockOffsets clocks_;
+  Stamp now_{};
 };
 
 Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
@@ -161,7 +179,7 @@ Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::Percept
     auto sample = reader.next();
     if (!sample) return tl::unexpected(sample.error());
     if (!*sample) return feed.finish();
-    feed.add(std::move(**sample));
+    feed.add(std::move(**sample), reader.recorded());
   }
 }
 

@@ -15,15 +15,16 @@ constexpr Duration kSameOccasion = std::chrono::hours(1);
 constexpr std::size_t kFixesThatAgree = 3;
 constexpr double kSiteRadius = 5000.0;  // m
 
-Status advance(recording::Reader& reader, std::optional<recording::Sample>& next) {
-  auto sample = reader.next();
-  next.reset();
+}  // namespace
+
+Status RecordingFeed::advance(Member& member) {
+  auto sample = member.reader->next();
+  member.next.reset();
   if (!sample) return tl::unexpected(sample.error());
-  next = std::move(*sample);
+  member.next = std::move(*sample);
+  if (member.next) member.due = member.times.of(*member.next, member.reader->recorded());
   return {};
 }
-
-}  // namespace
 
 Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
     const std::vector<config::RecordingConfig>& recordings, const std::optional<GeoPoint>& site_origin) {
@@ -33,8 +34,7 @@ Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
     if (!reader) return tl::unexpected(reader.error());
     Member member;
     member.reader = std::move(*reader);
-    if (const Status first = advance(*member.reader, member.next); !first)
-      return tl::unexpected(first.error());
+    if (const Status first = advance(member); !first) return tl::unexpected(first.error());
     if (!member.next) return failure(source.path.string() + ": the recording holds no sensor sample");
     feed->members_.push_back(std::move(member));
   }
@@ -72,12 +72,12 @@ void RecordingFeed::set_shifts(const std::vector<config::RecordingConfig>& recor
   Stamp earliest = Stamp::max();
   Stamp latest = Stamp::min();
   for (const Member& member : members_) {
-    earliest = std::min(earliest, recording::stamp_of(*member.next));
-    latest = std::max(latest, recording::stamp_of(*member.next));
+    earliest = std::min(earliest, member.due);
+    latest = std::max(latest, member.due);
   }
   const bool same_occasion = latest - earliest < kSameOccasion;
   for (std::size_t k = 0; k < members_.size(); ++k) {
-    const Stamp first = recording::stamp_of(*members_[k].next);
+    const Stamp first = members_[k].due;
     const std::optional<double>& start = recordings[k].start;
     if (start) {
       members_[k].shift = earliest + from_seconds(*start) - first;
@@ -98,13 +98,13 @@ Status RecordingFeed::begin(bus::LocalNetwork& network, Deliver deliver) {
 void RecordingFeed::schedule(std::size_t member) {
   Member& self = members_[member];
   if (!self.next) return;
-  network_->at(self.times.of(*self.next) + self.shift, [this, member] { play(member); });
+  network_->at(self.due + self.shift, [this, member] { play(member); });
 }
 
 void RecordingFeed::play(std::size_t member) {
   Member& self = members_[member];
   deliver_(member, *self.next, network_->now() - self.shift);
-  if (const Status read = advance(*self.reader, self.next); !read) {
+  if (const Status read = advance(self); !read) {
     // What was played so far is a recording too: say so and go on with the others.
     spdlog::error("{}", read.error().message);
     self.problem = read.error().message;

@@ -6,6 +6,7 @@
 
 #include "fleet_feed.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/recording/play_times.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -32,11 +33,13 @@ class RecordingFeed final : public FleetFeed {
   struct Member {
     std::unique_ptr<recording::Reader> reader;
     std::optional<recording::Sample> next;
-    PlayTimes times;
+    recording::PlayTimes times;
+    Stamp due;         ///< time of playing of `next`
     Duration shift{};  ///< virtual time = time of playing + shift
     std::string problem;
   };
   RecordingFeed() = default;
+  static Status advance(Member& member);
   Status find_origin(const config::RecordingConfig& recording);
   void set_shifts(const std::vector<config::RecordingConfig>& recordings);
   void schedule(std::size_t member);

@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
@@ -51,7 +52,7 @@ class Player {
     auto sample = reader_.next();
     if (!sample) return tl::unexpected(sample.error());
     next_ = std::move(*sample);
-    if (next_) due_ = times_.of(*next_);
+    if (next_) due_ = times_.of(*next_, reader_.recorded());
     return {};
   }
   void play_due() {
@@ -73,7 +74,7 @@ class Player {
   agent::SensorTopics names_;
   double rate_;
   std::optional<recording::Sample> next_;
-  PlayTimes times_;
+  recording::PlayTimes times_;
   Stamp due_;  ///< of `next_`
   Stamp first_stamp_;
   std::chrono::steady_clock::time_point started_;

@@ -71,13 +71,17 @@ json perception_json(const agent::Agent& agent) {
   const odometry::LoamCounters& loam = agent.perception().odometry_counters();
   const Distribution cpu = distribution(agent.scan_seconds());
   json behind = json::object();
+  json slow = json::object();
   for (std::size_t k = 0; k < sensor::kSources; ++k) {
     const auto source = static_cast<sensor::Source>(k);
     if (const auto seconds = agent.perception().clock_offsets().behind(source))
       behind[sensor::to_string(source)] = *seconds;
+    if (const auto ppm = agent.perception().clock_offsets().slow_ppm(source))
+      slow[sensor::to_string(source)] = *ppm;
   }
   return {
       {"stamps_behind_s", behind},
+      {"clocks_slow_ppm", slow},
       {"scans", seen.scans},
       {"imu", seen.imu},
       {"fixes", seen.fixes},
@@ -160,6 +164,17 @@ json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
     if (topic.dropped_messages > 0) drops[topic.topic] = topic.dropped_messages;
   }
   return drops;
+}
+
+json stalls_json(const std::vector<bus::StallCounters>& threads) {
+  json rows = json::array();
+  for (const bus::StallCounters& thread : threads) {
+    rows.push_back({{"thread", thread.thread},
+                    {"times", thread.times},
+                    {"longest_s", to_seconds(thread.longest)},
+                    {"longest_in", thread.longest_work}});
+  }
+  return rows;
 }
 
 /// Trajectories seen from above, north up; empty when there is none.
@@ -321,11 +336,13 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 }
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results, const RadioAccess& access) {
+                    const agent::Results* results, const RadioAccess& access,
+                    const std::vector<bus::StallCounters>& stalls) {
   json report = agent_report(agent, results);
   report["radio_access"] = {{"who_may_join", access.keys ? "members of the fleet" : "anyone"},
                             {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
+  report["stalls"] = stalls_json(stalls);
   return write_text(directory / "report.json", report.dump(2) + "\n");
 }
 

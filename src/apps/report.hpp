@@ -7,6 +7,7 @@
 
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/results.hpp"
+#include "fleetmap/bus/stall_detector.hpp"
 #include "run_profile.hpp"
 #include "virtual_fleet.hpp"
 
@@ -32,8 +33,9 @@ struct RadioAccess {
   bool keys = false;                 ///< else anyone
   std::vector<std::string> refused;  ///< robots with which no exchange was possible, and why
 };
-/// The same of one agent alone.
+/// The same of one agent alone; `stalls` of its bus's threads.
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results, const RadioAccess& access);
+                    const agent::Results* results, const RadioAccess& access,
+                    const std::vector<bus::StallCounters>& stalls);
 
 }  // namespace fleetmap::apps

@@ -21,13 +21,4 @@ EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics&
           std::visit([](const auto& s) { return wire::encode(s); }, sample)};
 }
 
-Stamp PlayTimes::of(const recording::Sample& sample) {
-  const Stamp stamp = recording::stamp_of(sample);
-  Clock& clock = clocks_[sample.index()];
-  // The reader gives out no other samples that are earlier than the one before.
-  if (clock.last && stamp < *clock.last) clock.set_back += *clock.last - stamp;
-  clock.last = stamp;
-  return stamp + clock.set_back;
-}
-
 }  // namespace fleetmap::apps

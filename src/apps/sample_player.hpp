@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <variant>
 #include <vector>
 
 #include "fleetmap/agent/perception.hpp"
@@ -20,19 +17,5 @@ struct EncodedSample {
   Bytes cdr;
 };
 EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics& names);
-
-/// When samples are played: at their stamps, but a sensor whose clock was set back goes on without a break.
-class PlayTimes {
- public:
-  /// Samples in the order in which they are played.
-  Stamp of(const recording::Sample& sample);
-
- private:
-  struct Clock {
-    std::optional<Stamp> last;
-    Duration set_back{};
-  };
-  std::array<Clock, std::variant_size_v<recording::Sample>> clocks_;
-};
 
 }  // namespace fleetmap::apps

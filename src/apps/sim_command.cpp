@@ -80,7 +80,7 @@ class LiveRobot {
         twin_.command(command->forward_speed, command->yaw_rate);
     }));
     if (twin_.config().guided) lead();
-    handles_.push_back(bus_->every(kTick, [this] { tick(); }));
+    handles_.push_back(bus_->every(kTick, {"twin", [this] { tick(); }}));
     handles_.push_back(bus_->every(kBatteryPeriod, [this] {
       bus_->publish(wire::topics::battery(),
                     wire::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));

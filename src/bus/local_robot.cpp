@@ -91,9 +91,9 @@ Handle LocalRobot::subscribe(const Topic& topic, OnMessage on_message) {
   });
 }
 
-Handle LocalRobot::every(Duration period, std::function<void()> callback) {
+Handle LocalRobot::every(Duration period, Work callback) {
   if (period <= Duration::zero()) throw std::logic_error("a timer's period must be > 0");
-  auto timer = std::make_shared<Timer>(Timer{period, std::move(callback)});
+  auto timer = std::make_shared<Timer>(Timer{period, std::move(callback.run)});
   schedule(events_, timer, state_, events_.now() + period);
   return Handle([timer] { timer->active = false; });
 }
@@ -107,11 +107,11 @@ void LocalRobot::schedule(EventQueue& events, const std::shared_ptr<Timer>& time
   });
 }
 
-bool LocalRobot::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+bool LocalRobot::offload(Lane lane, Work work, std::function<void()> done) {
   const auto index = static_cast<std::size_t>(lane);
   LaneState& state = state_->lanes[index];
   if (state.waiting.size() >= kMostWork) return false;
-  state.waiting.push_back({std::move(work), std::move(done)});
+  state.waiting.push_back({std::move(work.run), std::move(done)});
   if (state.busy) return true;
   state.busy = true;
   events_.post(

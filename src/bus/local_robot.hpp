@@ -30,8 +30,8 @@ class LocalRobot final : public Bus {
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
   std::optional<AgentId> sender() const override { return state_->sender; }
-  [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
-  bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
+  [[nodiscard]] Handle every(Duration period, Work callback) override;
+  bool offload(Lane lane, Work work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
 
   bool subscribes(const Topic& topic) const;

@@ -117,12 +117,14 @@ class BagReader : public CheckedReader {
 
   Result<std::optional<Sample>> next() override {
     while (!ended_) {
+      recorded_.reset();
       auto sample = advance();
       if (!sample) ended_ = true;
       if (!sample || *sample) return sample;
     }
     return std::optional<Sample>();
   }
+  std::optional<Stamp> recorded() const override { return recorded_; }
 
  private:
   /// One message further; empty when it gave no sample.
@@ -165,6 +167,7 @@ class BagReader : public CheckedReader {
     if (to_ns(stamp_of(*sample)) == 0 && row.integer(1) > 1'000'000'000)
       restamp(*sample, row.integer(1), topic->second);
     if (!admit(*sample)) return std::optional<Sample>();
+    recorded_ = stamp_from_ns(row.integer(1));
     return sample;
   }
 
@@ -212,6 +215,7 @@ class BagReader : public CheckedReader {
   std::size_t next_file_ = 0;
   std::optional<Split> split_;
   bool ended_ = false;
+  std::optional<Stamp> recorded_;
 };
 
 }  // namespace

@@ -2,27 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <utility>
+
+#include "time_scales.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr Duration kWindow = std::chrono::seconds(5);
 /// Samples of so long, and so many, tell a sensor's lag; a GPS may give one a second.
 constexpr Duration kLearning = std::chrono::milliseconds(1500);
-/// A step is believed after so many late samples in a row over so long: what a program that was stopped finds
-/// waiting comes all at once.
-constexpr int kStepSamples = 3;
-constexpr Duration kStepTime = std::chrono::milliseconds(150);
+/// A computer that is starting up is busy; samples that are still late after this have another clock.
+constexpr Duration kProving = std::chrono::seconds(10);
+/// The second sensor follows the first within this.
+constexpr Duration kAlone = std::chrono::milliseconds(300);
 /// When a clock is set that all sensors share, they show it one after the other.
-constexpr Duration kTellAfter = std::chrono::seconds(3);
+constexpr Duration kTellAfter = std::chrono::seconds(4);
 /// s: sensors whose lags differ by less share a clock.
 constexpr double kTogether = 0.5;
 /// s: a correction that was begun stays until the clock is nearer than this.
 constexpr double kStillWrong = 0.5;
 /// A correction follows a clock that drifts: beyond this many s of difference, by so much in a second.
 constexpr double kDeadBand = 0.02, kSlew = 0.01;
+/// s/s: clocks whose rates differ by less are taken for one.
+constexpr double kSameRate = 20e-6;
+/// A drift is one beyond this rate and so many standard deviations, when it has come to so many s: a computer
+/// that becomes busier delays samples by less.
+constexpr double kDrift = 30e-6, kCertain = 5.0, kVisible = 0.05;
+/// ... and to so many times what the lags scatter about the line, which a step does not.
+constexpr double kStraight = 10.0;
+
+constexpr double kMillion = 1e6;
 
 }  // namespace
 
@@ -31,120 +42,185 @@ const char* to_string(Source source) {
   return kNames[static_cast<std::size_t>(source)];
 }
 
-bool ClockOffsets::stepped(Track& track, double lag, Stamp arrival) {
-  if (!track.known || lag < track.lag() + kWrong) {
-    track.late = 0;
-    track.least_late = kNone;
-    return false;
+void ClockOffsets::add(Source source, Stamp stamp, Stamp arrival) {
+  Track& own = tracks_[static_cast<std::size_t>(source)];
+  if (!own.begun) own.begun = arrival;
+  own.last_stamp = stamp;
+  if (own.envelope.add(stamp, arrival)) {
+    own.forget_drift();
+    own.certain = true;
   }
-  if (track.late++ == 0) track.late_since = arrival;
-  track.least_late = std::min(track.least_late, lag);
-  return track.late >= kStepSamples && arrival - *track.late_since >= kStepTime;
+  const Duration heard = arrival - *own.begun;
+  if (!own.known) own.certain = own.known = heard >= kProving || (heard >= kLearning && !may_be_late(own));
+  const Duration since = std::max(Duration::zero(), arrival - last_arrival_.value_or(arrival));
+  last_arrival_ = arrival;
+  if (own.drift.add(arrival, to_seconds(arrival - stamp))) {
+    if (!own.behind_at_first) own.behind_at_first = behind(source);
+    find_drifts();
+  }
+  const auto right = right_lag();
+  if (!right) return;
+  for (std::size_t k = 0; k < kSources; ++k) {
+    if (tracks_[k].known) judge(static_cast<Source>(k), *right, since, arrival);
+  }
 }
 
-void ClockOffsets::add(Source source, Stamp stamp, Stamp arrival) {
-  Track& track = tracks_[static_cast<std::size_t>(source)];
-  const double lag = to_seconds(arrival - stamp);
-  if (!track.begun) track.begun = track.window_begun = arrival;
-  if (stepped(track, lag, arrival)) {
-    track.before = track.least_late;
-    track.now = lag;
-    track.late = 0;
-    track.window_begun = arrival;
-  } else if (arrival - track.window_begun >= kWindow) {
-    track.before = track.now;
-    track.now = lag;
-    track.window_begun = arrival;
-  } else {
-    track.now = std::min(track.now, lag);
-  }
-  track.known = track.known || arrival - *track.begun >= kLearning;
-  const Stamp since = std::min(last_arrival_.value_or(arrival), arrival);
-  last_arrival_ = arrival;
-  judge(since, arrival);
+std::size_t ClockOffsets::sharing(double lag) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      tracks_, [lag](const Track& other) { return other.begun && std::abs(other.lag() - lag) < kTogether; }));
+}
+
+bool ClockOffsets::may_be_late(const Track& track) const {
+  return std::ranges::any_of(tracks_, [&](const Track& other) {
+    const double late = track.lag() - other.lag();
+    return other.begun && late > kWrong && late < LagEnvelope::kMostLate &&
+           sharing(other.lag()) >= sharing(track.lag());
+  });
 }
 
 std::optional<double> ClockOffsets::right_lag() const {
   std::vector<double> lags;
+  std::size_t known = 0, learning = 0;
   for (const Track& track : tracks_) {
-    if (track.known) lags.push_back(track.lag());
+    known += track.known;
+    learning += track.begun && !track.known;
+    if (track.known && !track.slow) lags.push_back(track.lag());
   }
-  if (lags.size() < 2) return std::nullopt;
+  if (known < 2 || lags.empty()) return std::nullopt;
+  std::ranges::sort(lags);
   std::optional<double> right;
   std::ptrdiff_t most = 0;
+  bool tie = false;
   for (const double lag : lags) {
+    // The least of a clock's lags is the one that drivers added least to.
     const auto together =
-        std::ranges::count_if(lags, [lag](double other) { return std::abs(other - lag) < kTogether; });
-    if (together > most || (together == most && std::abs(lag) < std::abs(*right))) {
+        std::ranges::count_if(lags, [lag](double other) { return other >= lag && other - lag < kTogether; });
+    tie = together == most || (tie && together < most);
+    if (together > most || (tie && together == most && std::abs(lag) < std::abs(*right))) right = lag;
+    most = std::max(most, together);
+  }
+  // Those that are heard since a moment decide soon.
+  return tie && learning > 0 ? std::nullopt : right;
+}
+
+std::optional<double> ClockOffsets::behind(Source source) const {
+  const auto right = right_lag();
+  if (!right || !track(source).known) return std::nullopt;
+  return track(source).lag() - *right;
+}
+
+std::optional<double> ClockOffsets::slow_ppm(Source source) const {
+  const auto& slow = track(source).slow;
+  return slow ? std::optional(kMillion * *slow) : std::nullopt;
+}
+
+std::optional<ClockDrift::Line> ClockOffsets::right_rate() const {
+  std::vector<ClockDrift::Line> lines;
+  for (const Track& track : tracks_) {
+    if (const auto line = track.drift.line(); line && track.known) lines.push_back(*line);
+  }
+  if (lines.size() < 2) return std::nullopt;
+  std::optional<ClockDrift::Line> right;
+  std::ptrdiff_t most = 0;
+  for (const ClockDrift::Line& line : lines) {
+    const auto together = std::ranges::count_if(
+        lines, [&](const auto& other) { return std::abs(other.slope - line.slope) < kSameRate; });
+    if (together > most || (together == most && std::abs(line.slope) < std::abs(right->slope))) {
       most = together;
-      right = lag;
+      right = line;
     }
   }
   return right;
 }
 
-std::optional<double> ClockOffsets::behind(Source source) const {
-  const Track& track = tracks_[static_cast<std::size_t>(source)];
-  const auto right = right_lag();
-  if (!right || !track.known) return std::nullopt;
-  return track.lag() - *right;
-}
-
-void ClockOffsets::judge(Stamp since, Stamp arrival) {
-  const auto right = right_lag();
-  if (!right) return;
+void ClockOffsets::find_drifts() {
+  const auto right = right_rate();
   for (std::size_t k = 0; k < kSources; ++k) {
-    Track& track = tracks_[k];
-    if (!track.known) continue;
-    const double behind = track.lag() - *right;
-    const double least = track.correction == 0.0 ? kWrong : kStillWrong;
-    const double wanted = std::abs(behind) > least ? behind : 0.0;
-    const double change = wanted - track.correction;
-    if (std::abs(change) > kWrong || (wanted == 0.0) != (track.correction == 0.0)) {
-      track.correction = wanted;
-    } else if (std::abs(change) > kDeadBand) {
-      const double most = kSlew * to_seconds(arrival - since);
-      track.correction += std::clamp(change, -most, most);
-    }
-    tell(static_cast<Source>(k), behind, arrival);
+    Track& own = tracks_[k];
+    const auto line = own.drift.line();
+    if (!right || !line || !own.behind_at_first) continue;
+    const double slow = line->slope - right->slope;
+    const bool certain = std::abs(slow) > kDrift &&
+                         std::abs(slow) > kCertain * std::hypot(line->deviation, right->deviation) &&
+                         std::abs(slow) * line->span > std::max(kVisible, kStraight * line->scatter);
+    const bool fresh = certain && !own.slow;
+    own.slow = certain ? std::optional(slow) : std::nullopt;
+    if (fresh) tell_drift(static_cast<Source>(k), slow);
   }
 }
 
-void ClockOffsets::tell(Source source, double behind, Stamp arrival) {
-  Track& track = tracks_[static_cast<std::size_t>(source)];
-  const bool is_off = std::abs(behind) > kTold;
-  if (is_off ? std::abs(behind - track.told) < kTold : track.told == 0.0) return track.untold_since.reset();
-  if (!track.untold_since) track.untold_since = arrival;
-  if (arrival - *track.untold_since < kTellAfter) return;
-  track.untold_since.reset();
-  track.told = is_off ? behind : 0.0;
+void ClockOffsets::judge(Source source, double right, Duration since, Stamp arrival) {
+  Track& own = tracks_[static_cast<std::size_t>(source)];
+  const double behind = own.lag() - right;
+  const double drifted = own.slow ? behind - *own.behind_at_first : 0.0;
+  const double offset = behind - drifted;
+  const bool was_off = std::exchange(own.is_off, std::abs(offset) > (own.is_off ? kStillWrong : kWrong));
+  const double wanted = (own.is_off ? nearest_of_time_scales(offset) : 0.0) + drifted;
+  const double change = wanted - own.correction;
+  const bool leaps = std::abs(change) > kWrong;
+  if (!leaps) own.leap_begun.reset();
+  if (leaps && !own.leap_begun) own.leap_begun = arrival;
+  // Samples that were all late come on time again one sensor after the other.
+  if (leaps && !own.certain && arrival - *own.leap_begun < kLearning) {
+    own.is_off = was_off;
+    return;
+  }
+  own.certain = false;
+  own.leap_begun.reset();
+  if (leaps || was_off != own.is_off) {
+    own.correction = wanted;
+    if (leaps) own.forget_drift();
+  } else if (std::abs(change) > kDeadBand) {
+    const double most = kSlew * to_seconds(since);
+    own.correction += std::clamp(change, -most, most);
+  }
+  tell_offset(source, offset, arrival);
+}
+
+void ClockOffsets::tell_offset(Source source, double offset, Stamp arrival) {
+  Track& own = tracks_[static_cast<std::size_t>(source)];
+  const bool is_off = std::abs(offset) > kTold;
+  if (is_off ? std::abs(offset - own.told) < kTold : own.told == 0.0) return own.untold_since.reset();
+  if (!own.untold_since) own.untold_since = arrival;
+  // What is not corrected may be late samples of a busy computer.
+  if (arrival - *own.untold_since < (own.is_off || !is_off ? kTellAfter : kProving)) return;
+  own.untold_since.reset();
+  own.told = is_off ? offset : 0.0;
   std::ostringstream text;
-  text.precision(2);
-  text << std::fixed << to_string(source);
+  text << std::fixed << std::setprecision(2) << to_string(source);
   if (!is_off) {
     text << ": stamps agree with those of the other sensors again";
   } else {
-    text << ": stamps are " << std::abs(behind) << " s " << (behind > 0.0 ? "behind" : "ahead of")
-         << " those of the other sensors; "
-         << (track.correction != 0.0 ? "they are corrected by that, to about 0.1 s: set the sensor's clock "
-                                       "(PTP, GPS or the driver's "
-                                       "system time)"
-                                     : "if that is no slow driver, set the sensor's clock");
+    const double exact = own.is_off ? nearest_of_time_scales(offset) : offset;
+    text << ": stamps are " << std::abs(exact) << " s " << (offset > 0.0 ? "behind" : "ahead of")
+         << " those of the other sensors" << reason_of(offset, own.last_stamp) << "; "
+         << (own.is_off ? "they are corrected by that: set the sensor's clock (PTP, GPS or the driver's "
+                          "system time)"
+                        : "if that is no slow driver, set the sensor's clock");
   }
   news_.push_back(text.str());
 }
 
-bool ClockOffsets::unclear(Source source) const {
-  const Track& track = tracks_[static_cast<std::size_t>(source)];
-  if (!track.begun || track.known) return false;
-  return std::ranges::any_of(tracks_, [&](const Track& other) {
-    return other.begun && std::abs(other.lag() - track.lag()) > kWrong;
-  });
+void ClockOffsets::tell_drift(Source source, double slow) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(0) << to_string(source) << ": its clock runs "
+       << kMillion * std::abs(slow) << " ppm too " << (slow > 0.0 ? "slow" : "fast")
+       << " against those of the other sensors; its stamps are corrected by that: synchronise it (PTP, GPS)";
+  news_.push_back(text.str());
 }
 
-Duration ClockOffsets::correction(Source source) const {
-  return from_seconds(tracks_[static_cast<std::size_t>(source)].correction);
+bool ClockOffsets::unclear(Source source) const {
+  const Track& own = track(source);
+  if (!own.begun) return false;
+  if (own.known && right_lag()) return own.leap_begun.has_value();
+  const bool alone =
+      std::ranges::count_if(tracks_, [](const Track& other) { return other.begun.has_value(); }) == 1;
+  if (alone) return std::abs(own.lag()) > kWrong && *last_arrival_ - *own.begun < kAlone;
+  return std::ranges::any_of(
+      tracks_, [&](const Track& other) { return other.begun && std::abs(other.lag() - own.lag()) > kWrong; });
 }
+
+Duration ClockOffsets::correction(Source source) const { return from_seconds(track(source).correction); }
 
 std::vector<std::string> ClockOffsets::take_news() { return std::exchange(news_, {}); }
 

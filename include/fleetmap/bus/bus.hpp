@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fleetmap/bus/work.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
@@ -89,7 +90,7 @@ class Bus {
   virtual std::optional<AgentId> sender() const = 0;
 
   /// Calls `callback` at now() + period, and again every period, until the handle goes.
-  [[nodiscard]] virtual Handle every(Duration period, std::function<void()> callback) = 0;
+  [[nodiscard]] virtual Handle every(Duration period, Work callback) = 0;
 
   /// Items of a lane that may wait.
   static constexpr std::size_t kMostWork = 256;
@@ -97,7 +98,7 @@ class Bus {
   /// Runs `work` off the callback thread, then `done` on it. In virtual time `done` follows after a set time,
   /// so results do not depend on the machine. Returns false, and runs neither, while kMostWork items of the
   /// lane wait.
-  virtual bool offload(Lane lane, std::function<void()> work, std::function<void()> done) = 0;
+  virtual bool offload(Lane lane, Work work, std::function<void()> done) = 0;
 
   virtual std::vector<TopicStats> stats() const = 0;
 

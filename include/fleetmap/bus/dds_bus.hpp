@@ -12,6 +12,7 @@
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/bus/fleet_settings.hpp"
 #include "fleetmap/bus/radio_survey.hpp"
+#include "fleetmap/bus/stall_detector.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 
@@ -99,8 +100,8 @@ class DdsBus final : public Bus {
   void publish(const Topic& topic, const Bytes& cdr) override;
   [[nodiscard]] Handle subscribe(const Topic& topic, OnMessage on_message) override;
   std::optional<AgentId> sender() const override;
-  [[nodiscard]] Handle every(Duration period, std::function<void()> callback) override;
-  bool offload(Lane lane, std::function<void()> work, std::function<void()> done) override;
+  [[nodiscard]] Handle every(Duration period, Work callback) override;
+  bool offload(Lane lane, Work work, std::function<void()> done) override;
   std::vector<TopicStats> stats() const override;
   std::uint64_t discovery_bytes(Link link) const override;
 
@@ -109,7 +110,7 @@ class DdsBus final : public Bus {
   void finish_work();
 
   /// Runs `callback` on the callback thread; false, and it does not, while thousands of them wait.
-  bool post(std::function<void()> callback);
+  bool post(Work callback);
 
   /// Runs callbacks until `stop()`, which may have been called already.
   void run();
@@ -135,6 +136,10 @@ class DdsBus final : public Bus {
 
   /// What the links run without because this machine has not enough of it, with the remedy.
   std::vector<std::string> warnings() const;
+
+  /// How often the callback thread and the threads of the lanes were stuck in one piece of work, from any
+  /// thread. The log tells of each.
+  std::vector<StallCounters> stalls() const;
 
  private:
   struct State;

@@ -81,6 +81,8 @@ class Reader {
   virtual ~Reader() = default;
   /// The next sample; empty at the end. An Error says that the rest cannot be read; after it comes the end.
   virtual Result<std::optional<Sample>> next() = 0;
+  /// When the sample that next() gave last was recorded; nothing where the recording does not tell.
+  virtual std::optional<Stamp> recorded() const { return std::nullopt; }
   virtual const Counters& counters() const = 0;
 };
 

@@ -3,12 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/sensor/clock_drift.hpp"
+#include "fleetmap/sensor/lag_envelope.hpp"
 
 namespace fleetmap::sensor {
 
@@ -16,12 +17,13 @@ enum class Source : std::uint8_t { kLidar, kImu, kGps, kWheel };
 inline constexpr std::size_t kSources = 4;
 const char* to_string(Source source);
 
-/// Finds sensors whose stamps are of another clock than those of the others, from when samples come.
+/// Finds sensors whose stamps are of another clock than those of the others, from when samples arrive: live
+/// by the bus's clock, in recordings by the times at which they were recorded.
 ///
-/// A sample comes some time after its stamp; the least of these lags over the last seconds is the same for
-/// sensors of one clock, but for what a driver takes to hand a sample on. The clock that most sensors share
-/// (of equally many, the one nearest to the computer's) is taken as right. Stamps that are more than kWrong
-/// off are corrected, to about 0.1 s; what is off by less may be a slow driver and is only told.
+/// The clock that most sensors share (of equally many, the one nearest to the computer's) is taken as right.
+/// Stamps that are more than kWrong off are corrected: exactly, where the difference is one that time scales
+/// have, else to about 0.1 s, which drivers take to hand a sample on. What is off by less may be a slow
+/// driver and is only reported. A clock that drifts against the right one is reported in ppm, and followed.
 class ClockOffsets {
  public:
   static constexpr double kTold = 0.5;   ///< s
@@ -29,37 +31,52 @@ class ClockOffsets {
 
   /// `arrival` is of a clock that nobody sets.
   void add(Source source, Stamp stamp, Stamp arrival);
-  /// The stamps of `source` contradict those of another sensor, and it is too early to say which is right:
-  /// in the first 1.5 s of a sensor.
+  /// The stamps of `source` contradict those of another sensor, and it is too early to tell which is right:
+  /// in its first 1.5 s, or, while its samples may only be late, in its first 10 s; and for 1.5 s after it
+  /// went ahead.
   bool unclear(Source source) const;
   /// What is to be added to the stamps of `source`; zero unless they are wrong.
   Duration correction(Source source) const;
   /// How far the stamps of `source` are behind those of the clock that is right (s); nothing until that is
   /// known.
   std::optional<double> behind(Source source) const;
+  /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
+  std::optional<double> slow_ppm(Source source) const;
   /// Sentences for a person, each once.
   std::vector<std::string> take_news();
 
  private:
-  static constexpr double kNone = std::numeric_limits<double>::infinity();
   struct Track {
     std::optional<Stamp> begun;  ///< arrival of the first sample
-    Stamp window_begun;
-    double before = kNone, now = kNone;  ///< s, least lag in the window before and in this one
-    std::optional<Stamp> late_since;     ///< arrival of the first of the samples in a row that are far later
-    int late = 0;
-    double least_late = kNone;  ///< s
+    Stamp last_stamp;
+    LagEnvelope envelope;
+    ClockDrift drift;
+    std::optional<double> behind_at_first;  ///< s, when the first bucket of `drift` was complete
     bool known = false;
-    double correction = 0.0;  ///< s
-    double told = 0.0;        ///< s, the offset that was told last
+    bool certain = false;             ///< an offset that is found next is not that of late samples
+    std::optional<Stamp> leap_begun;  ///< since when the correction is wrong, if samples are not late
+    bool is_off = false;              ///< by a constant offset that is corrected
+    std::optional<double> slow;       ///< s/s, while it drifts
+    double correction = 0.0;          ///< s
+    double told = 0.0;                ///< s, the offset that was told last
     std::optional<Stamp> untold_since;
-    double lag() const { return before < now ? before : now; }
+    double lag() const { return envelope.least(); }
+    void forget_drift() {
+      drift.reset();
+      behind_at_first.reset();
+      slow.reset();
+    }
   };
-  /// The stamps have made a step; true when that is certain.
-  static bool stepped(Track& track, double lag, Stamp arrival);
-  void judge(Stamp since, Stamp arrival);
-  void tell(Source source, double behind, Stamp arrival);
+  const Track& track(Source source) const { return tracks_[static_cast<std::size_t>(source)]; }
+  std::size_t sharing(double lag) const;
+  /// It may be that the samples are only late.
+  bool may_be_late(const Track& track) const;
   std::optional<double> right_lag() const;
+  std::optional<ClockDrift::Line> right_rate() const;
+  void find_drifts();
+  void judge(Source source, double right, Duration since, Stamp arrival);
+  void tell_offset(Source source, double offset, Stamp arrival);
+  void tell_drift(Source source, double slow);
 
   std::array<Track, kSources> tracks_;
   std::optional<Stamp> last_arrival_;

@@ -13,6 +13,7 @@
 #include "participant_qos.hpp"
 #include "qos_file.hpp"
 #include "radio_link.hpp"
+#include "work_watchdog.hpp"
 #include "worker.hpp"
 
 namespace fleetmap::bus {
@@ -20,6 +21,9 @@ namespace {
 
 constexpr std::array kLinks = {Link::kOnboard, Link::kLongRange, Link::kShortRange};
 constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
+/// A scan takes some ms, a registration seconds on a slow computer.
+constexpr Duration kPerceptionStuckAfter = std::chrono::seconds(2);
+constexpr Duration kBackgroundStuckAfter = std::chrono::seconds(20);
 
 }  // namespace
 
@@ -66,8 +70,14 @@ struct DdsBus::State {
   std::map<Link, std::shared_ptr<LinkEnd>> links;
   std::mutex disabled_mutex;  ///< guards disabled
   std::map<std::pair<Link, std::string>, TopicStats> disabled;
-  Worker perception{executor};
-  Worker background{executor};
+  Worker perception{executor, kPerceptionStuckAfter};
+  Worker background{executor, kBackgroundStuckAfter};
+  WorkWatchdog watchdog;
+
+  explicit State(const AgentId& agent)
+      : watchdog(agent.str(), {{"callback thread", executor->record()},
+                               {"perception thread", perception.record()},
+                               {"background thread", background.record()}}) {}
 
   LinkEnd* link(const Topic& topic) const {
     const auto entry = links.find(topic.link);
@@ -81,7 +91,7 @@ Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsBusConfig& config) {
   eprosima::fastrtps::LibrarySettingsAttributes settings;
   settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
   eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
-  auto state = std::make_unique<State>();
+  auto state = std::make_unique<State>(config.agent);
   for (const Link link : kLinks) {
     const DdsLinkConfig& own = config_of(config, link);
     if (!own.enabled) continue;
@@ -133,12 +143,12 @@ std::optional<AgentId> DdsBus::sender() const {
   return std::nullopt;
 }
 
-Handle DdsBus::every(Duration period, std::function<void()> callback) {
+Handle DdsBus::every(Duration period, Work callback) {
   if (period <= Duration::zero()) throw std::logic_error("a timer's period must be > 0");
   return Handle(state_->executor->add_timer(period, std::move(callback)));
 }
 
-bool DdsBus::offload(Lane lane, std::function<void()> work, std::function<void()> done) {
+bool DdsBus::offload(Lane lane, Work work, std::function<void()> done) {
   Worker& worker = lane == Lane::kPerception ? state_->perception : state_->background;
   return worker.add(std::move(work), std::move(done));
 }
@@ -155,6 +165,8 @@ std::vector<std::string> DdsBus::warnings() const {
   }
   return all;
 }
+
+std::vector<StallCounters> DdsBus::stalls() const { return state_->watchdog.counters(); }
 
 RadioSurvey DdsBus::survey(Link link) const {
   const auto entry = state_->links.find(link);
@@ -180,7 +192,10 @@ std::vector<HeardTraffic> DdsBus::take_heard_traffic() {
   return all;
 }
 
-bool DdsBus::post(std::function<void()> callback) { return state_->executor->try_post(std::move(callback)); }
+bool DdsBus::post(Work callback) {
+  if (callback.name.empty()) callback.name = "posted work";
+  return state_->executor->try_post(std::move(callback));
+}
 
 void DdsBus::run() {
   while (!state_->executor->stopped()) state_->executor->run_one(Executor::Clock::time_point::max());

@@ -5,7 +5,7 @@
 
 namespace fleetmap::bus {
 
-void Executor::post(std::function<void()> callback) {
+void Executor::post(Work callback) {
   {
     const std::scoped_lock lock(mutex_);
     posted_.push_back(std::move(callback));
@@ -13,7 +13,7 @@ void Executor::post(std::function<void()> callback) {
   changed_.notify_one();
 }
 
-bool Executor::try_post(std::function<void()> callback) {
+bool Executor::try_post(Work callback) {
   {
     const std::scoped_lock lock(mutex_);
     if (posted_.size() >= kMostPosted) return false;
@@ -44,7 +44,7 @@ bool Executor::stopped() const {
   return stopped_;
 }
 
-std::function<void()> Executor::add_timer(Duration period, std::function<void()> callback) {
+std::function<void()> Executor::add_timer(Duration period, Work callback) {
   auto timer = std::make_shared<Timer>(Timer{period, std::move(callback)});
   {
     const std::scoped_lock lock(mutex_);
@@ -56,7 +56,7 @@ std::function<void()> Executor::add_timer(Duration period, std::function<void()>
   };
 }
 
-std::function<void()> Executor::take_timer(Clock::time_point now) {
+std::optional<Work> Executor::take_timer(Clock::time_point now) {
   while (!timers_.empty() && timers_.begin()->first <= now) {
     auto entry = timers_.extract(timers_.begin());
     const auto timer = entry.mapped();
@@ -65,14 +65,14 @@ std::function<void()> Executor::take_timer(Clock::time_point now) {
     const auto late = (now - entry.key()) / timer->period;
     entry.key() += std::chrono::duration_cast<Clock::duration>(timer->period * (late + 1));
     timers_.insert(std::move(entry));
-    return [timer] {
-      if (timer->active) timer->callback();
-    };
+    return Work{"timer " + timer->callback.name, [timer] {
+                  if (timer->active) timer->callback.run();
+                }};
   }
-  return nullptr;
+  return std::nullopt;
 }
 
-std::function<void()> Executor::take_due(Clock::time_point now) {
+std::optional<Work> Executor::take_due(Clock::time_point now) {
   // Timers that take longer than their period would else keep messages waiting for ever, and a flood of
   // messages the timers.
   const bool after_timer = std::exchange(timer_ran_last_, false);
@@ -82,8 +82,11 @@ std::function<void()> Executor::take_due(Clock::time_point now) {
       return timer;
     }
   }
-  if (posted_.empty()) return std::exchange(woken_, false) ? [] {} : std::function<void()>();
-  auto next = std::move(posted_.front());
+  if (posted_.empty()) {
+    if (!std::exchange(woken_, false)) return std::nullopt;
+    return Work([] {});
+  }
+  std::optional<Work> next(std::move(posted_.front()));
   posted_.pop_front();
   return next;
 }
@@ -92,9 +95,9 @@ bool Executor::run_one(Clock::time_point deadline) {
   std::unique_lock lock(mutex_);
   while (!stopped_) {
     const auto now = Clock::now();
-    if (auto due = take_due(now)) {
+    if (const auto due = take_due(now)) {
       lock.unlock();
-      due();
+      record_->run(*due);
       return true;
     }
     if (now >= deadline) return false;

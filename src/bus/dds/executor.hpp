@@ -7,8 +7,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "fleetmap/core/time.hpp"
+#include "work_watchdog.hpp"
 
 namespace fleetmap::bus {
 
@@ -19,37 +21,43 @@ class Executor {
   using Clock = std::chrono::steady_clock;
 
   static constexpr std::size_t kMostPosted = 4096;
+  /// Of one callback: afterwards the thread is stuck.
+  static constexpr Duration kStuckAfter = std::chrono::seconds(2);
 
   /// From any thread, as the next three. For callers that bound what waits: one callback for each message in
   /// an inbox, one for each work item.
-  void post(std::function<void()> callback);
+  void post(Work callback);
   /// False, and nothing is posted, while kMostPosted callbacks wait.
-  [[nodiscard]] bool try_post(std::function<void()> callback);
+  [[nodiscard]] bool try_post(Work callback);
   /// Makes a waiting run_one return.
   void wake();
   void stop();
   bool stopped() const;
 
   /// Calls back every `period` (> 0) until the returned function is called, on the callback thread.
-  std::function<void()> add_timer(Duration period, std::function<void()> callback);
+  std::function<void()> add_timer(Duration period, Work callback);
 
   /// Runs what is due next, waiting for it until `deadline` at the longest; false if nothing came or it is
   /// stopped.
   bool run_one(Clock::time_point deadline);
 
+  /// What the callback thread does.
+  const std::shared_ptr<WorkRecord>& record() const { return record_; }
+
  private:
   struct Timer {
     Duration period;
-    std::function<void()> callback;
+    Work callback;
     bool active = true;  ///< callback thread only
   };
 
-  std::function<void()> take_due(Clock::time_point now);
-  std::function<void()> take_timer(Clock::time_point now);
+  std::optional<Work> take_due(Clock::time_point now);
+  std::optional<Work> take_timer(Clock::time_point now);
 
+  const std::shared_ptr<WorkRecord> record_ = std::make_shared<WorkRecord>(kStuckAfter);
   mutable std::mutex mutex_;  ///< guards all below
   std::condition_variable changed_;
-  std::deque<std::function<void()>> posted_;
+  std::deque<Work> posted_;
   std::multimap<Clock::time_point, std::shared_ptr<Timer>> timers_;
   bool timer_ran_last_ = false;
   bool woken_ = false;

@@ -28,10 +28,10 @@ LinkEnd::Entry& LinkEnd::entry_of(const Topic& topic) {
   return topics_.emplace(topic.name, std::move(entry)).first->second;
 }
 
-std::function<void()> LinkEnd::dispatcher(const std::string& topic) {
-  return [link = weak_from_this(), topic] {
-    if (const auto alive = link.lock()) alive->dispatch(topic);
-  };
+Work LinkEnd::dispatcher(const std::string& topic) {
+  return {"topic " + topic, [link = weak_from_this(), topic] {
+            if (const auto alive = link.lock()) alive->dispatch(topic);
+          }};
 }
 
 void LinkEnd::advertise(const Topic& topic) {

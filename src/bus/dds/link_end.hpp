@@ -57,7 +57,7 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   /// The robot that the participant belongs to. Only radios know.
   virtual std::optional<AgentId> robot_of(const Inbox::Sender&) const { return std::nullopt; }
   /// A message of `topic` lies in its inbox. From any thread; takes no lock.
-  std::function<void()> dispatcher(const std::string& topic);
+  Work dispatcher(const std::string& topic);
 
   const Link link_;
   const DdsLinkConfig config_;

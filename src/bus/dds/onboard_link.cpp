@@ -40,8 +40,7 @@ class WriterListener final : public dds::DataWriterListener {
 /// Runs on Fast DDS's threads: only moves samples into the inbox and tells the callback thread.
 class ReaderListener final : public dds::DataReaderListener {
  public:
-  ReaderListener(std::shared_ptr<Executor> executor, std::shared_ptr<Inbox> inbox,
-                 std::function<void()> dispatch)
+  ReaderListener(std::shared_ptr<Executor> executor, std::shared_ptr<Inbox> inbox, Work dispatch)
       : executor_(std::move(executor)), inbox_(std::move(inbox)), dispatch_(std::move(dispatch)) {}
 
   void on_data_available(dds::DataReader* reader) override {
@@ -63,7 +62,7 @@ class ReaderListener final : public dds::DataReaderListener {
  private:
   const std::shared_ptr<Executor> executor_;
   const std::shared_ptr<Inbox> inbox_;
-  const std::function<void()> dispatch_;
+  const Work dispatch_;
   std::atomic<int> matched_ = 0;
 };
 

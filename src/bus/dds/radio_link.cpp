@@ -50,9 +50,10 @@ Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsBusConfig
   } else if (const Status joined = result->join(); !joined) {
     return tl::unexpected(joined.error());
   }
-  result->stop_timer_ = result->executor_->add_timer(kTick, [weak = std::weak_ptr<RadioLink>(result)] {
-    if (const auto alive = weak.lock()) alive->tick();
-  });
+  result->stop_timer_ = result->executor_->add_timer(
+      kTick, {std::string("greetings on ") + to_string(link), [weak = std::weak_ptr<RadioLink>(result)] {
+                if (const auto alive = weak.lock()) alive->tick();
+              }});
   return std::shared_ptr<LinkEnd>(std::move(result));
 }
 

@@ -23,7 +23,7 @@ struct RadioLink::Received {
   static constexpr std::size_t kMostHellos = 256;  ///< that wait for the callback thread
   struct Topic {
     std::shared_ptr<Inbox> inbox;
-    std::function<void()> dispatch;
+    Work dispatch;
   };
   struct Robot {
     Clock::time_point heard;
@@ -65,7 +65,7 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
     const Duration delay = since(change->sourceTimestamp);
     std::optional<Bytes> cdr = taken(*reader, change);
     if (!cdr) return;
-    std::function<void()> dispatch;
+    std::optional<Work> dispatch;
     {
       const std::scoped_lock lock(received_->mutex);
       Received::Robot& robot = received_->robots[writer.guidPrefix];
@@ -76,7 +76,7 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
       if (!topic->second.inbox->put(*std::move(cdr), sender_of(writer))) return;
       dispatch = topic->second.dispatch;
     }
-    executor_->post(dispatch);
+    executor_->post(*std::move(dispatch));
   }
 
  private:

@@ -46,7 +46,7 @@ class RadioLink::End final : public TopicEnd {
     if (link_.reads_.contains(key_)) return;
     {
       const std::scoped_lock lock(link_.received_->mutex);
-      link_.received_->topics[key_] = {inbox_, link_.dispatcher(topic_.name)};
+      link_.received_->topics.insert_or_assign(key_, Received::Topic{inbox_, link_.dispatcher(topic_.name)});
     }
     link_.reads_.insert(key_);
     for (const auto& [robot, peer] : link_.peers_) hear(robot);

@@ -4,8 +4,10 @@
 
 namespace fleetmap::bus {
 
-Worker::Worker(std::shared_ptr<Executor> executor)
-    : executor_(std::move(executor)), thread_([this] { loop(); }) {}
+Worker::Worker(std::shared_ptr<Executor> executor, Duration stuck_after)
+    : executor_(std::move(executor)),
+      record_(std::make_shared<WorkRecord>(stuck_after)),
+      thread_([this] { loop(); }) {}
 
 Worker::~Worker() { finish(); }
 
@@ -18,7 +20,7 @@ void Worker::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-bool Worker::add(std::function<void()> work, std::function<void()> done) {
+bool Worker::add(Work work, std::function<void()> done) {
   {
     const std::scoped_lock lock(mutex_);
     if (items_.size() >= Bus::kMostWork) return false;
@@ -36,8 +38,8 @@ void Worker::loop() {
     Item item = std::move(items_.front());
     items_.pop_front();
     lock.unlock();
-    item.work();
-    executor_->post(std::move(item.done));
+    record_->run(item.work);
+    executor_->post({"what follows " + item.work.name, std::move(item.done)});
     lock.lock();
   }
 }

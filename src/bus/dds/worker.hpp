@@ -15,7 +15,8 @@ namespace fleetmap::bus {
 /// One thread that does work items in order and posts what follows each.
 class Worker {
  public:
-  explicit Worker(std::shared_ptr<Executor> executor);
+  /// Work that takes longer than `stuck_after` is taken for stuck.
+  Worker(std::shared_ptr<Executor> executor, Duration stuck_after);
   /// Waits for the item under way; the others are let go.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -24,16 +25,19 @@ class Worker {
   /// Waits for the item under way; the others, and those that are added later, are let go.
   void finish();
   /// False, and it is not added, while Bus::kMostWork items wait.
-  bool add(std::function<void()> work, std::function<void()> done);
+  bool add(Work work, std::function<void()> done);
+  /// What the thread does.
+  const std::shared_ptr<WorkRecord>& record() const { return record_; }
 
  private:
   struct Item {
-    std::function<void()> work;
+    Work work;
     std::function<void()> done;
   };
   void loop();
 
   std::shared_ptr<Executor> executor_;
+  const std::shared_ptr<WorkRecord> record_;
   std::mutex mutex_;  ///< guards items_ and stopping_
   std::condition_variable changed_;
   std::deque<Item> items_;

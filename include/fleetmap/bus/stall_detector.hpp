@@ -1,0 +1,75 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/time.hpp"
+
+namespace fleetmap::bus {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// A piece of work that a thread runs, or ran.
+struct WorkUnderWay {
+  std::uint64_t number = 0;  ///< of this work among all of its thread
+  std::string name;
+  SteadyTime begun;
+};
+struct EndedWork {
+  WorkUnderWay work;
+  SteadyTime ended;
+};
+
+/// What a thread did since the last look at it: long work that ended, and what is under way.
+struct ThreadActivity {
+  std::vector<EndedWork> ended;
+  std::optional<WorkUnderWay> under_way;
+};
+
+/// A sentence for the log about one piece of work that took too long.
+struct StallNews {
+  std::string text;
+  bool goes_on = false;  ///< of a stall that was reported before
+};
+
+/// How often one thread was stuck.
+struct StallCounters {
+  std::string thread;
+  std::uint64_t times = 0;
+  Duration longest{};
+  std::string longest_work;
+};
+
+/// Finds the work that keeps one thread busy for longer than its limit.
+class StallDetector {
+ public:
+  /// A look that comes later than this means that the whole process stood still (stopped, suspended, or
+  /// without CPU); that time is not counted as the work's.
+  static constexpr Duration kLongestBetweenLooks = std::chrono::milliseconds(1500);
+
+  StallDetector(std::string thread, Duration limit);
+  /// Reports each stall once when it is noticed and once when it is over.
+  std::vector<StallNews> look(SteadyTime now, const ThreadActivity& seen);
+  const StallCounters& counters() const { return counters_; }
+
+ private:
+  struct Pause {
+    SteadyTime begun, ended;
+  };
+  void note_pause(SteadyTime now, const ThreadActivity& seen);
+  /// From `begun` to `ended`, without the pauses of the process.
+  Duration taken(SteadyTime begun, SteadyTime ended) const;
+  /// Counts the stall; true if it is new.
+  bool count(const WorkUnderWay& work, Duration lasted);
+
+  Duration limit_;
+  StallCounters counters_;
+  std::optional<SteadyTime> last_look_;
+  std::vector<Pause> pauses_;             ///< that the work under way has seen
+  std::optional<std::uint64_t> counted_;  ///< the work that was counted last
+};
+
+}  // namespace fleetmap::bus

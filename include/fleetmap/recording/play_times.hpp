@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <variant>
+
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::recording {
+
+/// When samples are played. Where the recording tells when each was recorded, at these times, so that a
+/// sensor whose clock is off shows it as it did live; else at their stamps, but a sensor whose clock was set
+/// back goes on without a break.
+class PlayTimes {
+ public:
+  /// Samples in the order in which they are played; `recorded` is Reader::recorded() of each.
+  Stamp of(const Sample& sample, std::optional<Stamp> recorded);
+
+ private:
+  struct Clock {
+    std::optional<Stamp> last;
+    Duration set_back{};
+  };
+  std::array<Clock, std::variant_size_v<Sample>> clocks_;
+  std::optional<Duration> shift_;  ///< from times of recording
+};
+
+}  // namespace fleetmap::recording

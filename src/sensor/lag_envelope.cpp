@@ -1,0 +1,61 @@
+#include "fleetmap/sensor/lag_envelope.hpp"
+
+#include <algorithm>
+
+namespace fleetmap::sensor {
+namespace {
+
+constexpr Duration kBucket = std::chrono::seconds(5), kWindow = std::chrono::seconds(30);
+constexpr int kStepSamples = 3;
+/// What a program that was stopped finds waiting comes all at once and proves nothing.
+constexpr Duration kStepTime = std::chrono::milliseconds(150);
+/// Samples that overtake each other are not set back.
+constexpr Duration kSetBack = std::chrono::milliseconds(500);
+/// A queue that is being emptied has ever shorter lags, a clock the same.
+constexpr Duration kSteadyTime = std::chrono::milliseconds(1500);
+constexpr double kSteady = 0.5;  // s
+
+}  // namespace
+
+bool LagEnvelope::add(Stamp stamp, Stamp arrival) {
+  const double lag = to_seconds(arrival - stamp);
+  const bool step = stepped(stamp, arrival, lag);
+  if (step) {
+    const double least = late_->least;
+    *this = {};
+    insert(arrival, least);
+  } else {
+    insert(arrival, lag);
+  }
+  newest_ = std::max(newest_, stamp);
+  return step;
+}
+
+bool LagEnvelope::stepped(Stamp stamp, Stamp arrival, double lag) {
+  if (empty() || lag <= least_ + kLate) {
+    late_.reset();
+    return false;
+  }
+  if (!late_) late_ = LateRun{.begun = arrival, .least = lag, .most = lag};
+  LateRun& run = *late_;
+  ++run.samples;
+  run.least = std::min(run.least, lag);
+  run.most = std::max(run.most, lag);
+  run.set_back = run.set_back && newest_ - stamp > kSetBack;
+  if (run.samples < kStepSamples) return false;
+  if (run.set_back) return arrival - run.begun >= kStepTime;
+  return run.least > least_ + kMostLate && run.most - run.least < kSteady &&
+         arrival - run.begun >= kSteadyTime;
+}
+
+void LagEnvelope::insert(Stamp arrival, double lag) {
+  if (empty() || arrival - buckets_.back().begun >= kBucket) {
+    buckets_.push_back({arrival, lag});
+    while (arrival - buckets_.front().begun >= kWindow) buckets_.pop_front();
+  }
+  buckets_.back().least = std::min(buckets_.back().least, lag);
+  least_ = kNone;
+  for (const Bucket& bucket : buckets_) least_ = std::min(least_, bucket.least);
+}
+
+}  // namespace fleetmap::sensor
