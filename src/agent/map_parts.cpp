@@ -39,6 +39,12 @@ MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& p
   return parts;
 }
 
+std::string to_string(const graph::FrameId& frame) {
+  std::string text = frame.agent.str();
+  if (frame.session > 0) text.append("#").append(std::to_string(frame.session));
+  return text;
+}
+
 std::string file_of(const MapPart& part) {
   const graph::FrameId& first = part.frames.front();
   std::string name = "map-" + first.agent.str();

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -15,8 +14,6 @@
 #include "fleetmap/agent/corrected_pose.hpp"
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
-#include "fleetmap/cloud/codec.hpp"
-#include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 
 namespace fleetmap::agent {
@@ -168,98 +165,6 @@ Status write_nodes(const store::Store& store, const graph::Placement& placement,
   return {};
 }
 
-ContentHash hash_of_inputs(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                           const store::MergeConfig& config) {
-  Bytes inputs;
-  const auto add = [&inputs](const auto& value) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
-    inputs.insert(inputs.end(), bytes, bytes + sizeof(value));
-  };
-  add(config.voxel_m);
-  add(config.centroids);
-  for (const auto& [id, T] : T_map_node) {
-    const graph::Node* node = store.node(id);
-    if (node == nullptr || !store.has_submap(id)) continue;
-    for (const char c : id.agent.str()) add(c);
-    add(id.seq);
-    add(node->submap_hash);
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 3; ++row) add(T.matrix()(row, column));
-  }
-  return content_hash(inputs);
-}
-
-Result<std::string> hash_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() && !in.eof()) return failure(file.string() + ": cannot be read");
-  return to_hex(content_hash(bytes));
-}
-
-constexpr std::array kMapNames{"map.ply", "map.pcd"};
-
-Result<MapFiles> copied_map(const MapFiles& other, const AgentConfig& config) {
-  for (const char* name : kMapNames) {
-    std::error_code error;
-    std::filesystem::copy_file(other.directory / name, config.directory / name,
-                               std::filesystem::copy_options::overwrite_existing, error);
-    if (error) return failure((config.directory / name).string() + ": cannot be written: " + error.message());
-  }
-  MapFiles files = other;
-  files.directory = config.directory;
-  return files;
-}
-
-/// Without those submaps that cannot be read.
-store::MergedMap readable_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                              const AgentConfig& config) {
-  store::MergedMap map = merged_map(store, T_map_node, config.map);
-  for (const NodeId& id : map.unreadable)
-    spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
-  return map;
-}
-
-Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                           const AgentConfig& config, std::span<const MapFiles> others) {
-  MapFiles files;
-  files.directory = config.directory;
-  files.made_of = hash_of_inputs(store, T_map_node, config.map);
-  if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
-    return copied_map(*same, config);
-  const store::MergedMap map = readable_map(store, T_map_node, config);
-  if (!map.unreadable.empty()) files.made_of = {};  // not for others
-  for (const char* name : kMapNames) {
-    if (const Status written = cloud::write_cloud(config.directory / name, map.cloud); !written)
-      return tl::unexpected(written.error());
-  }
-  const auto hash = hash_of_file(config.directory / "map.ply");
-  if (!hash) return tl::unexpected(hash.error());
-  files.hash = *hash;
-  files.points = map.cloud.size();
-  files.submaps = map.submaps;
-  return files;
-}
-
-/// Those of an earlier run: who was nowhere then may be on the map now.
-void remove_parts(const std::filesystem::path& directory) {
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("map-") && name.ends_with(".ply")) std::filesystem::remove(entry.path(), error);
-  }
-}
-
-/// Returns how many submaps the file shows.
-Result<std::size_t> write_part(store::Store& store, const MapPart& part, const AgentConfig& config) {
-  const std::filesystem::path file = config.directory / file_of(part);
-  const store::MergedMap map = readable_map(store, part.T_map_node, config);
-  if (const Status written = cloud::write_cloud(file, map.cloud); !written)
-    return tl::unexpected(written.error());
-  spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", config.id.str(),
-               to_string(part.frames.front()), map.submaps, file.string());
-  return map.submaps;
-}
-
 }  // namespace
 
 Status keep_recipe(store::Store& store, const AgentConfig& config) {
@@ -307,12 +212,6 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
   return recipe;
 }
 
-std::string to_string(const graph::FrameId& frame) {
-  std::string text = frame.agent.str();
-  if (frame.session > 0) text.append("#").append(std::to_string(frame.session));
-  return text;
-}
-
 std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured) {
   if (configured) return configured;
   if (store.nodes().empty()) return std::nullopt;
@@ -342,21 +241,6 @@ graph::Placement place(const store::Store& store, const GeoPoint& origin,
 store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
                           const store::MergeConfig& config) {
   return merged_map(store, map_parts(nodes_of(store), placement).main.T_map_node, config);
-}
-
-store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                            const store::MergeConfig& config) {
-  std::map<NodeId, Pose> held;
-  for (const auto& [id, T] : T_map_node) {
-    if (store.has_submap(id)) held.emplace(id, T);
-  }
-  const auto load = [&store](const NodeId& id) -> Result<cloud::PointCloud> {
-    const Result<Bytes> encoded = store.submap(id);
-    if (!encoded) return tl::unexpected(encoded.error());
-    if (encoded->empty()) return cloud::PointCloud{};
-    return cloud::decode(*encoded);
-  };
-  return store::merge(held, load, config);
 }
 
 Result<Results> write_results(store::Store& store, const AgentConfig& config,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +12,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "fleetmap/cloud/cloud_writer.hpp"
+#include "point_file_format.hpp"
 #include "point_file_layout.hpp"
 
 namespace fleetmap::cloud {
@@ -21,18 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Encoding = PointFileLayout::Encoding;
 using Field = PointFileLayout::Field;
-static_assert(std::endian::native == std::endian::little, "files are written in the machine's byte order");
-
-enum class Format { ply, pcd };
-
-Result<Format> format_of(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".ply") return Format::ply;
-  if (extension == ".pcd") return Format::pcd;
-  return failure("not a .ply or .pcd file");
-}
+static_assert(std::endian::native == std::endian::little, "files are read in the machine's byte order");
 
 Result<std::string> whole_file(const fs::path& file) {
   std::error_code error;
@@ -169,8 +159,8 @@ Result<PointCloud> from_compressed(const std::string& file, const PointFileLayou
   });
 }
 
-Result<PointCloud> parse(const std::string& file, Format format) {
-  const auto layout = format == Format::ply ? ply_layout(file) : pcd_layout(file);
+Result<PointCloud> parse(const std::string& file, PointFileFormat format) {
+  const auto layout = format == PointFileFormat::ply ? ply_layout(file) : pcd_layout(file);
   if (!layout) return failure(layout.error().message);
   const auto wanted = wanted_fields(*layout);
   if (!wanted) return failure(wanted.error().message);
@@ -181,20 +171,6 @@ Result<PointCloud> parse(const std::string& file, Format format) {
   return gather(*layout, *wanted, [&](std::size_t i, const Field& field) {
     return number_at(file.data() + layout->body + i * layout->stride + field.offset, field.type, swap);
   });
-}
-
-std::string header_of(const PointCloud& cloud, Format format) {
-  const std::string count = std::to_string(cloud.size());
-  const bool intensity = cloud.has_intensities();
-  if (format == Format::ply) {
-    return "ply\nformat binary_little_endian 1.0\nelement vertex " + count +
-           "\nproperty float x\nproperty float y\nproperty float z\n" +
-           (intensity ? "property float intensity\n" : "") + "end_header\n";
-  }
-  return std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-         (intensity ? "FIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
-                    : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n") +
-         "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
 }
 
 }  // namespace
@@ -213,28 +189,10 @@ Result<PointCloud> read_cloud(const fs::path& file) {
 }
 
 Status write_cloud(const fs::path& file, const PointCloud& cloud) {
-  const auto format = format_of(file);
-  if (!format) return failure(file.string() + ": " + format.error().message);
-  std::string bytes = header_of(cloud, *format);
-  const std::size_t numbers = cloud.has_intensities() ? 4 : 3;
-  std::size_t at = bytes.size();
-  bytes.resize(at + cloud.size() * numbers * sizeof(float));
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    std::memcpy(bytes.data() + at, cloud.points[i].data(), 3 * sizeof(float));
-    if (numbers == 4)
-      std::memcpy(bytes.data() + at + 3 * sizeof(float), &cloud.intensities[i], sizeof(float));
-    at += numbers * sizeof(float);
-  }
-  const fs::path part = file.string() + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(part, file, error);
-  if (out && !error) return {};
-  std::error_code ignored;
-  fs::remove(part, ignored);
-  return failure(file.string() + ": cannot be written" + (error ? ": " + error.message() : ""));
+  auto writer = CloudWriter::create(file, cloud.has_intensities());
+  if (!writer) return tl::unexpected(writer.error());
+  if (const Status added = writer->add(cloud); !added) return added;
+  return writer->finish();
 }
 
 }  // namespace fleetmap::cloud

@@ -7,60 +7,38 @@
 namespace fleetmap::cloud {
 namespace {
 
-constexpr double kLargestCell = 2147483647.0;
 /// Points whose places in the table are fetched ahead: the table of a large map lies outside of every cache.
 constexpr std::size_t kAhead = 16;
-
-std::uint64_t hash_of(std::int32_t x, std::int32_t y, std::int32_t z) {
-  std::uint64_t h = static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u +
-                    static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) * 0xc2b2ae3d27d4eb4fu +
-                    static_cast<std::uint64_t>(static_cast<std::uint32_t>(z)) * 0x165667b19e3779f9u;
-  h ^= h >> 32;
-  h *= 0xd6e8feb86659fd93u;
-  return h ^ (h >> 32);
-}
 
 }  // namespace
 
 VoxelMerger::VoxelMerger(float voxel_m, VoxelPoint keep)
     : voxel_m_(std::isfinite(voxel_m) && voxel_m > 0.0f ? static_cast<double>(voxel_m) : 0.0), keep_(keep) {}
 
-std::size_t VoxelMerger::home_of(const Slot& cell) const {
-  return static_cast<std::size_t>(hash_of(cell.x, cell.y, cell.z)) & (slots_.size() - 1);
+std::size_t VoxelMerger::home_of(const Voxel& voxel) const {
+  return static_cast<std::size_t>(hash_of(voxel)) & (slots_.size() - 1);
 }
 
-VoxelMerger::Slot& VoxelMerger::slot_of(const Slot& cell, std::size_t home) {
+VoxelMerger::Slot& VoxelMerger::slot_of(const Voxel& voxel, std::size_t home) {
   const std::size_t mask = slots_.size() - 1;
-  while (slots_[home].entry != 0 &&
-         !(slots_[home].x == cell.x && slots_[home].y == cell.y && slots_[home].z == cell.z)) {
-    home = (home + 1) & mask;
-  }
+  while (slots_[home].entry != 0 && slots_[home].voxel != voxel) home = (home + 1) & mask;
   return slots_[home];
 }
 
 void VoxelMerger::grow(std::size_t slots) {
   std::vector<Slot> old(std::bit_ceil(slots));
   std::swap(old, slots_);
-  for (const Slot& cell : old) {
-    if (cell.entry != 0) slot_of(cell, home_of(cell)) = cell;
+  for (const Slot& slot : old) {
+    if (slot.entry != 0) slot_of(slot.voxel, home_of(slot.voxel)) = slot;
   }
 }
 
-std::optional<VoxelMerger::Slot> VoxelMerger::cell_of(const Eigen::Vector3f& point) const {
-  // Not finite compares false as well.
-  const Eigen::Array3d cell = (point.cast<double>() / voxel_m_).array().floor();
-  if (!(cell.abs() <= kLargestCell).all()) return std::nullopt;
-  return Slot{static_cast<std::int32_t>(cell.x()), static_cast<std::int32_t>(cell.y()),
-              static_cast<std::int32_t>(cell.z()), 0};
-}
-
-bool VoxelMerger::add_point(const Slot& cell, std::size_t home, const Eigen::Vector3f& point,
+bool VoxelMerger::add_point(const Voxel& voxel, std::size_t home, const Eigen::Vector3f& point,
                             float intensity) {
-  Slot& slot = slot_of(cell, home);
+  Slot& slot = slot_of(voxel, home);
   if (slot.entry == 0) {
     sums_.push_back({point.cast<double>(), static_cast<double>(intensity), 1});
-    slot = cell;
-    slot.entry = static_cast<std::uint32_t>(sums_.size());
+    slot = {voxel, static_cast<std::uint32_t>(sums_.size())};
     return true;
   }
   if (keep_ == VoxelPoint::centroid) {
@@ -90,7 +68,7 @@ std::size_t VoxelMerger::add(const PointCloud& cloud) {
   all_intensities_ = all_intensities_ && cloud.has_intensities();
   if (voxel_m_ == 0.0) return add_every_point(cloud);
   struct Ahead {
-    Slot cell;
+    Voxel voxel;
     std::size_t home = 0;
     std::size_t point = 0;
   };
@@ -101,19 +79,19 @@ std::size_t VoxelMerger::add(const PointCloud& cloud) {
     if (2 * (sums_.size() + kAhead) > slots_.size()) grow(std::max<std::size_t>(1024, 2 * slots_.size()));
     std::size_t count = 0;
     for (; count < kAhead && next < cloud.size(); ++next) {
-      const auto cell = cell_of(cloud.points[next]);
-      if (!cell) {
+      const auto voxel = voxel_of(cloud.points[next], voxel_m_);
+      if (!voxel) {
         ++refused_;
         continue;
       }
-      block[count] = {*cell, home_of(*cell), next};
+      block[count] = {*voxel, home_of(*voxel), next};
       __builtin_prefetch(&slots_[block[count].home]);
       ++count;
     }
     for (std::size_t k = 0; k < count; ++k) {
-      const auto& [cell, home, i] = block[k];
+      const auto& [voxel, home, i] = block[k];
       const float intensity = cloud.has_intensities() ? cloud.intensities[i] : 0.0f;
-      added += add_point(cell, home, cloud.points[i], intensity) ? 1u : 0u;
+      added += add_point(voxel, home, cloud.points[i], intensity) ? 1u : 0u;
     }
   }
   return added;

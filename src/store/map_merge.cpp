@@ -1,14 +1,17 @@
 #include "fleetmap/store/map_merge.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::store {
 
 Status MergeConfig::validate() const {
-  if (!(voxel_m > 0.0) || !std::isfinite(voxel_m)) return failure("merge.voxel_m must be positive");
+  // The grid's edge is a float.
+  using Float = std::numeric_limits<float>;
+  if (!(voxel_m >= double{Float::min()} && voxel_m <= double{Float::max()}))
+    return failure("merge.voxel_m must be positive");
   return {};
 }
 

@@ -10,6 +10,9 @@
 
 namespace fleetmap::agent {
 
+/// "r1", or "r1#4711" for the odometry frame of session 4711.
+std::string to_string(const graph::FrameId& frame);
+
 /// Odometry frames whose nodes lie right to each other, and may be drawn into one map.
 struct MapPart {
   std::vector<graph::FrameId> frames;

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
+#include "fleetmap/agent/map_files.hpp"
 #include "fleetmap/agent/map_parts.hpp"
-#include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/place.hpp"
@@ -17,9 +15,6 @@
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::agent {
-
-/// "r1", or "r1#4711" for the odometry frame of session 4711.
-std::string to_string(const graph::FrameId& frame);
 
 /// The origin of ENU: `configured`, else the position of the least node id held that has a G, so that agents
 /// with the same nodes agree on it; 0, 0 where none has: the map then lies nowhere on Earth. Empty while
@@ -34,9 +29,6 @@ std::vector<graph::Alignment> alignments_of(const store::Store& store);
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
                        const graph::PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 
-/// The map of those nodes whose submaps the store holds, in the frame that their poses are in.
-store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                            const store::MergeConfig& config);
 /// What map.ply shows: MapParts::main.
 store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
                           const store::MergeConfig& config);
@@ -53,15 +45,6 @@ Status keep_recipe(store::Store& store, const AgentConfig& config);
 /// By the last keep_recipe(); where no origin was configured, with that of what the store holds now. Empty if
 /// there was none, or there is no origin yet.
 std::optional<MapRecipe> map_recipe(const store::Store& store);
-
-/// The files of one merged map.
-struct MapFiles {
-  std::filesystem::path directory;
-  ContentHash made_of{};  ///< of all that the map is a function of: submaps, their poses, how they are merged
-  std::size_t points = 0;
-  std::size_t submaps = 0;
-  std::string hash;  ///< content hash of map.ply: equal on agents that hold the same set
-};
 
 struct Results {
   GeoPoint origin;

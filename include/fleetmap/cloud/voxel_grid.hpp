@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
+#include "fleetmap/cloud/voxel.hpp"
 
 namespace fleetmap::cloud {
 
@@ -38,13 +38,12 @@ class VoxelMerger {
   };
   /// Open addressing; a slot holds its whole key, so that most points cost one look into memory.
   struct Slot {
-    std::int32_t x = 0, y = 0, z = 0;  ///< of the voxel, in voxels
-    std::uint32_t entry = 0;           ///< 1 + index into sums_, 0 where free
+    Voxel voxel;
+    std::uint32_t entry = 0;  ///< 1 + index into sums_, 0 where free
   };
-  std::optional<Slot> cell_of(const Eigen::Vector3f& point) const;
-  std::size_t home_of(const Slot& cell) const;
-  Slot& slot_of(const Slot& cell, std::size_t home);
-  bool add_point(const Slot& cell, std::size_t home, const Eigen::Vector3f& point, float intensity);
+  std::size_t home_of(const Voxel& voxel) const;
+  Slot& slot_of(const Voxel& voxel, std::size_t home);
+  bool add_point(const Voxel& voxel, std::size_t home, const Eigen::Vector3f& point, float intensity);
   std::size_t add_every_point(const PointCloud& cloud);
   void grow(std::size_t slots);
 

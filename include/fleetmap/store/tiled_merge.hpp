@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/cloud/voxel_tiles.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/tile_cache.hpp"
+
+namespace fleetmap::store {
+
+/// What bounds the memory of a merge. The order of the points depends on it, so robots whose maps are to be
+/// the same bytes have the same.
+struct TileBudget {
+  std::size_t tile_voxels = 2'000'000;               ///< most points of a tile
+  std::size_t cache_bytes = std::size_t{128} << 20;  ///< of points that later tiles need
+  std::size_t sample_voxels = std::size_t{1} << 18;  ///< by which tiles are planned
+};
+
+/// All of a MergedMap but its points.
+struct MapOutline {
+  std::size_t submaps = 0;         ///< merged
+  std::size_t points_in = 0;       ///< before de-duplication
+  std::size_t points_refused = 0;  ///< not finite, or absurdly far away
+  /// Submaps that the loader could not give, left out: one that can no longer be read while tiles are merged,
+  /// from the tile on that it was needed for.
+  std::vector<NodeId> unreadable;
+  std::vector<AgentId> agents;  ///< see MergedMap::agents
+  bool has_intensities = false;
+};
+
+struct MapTile {
+  cloud::PointCloud cloud;
+  std::vector<std::uint8_t> seen_by;  ///< see MergedMap::seen_by
+};
+using TileSink = std::function<Status(const MapTile&)>;
+
+struct TiledMergeStats {
+  std::size_t loads = 0;         ///< of submaps
+  std::size_t largest_tile = 0;  ///< points
+  std::size_t most_cached_bytes = 0;
+};
+
+/// merge() in memory that does not grow with the map. The first pass reads every submap once and divides the
+/// site into tiles; the second merges one tile after the other from the submaps that touch it. Tiles are
+/// disjoint sets of voxels, so all tiles together are the points of merge(), in the order of the tiles, and
+/// within a tile in the order of merge().
+class TiledMerge {
+ public:
+  /// The first pass. `load` must give the same cloud each time, and lives as long as this.
+  static Result<TiledMerge> plan(const std::map<NodeId, Pose>& T_enu_node, SubmapLoader load,
+                                 const MergeConfig& config, const TileBudget& budget = {});
+
+  const MapOutline& outline() const { return outline_; }
+  std::size_t tiles() const { return tiles_.size(); }
+  /// The second pass: hands every tile to `sink`, once. Stops with the sink's error. May be repeated.
+  Status stream(const TileSink& sink);
+  TiledMergeStats stats() const;
+
+ private:
+  struct Source {
+    NodeId id;
+    Pose T_enu_node;
+    std::uint8_t agent = 0;  ///< index in MapOutline::agents
+    cloud::ColumnFootprint columns;
+    bool readable = true;
+    /// That it has points in, ascending; known once it was divided.
+    std::optional<std::vector<std::uint32_t>> tiles;
+  };
+  class Planner;
+
+  TiledMerge(SubmapLoader load, float voxel_m, bool centroids, std::size_t cache_bytes);
+  Result<cloud::PointCloud> placed(const NodeId& id, const Pose& T_enu_node);
+  TileCache::Parts divided(const cloud::PointCloud& placed, std::size_t from_tile) const;
+  TileCache::Parts divide(Source& source, const cloud::PointCloud& placed, std::size_t from_tile) const;
+  bool touches(const Source& source, std::size_t tile) const;
+  cloud::PointCloud part_of(std::size_t source, std::size_t tile);
+  MapTile merged(std::size_t tile);
+
+  SubmapLoader load_;
+  float voxel_m_;
+  bool centroids_;
+  MapOutline outline_;
+  cloud::VoxelTiles tiles_;
+  std::vector<Source> sources_;
+  TileCache cache_;
+  std::size_t loads_ = 0;
+  std::size_t largest_tile_ = 0;
+};
+
+}  // namespace fleetmap::store

@@ -1,0 +1,59 @@
+#include "fleetmap/store/thinned_map.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetmap::store {
+namespace {
+
+constexpr std::size_t kMostAtOnce = 100'000;  ///< points between two looks at how many there are
+
+/// Points [begin, end).
+cloud::PointCloud slice(const cloud::PointCloud& cloud, std::size_t begin, std::size_t end) {
+  cloud::PointCloud part;
+  const auto at = [](const auto& values, std::size_t i) {
+    return values.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  part.points.assign(at(cloud.points, begin), at(cloud.points, end));
+  if (cloud.has_intensities())
+    part.intensities.assign(at(cloud.intensities, begin), at(cloud.intensities, end));
+  return part;
+}
+
+}  // namespace
+
+ThinnedMap::ThinnedMap(double voxel_m, std::size_t max_points)
+    : voxel_m_(static_cast<float>(voxel_m)),
+      max_points_(std::max<std::size_t>(1, max_points)),
+      merger_(voxel_m_, cloud::VoxelPoint::first) {}
+
+void ThinnedMap::add(const MapTile& tile) {
+  for (std::size_t begin = 0; begin < tile.cloud.size();) {
+    // Points of one agent at a time: the merger tells how many of them are kept, not which.
+    std::size_t end = begin;
+    while (end < tile.cloud.size() && end - begin < kMostAtOnce && tile.seen_by[end] == tile.seen_by[begin])
+      ++end;
+    seen_by_.insert(seen_by_.end(), merger_.add(slice(tile.cloud, begin, end)), tile.seen_by[begin]);
+    begin = end;
+    while (merger_.voxels() > max_points_) {
+      const MapTile held{merger_.cloud(), std::exchange(seen_by_, {})};
+      voxel_m_ *= 1.5f;
+      merger_ = cloud::VoxelMerger(voxel_m_, cloud::VoxelPoint::first);
+      add(held);
+    }
+  }
+}
+
+MergedMap ThinnedMap::map(const MapOutline& outline) const {
+  MergedMap map;
+  map.cloud = merger_.cloud();
+  map.submaps = outline.submaps;
+  map.points_in = outline.points_in;
+  map.points_refused = outline.points_refused;
+  map.unreadable = outline.unreadable;
+  map.agents = outline.agents;
+  map.seen_by = seen_by_;
+  return map;
+}
+
+}  // namespace fleetmap::store
