@@ -49,8 +49,9 @@ struct OdometryRun {
   std::string first_refusal;
   std::optional<Stamp> first_lost;
   odometry::LoamCounters counters;
-  std::size_t blind = 0;  ///< scans that left a direction of the motion to the prior
-  double length = 0.0;    ///< m
+  odometry::LocalMapSize map;  ///< when it was largest
+  std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
+  double length = 0.0;         ///< m
   odometry::MotionCovariance motion;
 };
 
@@ -81,6 +82,10 @@ bool kept_its_way(const OdometryRun& run) {
   if (counters.map_restarts > 0) {
     std::cout << "the local map was begun anew " << counters.map_restarts
               << " times: poses before and after do not belong together\n";
+  }
+  if (counters.map_overflows > 0) {
+    std::cout << "the local map was full " << counters.map_overflows
+              << " times: so much is seen only by scans that do not belong together\n";
   }
   const bool vague = sigma > std::max(kVague, kVagueShare * run.length);
   return counters.map_restarts == 0 && !vague &&
@@ -151,6 +156,7 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
+    if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
       if (!run_.poses.empty())
         run_.length += (run_.poses.back().T_w_base.inverse() * update->T_odom_base).translation().norm();
@@ -213,7 +219,8 @@ int run(const OdometryOptions& options) {
             << peak_megabytes() << " MB\n";
   for (const auto& [stage, seconds] : done->counters.cpu.named())
     std::cout << stage << ' ' << 1e3 * seconds / static_cast<double>(done->wall_ms.size()) << " ms  ";
-  std::cout << '\n';
+  std::cout << "\nlocal map at most " << done->map.windows << " windows, "
+            << static_cast<double>(done->map.bytes) / (1024.0 * 1024.0) << " MB\n";
   if (done->refused > 0)
     std::cout << "refused " << done->refused << " scans, first: " << done->first_refusal << '\n';
   for (const auto& [name, count] : (*reader)->counters().named()) {

@@ -92,6 +92,7 @@ json perception_json(const agent::Agent& agent) {
       {"unclear_stamps", seen.unclear_stamps},
       {"lost_scans", loam.lost},
       {"local_maps_begun_anew", loam.map_restarts},
+      {"local_map_full", loam.map_overflows},
       {"odometry_cpu_ms",
        {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};
 }

@@ -64,6 +64,7 @@ void read_odometry(Section& top, agent::PerceptionConfig& perception) {
   // A map that reaches less far than the scans would leave their far points unmatched.
   loam.map_radius = std::max(loam.map_radius, loam.max_range);
   section.read("map_radius", loam.map_radius);
+  section.read("max_map_windows", loam.max_map_windows);
   section.read("fine_resolution", loam.fine_resolution);
   section.read("coarse_resolution", loam.coarse_resolution);
   section.read("max_iterations", loam.max_iterations);

@@ -36,6 +36,8 @@ constexpr double kBiasGain = 0.02;
 constexpr double kLeastUpright = 60.0;  // features, to judge by
 constexpr double kGoneShare = 0.2;  // of the usual ones: fewer are not seen from where the scans before were
 constexpr double kUprightGain = 0.2;  // over half a second
+constexpr double kCutRadius = 0.8;    // of a full map, again and again until ...
+constexpr double kCutShare = 0.75;    // ... so much of it is left
 
 }  // namespace
 
@@ -88,6 +90,7 @@ class Loam::Pipeline {
   }
 
   const LoamCounters& counters() const { return counters_; }
+  LocalMapSize map_size() const { return map_.size(); }
 
  private:
   static Status check(const LoamConfig& config, const LidarModel& model) {
@@ -114,6 +117,7 @@ class Loam::Pipeline {
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
+  void forget_what_is_far();
   void describe(const Sweep& sweep, OdometryUpdate& update);
 
   LoamConfig config_;
@@ -430,9 +434,21 @@ void Loam::Pipeline::insert(const std::vector<FeaturePoint>& planes, const std::
   map_.add_edges(in_odom(edges));
   keyframe_ = state.T_odom_base;
   ++insertions_;
+  forget_what_is_far();
+}
+
+void Loam::Pipeline::forget_what_is_far() {
   if ((keyframe_.translation() - pruned_at_.translation()).norm() > 0.2 * config_.max_range) {
     map_.prune(keyframe_.translation(), config_.map_radius);
     pruned_at_ = keyframe_;
+  }
+  const auto most = static_cast<std::size_t>(config_.max_map_windows);
+  if (map_.size().windows <= most) return;
+  ++counters_.map_overflows;
+  double radius = config_.map_radius;
+  while (static_cast<double>(map_.size().windows) > kCutShare * static_cast<double>(most)) {
+    radius *= kCutRadius;
+    map_.prune(keyframe_.translation(), radius);
   }
 }
 
@@ -463,5 +479,6 @@ void Loam::add_imu(const sensor::Imu& imu) { pipeline_->add_imu(imu); }
 void Loam::add_wheel(const sensor::Wheel& wheel) { pipeline_->add_wheel(wheel); }
 Result<OdometryUpdate> Loam::add_scan(const sensor::Scan& scan) { return pipeline_->add_scan(scan); }
 const LoamCounters& Loam::counters() const { return pipeline_->counters(); }
+LocalMapSize Loam::map_size() const { return pipeline_->map_size(); }
 
 }  // namespace fleetmap::odometry

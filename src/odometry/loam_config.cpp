@@ -29,6 +29,7 @@ Status LoamConfig::validate() const {
       Bound{"coarse_resolution", coarse_resolution, 0.05, 30.0},
       Bound{"coarse_noise", coarse_noise, 0.0, 10.0},
       Bound{"map_radius", map_radius, max_range, 2000.0},
+      Bound{"max_map_windows", static_cast<double>(max_map_windows), 1e4, 1e8},
       Bound{"keyframe_distance", keyframe_distance, 0.0, 10.0},
       Bound{"keyframe_angle", keyframe_angle, 0.0, 3.2},
       Bound{"linear_acceleration", linear_acceleration, 1e-3, 1000.0},

@@ -69,6 +69,15 @@ void LocalMap::prune(const Eigen::Vector3d& center, double radius) {
   edges_.prune(center, radius);
 }
 
+LocalMapSize LocalMap::size() const {
+  LocalMapSize size;
+  for (const SurfaceGrid* grid : {&fine_, &coarse_, &posts_, &edges_}) {
+    size.windows += grid->windows();
+    size.bytes += grid->bytes();
+  }
+  return size;
+}
+
 void LocalMap::clear() {
   fine_.clear();
   coarse_.clear();

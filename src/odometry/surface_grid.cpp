@@ -225,7 +225,7 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
   windows_.shrink(kept);
   other_sides_ = std::move(kept_other_sides);
   surfaces_ = std::move(kept_surfaces);
-  index_.clear();
+  index_.clear_for(kept);
   for (std::size_t i = 0; i < kept; ++i) {
     index_.prefetch(cells[std::min(i + kBlock, kept - 1)]);
     index_.insert(cells[i]);
@@ -233,7 +233,7 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
 }
 
 void SurfaceGrid::clear() {
-  index_.clear();
+  index_.clear_for(0);
   windows_.shrink(0);
   other_sides_.shrink(0);
   surfaces_.shrink(0);

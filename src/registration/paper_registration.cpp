@@ -18,6 +18,25 @@
 #include <string>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
+#include "pair_features.hpp"
+
+/// PCL's templates are compiled into this file (PCL_NO_PRECOMPILE). The only function that they take from
+/// libpcl_features is replaced here: that library and those it needs are 28 MB in the memory of every program
+/// that links them, used or not.
+template <>
+bool pcl::FPFHEstimation<pcl::PointNormal, pcl::PointNormal, pcl::FPFHSignature33>::computePairFeatures(
+    const pcl::PointCloud<pcl::PointNormal>& cloud, const pcl::PointCloud<pcl::PointNormal>& normals,
+    int p_idx, int q_idx, float& f1, float& f2, float& f3, float& f4) {
+  const auto p = static_cast<std::size_t>(p_idx), q = static_cast<std::size_t>(q_idx);
+  const auto pair =
+      fleetmap::registration::pair_features(cloud[p].getVector4fMap(), normals[p].getNormalVector4fMap(),
+                                            cloud[q].getVector4fMap(), normals[q].getNormalVector4fMap());
+  f1 = pair.theta;
+  f2 = pair.alpha;
+  f3 = pair.phi;
+  f4 = pair.distance;
+  return true;
+}
 
 namespace fleetmap::registration {
 namespace {

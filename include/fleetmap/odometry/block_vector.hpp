@@ -13,6 +13,7 @@ template <class T>
 class BlockVector {
  public:
   std::size_t size() const { return size_; }
+  std::size_t bytes() const { return blocks_.size() * sizeof(std::array<T, kBlock>); }
   T& operator[](std::size_t i) { return (*blocks_[i / kBlock])[i % kBlock]; }
   const T& operator[](std::size_t i) const { return (*blocks_[i / kBlock])[i % kBlock]; }
 

@@ -40,6 +40,7 @@ class FlatIndex {
   FlatIndex() { slots_.resize(kInitialSlots); }
 
   std::uint32_t size() const { return size_; }
+  std::size_t bytes() const { return slots_.capacity() * sizeof(Slot); }
 
   /// Brings the place of `key` into the caches, for a find() or insert() soon after.
   void prefetch(CellKey key) const { __builtin_prefetch(&slots_[hash(key) & (slots_.size() - 1)]); }
@@ -86,6 +87,13 @@ class FlatIndex {
     }
   }
 
+  /// Forgets all cells and returns the memory that `cells` of them do not need.
+  void clear_for(std::size_t cells) {
+    clear();
+    if (const std::size_t needed = slots_for(cells); needed < slots_.size())
+      std::vector<Slot>(needed).swap(slots_);
+  }
+
  private:
   struct Slot {
     CellKey key = 0;
@@ -97,6 +105,12 @@ class FlatIndex {
   static std::size_t hash(CellKey key) {
     key *= 0x9e3779b97f4a7c15ull;
     return static_cast<std::size_t>(key ^ key >> 32);
+  }
+
+  static std::size_t slots_for(std::size_t cells) {
+    std::size_t slots = kInitialSlots;
+    while (4 * cells >= 3 * slots) slots *= 2;
+    return slots;
   }
 
   void grow() {

@@ -12,6 +12,7 @@
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/odometry/local_map.hpp"
 #include "fleetmap/sensor/samples.hpp"
 #include "fleetmap/sensor/scan.hpp"
 
@@ -74,6 +75,7 @@ struct LoamCounters {
   std::uint64_t refused_points = 0;  ///< empty, or too few usable points
   std::uint64_t lost = 0;            ///< updates that are predictions
   std::uint64_t map_restarts = 0;    ///< new local maps after being lost for long
+  std::uint64_t map_overflows = 0;   ///< the local map was full; what lay farthest was forgotten
   std::uint64_t clock_resets = 0;    ///< the clock went backwards and stayed there
   std::uint64_t points_non_finite = 0;
   std::uint64_t points_out_of_range = 0;
@@ -105,6 +107,8 @@ class Loam {
   Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
 
   const LoamCounters& counters() const;
+  /// Of the local map after the last scan.
+  LocalMapSize map_size() const;
 
  private:
   class Pipeline;

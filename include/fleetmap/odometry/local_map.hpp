@@ -10,6 +10,12 @@
 
 namespace fleetmap::odometry {
 
+/// What a local map holds.
+struct LocalMapSize {
+  std::size_t windows = 0;  ///< of all grids
+  std::size_t bytes = 0;
+};
+
 /// What the robot has seen around it: surfaces at two scales, upright posts among them, and edges.
 class LocalMap {
  public:
@@ -29,6 +35,7 @@ class LocalMap {
   const Surface* edge_at(const Eigen::Vector3d& point);
   void prune(const Eigen::Vector3d& center, double radius);
   void clear();
+  LocalMapSize size() const;
   bool empty() const { return coarse_.size() == 0; }
 
  private:

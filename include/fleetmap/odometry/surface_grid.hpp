@@ -67,6 +67,11 @@ class SurfaceGrid {
   void prune(const Eigen::Vector3d& center, double radius);
   void clear();
   std::size_t size() const { return windows_.size(); }
+  /// Windows, those of other sides included.
+  std::size_t windows() const { return windows_.size() + other_sides_.size(); }
+  std::size_t bytes() const {
+    return windows_.bytes() + other_sides_.bytes() + surfaces_.bytes() + index_.bytes();
+  }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;

@@ -1,0 +1,83 @@
+// The local map of an odometry that has lost its way is bounded, whatever the scans show.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <vector>
+
+#include "fleetmap/odometry/loam.hpp"
+#include "support/synthetic_lidar.hpp"
+
+namespace fleetmap::odometry {
+namespace {
+
+using testing::ScanOptions;
+
+constexpr int kScans = 90, kStay = 15;  // scans in all, and from one place
+
+struct Seen {
+  std::size_t windows = 0, bytes = 0;  ///< at most
+  std::vector<bool> lost;              ///< each scan
+  LoamCounters counters;
+};
+
+class LostMemory : public ::testing::Test {
+ protected:
+  LostMemory() {
+    config_.T_base_lidar = ScanOptions{}.T_base_lidar;
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> x(-5.0, 45.0), y(-8.0, 8.0), yaw(-3.1, 3.1);
+    for (Pose& place : places_)
+      place = make_pose(rotation_from_rpy(0, 0, yaw(random)), {x(random), y(random), 0});
+  }
+
+  Seen map_of(const testing::PoseAt& pose_at) const {
+    Loam loam(config_, vlp16());
+    ScanOptions options;
+    options.keep = 0.3;
+    Seen seen;
+    for (int k = 0; k < kScans; ++k) {
+      const auto update = loam.add_scan(make_scan(world_, pose_at, 0.1 * k, vlp16(), options));
+      EXPECT_TRUE(update);
+      seen.lost.push_back(update && update->lost);
+      seen.windows = std::max(seen.windows, loam.map_size().windows);
+      seen.bytes = std::max(seen.bytes, loam.map_size().bytes);
+    }
+    seen.counters = loam.counters();
+    return seen;
+  }
+  Seen map_of_a_drive() const {
+    return map_of([this](double t) { return drive_.at(t); });
+  }
+
+  LoamConfig config_;
+  testing::SyntheticWorld world_ = testing::yard_world();
+  testing::SyntheticDrive drive_{{{0.3, 0, 0}, {12, 3.0, 0}}, 2.0, 2.0, 0.0};
+  std::array<Pose, kScans / kStay> places_;
+};
+
+TEST_F(LostMemory, OfARobotThatIsCarriedAboutTheMapIsNoLargerThanThatOfADrive) {
+  const Seen drive = map_of_a_drive();
+  EXPECT_EQ(drive.counters.lost, 0u);
+  const Seen carried =
+      map_of([this](double t) { return places_[static_cast<std::size_t>((10.0 * t + 1e-6) / kStay)]; });
+  for (int jump = kStay; jump < kScans; jump += kStay) EXPECT_TRUE(carried.lost.at(jump)) << "scan " << jump;
+  EXPECT_GE(carried.counters.map_restarts, 2u);
+  EXPECT_LE(carried.windows, drive.windows);
+  EXPECT_LE(carried.bytes, drive.bytes);
+}
+
+TEST_F(LostMemory, AFullMapForgetsWhatIsFarAndCountsIt) {
+  const Seen unbounded = map_of_a_drive();
+  EXPECT_EQ(unbounded.counters.map_overflows, 0u);
+  EXPECT_GT(unbounded.windows, 30'000u);
+  config_.max_map_windows = 20'000;
+  const Seen bounded = map_of_a_drive();
+  EXPECT_LE(bounded.windows, 20'000u);
+  EXPECT_GT(bounded.counters.map_overflows, 0u);
+  EXPECT_LT(bounded.bytes, unbounded.bytes);
+}
+
+}  // namespace
+}  // namespace fleetmap::odometry
