@@ -77,17 +77,7 @@ bool misses_scans(const agent::Perception& perception) {
   return perception.last_heard() - perception.last_scan() > kNoScan;
 }
 
-/// What threads were stuck so far, for the log; nothing if none was.
-void print_stalls(const AgentId& agent, const bus::DdsBus& bus) {
-  for (const bus::StallCounters& thread : bus.stalls()) {
-    if (thread.times == 0) continue;
-    spdlog::warn("{}: {} was stuck {} times so far, at most {:.1f} s in {}", agent.str(), thread.thread,
-                 thread.times, to_seconds(thread.longest), thread.longest_work);
-  }
-}
-
-void print_progress(const agent::Agent& agent, const bus::DdsBus& bus) {
-  print_stalls(agent.config().id, bus);
+void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   const store::Store& store = agent.store();
   const bool none_yet = agent.perception().counters().scans == 0;
   if (misses_scans(agent.perception())) {
