@@ -48,6 +48,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   EXPECT_EQ(r1["aligned_groups"].size(), 1u) << process.output();
 
   std::vector<std::vector<Pose>> trajectories;
+  std::vector<Pose> placed_poses, true_poses;
   for (const testing::GeneratedRobot& robot : fleet->robots) {
     const auto odometry = agent::read_trajectory(out / robot.id / "odometry.tum");
     const auto placed = agent::read_trajectory(out / robot.id / "trajectory.tum");
@@ -58,6 +59,8 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     for (const auto& pose : *placed) T.push_back(pose.T_w_base);
     testing::expect_at_most(testing::aligned_rmse(O, robot.T_enu_base), 0.0019, "odometry of a robot in m",
                             1);
+    placed_poses.insert(placed_poses.end(), T.begin(), T.end());
+    true_poses.insert(true_poses.end(), robot.T_enu_base.begin(), robot.T_enu_base.end());
     trajectories.push_back(T);
   }
   // What the run recorded gives the same odometry as what it read.
@@ -76,6 +79,14 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   testing::expect_at_most(error.translation().norm(), 0.0283, "r2 as seen from r1, m", 1);
   testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.19,
                           "r2 as seen from r1, deg", 1);
+  testing::expect_at_most(testing::aligned_rmse(placed_poses, true_poses), 0.0018, "joint ATE, m", 1);
+  // The graph corrects a rotation by the positions of several alignments, so each is looked at alone too.
+  const auto store = store::Store::open_read_only(out / "r1" / "store.db");
+  ASSERT_TRUE(store) << store.error().message;
+  const auto alignments = testing::errors_of_alignments(*store, *fleet);
+  EXPECT_GE(alignments.count, 1);
+  testing::expect_at_most(alignments.translation, 0.0021, "worst alignment, m", 1);
+  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.0165, "worst alignment, deg", 1);
 }
 
 /// Writes a recording of a robot that is carried elsewhere between two scans: nothing that it sees then fits

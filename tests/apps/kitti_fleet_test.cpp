@@ -9,6 +9,7 @@
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/generated_fleet.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
 #include "support/shared_data.hpp"
@@ -46,6 +47,19 @@ class KittiFleet : public ::testing::Test {
     return process.output();
   }
 
+  /// The consensus at the scans of one robot, whose first is frame `first` of the drive.
+  testing::GeneratedRobot reference(const std::filesystem::path& out, const std::string& id,
+                                    std::size_t first) const {
+    testing::GeneratedRobot robot{id, {}, {}};
+    const auto scans = agent::read_trajectory(out / id / "odometry.tum");
+    EXPECT_TRUE(scans);
+    for (std::size_t k = 0; scans && k < scans->size() && first + k < consensus_.size(); ++k) {
+      robot.stamps.push_back((*scans)[k].stamp);
+      robot.T_enu_base.push_back(consensus_[first + k]);
+    }
+    return robot;
+  }
+
   testing::TemporaryFolder folder_;
   std::optional<std::filesystem::path> drive_;
   std::vector<Pose> consensus_;
@@ -56,7 +70,7 @@ TEST_F(KittiFleet, OdometryStaysNearTheConsensusOfOthers) {
   run({"odometry", drive_->string(), "--out", tum.string(), "--set", "lidar.model=hdl64e"});
   const std::vector<Pose> poses = poses_of(tum);
   ASSERT_EQ(poses.size(), consensus_.size());
-  EXPECT_LT(testing::aligned_rmse(poses, consensus_), 0.05);
+  testing::expect_at_most(testing::aligned_rmse(poses, consensus_), 0.040, "odometry RMSE in m", 1);
 }
 
 TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
@@ -99,6 +113,14 @@ TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
   testing::expect_at_most(error.translation().norm(), 0.105, "r2 as seen from r1, m", 1);
   testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.42,
                           "r2 as seen from r1, deg", 1);
+  // Errors of alignments that each robot computed of the other can cancel in the placement.
+  const auto store = store::Store::open_read_only(out / "r1" / "store.db");
+  ASSERT_TRUE(store) << store.error().message;
+  const auto alignments =
+      testing::errors_of_alignments(*store, {{}, {reference(out, "r1", 0), reference(out, "r2", 60)}});
+  EXPECT_GE(alignments.count, 1);
+  testing::expect_at_most(alignments.translation, 0.223, "worst alignment, m", 1);
+  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.84, "worst alignment, deg", 1);
 
   for (const char* name :
        {"odometry.tum", "ekf.tum", "trajectory.tum", "map.ply", "map.pcd", "alignments.csv", "store.db"}) {

@@ -1,6 +1,8 @@
 #include "generated_fleet.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "fleetmap/recording/bag_writer.hpp"
@@ -15,6 +17,7 @@ constexpr std::int64_t kStart = 1'750'000'000'000'000'000;
 constexpr Duration kTick = std::chrono::milliseconds(10);
 constexpr double kGpsSigma = 1.5;
 constexpr double kGpsTime = 60.0;
+constexpr double kSameStamp = 1e-3;   // s
 constexpr double kKeptReturns = 0.3;  // or the recordings of a test would fill small disks
 
 /// First-order Gauss-Markov error of a position.
@@ -146,6 +149,31 @@ Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
     fleet.robots.push_back(std::move(*truth));
   }
   return fleet;
+}
+
+AlignmentErrors errors_of_alignments(const store::Store& store, const GeneratedFleet& fleet) {
+  const auto truth_of = [&](const NodeId& id) -> std::optional<Pose> {
+    const graph::Node* node = store.node(id);
+    const auto robot = std::ranges::find(fleet.robots, id.agent.str(), &GeneratedRobot::id);
+    if (node == nullptr || robot == fleet.robots.end()) return std::nullopt;
+    // Stamps that went through a text file are rounded.
+    const auto at = std::ranges::find_if(
+        robot->stamps, [&](Stamp stamp) { return std::abs(to_seconds(stamp - node->stamp)) < kSameStamp; });
+    if (at == robot->stamps.end()) return std::nullopt;
+    return robot->T_enu_base[static_cast<std::size_t>(at - robot->stamps.begin())];
+  };
+  AlignmentErrors worst;
+  for (const auto& [id, alignment] : store.alignments()) {
+    const auto T_enu_i = truth_of(alignment.i), T_enu_j = truth_of(alignment.j);
+    if (!T_enu_i || !T_enu_j || alignment.i.agent == alignment.j.agent || alignment.modes.size() != 1)
+      continue;
+    const Pose T_i_j = T_enu_i->inverse() * *T_enu_j;
+    const Pose& estimate = alignment.modes.front().T_i_j;
+    ++worst.count;
+    worst.translation = std::max(worst.translation, (estimate.translation() - T_i_j.translation()).norm());
+    worst.rotation = std::max(worst.rotation, so3_log(T_i_j.linear().transpose() * estimate.linear()).norm());
+  }
+  return worst;
 }
 
 }  // namespace fleetmap::testing

@@ -9,6 +9,7 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/store/store.hpp"
 
 namespace fleetmap::testing {
 
@@ -29,5 +30,13 @@ struct GeneratedFleet {
 /// fix. The same bytes every time.
 Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
                                              const std::set<std::string>& without_gps = {});
+
+/// How far the alignments of two robots' nodes that `store` holds lie off the truth, the worst of each: m
+/// along the axes of the first node, and rad. None when it holds none.
+struct AlignmentErrors {
+  int count = 0;
+  double translation = 0.0, rotation = 0.0;
+};
+AlignmentErrors errors_of_alignments(const store::Store& store, const GeneratedFleet& fleet);
 
 }  // namespace fleetmap::testing
