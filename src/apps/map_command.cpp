@@ -1,3 +1,4 @@
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -9,7 +10,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/agent/results.hpp"
-#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/store/thinned_map.hpp"
 #include "map_pictures.hpp"
 #include "options.hpp"
 #include "store_summary.hpp"
@@ -98,29 +99,62 @@ int info(const MapOptions& options) {
   return kDone;
 }
 
+/// Of the nodes that map.ply shows.
+std::map<NodeId, Pose> shown_poses(const OpenedMap& map) {
+  return agent::map_parts(agent::nodes_of(map.store), map.placement).main.T_map_node;
+}
+
+void name_unreadable(const store::MapOutline& outline) {
+  for (const NodeId& id : outline.unreadable)
+    std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
+}
+
 int export_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
-  const store::MergedMap merged = agent::main_map(map->store, map->placement, map->recipe.merge);
-  for (const NodeId& id : merged.unreadable)
-    std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
-  if (const Status written = cloud::write_cloud(options.out, merged.cloud); !written)
-    return report(written.error(), kFailed);
-  std::cout << options.out << ": " << merged.cloud.size() << " points from " << merged.submaps
+  const std::array files{std::filesystem::path(options.out)};
+  const auto written = agent::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
+  if (!written) return report(written.error(), kFailed);
+  name_unreadable(written->outline);
+  std::cout << options.out << ": " << written->points << " points from " << written->outline.submaps
             << " submaps\n";
   return kDone;
+}
+
+/// The pictures, in memory for a map that is thinned to what can be drawn: its tiles come once for their
+/// points and once to be counted around these.
+Result<std::vector<MapPicture>> pictures_of(OpenedMap& map) {
+  constexpr double kDensityRadius = 1.0;  // m
+  auto merge = agent::tiled_map(map.store, shown_poses(map), map.recipe.merge);
+  if (!merge) return tl::unexpected(merge.error());
+  store::ThinnedMap thinned(map.recipe.merge.voxel_m, kMostDrawn);
+  const auto thin = [&](const store::MapTile& tile) -> Status {
+    thinned.add(tile);
+    return {};
+  };
+  if (const Status done = merge->stream(thin); !done) return tl::unexpected(done.error());
+  name_unreadable(merge->outline());
+  const store::MergedMap shown = thinned.map(merge->outline());
+  auto pictures = pictures_by_robot(shown);
+  if (!pictures) return pictures;
+  std::vector<std::uint32_t> counts(shown.cloud.size());
+  const auto count = [&](const store::MapTile& tile) -> Status {
+    add_density(shown.cloud, tile.cloud, kDensityRadius, counts);
+    return {};
+  };
+  if (const Status done = merge->stream(count); !done) return tl::unexpected(done.error());
+  auto density = picture_of_density(shown.cloud, counts, kDensityRadius);
+  if (density) pictures->push_back(std::move(*density));
+  return pictures;
 }
 
 int draw_map(const MapOptions& options) {
   auto map = open_map(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
-  const store::MergedMap merged = agent::main_map(map->store, map->placement, map->recipe.merge);
-  auto pictures = pictures_by_robot(merged);
+  const auto pictures = pictures_of(*map);
   if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
-  auto density = picture_of_density(merged.cloud, 1.0);
-  if (density) pictures->push_back(std::move(*density));
   for (const MapPicture& picture : *pictures) {
     if (const Status written = write_picture(options.out, picture); !written)
       return report(written.error(), kFailed);

@@ -1,5 +1,6 @@
 #include "map_pictures.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +15,6 @@ namespace fleetmap::apps {
 namespace {
 
 constexpr double kPointSize = 0.14;  // m: little more than the usual voxel of a map
-constexpr std::size_t kMostPoints = 3'000'000;
 constexpr double kWorstError = 0.3;  // m, at the red end
 
 using Cell = std::array<std::int32_t, 2>;
@@ -121,12 +121,17 @@ Result<MapPicture> picture_of_errors(const cloud::PointCloud& points, const std:
 
 Result<MapPicture> picture_of_density(const cloud::PointCloud& map, double radius) {
   cloud::PointCloud shown = map;
-  for (float voxel = 0.1f; shown.size() > kMostPoints; voxel *= 1.5f) {
+  for (float voxel = 0.1f; shown.size() > kMostDrawn; voxel *= 1.5f) {
     cloud::VoxelMerger merger(voxel);
     merger.add(shown);
     shown = merger.cloud();
   }
-  const auto counts = eval::density_at(shown.points, map.points, static_cast<float>(radius));
+  return picture_of_density(shown, eval::density_at(shown.points, map.points, static_cast<float>(radius)),
+                            radius);
+}
+
+Result<MapPicture> picture_of_density(const cloud::PointCloud& shown,
+                                      const std::vector<std::uint32_t>& counts, double radius) {
   if (counts.empty()) return failure("there is no point to draw");
   std::vector<std::uint32_t> sorted = counts;
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sorted.size() - 1));
@@ -139,6 +144,21 @@ Result<MapPicture> picture_of_density(const cloud::PointCloud& map, double radiu
   view.bar = {"points within " + std::to_string(static_cast<int>(std::lround(radius))) + " m", 0.0, most,
               true};
   return drawn("map_density.png", "Density of the map", shown, colours, view);
+}
+
+void add_density(const cloud::PointCloud& shown, const cloud::PointCloud& tile, double radius,
+                 std::vector<std::uint32_t>& counts) {
+  const auto reach = static_cast<float>(radius);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : tile.points) box.extend(p);
+  box.min().array() -= reach;
+  box.max().array() += reach;
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (box.contains(shown.points[i])) near.push_back(i);
+  }
+  const auto more = eval::density_at(cloud::select(shown, near).points, tile.points, reach);
+  for (std::size_t k = 0; k < near.size(); ++k) counts[near[k]] += more[k];
 }
 
 Status write_picture(const std::filesystem::path& directory, const MapPicture& picture) {

@@ -10,6 +10,7 @@
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/file_hash.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
@@ -54,12 +55,6 @@ nlohmann::json report_in(const fs::path& file, std::vector<std::string>& notes) 
   if (report.is_object()) return report;
   notes.push_back(file.string() + ": is not the JSON of a run's report; left alone");
   return nullptr;
-}
-
-std::string hash_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-  return to_hex(content_hash(bytes));
 }
 
 /// A PLY whose header says that it has faces.
@@ -158,7 +153,12 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run) {
       run.notes.push_back(file.string() + ": is missing: " + agent.id.str() + " has no map");
       continue;
     }
-    const std::string hash = hash_of(file);
+    const auto hashed = file_hash(file);
+    if (!hashed) {
+      run.notes.push_back(hashed.error().message);
+      continue;
+    }
+    const std::string hash = to_hex(*hashed);
     const auto same = std::ranges::find(maps, hash, &DistinctMap::hash);
     if (same != maps.end()) {
       same->agents.push_back(agent.id);

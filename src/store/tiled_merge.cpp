@@ -27,8 +27,7 @@ class TiledMerge::Planner {
     outline.points_in += placed->size();
     all_intensities_ = all_intensities_ && (placed->empty() || placed->has_intensities());
     const std::size_t agent = std::min<std::size_t>(outline.agents.size() - 1, 255);
-    merge_.sources_.push_back(
-        {id, T_enu_node, static_cast<std::uint8_t>(agent), columns_of(*placed), true, {}});
+    merge_.sources_.push_back({id, T_enu_node, static_cast<std::uint8_t>(agent), columns_of(*placed), true});
     keep(std::move(*placed));
   }
 
@@ -37,7 +36,7 @@ class TiledMerge::Planner {
     outline.has_intensities = all_intensities_ && outline.points_in > outline.points_refused;
     merge_.tiles_ = cloud::VoxelTiles(sample_, budget_.tile_voxels);
     for (auto& [source, placed] : kept_) {
-      merge_.cache_.put(source, merge_.divide(merge_.sources_[source], placed, 0));
+      merge_.cache_.put(source, merge_.divided(placed, 0));
       placed = {};
     }
   }
@@ -123,22 +122,6 @@ TileCache::Parts TiledMerge::divided(const cloud::PointCloud& placed, std::size_
   return parts;
 }
 
-TileCache::Parts TiledMerge::divide(Source& source, const cloud::PointCloud& placed,
-                                    std::size_t from_tile) const {
-  TileCache::Parts parts = divided(placed, from_tile);
-  // It was not needed for any tile before, so these are all of its tiles.
-  if (!source.tiles) {
-    source.tiles.emplace();
-    for (const auto& [tile, points] : parts) source.tiles->push_back(static_cast<std::uint32_t>(tile));
-  }
-  return parts;
-}
-
-bool TiledMerge::touches(const Source& source, std::size_t tile) const {
-  if (source.tiles) return std::ranges::binary_search(*source.tiles, tile);
-  return source.columns.touches(tiles_.first_code(tile), tiles_.last_code(tile));
-}
-
 cloud::PointCloud TiledMerge::part_of(std::size_t index, std::size_t tile) {
   if (cache_.holds(index)) return cache_.take(index, tile);
   Source& source = sources_[index];
@@ -149,7 +132,7 @@ cloud::PointCloud TiledMerge::part_of(std::size_t index, std::size_t tile) {
     outline_.unreadable.insert(std::ranges::upper_bound(outline_.unreadable, source.id), source.id);
     return {};
   }
-  TileCache::Parts parts = divide(source, *cloud, tile);
+  TileCache::Parts parts = divided(*cloud, tile);
   cloud::PointCloud part;
   if (const auto here = parts.find(tile); here != parts.end()) {
     part = std::move(here->second);

@@ -259,7 +259,7 @@ TEST(TiledMerge, HasIntensitiesOnlyIfAllSubmapsHaveThem) {
 }
 
 TEST(TiledMerge, StopsWhereItsSinkFails) {
-  auto tiled = TiledMerge::plan(poses(), load, {.voxel_m = 0.5}, kSmall);
+  auto tiled = TiledMerge::plan(poses(), load, {.voxel_m = 0.5}, {.tile_voxels = 900});  // all in the cache
   ASSERT_TRUE(tiled);
   int tiles = 0;
   const Status done = tiled->stream([&](const MapTile&) -> Status {

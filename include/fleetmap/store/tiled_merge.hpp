@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "fleetmap/cloud/voxel_tiles.hpp"
@@ -68,16 +67,12 @@ class TiledMerge {
     std::uint8_t agent = 0;  ///< index in MapOutline::agents
     cloud::ColumnFootprint columns;
     bool readable = true;
-    /// That it has points in, ascending; known once it was divided.
-    std::optional<std::vector<std::uint32_t>> tiles;
   };
   class Planner;
 
   TiledMerge(SubmapLoader load, float voxel_m, bool centroids, std::size_t cache_bytes);
   Result<cloud::PointCloud> placed(const NodeId& id, const Pose& T_enu_node);
   TileCache::Parts divided(const cloud::PointCloud& placed, std::size_t from_tile) const;
-  TileCache::Parts divide(Source& source, const cloud::PointCloud& placed, std::size_t from_tile) const;
-  bool touches(const Source& source, std::size_t tile) const;
   cloud::PointCloud part_of(std::size_t source, std::size_t tile);
   MapTile merged(std::size_t tile);
 
