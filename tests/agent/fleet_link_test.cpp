@@ -60,15 +60,17 @@ class TalkativeRadio final : public bus::Bus {
     return bus_.subscribe(topic, std::move(on_message));
   }
   std::optional<AgentId> sender() const override { return bus_.sender(); }
-  bus::Handle every(Duration period, std::function<void()> callback) override {
+  bus::Handle every(Duration period, bus::Work callback) override {
     return bus_.every(period, std::move(callback));
   }
-  bool offload(bus::Lane lane, std::function<void()> work, std::function<void()> done) override {
+  bool offload(bus::Lane lane, bus::Work work, std::function<void()> done) override {
     return bus_.offload(lane, std::move(work), std::move(done));
   }
   std::vector<bus::TopicStats> stats() const override { return bus_.stats(); }
   std::uint64_t discovery_bytes(bus::Link link) const override {
-    return link == bus::Link::kLongRange ? static_cast<std::uint64_t>(now().time_since_epoch() / 20ms) * bytes_a_tick_ : 0;
+    return link == bus::Link::kLongRange
+               ? static_cast<std::uint64_t>(now().time_since_epoch() / 20ms) * bytes_a_tick_
+               : 0;
   }
 
  private:
