@@ -96,8 +96,8 @@ bool kept_its_way(const OdometryRun& run) {
 /// and wheels saw during its sweep, so scans wait until these have passed their end.
 class OdometryFeed {
  public:
-  explicit OdometryFeed(const agent::PerceptionConfig& config)
-      : config_(config), loam_(config.odometry, config.lidar) {}
+  OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
+      : config_(config), loam_(config.odometry, config.lidar), times_(log_clock) {}
 
   /// `recorded` as Reader::recorded() has it.
   void add(recording::Sample sample, std::optional<Stamp> recorded) {
@@ -179,8 +179,9 @@ class OdometryFeed {
   Stamp now_{};
 };
 
-Result<OdometryRun> run_odometry(recording::Reader& reader, const agent::PerceptionConfig& config) {
-  OdometryFeed feed(config);
+Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
+                                 const agent::PerceptionConfig& config) {
+  OdometryFeed feed(config, log_clock);
   while (true) {
     auto sample = reader.next();
     if (!sample) return tl::unexpected(sample.error());
@@ -203,7 +204,9 @@ int run(const OdometryOptions& options) {
     return report(writable.error(), kFailed);
   auto reader = recording::open(options.recording, reader_config);
   if (!reader) return report(reader.error(), kFailed);
-  const auto done = run_odometry(**reader, config->agent.perception);
+  const auto log_clock = recording::find_log_clock(options.recording, reader_config);
+  if (!log_clock) return report(log_clock.error(), kFailed);
+  const auto done = run_odometry(**reader, *log_clock, config->agent.perception);
   if (!done) return report(done.error(), kFailed);
   if (done->poses.empty()) {
     return report({options.recording + ": no scan could be used" +

@@ -32,7 +32,10 @@ Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
   for (const config::RecordingConfig& source : recordings) {
     auto reader = recording::open(source.path, source.reader);
     if (!reader) return tl::unexpected(reader.error());
+    const auto log_clock = recording::find_log_clock(source.path, source.reader);
+    if (!log_clock) return tl::unexpected(log_clock.error());
     Member member;
+    member.times = recording::PlayTimes(*log_clock);
     member.reader = std::move(*reader);
     if (const Status first = advance(member); !first) return tl::unexpected(first.error());
     if (!member.next) return failure(source.path.string() + ": the recording holds no sensor sample");

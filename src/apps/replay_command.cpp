@@ -31,8 +31,9 @@ struct ReplayOptions {
 /// Plays samples at the times they were taken at, from timers of the bus's own thread.
 class Player {
  public:
-  Player(recording::Reader& reader, bus::DdsBus& bus, const agent::SensorTopics& names, double rate)
-      : reader_(reader), bus_(bus), names_(names), rate_(rate) {
+  Player(recording::Reader& reader, const recording::LogClock& log_clock, bus::DdsBus& bus,
+         const agent::SensorTopics& names, double rate)
+      : reader_(reader), bus_(bus), names_(names), rate_(rate), times_(log_clock) {
     for (const bus::Topic& topic : sensor_topics(names_)) bus_.advertise(topic);
   }
   Status start() {
@@ -120,7 +121,9 @@ int run(const ReplayOptions& options) {
 
   const std::atomic<bool>& stop = stop_on_signals();
   const agent::SensorTopics& names = robot->agent.perception.topics;
-  Player player(**reader, **bus, names, options.rate);
+  const auto log_clock = recording::find_log_clock(path, reader_config);
+  if (!log_clock) return report(log_clock.error(), kFailed);
+  Player player(**reader, *log_clock, **bus, names, options.rate);
   const auto matched = [&] {
     return stop || std::ranges::all_of(sensor_topics(names), [&](const bus::Topic& topic) {
              return (*bus)->matches(topic).readers > 0;

@@ -54,11 +54,13 @@ void DelayWindow::on_arrival(double queueing_s, std::uint32_t bytes) {
   target_ = std::min(target_ * (1.0 + kRecovery * rounds), config_.target_s);
 }
 
+bool DelayWindow::queues() const { return queueing_ > kQueueLoss; }
+
 void DelayWindow::on_loss(Stamp asked, Stamp now) {
   slow_start_ = false;
   if (halved_ && asked <= *halved_) return;  // sent before the window was halved
   halved_ = now;
-  const bool overflowed = queueing_ > kQueueLoss;
+  const bool overflowed = queues();
   window_ = std::max<double>(window_ * (overflowed ? kAfterQueueLoss : kAfterOtherLoss), config_.least_bytes);
   if (overflowed) target_ = std::clamp(kBelowOverflow * queueing_, kLeastTarget, target_);
 }

@@ -14,6 +14,13 @@ constexpr int kSilentTimeouts = 3;
 constexpr std::size_t kMaxIntervals = 8192;
 constexpr std::uint64_t kMaxMissing = 4096;  ///< submaps looked at in one tick
 
+/// A peer that answers nothing keeps the least of its own window under way: there is room for others beside
+/// it.
+DelayWindowConfig of_all(DelayWindowConfig config) {
+  config.least_bytes = std::min(2 * config.least_bytes, config.first_bytes);
+  return config;
+}
+
 }  // namespace
 
 Status SubmapTransferConfig::validate() const {
@@ -46,7 +53,7 @@ Status SubmapTransferConfig::validate() const {
 }
 
 SubmapReceiver::SubmapReceiver(const AgentId& self, const SubmapTransferConfig& config)
-    : self_(self), config_(config), window_(config.window) {}
+    : self_(self), config_(config), window_(of_all(config.window)) {}
 
 std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t chunk) {
   return std::min(kChunk, node.submap_bytes - chunk * kChunk);
@@ -56,7 +63,7 @@ void SubmapReceiver::on_heard(const AgentId& name, Stamp now) {
   Peer& known = peer(name);
   // Another place, another channel: what the link carried then tells little.
   if (now - known.heard > config_.peer_timeout) {
-    if (peers_in_reach(now).empty()) window_ = DelayWindow(config_.window);
+    if (peers_in_reach(now).empty()) window_ = DelayWindow(of_all(config_.window));
     known.window = DelayWindow(config_.window);
     known.least_delay = {};
     known.hears_us = false;
@@ -287,7 +294,12 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
       }
       ++stats_.timeouts;
       peer.window.on_loss(flight->second.sent, now);
-      window_.on_loss(flight->second.sent, now);
+      // One peer at the edge of reach says nothing of the channel to the others.
+      if (window_.queues()) {
+        window_.on_loss(flight->second.sent, now);
+      } else {
+        window_.end_slow_start();
+      }
       no_longer_out(peer, flight->second.bytes);
       flight = download.flights.erase(flight);
     }

@@ -101,7 +101,7 @@ std::vector<Duration> SimFleet::arrivals(const fault_injection::Packet& packet, 
   if (!reachable(packet.from, to, packet.outgoing.reach)) return delays;
   const double chance = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
   if (chance < network_.loss) return delays;
-  if (!queued_) return delays;
+  if (!queued_ || lost(packet)) return delays;
   const int copies = chance > 1.0 - network_.duplication ? 2 : 1;
   for (int copy = 0; copy < copies; ++copy) {
     delays.emplace_back(queued_->count() +

@@ -78,6 +78,8 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   /// RMSE of the registration of a pair, nothing when it is rejected.
   std::function<std::optional<double>(const exchange::NodePair&)> registration =
       [](const exchange::NodePair&) { return std::optional(0.2); };
+  /// What comes to nobody.
+  std::function<bool(const Sent&)> lost = [](const Sent&) { return false; };
   std::size_t cloud_bytes = 24'000;
   bool register_clouds = true;
 

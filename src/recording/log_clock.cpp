@@ -1,0 +1,85 @@
+#include "fleetmap/recording/log_clock.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace fleetmap::recording {
+namespace {
+
+constexpr Duration kLooksAt = std::chrono::seconds(20);
+constexpr std::size_t kMostSamples = 20'000;
+/// A sensor's rate is known from so much of its own time.
+constexpr Duration kLeastSpan = std::chrono::seconds(2);
+/// Clocks drift by less; programs that played or simulated at another rate miss it by more.
+constexpr double kMostRateError = 0.05;
+/// Lags below this are those of drivers and of single sensors' clocks.
+constexpr Duration kWrittenLater = std::chrono::minutes(1);
+
+/// Of one kind of sensor.
+struct Seen {
+  Stamp first_stamp, last_stamp, first_recorded, last_recorded;
+  Duration least_lag = Duration::max();
+};
+
+std::optional<double> rate_of(const Seen& seen) {
+  const Duration span = seen.last_stamp - seen.first_stamp;
+  if (span < kLeastSpan) return std::nullopt;
+  return to_seconds(seen.last_recorded - seen.first_recorded) / to_seconds(span);
+}
+
+/// Of sensors that disagree, the one nearer to the times of recording.
+Duration common_lag(std::vector<Duration> lags) {
+  std::ranges::sort(lags, {}, [](Duration lag) { return lag < Duration::zero() ? -lag : lag; });
+  return lags[(lags.size() - 1) / 2];
+}
+
+LogClock clock_of(const std::vector<Seen>& sensors) {
+  std::vector<double> rates;
+  std::vector<Duration> lags;
+  for (const Seen& seen : sensors) {
+    if (const auto rate = rate_of(seen)) rates.push_back(*rate);
+    lags.push_back(seen.least_lag);
+  }
+  LogClock clock;
+  if (!rates.empty()) {
+    std::ranges::sort(rates, {}, [](double rate) { return std::abs(rate - 1.0); });
+    clock.usable = std::abs(rates[(rates.size() - 1) / 2] - 1.0) <= kMostRateError;
+  }
+  const Duration lag = common_lag(lags);
+  if (lag > kWrittenLater || lag < -kWrittenLater) clock.shift = -lag;
+  return clock;
+}
+
+}  // namespace
+
+Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config) {
+  auto reader = open(recording, config);
+  if (!reader) return tl::unexpected(reader.error());
+  std::array<std::optional<Seen>, std::variant_size_v<Sample>> seen;
+  std::optional<Stamp> begun;
+  for (std::size_t samples = 0; samples < kMostSamples; ++samples) {
+    const auto sample = (*reader)->next();
+    if (!sample || !*sample) break;  // whoever plays it says why
+    const auto recorded = (*reader)->recorded();
+    if (!recorded) return LogClock{};
+    if (!begun) begun = recorded;
+    const Stamp stamp = stamp_of(**sample);
+    std::optional<Seen>& sensor = seen[(*sample)->index()];
+    if (!sensor) sensor = Seen{stamp, stamp, *recorded, *recorded};
+    sensor->last_stamp = stamp;
+    sensor->last_recorded = *recorded;
+    sensor->least_lag = std::min(sensor->least_lag, *recorded - stamp);
+    if (*recorded - *begun > kLooksAt) break;
+  }
+  std::vector<Seen> sensors;
+  for (const auto& sensor : seen) {
+    if (sensor) sensors.push_back(*sensor);
+  }
+  return sensors.empty() ? LogClock{} : clock_of(sensors);
+}
+
+}  // namespace fleetmap::recording
