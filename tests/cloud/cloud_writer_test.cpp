@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -79,12 +81,35 @@ TEST(CloudWriter, AFullDiskIsAnErrorThatNamesTheFile) {
   }
 }
 
-TEST(CloudWriter, CannotFinishAFileThatLacksPoints) {
+/// Files may not grow beyond a few kB while it lives.
+class NoRoom {
+ public:
+  NoRoom() {
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{4'096, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~NoRoom() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  NoRoom(const NoRoom&) = delete;
+  NoRoom& operator=(const NoRoom&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = SIG_DFL;
+};
+
+TEST(CloudWriter, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   const fleetmap::testing::TemporaryFolder folder;
-  fs::create_symlink("/dev/full", folder.path() / "map.pcd.part");
   auto writer = CloudWriter::create(folder.path() / "map.pcd", true);
   ASSERT_TRUE(writer);
-  EXPECT_FALSE(writer->add(testing::street_scene(100'000, 4)));
+  {
+    const NoRoom full;
+    EXPECT_FALSE(writer->add(testing::street_scene(100'000, 4)));
+  }
   EXPECT_FALSE(writer->finish());
   EXPECT_FALSE(fs::exists(folder.path() / "map.pcd"));
 }

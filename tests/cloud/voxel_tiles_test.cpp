@@ -56,6 +56,12 @@ TEST(ColumnCode, NamesTheSquareOfEverySizeThatAColumnLiesIn) {
   }
 }
 
+TEST(ColumnCode, GoesOnAcrossTheOrigin) {
+  EXPECT_LT(column_code({-1, -1, 0}), column_code({0, -1, 0}));
+  EXPECT_LT(column_code({0, -1, 0}), column_code({-1, 0, 0}));
+  EXPECT_LT(column_code({-1, 0, 0}), column_code({0, 0, 0}));
+}
+
 TEST(VoxelTiles, HoldNoMoreThanTheBoundAndWasteLittle) {
   const std::vector<Voxel> voxels = slab(20'000, 2);
   for (const std::size_t most : {std::size_t{300}, std::size_t{1'999}, std::size_t{100'000}}) {
@@ -156,8 +162,8 @@ TEST(ColumnFootprint, ThatIsTooWideForItsSquaresStillTouchesAllOfItsColumns) {
   for (const std::uint64_t code : codes) footprint.add(code);
   footprint.finish();
   for (const std::uint64_t code : codes) EXPECT_TRUE(footprint.touches(code, code));
-  const std::uint64_t elsewhere = column_code({100'000'000, 5, 0});
-  EXPECT_FALSE(footprint.touches(elsewhere, elsewhere));
+  for (const Voxel& far : {Voxel{100'000'000, 5, 0}, Voxel{-100'000'000, -5, 0}})
+    EXPECT_FALSE(footprint.touches(column_code(far), column_code(far)));
 }
 
 }  // namespace
