@@ -61,8 +61,7 @@ void ColumnFootprint::finish() {
 void ColumnFootprint::sort() {
   const auto unique = [this] {
     std::ranges::sort(squares_);
-    const auto rest = std::ranges::unique(squares_);
-    squares_.erase(rest.begin(), rest.end());
+    squares_.erase(std::unique(squares_.begin(), squares_.end()), squares_.end());
   };
   unique();
   while (squares_.size() > max_squares_ && shift_ < 62) {
