@@ -15,6 +15,13 @@ Status MergeConfig::validate() const {
   return {};
 }
 
+std::uint8_t MapOutline::add_submap(const NodeId& id, std::size_t points) {
+  ++submaps;
+  points_in += points;
+  if (agents.empty() || agents.back() != id.agent) agents.push_back(id.agent);
+  return static_cast<std::uint8_t>(std::min<std::size_t>(agents.size() - 1, 255));
+}
+
 MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& load,
                 const MergeConfig& config) {
   cloud::VoxelMerger merger(static_cast<float>(config.voxel_m),
@@ -26,16 +33,14 @@ MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& lo
       map.unreadable.push_back(id);
       continue;
     }
-    ++map.submaps;
-    map.points_in += submap->size();
-    if (map.agents.empty() || map.agents.back() != id.agent) map.agents.push_back(id.agent);
+    const std::uint8_t agent = map.add_submap(id, submap->size());
     const std::size_t added = merger.add(cloud::transformed(*submap, T_enu));
     // Voxels appear in the order in which they were first hit.
-    const std::size_t agent = std::min<std::size_t>(map.agents.size() - 1, 255);
-    map.seen_by.insert(map.seen_by.end(), added, static_cast<std::uint8_t>(agent));
+    map.seen_by.insert(map.seen_by.end(), added, agent);
   }
   map.points_refused = merger.refused();
   map.cloud = merger.cloud();
+  map.has_intensities = map.cloud.has_intensities();
   return map;
 }
 

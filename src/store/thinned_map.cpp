@@ -44,16 +44,6 @@ void ThinnedMap::add(const MapTile& tile) {
   }
 }
 
-MergedMap ThinnedMap::map(const MapOutline& outline) const {
-  MergedMap map;
-  map.cloud = merger_.cloud();
-  map.submaps = outline.submaps;
-  map.points_in = outline.points_in;
-  map.points_refused = outline.points_refused;
-  map.unreadable = outline.unreadable;
-  map.agents = outline.agents;
-  map.seen_by = seen_by_;
-  return map;
-}
+MergedMap ThinnedMap::map(const MapOutline& outline) const { return {outline, merger_.cloud(), seen_by_}; }
 
 }  // namespace fleetmap::store

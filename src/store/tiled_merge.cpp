@@ -22,12 +22,9 @@ class TiledMerge::Planner {
       outline.unreadable.push_back(id);
       return;
     }
-    if (outline.agents.empty() || outline.agents.back() != id.agent) outline.agents.push_back(id.agent);
-    ++outline.submaps;
-    outline.points_in += placed->size();
+    const std::uint8_t agent = outline.add_submap(id, placed->size());
     all_intensities_ = all_intensities_ && (placed->empty() || placed->has_intensities());
-    const std::size_t agent = std::min<std::size_t>(outline.agents.size() - 1, 255);
-    merge_.sources_.push_back({id, T_enu_node, static_cast<std::uint8_t>(agent), columns_of(*placed), true});
+    merge_.sources_.push_back({id, T_enu_node, agent, columns_of(*placed), true});
     keep(std::move(*placed));
   }
 

@@ -22,15 +22,24 @@ struct MergeConfig {
   Status validate() const;
 };
 
-struct MergedMap {
-  cloud::PointCloud cloud;         ///< in the frame of the poses (ENU of the site's origin)
+/// All of a merged map but its points.
+struct MapOutline {
   std::size_t submaps = 0;         ///< merged
   std::size_t points_in = 0;       ///< before de-duplication
   std::size_t points_refused = 0;  ///< not finite, or absurdly far away
-  std::vector<NodeId> unreadable;  ///< submaps that the loader could not give; left out
-  /// The agents whose submaps the map is made of, and for each point of `cloud` the index among them of the
-  /// agent that was first to see its voxel.
-  std::vector<AgentId> agents;
+  /// Submaps that the loader could not give, left out: one that can no longer be read while tiles are merged,
+  /// from the tile on that it was needed for.
+  std::vector<NodeId> unreadable;
+  std::vector<AgentId> agents;  ///< whose submaps the map is made of
+  bool has_intensities = false;
+
+  /// Counts a submap, in the order of NodeIds, and returns the index of its agent in `agents`.
+  std::uint8_t add_submap(const NodeId& id, std::size_t points);
+};
+
+struct MergedMap : MapOutline {
+  cloud::PointCloud cloud;  ///< in the frame of the poses (ENU of the site's origin)
+  /// For each point of `cloud` the index in `agents` of the agent that was first to see its voxel.
   std::vector<std::uint8_t> seen_by;
 };
 

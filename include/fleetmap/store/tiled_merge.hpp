@@ -20,18 +20,6 @@ struct TileBudget {
   std::size_t sample_voxels = std::size_t{1} << 18;  ///< by which tiles are planned
 };
 
-/// All of a MergedMap but its points.
-struct MapOutline {
-  std::size_t submaps = 0;         ///< merged
-  std::size_t points_in = 0;       ///< before de-duplication
-  std::size_t points_refused = 0;  ///< not finite, or absurdly far away
-  /// Submaps that the loader could not give, left out: one that can no longer be read while tiles are merged,
-  /// from the tile on that it was needed for.
-  std::vector<NodeId> unreadable;
-  std::vector<AgentId> agents;  ///< see MergedMap::agents
-  bool has_intensities = false;
-};
-
 struct MapTile {
   cloud::PointCloud cloud;
   std::vector<std::uint8_t> seen_by;  ///< see MergedMap::seen_by
