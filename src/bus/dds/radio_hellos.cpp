@@ -33,6 +33,11 @@ constexpr double kLongestSpread = 6.0;  // s: a fleet is to know itself within t
 constexpr double kFirstPause = 0.5;     // s until a Hello is repeated, and what answers may take besides
 constexpr auto kLongestPause = std::chrono::seconds(2);  // and a second for each other robot
 constexpr int kQuickHellos = 7;  // with this pause: the radio loses some; then the pause doubles each time
+/// A robot that comes to a fleet which knows itself says its Hellos faster, since the others say none: it has
+/// had this many answers and no Hello of another newcomer.
+constexpr int kAnswersOfAFleet = 3;
+constexpr double kNewcomersShares = 2.0;
+constexpr double kNewcomersPause = 1.0;  // s
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 /// Whoever was heard so lately is still there. A robot that was killed and starts anew waits for so long.
 constexpr auto kStillThere = std::chrono::seconds(2);
@@ -80,6 +85,23 @@ RadioLink::Clock::duration RadioLink::first_pause() const {
                      (observes_ ? 0.0 : answered * hello_time(kMostPart * config_.fleet_bits_per_second)));
 }
 
+bool RadioLink::fleet_is_up() const { return !observes_ && answers_ >= kAnswersOfAFleet; }
+
+void RadioLink::count_answer(const Acquaintance& acquaintance) {
+  const bool was_up = fleet_is_up();
+  if (acquaintance.knows_us) {
+    ++answers_;
+  } else if (!acquaintance.knows_another) {
+    answers_ = 0;
+  }
+  if (was_up || !fleet_is_up()) return;
+  for (const auto& place : places_) {
+    if (place->robot || place->said >= kQuickHellos) continue;
+    const double part = std::uniform_real_distribution(0.0, kNewcomersPause)(random_);
+    place->next = std::min(place->next, Clock::now() + to_duration(part));
+  }
+}
+
 Status RadioLink::add_place(const Locator& locator, bool configured) {
   if (locator == own_ || (!configured && places_.size() >= kMostPlaces)) return {};
   auto place = std::make_unique<Place>();
@@ -121,7 +143,10 @@ void RadioLink::say_hello(Place& place, bool leaves) {
   const auto now = Clock::now();
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
-  place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * place.pause);
+  const Clock::duration pause = fleet_is_up() && place.said < kQuickHellos
+                                    ? std::min(place.pause, to_duration(kNewcomersPause))
+                                    : place.pause;
+  place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * pause);
   if (place.claimed) {
     if (--place.answers > 0) {  // the radio loses some, and what they are answered by
       place.next = now + std::chrono::duration_cast<Clock::duration>(jitter * first_pause() / 2);
@@ -225,8 +250,9 @@ void RadioLink::name_who_was_never_heard(Clock::time_point now) {
 
 /// The longest due first, no faster than this robot's share of what Hellos may take.
 void RadioLink::say_due_hellos(Clock::time_point now) {
+  const double shares = fleet_is_up() ? std::min(kNewcomersShares, others() + 1.0) : 1.0;
   const Clock::duration pause =
-      to_duration((others() + 1.0) * hello_bits() / (kMostPart * config_.fleet_bits_per_second));
+      to_duration((others() + 1.0) * hello_bits() / (shares * kMostPart * config_.fleet_bits_per_second));
   std::vector<Place*> due;
   for (const auto& place : places_) {
     if (place->next <= now) due.push_back(place.get());
@@ -273,6 +299,7 @@ void RadioLink::take(const Prefix& sender, const Hello& hello, const Acquaintanc
     spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
     return forget(sender);
   }
+  count_answer(acquaintance);
   const bool both_robots = hello.settings.has_value() == settings_.has_value();  // not an operator's program
   if (hello.sender == agent_ && both_robots && namesakes_.size() < kMostNamesakes &&
       namesakes_.insert(sender).second) {

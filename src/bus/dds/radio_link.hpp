@@ -115,6 +115,8 @@ class RadioLink final : public LinkEnd {
   double hello_time(double rate) const;
   Clock::duration spread() const;
   Clock::duration first_pause() const;
+  bool fleet_is_up() const;
+  void count_answer(const Acquaintance& acquaintance);
   void tick();
   void take_successors();
   void take(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
@@ -169,6 +171,7 @@ class RadioLink final : public LinkEnd {
   bool address_there_ = true;        ///< at the last look; a change is logged
   Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
+  int answers_ = 0;                  ///< to our Hellos, since anybody said Hello who is new, too
   std::set<Prefix> namesakes_;       ///< told of in the log
   std::set<std::string> warnings_;   ///< about others, in the log once each
   std::vector<RadioSurvey::Robot> heard_;
