@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and lets three robots map a solar farm of 200 m x 200 m in the digital twin: the twin
 # and each robot's agent are processes of their own that talk over DDS, in real time, for about four minutes. The robots
-# plan on a drawing of the site, not on the twin's world. Ends with the plan, the merged map, the report and pictures of the map in one folder.
+# plan on a drawing of the site, not on the twin's world. Ends with the plan, the merged map, the report and pictures of the
+# map in one folder; exit code 1 if rows were not driven, or the robots' maps are not of the same nodes and submaps.
 #   deploy/demo.sh [OUT]     OUT: folder of the results, default out/demo
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/demo}")
@@ -71,8 +72,19 @@ pids=()
 [ "$failed" -eq 0 ] || { echo "a process failed:" >&2; tail -n 3 "$out"/*.log >&2; exit 1; }
 "$fleetmap" eval "$out"
 
+# What each robot says last of the mission, and what its store holds.
+good=1
 echo
+for robot in "${robots[@]}"; do
+  said=$(sed -n 's/.* \([0-9]* of [0-9]*\) rows driven by the fleet.*/\1/p' "$out/$robot.log" | tail -n 1)
+  [ -n "$said" ] && [ "${said% of *}" = "${said#* of }" ] || good=0
+  set_hash=$("$fleetmap" map info --json "$out/$robot/store.db" | sed -n 's/^  "hash": "\(.*\)",*/\1/p')
+  [ -n "$set_hash" ] && [ "$set_hash" = "${first_hash:=$set_hash}" ] || good=0
+  echo "$robot:                ${said:-no} rows driven, nodes and submaps held: ${set_hash:0:16}"
+done
+
 echo "plan:              $out/plan.geojson $out/plan.png"
 echo "map of each robot: $out/{r1,r2,r3}/map.ply (ENU, metres; open with CloudCompare, MeshLab or pcl_viewer)"
 echo "pictures:          $out/map_top.png $out/map_perspective.png (coloured by robot)"
 echo "report:            $out/evaluation.html, and $out/r1/report.json of each robot"
+[ "$good" -eq 1 ] || { echo "not all rows were driven, or the maps differ (a machine too slow for four processes in real time? see $out/*.log)" >&2; exit 1; }

@@ -15,16 +15,17 @@
 #include "experiment/progress_line.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "options.hpp"
+#include "version.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-/// Version and hash of the program that is running: another build may give other numbers.
+/// Version, commit and hash of the program that is running: another build may give other numbers.
 std::string this_program() {
   std::ifstream in("/proc/self/exe", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   const ContentHash hash = content_hash({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  return std::string(FLEETMAP_VERSION) + " " + to_hex(hash).substr(0, 16);
+  return std::string(kVersion) + " " + to_hex(hash).substr(0, 16);
 }
 
 /// A line a case; those whose run an earlier line has are marked.

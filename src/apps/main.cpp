@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "version.hpp"
 
 namespace fleetmap::apps {
 
@@ -19,7 +20,7 @@ int run(int argc, char** argv) {
   CLI::App app{"fleetmap: a team of ground robots maps a large site together, without a server", "fleetmap"};
   app.require_subcommand(1);
   app.fallthrough();
-  app.set_version_flag("--version", std::string(FLEETMAP_VERSION));
+  app.set_version_flag("--version", kVersion);
   std::string log_level = "info";
   app.add_option("--log", log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))

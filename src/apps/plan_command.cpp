@@ -35,7 +35,35 @@ struct FleetToPlan {
   std::optional<GeoPoint> origin;
 };
 
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// An agent's file may be planned with before it has the origin of ENU: then at the drawing's first position.
+Result<config::RobotConfig> robot_of(const PlanOptions& options, std::vector<config::Override> overrides) {
+  auto robot = config::load_robot(options.config, overrides);
+  if (robot) return robot;
+  const std::optional<GeoPoint> first = planning::first_position(text_of(options.site));
+  const GeoPoint origin = first.value_or(kSomewhere);
+  std::ostringstream numbers;
+  numbers << std::fixed << std::setprecision(7) << '[' << origin.latitude / kDegree << ", "
+          << origin.longitude / kDegree << std::setprecision(1) << ", " << origin.altitude << ']';
+  overrides.push_back({"site.origin", numbers.str()});
+  robot = config::load_robot(options.config, overrides);
+  if (!robot) return tl::unexpected(robot.error());
+  std::cout << options.config << " has no site.origin, which the robots need to drive; planned about "
+            << (first ? "the drawing's first position: site: {origin: " + numbers.str() +
+                            "} with the true altitude would do, the same on every robot\n"
+                      : std::string("any, since the drawing is in metres\n"));
+  return robot;
+}
+
 Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Override> overrides) {
+  const auto kind = options.config.empty() ? Result<config::FileKind>(config::FileKind::kFleet)
+                                           : config::check(options.config, overrides);
   overrides.push_back({"mission.file", std::filesystem::absolute(options.site).string()});
   if (options.config.empty()) {
     auto settings = config::load_mission_settings(overrides);
@@ -48,7 +76,6 @@ Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Ove
     }
     return fleet;
   }
-  const auto kind = config::check(options.config, overrides);
   if (!kind) return tl::unexpected(kind.error());
   if (*kind == config::FileKind::kFleet) {
     const auto config = config::load_fleet(options.config, overrides);
@@ -58,7 +85,7 @@ Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Ove
   }
   if (*kind != config::FileKind::kRobot)
     return failure(options.config + ": give an agent's or a fleet's file");
-  const auto robot = config::load_robot(options.config, overrides);
+  const auto robot = robot_of(options, overrides);
   if (!robot) return tl::unexpected(robot.error());
   return FleetToPlan{robot->mission->settings, robot->mission->fleet, robot->agent.site_origin};
 }
@@ -71,9 +98,7 @@ struct Site {
 };
 
 Result<Site> read_site(const std::string& file, const std::optional<GeoPoint>& origin) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  const std::optional<GeoPoint> first = planning::first_position(text);
+  const std::optional<GeoPoint> first = planning::first_position(text_of(file));
   Site site;
   site.frame = first ? planning::FileFrame::kWgs84 : planning::FileFrame::kEnu;
   site.enu = LocalFrame(origin.value_or(first.value_or(kSomewhere)));
@@ -84,7 +109,6 @@ Result<Site> read_site(const std::string& file, const std::optional<GeoPoint>& o
 }
 
 std::string place_text(const Eigen::Vector2d& p, const Site& site) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const bool enu = site.frame == planning::FileFrame::kEnu;
   const GeoPoint geo = site.enu.to_geo({p.x(), p.y(), 0.0});
   std::ostringstream text;

@@ -146,6 +146,7 @@ void read_expectations(Section& section, Study& study, const std::vector<MetricS
     entry.read("over", expectation.over);
     entry.read("shape", shape);
     entry.read("by", expectation.by);
+    entry.read("required", expectation.required);
     entry.finish();
     if (std::ranges::find(metrics, expectation.metric, &MetricSpec::name) == metrics.end())
       entry.problem("metric", "'" + expectation.metric + "' is not listed under 'metrics' of the file");

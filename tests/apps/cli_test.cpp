@@ -40,6 +40,16 @@ TEST_F(CommandLine, UsageErrorsExitWith2) {
   EXPECT_EQ(exit_code_, 2);
 }
 
+/// README, "On a robot": the plan comes before the origin.
+TEST_F(CommandLine, PlansWithTheShippedAgentsFileAndNamesTheOriginThatItLacks) {
+  const std::string root = FLEETMAP_SOURCE_DIR;
+  run({"plan", root + "/config/sites/farm_200.geojson", "-c", root + "/config/agents/r1.yaml", "--out",
+       path("plan.geojson")});
+  EXPECT_EQ(exit_code_, 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("r1.yaml has no site.origin"));
+  EXPECT_THAT(output_, HasSubstr("r2: "));
+}
+
 TEST_F(CommandLine, NumbersOutOfRangeExitWith2) {
   struct Case {
     std::vector<std::string> arguments;

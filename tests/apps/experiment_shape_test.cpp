@@ -254,5 +254,14 @@ TEST_F(ExperimentTest, AViolatedShapeFailsTheExperimentAndSaysByHowMuch) {
   EXPECT_THAT(said_.str(), HasSubstr("the mean changes by -0.08"));
 }
 
+TEST_F(ExperimentTest, AShapeThatIsOnlyReportedIsViolatedWithoutFailingTheExperiment) {
+  write_experiment(
+      "seed_keys: [world.seed]\nmetrics: [{name: map.rmse}]\nstudies:\n"
+      "  - {name: size, seeds: 2, axes: [{name: agents, values: [1, 3]}], metrics: [map.rmse],\n"
+      "     expect: [{metric: map.rmse, over: agents, shape: rises, required: false}]}\n");
+  EXPECT_TRUE(run(runner()).good());
+  EXPECT_THAT(said_.str(), HasSubstr("  size: map.rmse rises over agents (only reported): violated"));
+}
+
 }  // namespace
 }  // namespace fleetmap::apps::experiment

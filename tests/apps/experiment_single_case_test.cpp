@@ -94,6 +94,16 @@ TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
   EXPECT_EQ(json["cases_planned"], 6);
 }
 
+/// An archive of results holds no pictures.
+TEST_F(SingleCase, TheReportNeedsNoPictures) {
+  ASSERT_TRUE(run(runner()).good());
+  const std::string before = text_of(out() / "tables.md");
+  for (const auto& folder : std::filesystem::directory_iterator(out() / "cases"))
+    std::filesystem::remove(folder.path() / "map_error.png");
+  EXPECT_TRUE(report().good());
+  EXPECT_EQ(text_of(out() / "tables.md"), before);
+}
+
 TEST_F(SingleCase, ARunOfAnotherCaseWithEqualInputsServes) {
   write_experiment(
       "set: [a.b=0]\nseed_keys: [world.seed]\nstudies:\n"

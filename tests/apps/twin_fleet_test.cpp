@@ -74,6 +74,18 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
   const double f1 = at("/map/overlap/f1/1"), best = at("/map/overlap/with_true_poses/f1/1");
   expect_at_least(f1, 0.917, "fleet, F1 at 10 cm where two robots were", seed);
   expect_at_most(best - f1, 0.001, "fleet, F1 lost against true poses", seed);
+  // The map as a whole lies where the mean of the robots' EKFs does, wherever GPS has taken these.
+  std::vector<eval::Trajectory> placed, ekf;
+  for (const std::string id : {"r1", "r2", "r3"}) {
+    const auto one = eval::read_tum(out / id / "trajectory.tum"),
+               other = eval::read_tum(out / id / "ekf.tum");
+    ASSERT_TRUE(one && other) << id;
+    placed.push_back(*one), ekf.push_back(*other);
+  }
+  const auto georeference = eval::compare_jointly(
+      std::vector<eval::Track>{{&placed[0], &ekf[0]}, {&placed[1], &ekf[1]}, {&placed[2], &ekf[2]}});
+  ASSERT_TRUE(georeference) << georeference.error().message;
+  expect_at_most(georeference->georeference, 1.0, "fleet, map against the mean of the EKFs in m", seed);
   for (const std::string id : {"r1", "r2", "r3"}) {
     const auto truth = eval::read_tum(out / id / "truth.tum");
     const auto odometry = eval::read_tum(out / id / "odometry.tum");

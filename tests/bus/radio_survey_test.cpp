@@ -183,9 +183,10 @@ TEST_F(RadioSurveyTest, RadiosThatAreMixedUpAreNamed) {
   EXPECT_EQ(log_.count("r2 has its short_range here"), 1);
 }
 
-/// `payload` as one DATA submessage of RTPS 2.2 from a participant that nobody knows.
-Bytes rtps_message(const Bytes& payload, std::uint8_t number) {
-  Bytes bytes{'R', 'T', 'P', 'S', 2, 2, 1, 15, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+/// `payload` as one DATA submessage of RTPS 2.2 from the participant with prefix {participant, 2, 3, ...,
+/// 12}.
+Bytes rtps_message(const Bytes& payload, std::uint8_t number, std::uint8_t participant = 1) {
+  Bytes bytes{'R', 'T', 'P', 'S', 2, 2, 1, 15, participant, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   const auto length = static_cast<std::uint16_t>(20 + payload.size());
   bytes.insert(bytes.end(),
                {0x15, 0x05, static_cast<std::uint8_t>(length), static_cast<std::uint8_t>(length >> 8)});
@@ -225,6 +226,55 @@ TEST_F(RadioSurveyTest, ARobotOfAnotherVersionIsNamedOncePerAddress) {
   }
   EXPECT_EQ(log_.count("r2 runs another version of fleetmap (its Hello is of version 2)"), 2);
   EXPECT_EQ(heard(first), 0u);
+}
+
+/// Killed and started again: one Hello of the new start is enough although the one before was just heard.
+TEST_F(RadioSurveyTest, ARobotThatStartsAnewAtOnceIsKnownByItsFirstHello) {
+  start(robot("r1"));
+  const auto own = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
+  Hello hello = some_hello();
+  hello.link = Link::kLongRange;
+  hello.address = {127, 0, 0, 1};
+  hello.port = static_cast<std::uint16_t>(own + 2);
+  std::uint8_t sent = 0;
+  ASSERT_TRUE(run_until([&] {
+    send_to(own, rtps_message(encode(hello), ++sent, /*participant=*/1));
+    return log_.count("heard r2") == 1;
+  })) << log_.text();
+  send_to(own, rtps_message(encode(hello), 1, /*participant=*/2));
+  EXPECT_TRUE(run_until([&] { return log_.count("heard r2") == 2; })) << log_.text();
+}
+
+/// Somebody may only say to be at a robot's place: who goes on speaking stays known.
+TEST_F(RadioSurveyTest, ARobotThatGoesOnSpeakingIsNotReplaced) {
+  start(robot("r1"));
+  const auto own = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
+  Hello hello = some_hello();
+  hello.link = Link::kLongRange;
+  hello.address = {127, 0, 0, 1};
+  hello.port = static_cast<std::uint16_t>(own + 2);
+  std::uint8_t sent = 0;
+  ASSERT_TRUE(run_until([&] {
+    send_to(own, rtps_message(encode(hello), ++sent, /*participant=*/1));
+    return log_.count("heard r2") == 1;
+  })) << log_.text();
+  send_to(own, rtps_message(encode(hello), 1, /*participant=*/2));
+  // A third robot is heard well after the claim could have been taken: time enough went by.
+  Hello third = hello;
+  third.sender = name("r3");
+  third.port = static_cast<std::uint16_t>(own + 4);
+  const auto begun = std::chrono::steady_clock::now();
+  auto next = begun;
+  ASSERT_TRUE(run_until([&] {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next) return false;
+    next = now + std::chrono::milliseconds(100);
+    send_to(own, rtps_message(encode(hello), ++sent, /*participant=*/1));
+    if (now - begun > std::chrono::seconds(3))
+      send_to(own, rtps_message(encode(third), ++sent, /*participant=*/3));
+    return log_.count("heard r3") == 1;
+  })) << log_.text();
+  EXPECT_EQ(log_.count("heard r2"), 1);
 }
 
 }  // namespace

@@ -51,6 +51,8 @@ struct Expectation {
   Shape shape = Shape::kFalls;
   double by = 0.0;  ///< of kDoesNotRise and kDoesNotFall: a change that matters, in the metric's unit; of log
                     ///< metrics of its ln
+  bool required =
+      true;  ///< else it is only reported, e.g. what a paper reports and another method need not show
 };
 
 struct Study {

@@ -30,8 +30,10 @@ void remove_large_files(const fs::path& directory) {
 
 }  // namespace
 
-std::optional<CaseRecord> recorded(const RunnerConfig& config, const Case& one, const std::string& hash) {
-  return read_record(config.folder(one.name), one, hash, config.any_program ? std::string() : config.program);
+std::optional<CaseRecord> recorded(const RunnerConfig& config, const Case& one, const std::string& hash,
+                                   LostPictures pictures) {
+  return read_record(config.folder(one.name), one, hash, config.any_program ? std::string() : config.program,
+                     pictures);
 }
 
 CaseRecord run_in_folder(const RunnerConfig& config, const Case& one, const std::string& hash,

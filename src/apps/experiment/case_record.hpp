@@ -26,10 +26,14 @@ nlohmann::json to_json(const CaseRecord& record);
 
 /// Writes `directory`/result.json so that it is there whole or not at all.
 Status write_record(const std::filesystem::path& directory, const CaseRecord& record);
+/// Whether a case whose pictures were lost counts: its numbers are whole.
+enum class LostPictures : std::uint8_t { kRunAgain, kLeftOut };
 /// How an earlier start ended the case, done or failed; empty if it did not come to its end, had other
-/// inputs, lost its pictures or was run by another build than `program` (empty: any will do).
+/// inputs, lost its pictures (unless they are left out) or was run by another build than `program` (empty:
+/// any will do).
 std::optional<CaseRecord> read_record(const std::filesystem::path& directory, const Case& one,
-                                      const std::string& hash, const std::string& program);
+                                      const std::string& hash, const std::string& program,
+                                      LostPictures pictures = LostPictures::kRunAgain);
 
 /// Writes a whole file beside its place and moves it there.
 Status write_whole(const std::filesystem::path& file, const std::string& content);

@@ -14,7 +14,8 @@ namespace fleetmap::apps::experiment {
 namespace {
 
 bool met(const ShapeCheck& check) {
-  return check.verdict == Verdict::kHolds || check.verdict == Verdict::kHoldsWeakly;
+  return check.verdict == Verdict::kHolds || check.verdict == Verdict::kHoldsWeakly ||
+         !check.expectation.required;
 }
 
 /// plots/NAME.svg: what report.html shows, for documents.
@@ -52,7 +53,8 @@ void print_outcome(const ExperimentResult& result, const std::filesystem::path& 
   for (const ShapeCheck& check : result.checks) {
     out << (met(check) ? "  " : "! ") << check.study << (check.at.empty() ? "" : " at " + check.at) << ": "
         << check.expectation.metric << ' ' << config::to_string(check.expectation.shape) << " over "
-        << check.expectation.over << ": " << to_string(check.verdict) << " (" << check.detail << ")\n";
+        << check.expectation.over << (check.expectation.required ? "" : " (only reported)") << ": "
+        << to_string(check.verdict) << " (" << check.detail << ")\n";
   }
   for (const CaseRecord& record : result.outcome.records)
     if (!record.done()) out << "! " << record.of.name << ": " << record.reason << '\n';

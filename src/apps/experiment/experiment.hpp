@@ -12,7 +12,7 @@ struct ExperimentResult {
   Outcome outcome;
   std::vector<ShapeCheck> checks;
 
-  /// Every case was run and none failed, and every expected shape is there.
+  /// Every case was run and none failed, and every required shape is there.
   bool good() const;
 };
 

@@ -27,13 +27,13 @@ void add_shapes(eval::HtmlPage& page, const std::vector<ShapeCheck>& checks) {
       "the shape holds weakly. falls_less_than_linearly also asks that the metric times the axis rises. "
       "does_not_rise asks that no mean lies above the first by the stated amount or more, does_not_fall "
       "below; p is the chance of "
-      "such means if one truly did.");
+      "such means if one truly did. A shape that is only reported does not fail the experiment.");
   eval::Table table{{"study", "metric", "expected", "at", "verdict", "measured"}};
   for (const ShapeCheck& check : checks) {
-    table.push_back(
-        {check.study, check.expectation.metric,
-         std::string(config::to_string(check.expectation.shape)) + " over " + check.expectation.over,
-         check.at, to_string(check.verdict), check.detail});
+    table.push_back({check.study, check.expectation.metric,
+                     std::string(config::to_string(check.expectation.shape)) + " over " +
+                         check.expectation.over + (check.expectation.required ? "" : " (only reported)"),
+                     check.at, to_string(check.verdict), check.detail});
   }
   page.table(table);
 }

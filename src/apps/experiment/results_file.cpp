@@ -20,6 +20,7 @@ json check_json(const ShapeCheck& check) {
           {"metric", check.expectation.metric},
           {"over", check.expectation.over},
           {"shape", config::to_string(check.expectation.shape)},
+          {"required", check.expectation.required},
           {"at", check.at},
           {"verdict", to_string(check.verdict)},
           {"x", check.x},

@@ -31,10 +31,10 @@ Result<FileLock> lock_directory(const fs::path& directory, FileLock::Kind kind) 
 
 /// How an earlier start ended the group: done by any of its cases, else failed.
 std::optional<CaseRecord> recorded(const RunnerConfig& config, const std::vector<Case>& cases,
-                                   const CaseGroup& group) {
+                                   const CaseGroup& group, LostPictures pictures = LostPictures::kRunAgain) {
   std::optional<CaseRecord> failed;
   for (const std::size_t k : group.cases) {
-    auto found = recorded(config, cases[k], group.hash);
+    auto found = recorded(config, cases[k], group.hash, pictures);
     if (found && found->done()) return found;
     if (!failed) failed = std::move(found);
   }
@@ -201,7 +201,7 @@ Result<Outcome> collect_cases(const std::vector<Case>& cases, const RunnerConfig
   if (!groups) return tl::unexpected(groups.error());
   std::vector<std::optional<CaseRecord>> records(cases.size());
   for (const CaseGroup& group : *groups) {
-    const auto found = recorded(config, cases, group);
+    const auto found = recorded(config, cases, group, LostPictures::kLeftOut);
     if (!found) continue;
     for (const std::size_t k : group.cases) {
       records[k] = found;

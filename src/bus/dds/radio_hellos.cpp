@@ -34,7 +34,7 @@ constexpr double kFirstPause = 0.5;     // s until a Hello is repeated, and what
 constexpr auto kLongestPause = std::chrono::seconds(2);  // and a second for each other robot
 constexpr int kQuickHellos = 7;  // with this pause: the radio loses some; then the pause doubles each time
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
-/// Whoever was heard so lately is still there. A robot that was killed and starts anew says Hello for longer.
+/// Whoever was heard so lately is still there. A robot that was killed and starts anew waits for so long.
 constexpr auto kStillThere = std::chrono::seconds(2);
 constexpr auto kNeverHeard = std::chrono::seconds(30);  // then it is said
 constexpr std::size_t kMostNamesakes = 16;
@@ -171,6 +171,7 @@ void RadioLink::tick() {
     }
   }
   for (const Prefix& robot : silent()) forget(robot);
+  take_successors();
   const auto now = Clock::now();
   for (const auto& place : places_) {
     if (place->next == Clock::time_point{}) {
@@ -188,6 +189,24 @@ void RadioLink::tick() {
   }
   name_who_was_never_heard(now);
   say_due_hellos(now);
+}
+
+/// Robots that were started anew become known once nothing more comes from their start before.
+void RadioLink::take_successors() {
+  std::vector<Successor> due;
+  for (const auto& place : places_) {
+    if (!place->successor) continue;
+    if (place->robot) {
+      const auto heard = last_heard(*place->robot);
+      if (heard && *heard > place->successor->came) {  // it is still there
+        place->successor.reset();
+        continue;
+      }
+      if (heard_lately(*place->robot)) continue;
+    }
+    due.push_back(*std::exchange(place->successor, std::nullopt));
+  }
+  for (const Successor& successor : due) take(successor.robot, successor.hello, successor.acquaintance);
 }
 
 /// On the radio all should hear each other, on the Wi-Fi nobody may be near.
@@ -267,7 +286,10 @@ void RadioLink::take(const Prefix& sender, const Hello& hello, const Acquaintanc
   if (place != nullptr && place->robot && *place->robot != sender) {
     // It was started anew; unless it is still there, and somebody only says to be at its place.
     const bool proved = guard_ && peers_.at(*place->robot).agent == hello.sender;
-    if (!proved && heard_lately(*place->robot)) return;
+    if (!proved && heard_lately(*place->robot)) {
+      place->successor = Successor{sender, hello, acquaintance, Clock::now()};
+      return;
+    }
     forget(*place->robot);
     replaced = true;
     place = place_at(from);
@@ -388,10 +410,15 @@ RadioLink::Place* RadioLink::place_at(const Locator& locator) {
   return place == places_.end() ? nullptr : place->get();
 }
 
-bool RadioLink::heard_lately(const Prefix& robot) const {
+std::optional<RadioLink::Clock::time_point> RadioLink::last_heard(const Prefix& robot) const {
   const std::scoped_lock lock(received_->mutex);
   const auto last = received_->robots.find(robot);
-  return last != received_->robots.end() && Clock::now() - last->second.heard < kStillThere;
+  return last == received_->robots.end() ? std::nullopt : std::optional(last->second.heard);
+}
+
+bool RadioLink::heard_lately(const Prefix& robot) const {
+  const auto heard = last_heard(robot);
+  return heard && Clock::now() - *heard < kStillThere;
 }
 
 void RadioLink::forget(Prefix robot) {

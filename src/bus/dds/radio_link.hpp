@@ -50,6 +50,19 @@ class RadioLink final : public LinkEnd {
   using Prefix = eprosima::fastrtps::rtps::GuidPrefix_t;
   using Locator = eprosima::fastrtps::rtps::Locator_t;
 
+  /// What a Hello says about this robot.
+  struct Acquaintance {
+    bool knows_us = false, knows_another = false;
+  };
+  /// Says Hello from the place of a robot that was heard a moment ago: it was started anew, or is somebody
+  /// else.
+  struct Successor {
+    Prefix robot;
+    Hello hello;
+    Acquaintance acquaintance;
+    Clock::time_point came{};
+  };
+
   /// A place where a robot may listen.
   struct Place {
     Locator locator;
@@ -57,6 +70,7 @@ class RadioLink final : public LinkEnd {
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this place
     std::optional<Prefix> robot;                             ///< who was heard from there
+    std::optional<Successor> successor;                      ///< waits for `robot` to fall silent
     bool heard = false;                                      ///< a robot was heard here, of whatever version
     bool told = false;                                       ///< that none was
     int said = 0;                                            ///< Hellos since `pause` was set out
@@ -92,6 +106,8 @@ class RadioLink final : public LinkEnd {
   Status add_place(const Locator& locator, bool configured);
   Place* place_at(const Locator& locator);
   bool plausible(const Locator& locator) const;
+  /// When it was last heard.
+  std::optional<Clock::time_point> last_heard(const Prefix& robot) const;
   bool heard_lately(const Prefix& robot) const;
   std::vector<Prefix> silent() const;
   bool elsewhere(const Place& place) const;
@@ -100,10 +116,7 @@ class RadioLink final : public LinkEnd {
   Clock::duration spread() const;
   Clock::duration first_pause() const;
   void tick();
-  /// What a Hello says about this robot.
-  struct Acquaintance {
-    bool knows_us = false, knows_another = false;
-  };
+  void take_successors();
   void take(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
   // With keys (radio_greetings.cpp).
   void take_greeting(const Prefix& sender, const Bytes& greeting);
