@@ -10,8 +10,8 @@
 --jitter    each datagram waits up to so many ms more, so that datagrams overtake each other
 --damage    flips a bit in the second half of so many of the datagrams of more than 1000 bytes
 --block     loses all from SOURCE to DESTINATION; * is any address
---trace     what each pair of robots had in the field, as docs/dds.md says: of that link, beginning with SIGUSR1, so
-            many s after the file's first row (--trace-from); loss and delay are then the trace's
+--trace     what each pair of robots had in the field, as docs/reference/experiments.md says: of that link, beginning with
+            SIGUSR1, so many s after the file's first row (--trace-from); loss and delay are then the trace's
 
 Only IPv4 UDP is lost, delayed or doubled. UDP checksums are set to "none", since veth leaves them to a card that is
 not there.

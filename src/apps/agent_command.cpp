@@ -83,7 +83,7 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   if (misses_scans(agent.perception())) {
     spdlog::warn(
         "{}: other sensors are heard, but no scan on {} for {:.0f} s: is the LiDAR on? If its driver runs, "
-        "start it anew, or look at its shared memory (docs/dds.md, A reader that is killed)",
+        "start it anew, or look at its shared memory (docs/reference/dds.md, A reader that is killed)",
         agent.config().id.str(), agent.config().perception.topics.points,
         to_seconds(bus.now() - agent.perception().last_scan()));
   } else if (none_yet) {

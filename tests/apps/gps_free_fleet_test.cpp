@@ -45,7 +45,7 @@ class GpsFreeFleet : public ::testing::Test {
     const Pose truth = fleet_.robots[0].T_enu_base.front().inverse() * fleet_.robots[1].T_enu_base.front();
     return truth.inverse() * first_pose("r1").inverse() * first_pose("r2");
   }
-  /// Bounds: docs/test_sensitivity.md.
+  /// Bounds: docs/reference/test_bounds.md.
   void expect_relative_error(const std::string& what) const {
     const Pose error = relative_error();
     testing::expect_at_most(error.translation().norm(), 0.025, what + ": r2 seen from r1, m", 1);

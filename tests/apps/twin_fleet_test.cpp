@@ -1,5 +1,5 @@
 // A whole mission in the twin in virtual time: from the world's file to equal maps, and the same again.
-// Bounds of errors: docs/test_sensitivity.md.
+// Bounds of errors: docs/reference/test_bounds.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What fleets of 5 to 50 robots make of one radio, in virtual time: the table "More robots" of docs/dds.md.
+// What fleets of 5 to 50 robots make of one radio, in virtual time: the table of exchanges alone in
+// docs/results/field.md.
 //   bench_radio [ROBOTS...]    these alone
 #include <algorithm>
 #include <cstdio>

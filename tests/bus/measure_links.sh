@@ -1,7 +1,7 @@
 #!/bin/sh
 # Measures the radio profiles between two network namespaces. Needs root, iproute2 and a built link_meter.
 #   measure_links.sh BUILD_DIR [SECONDS [LINKS]], LINKS being "long short" or one of them
-# Prints the arrangement and then a JSON line of each end. docs/dds.md holds the table.
+# Prints the arrangement and then a JSON line of each end. docs/journal/dds_2026_11.md holds the table.
 set -eu
 build=$1
 seconds=${2:-40}

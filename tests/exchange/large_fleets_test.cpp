@@ -39,7 +39,7 @@ TEST(LargeFleets, what_is_fixed_leaves_most_of_the_budget_to_clouds_however_many
     }
     EXPECT_LT(bytes, 0.25 * fleet.config().long_range.fleet_bytes_per_second * 240.0) << robots << " robots";
     // Twenty robots at one place have 190 pairs. Without multicast the copies of their alignments fill the
-    // radio for longer than anybody would wait (docs/dds.md, "More robots").
+    // radio for longer than anybody would wait (docs/results/field.md).
     if (robots == 20 && !multicast) continue;
     fleet.run_for(std::chrono::minutes(10), [&] { return fleet.equal_sets(robots); });
     EXPECT_TRUE(fleet.equal_sets(robots)) << robots << " robots";

@@ -45,7 +45,7 @@ DriveResult drive(const testing::SyntheticWorld& world, const SyntheticDrive& mo
   return run;
 }
 
-/// Bounds (one drive each, a third more than measured): docs/test_sensitivity.md.
+/// Bounds (one drive each, a third more than measured): docs/reference/test_bounds.md.
 void expect_drift(const std::vector<Pose>& estimate, const std::vector<Pose>& truth, double most_per_cent,
                   const std::string& what) {
   fleetmap::testing::expect_at_most(100.0 * testing::relative_drift(estimate, truth, 20.0), most_per_cent,

@@ -1,4 +1,4 @@
-// Registrations where two robots met. Bounds: docs/test_sensitivity.md.
+// Registrations where two robots met. Bounds: docs/reference/test_bounds.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -56,7 +56,7 @@ void add_pairs(const Site& site, std::size_t lanes_apart, unsigned seed, Errors&
   }
 }
 
-/// Bounds: docs/test_sensitivity.md; why they come out too near: docs/experiments.md.
+/// Bounds: docs/reference/test_bounds.md; why they come out too near: docs/results/accuracy.md.
 TEST(LanesApart, ComeOutAboutAsFarApartAsTheyAre) {
   struct Case {
     std::size_t lanes;

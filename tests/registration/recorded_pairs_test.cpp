@@ -19,7 +19,7 @@ using fleetmap::testing::shared_data;
 using testing::error_between;
 using testing::kDegree;
 
-/// Bounds: docs/test_sensitivity.md.
+/// Bounds: docs/reference/test_bounds.md.
 void expect_near(const testing::PoseError& error, double most_m, double most_deg, const std::string& what,
                  unsigned number = 0) {
   fleetmap::testing::expect_at_most(error.translation_m, most_m, what + ", m", number);

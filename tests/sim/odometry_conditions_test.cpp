@@ -1,5 +1,6 @@
 // The odometry, LiDAR alone, under what robots meet: speed, turns, a shaking mast, few rays, noise and rates.
-// Bounds: docs/test_sensitivity.md. tests/bench/odometry_conditions.cpp has longer drives of more conditions.
+// Bounds: docs/reference/test_bounds.md. tests/bench/odometry_conditions.cpp has longer drives of more
+// conditions.
 #include <gtest/gtest.h>
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// The EKF on what the twin's IMU, wheels and GPS measure. Bounds: docs/test_sensitivity.md.
+// The EKF on what the twin's IMU, wheels and GPS measure. Bounds: docs/reference/test_bounds.md.
 #include <gtest/gtest.h>
 
 #include "sim/ekf_drive.hpp"

@@ -1,4 +1,4 @@
-// The odometry on what the twin's LiDAR measures. Bounds: docs/test_sensitivity.md.
+// The odometry on what the twin's LiDAR measures. Bounds: docs/reference/test_bounds.md.
 #include <gtest/gtest.h>
 
 #include "fleetmap/odometry/loam.hpp"

@@ -10,7 +10,7 @@ namespace fleetmap::testing {
 
 /// Number of seeds, from 1, that a test with measured bounds runs: `usual`, or FLEETMAP_SEEDS of the
 /// environment. With that variable every value is printed, so that bounds can be measured anew
-/// (docs/test_sensitivity.md).
+/// (docs/reference/test_bounds.md).
 inline unsigned seeds_to_run(unsigned usual) {
   const char* seeds = std::getenv("FLEETMAP_SEEDS");
   return seeds != nullptr ? static_cast<unsigned>(std::strtoul(seeds, nullptr, 10)) : usual;

@@ -32,8 +32,9 @@ struct DdsLinkConfig {
   /// IPv4 address of the own interface to use, and no other. Empty: the loopback onboard, every interface on
   /// radios.
   std::string address = {};
-  /// Where others may be: "10.0.0.2" or "10.0.0.2:7412", a port being that of discovery (docs/dds.md). Empty:
-  /// as the profile says, or else this machine. Onboard the loopback's multicast group is asked as well.
+  /// Where others may be: "10.0.0.2" or "10.0.0.2:7412", a port being that of discovery
+  /// (docs/reference/dds.md). Empty: as the profile says, or else this machine. Onboard the loopback's
+  /// multicast group is asked as well.
   std::vector<std::string> peers = {};
   std::uint32_t participants_per_peer =
       0;  ///< how many participant ids to try on a peer; 0: as the profile says

@@ -62,8 +62,8 @@ Locator_t to_locator(const Peer& peer) {
 
 /// Fast DDS derives a participant's port in shared memory from its number, and numbers those of a process
 /// from 0. A process that starts anew after it was killed would get the port of the dead one, and who writes
-/// to that goes on writing to what is no longer read (Fast DDS 2.9.1; docs/dds.md). So each start takes other
-/// numbers; UDP's discovery ports are named and stay.
+/// to that goes on writing to what is no longer read (Fast DDS 2.9.1; docs/reference/dds.md). So each start
+/// takes other numbers; UDP's discovery ports are named and stay.
 int unused_number() {
   static std::atomic<unsigned> next = std::random_device()();
   constexpr unsigned kFirst = 16;

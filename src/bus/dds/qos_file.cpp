@@ -37,7 +37,7 @@ Result<std::string> read_text(const std::filesystem::path& path) {
   if (!file) {
     return failure(path.string() +
                    ": cannot be read; the QoS directory must hold onboard.xml, long_range.xml and " +
-                   "short_range.xml (see docs/dds.md)");
+                   "short_range.xml (see docs/reference/dds.md)");
   }
   return text;
 }
@@ -107,7 +107,7 @@ Status prefix_names(tinyxml2::XMLElement& profiles, const std::string& prefix, c
 Status check_wanted(const Names& names, Link link, const std::string& file) {
   const auto missing = [&](const char* kind, const std::string& name) {
     return failure(file + ": no <" + kind + " profile_name=\"" + name +
-                   "\">; add that profile (docs/dds.md says " + "what it is for)");
+                   "\">; add that profile (docs/reference/dds.md says " + "what it is for)");
   };
   if (!names.participants.contains(to_string(link))) return missing("participant", to_string(link));
   for (const std::string& profile : profiles_of(link)) {

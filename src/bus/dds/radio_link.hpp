@@ -24,10 +24,10 @@ namespace fleetmap::bus {
 
 /// A radio or Wi-Fi domain of the fleet: one RTPS participant without DDS discovery, best effort only.
 ///
-/// DDS discovery does not fit 200 kbit/s (docs/dds.md). The fleet is known instead: its addresses from the
-/// configuration, its endpoints by name (an entity id is made from a topic's name and type, so both ends
-/// compute the same). What remains is who is there and which topics it reads: a Hello of some 200 bytes to
-/// each place where a robot may listen, answered by who does not know the sender. Whoever says nothing for
+/// DDS discovery does not fit 200 kbit/s (docs/reference/dds.md). The fleet is known instead: its addresses
+/// from the configuration, its endpoints by name (an entity id is made from a topic's name and type, so both
+/// ends compute the same). What remains is who is there and which topics it reads: a Hello of some 200 bytes
+/// to each place where a robot may listen, answered by who does not know the sender. Whoever says nothing for
 /// the profile's lease is forgotten.
 class RadioLink final : public LinkEnd {
  public:
