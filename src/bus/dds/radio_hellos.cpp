@@ -34,8 +34,9 @@ constexpr double kFirstPause = 0.5;     // s until a Hello is repeated, and what
 constexpr auto kLongestPause = std::chrono::seconds(2);  // and a second for each other robot
 constexpr int kQuickHellos = 7;  // with this pause: the radio loses some; then the pause doubles each time
 /// A robot that comes to a fleet which knows itself says its Hellos faster, since the others say none: it has
-/// had this many answers and no Hello of another newcomer.
-constexpr int kAnswersOfAFleet = 3;
+/// had this many answers, and no Hello of another newcomer for a while.
+constexpr int kAnswersOfAFleet = 4;
+constexpr auto kNoNewcomer = std::chrono::seconds(10);
 constexpr double kNewcomersShares = 2.0;
 constexpr double kNewcomersPause = 1.0;  // s
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
@@ -85,14 +86,17 @@ RadioLink::Clock::duration RadioLink::first_pause() const {
                      (observes_ ? 0.0 : answered * hello_time(kMostPart * config_.fleet_bits_per_second)));
 }
 
-bool RadioLink::fleet_is_up() const { return !observes_ && answers_ >= kAnswersOfAFleet; }
+bool RadioLink::fleet_is_up() const {
+  const bool alone = newcomer_ == Clock::time_point{} || Clock::now() - newcomer_ > kNoNewcomer;
+  return !observes_ && alone && answers_ >= kAnswersOfAFleet;
+}
 
 void RadioLink::count_answer(const Acquaintance& acquaintance) {
   const bool was_up = fleet_is_up();
   if (acquaintance.knows_us) {
     ++answers_;
   } else if (!acquaintance.knows_another) {
-    answers_ = 0;
+    newcomer_ = Clock::now();
   }
   if (was_up || !fleet_is_up()) return;
   for (const auto& place : places_) {

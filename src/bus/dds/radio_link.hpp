@@ -171,7 +171,8 @@ class RadioLink final : public LinkEnd {
   bool address_there_ = true;        ///< at the last look; a change is logged
   Clock::time_point hello_free_{};   ///< no other Hello before
   std::uint32_t hello_writers_ = 0;  ///< made so far
-  int answers_ = 0;                  ///< to our Hellos, since anybody said Hello who is new, too
+  int answers_ = 0;                  ///< to our Hellos
+  Clock::time_point newcomer_{};     ///< when somebody last said Hello who knows nobody here
   std::set<Prefix> namesakes_;       ///< told of in the log
   std::set<std::string> warnings_;   ///< about others, in the log once each
   std::vector<RadioSurvey::Robot> heard_;
