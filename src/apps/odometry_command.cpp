@@ -74,6 +74,11 @@ bool kept_its_way(const OdometryRun& run) {
               << " scans show the motion in some directions only; there it follows from the scans before, "
                  "gyro and wheels\n";
   }
+  if (counters.refused_repeated > 0) {
+    std::cout
+        << counters.refused_repeated
+        << " scans have the very points of the scan before while the robot moves: the LiDAR's driver hangs\n";
+  }
   if (counters.lost > 0) {
     std::cout << "lost " << counters.lost << " of " << counters.updates << " scans, the first "
               << to_seconds(*run.first_lost - run.poses.front().stamp)

@@ -1,6 +1,7 @@
 #include "fleetmap/odometry/loam.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -31,6 +32,9 @@ constexpr double kWheelStep = 0.05;        // s
 constexpr double kWheelSlip = 0.03;        // m a m, 1 sigma
 constexpr double kUsualWheelError = 0.02;  // m
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
+constexpr std::size_t kComparedPoints = 500;                // of a scan with the one before
+constexpr int kHangs = 3;                                   // scans
+constexpr double kStandsBelow = 0.1, kTurnsBelow = 0.05;    // m/s, rad/s
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
 constexpr double kLeastUpright = 60.0;  // features, to judge by
@@ -67,6 +71,7 @@ class Loam::Pipeline {
     if (!status_) return tl::unexpected(status_.error());
     ++counters_.scans;
     if (Status in_order = check_time(scan.stamp); !in_order) return tl::unexpected(in_order.error());
+    if (Status new_points = check_repetition(scan); !new_points) return tl::unexpected(new_points.error());
     const Sweep& sweep = sort(scan);
     count_defects();
     pick_features(sweep);
@@ -98,6 +103,8 @@ class Loam::Pipeline {
     return model.validate();
   }
   Status check_time(Stamp stamp);
+  Status check_repetition(const sensor::Scan& scan);
+  bool stands(Stamp from, Stamp to) const;
   tl::unexpected<Error> refuse_points(const sensor::Scan& scan);
   void count_defects();
   const Sweep& sort(const sensor::Scan& scan);
@@ -143,6 +150,11 @@ class Loam::Pipeline {
   Stamp reference_, last_stamp_;
   Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
   int lost_in_a_row_ = 0;
+  std::vector<Eigen::Vector3f>
+      compared_;                 ///< some points of the last scan that was handed in, see kComparedPoints
+  std::size_t compared_of_ = 0;  ///< its number of points
+  int repeated_in_a_row_ = 0;
+  bool hangs_ = false;          ///< the LiDAR repeats itself while the robot moves
   double usual_upright_ = 0.0;  ///< inliers of late, see MatchResult::upright_inliers
   int in_the_past_ = 0;
   int insertions_ = 0;  ///< into this local map
@@ -164,6 +176,45 @@ Status Loam::Pipeline::check_time(Stamp stamp) {
   ++counters_.refused_time;
   return failure("odometry: scan at " + std::to_string(to_seconds(stamp)) + " s is " + std::to_string(back) +
                  " s before the last one; skipped");
+}
+
+/// A LiDAR's noise differs from scan to scan, so the very points of the scan before under a new stamp come
+/// from a driver that hangs, and hold no motion. A simulated LiDAR without noise repeats itself while the
+/// robot stands.
+Status Loam::Pipeline::check_repetition(const sensor::Scan& scan) {
+  const std::size_t stride = std::max<std::size_t>(1, scan.points.size() / kComparedPoints);
+  const auto at = [&](std::size_t k) { return scan.points[k * stride].position; };
+  const std::size_t size = (scan.points.size() + stride - 1) / stride;
+  bool same = scan.points.size() == compared_of_ && !scan.points.empty();
+  for (std::size_t k = 0; same && k < size; ++k) {
+    const Eigen::Vector3f p = at(k);
+    same = std::memcmp(p.data(), compared_[k].data(), sizeof(float) * 3) == 0;  // NaN as well
+  }
+  if (!same) {
+    compared_.resize(size);
+    for (std::size_t k = 0; k < size; ++k) compared_[k] = at(k);
+    compared_of_ = scan.points.size();
+    hangs_ = false;
+    return {};
+  }
+  ++repeated_in_a_row_;
+  hangs_ = hangs_ || !stands(last_stamp_, scan.stamp);
+  if (!hangs_) return {};
+  ++counters_.refused_repeated;
+  return failure(
+      "odometry: scan at " + std::to_string(to_seconds(scan.stamp)) +
+      " s has the very points of the scan before, though the robot moves: the LiDAR's driver hangs or "
+      "sends old data; skipped");
+}
+
+/// As far as the last scans, gyro and wheels tell.
+bool Loam::Pipeline::stands(Stamp from, Stamp to) const {
+  const bool moved = velocity_known_ && (state_.twist.head<3>().norm() > kStandsBelow ||
+                                         state_.twist.tail<3>().norm() > kTurnsBelow);
+  const auto wheel = wheels_.mean(from, to, kHold);
+  const auto rate = gyro_.mean(from, to, kHold);
+  return !moved && (!wheel || std::abs(wheel->x()) < kStandsBelow) &&
+         (!rate || (*rate - gyro_bias_).norm() < kTurnsBelow);
 }
 
 tl::unexpected<Error> Loam::Pipeline::refuse_points(const sensor::Scan& scan) {
@@ -395,7 +446,10 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   velocity_known_ = velocity_known_ || !update.lost;
   state_ = now;
   reference_ = reference;
-  const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart;
+  // Where the robot went while its LiDAR showed old points nobody knows.
+  const bool hung = update.lost && repeated_in_a_row_ >= kHangs;
+  repeated_in_a_row_ = 0;
+  const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart || hung;
   if (restart) {
     forget_map();
     uncertainty_.map_restarted();

@@ -116,6 +116,38 @@ TEST_F(LoamInYard, FollowsAClockThatWasSetBack) {
   expect_still_works(0.8);
 }
 
+/// A driver that hangs: the points of one scan again and again, under new stamps.
+TEST_F(LoamInYard, RefusesRepeatedPointsOfARobotThatMovesAndBeginsAnewAfterSeconds) {
+  start();
+  sensor::Scan frozen = scan_at(0.5);
+  ASSERT_TRUE(loam_.add_scan(frozen));
+  for (int k = 6; k < 60; ++k) {
+    frozen.stamp = stamp_from_ns(k * 100'000'000LL);
+    const auto update = loam_.add_scan(frozen);
+    ASSERT_FALSE(update) << k;
+    EXPECT_NE(update.error().message.find("the very points of the scan before"), std::string::npos);
+  }
+  EXPECT_EQ(loam_.counters().refused_repeated, 54u);
+  const auto update = add(6.0);
+  ASSERT_TRUE(update) << update.error().message;
+  EXPECT_TRUE(update->lost);
+  EXPECT_EQ(loam_.counters().map_restarts, 1u);
+  EXPECT_GT(std::sqrt(update->covariance(0, 0)), 1.0);
+}
+
+/// A simulated LiDAR without noise repeats itself while the robot stands.
+TEST_F(LoamInYard, RepeatedPointsOfARobotThatStandsAreTaken) {
+  sensor::Scan scan = scan_at(0.0);
+  for (int k = 0; k < 30; ++k) {
+    scan.stamp = stamp_from_ns(k * 100'000'000LL);
+    const auto update = loam_.add_scan(scan);
+    ASSERT_TRUE(update) << update.error().message;
+    EXPECT_FALSE(update->lost);
+    EXPECT_LT(update->T_odom_base.translation().norm(), 0.01);
+  }
+  EXPECT_EQ(loam_.counters().refused_repeated, 0u);
+}
+
 TEST_F(LoamInYard, RecoversAfterAGap) {
   start();
   for (int k = 5; k < 30; ++k) ASSERT_TRUE(add(0.1 * k));

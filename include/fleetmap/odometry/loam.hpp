@@ -69,14 +69,15 @@ struct StageTimes {
 
 /// Loam's running totals since it was built.
 struct LoamCounters {
-  std::uint64_t scans = 0;           ///< handed to add_scan()
-  std::uint64_t updates = 0;         ///< that gave an update
-  std::uint64_t refused_time = 0;    ///< not later than the scan before
-  std::uint64_t refused_points = 0;  ///< empty, or too few usable points
-  std::uint64_t lost = 0;            ///< updates that are predictions
-  std::uint64_t map_restarts = 0;    ///< new local maps after being lost for long
-  std::uint64_t map_overflows = 0;   ///< the local map was full; what lay farthest was forgotten
-  std::uint64_t clock_resets = 0;    ///< the clock went backwards and stayed there
+  std::uint64_t scans = 0;             ///< handed to add_scan()
+  std::uint64_t updates = 0;           ///< that gave an update
+  std::uint64_t refused_time = 0;      ///< not later than the scan before
+  std::uint64_t refused_points = 0;    ///< empty, or too few usable points
+  std::uint64_t refused_repeated = 0;  ///< the very points of the scan before, though the robot moves
+  std::uint64_t lost = 0;              ///< updates that are predictions
+  std::uint64_t map_restarts = 0;      ///< new local maps after being lost for long
+  std::uint64_t map_overflows = 0;     ///< the local map was full; what lay farthest was forgotten
+  std::uint64_t clock_resets = 0;      ///< the clock went backwards and stayed there
   std::uint64_t points_non_finite = 0;
   std::uint64_t points_out_of_range = 0;
   std::uint64_t points_bad_time = 0;
@@ -103,7 +104,8 @@ class Loam {
   void add_imu(const sensor::Imu& imu);
   void add_wheel(const sensor::Wheel& wheel);
 
-  /// Fails, and changes nothing but the counters, on scans with too few usable points or going back in time.
+  /// Fails, and changes nothing but the counters, on scans with too few usable points or going back in time,
+  /// and on those that repeat the points of the scan before while the robot moves: a driver that hangs.
   Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
 
   const LoamCounters& counters() const;
