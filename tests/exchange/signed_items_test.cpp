@@ -83,7 +83,7 @@ class SignedItems : public ::testing::Test {
     return fleet_.all([&](const SimFleet::Robot& robot) { return robot.store->is_contested(id); });
   }
 
-  static std::shared_ptr<const StandInSignatures> signatures_ = std::make_shared<StandInSignatures>(17);
+  std::shared_ptr<const StandInSignatures> signatures_ = std::make_shared<StandInSignatures>(17);
   SimFleet fleet_{kThree, {.loss = 0.1}, 5, {}, testing::no_candidates};
   std::vector<graph::Node> made_;
   int east_ = 0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fleetmap::loop_candidate {
+namespace fleetmap::loop_closure {
 namespace {
 
 const AgentId kSelf = *AgentId::parse("r1");
@@ -88,4 +88,4 @@ TEST(OdometryCandidates, SettingsThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace fleetmap::loop_candidate
+}  // namespace fleetmap::loop_closure

@@ -62,7 +62,7 @@ class SessionCandidatesTest : public ::testing::Test {
       const Pose truth =
           pose(-60.0 + 10.0 * candidate->target.seq, 0.0, 0.0).inverse() * true_pose_of_second(node.id.seq);
       const bool right =
-          (prior_of(*tie, node).T_target_source.translation() - truth.translation()).norm() < 4.0;
+          (prior_of(*candidate, node).T_target_source.translation() - truth.translation()).norm() < 4.0;
       ++(right ? found.first : found.second);
       sessions_->on_accepted(earlier_of(*candidate), node);
     }
@@ -119,7 +119,7 @@ TEST_F(SessionCandidatesTest, ASessionJoinedByDescriptorIsJoinedByPositionOnceGp
   locate(second_[k], true_pose_of_second(second_[k].id.seq).translation(), 1.0);
   const auto candidate = sessions_->propose(second_[k]);
   ASSERT_TRUE(candidate);
-  EXPECT_LT(prior_of(*tie, second_[k]).sigma_translation_m, 2.5) << "by G, and not by descriptor";
+  EXPECT_LT(prior_of(*candidate, second_[k]).sigma_translation_m, 2.5) << "by G, and not by descriptor";
   sessions_->on_accepted(earlier_of(*candidate), second_[k]);
   for (++k; k < second_.size(); ++k)
     EXPECT_FALSE(sessions_->propose(second_[k])) << "joined, whatever matches";
