@@ -8,13 +8,9 @@
 #include <limits>
 #include <utility>
 
-#include "fleetmap/agent/cloud_drift.hpp"
-#include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/agent/results.hpp"
-#include "fleetmap/cloud/codec.hpp"
-#include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
@@ -32,19 +28,14 @@ constexpr Duration kStoreFailurePeriod = std::chrono::seconds(30);
 /// How long a start waits for the first global pose before it makes nodes without.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
 
-std::vector<const graph::Node*> own_nodes(const store::Store& store) {
-  return store.nodes_from({store.self(), 0, kEndOfSeqs});
-}
-
-store::LoggedRegistration input_of(OwnCloud& target, const graph::Node& source, const Bytes& source_cloud,
-                                   const registration::Prior& prior, registration::Method method) {
-  return {target.node().id,
-          source.id,
-          registration::to_string(method),
-          target.spherized()->bytes,
-          source_cloud,
-          {prior.T_target_source, prior.sigma_translation_m, prior.sigma_yaw_rad, prior.sigma_tilt_rad,
-           prior.sigma_height_m, prior.up_target}};
+loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config) {
+  loop_closure::LoopClosing::Config loops{
+      config.id,       config.loop_closure,
+      config.own_path, config.placement.method == graph::PlacementMethod::graph,
+      config.spherize, config.registration};
+  loops.candidates.peer_timeout =
+      from_seconds(to_seconds(loops.candidates.peer_timeout) * exchange::period_factor(config.exchange));
+  return loops;
 }
 
 const char* item(bool alignment) { return alignment ? "alignment" : "node"; }
@@ -108,13 +99,14 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessi
       session_(session),
       odometry_file_(std::move(odometry_file)),
       global_file_(std::move(global_file)),
-      own_clouds_(config.spherize),
       submap_(config.submap),
       node_generator_(config.nodes),
-      loop_closures_(config.loop_closures),
-      session_ties_(config.exchange.encounters),
+      loop_closing_(loop_closing_config(config), bus, store_,
+                    {[this](const loop_closure::Registration& registration) { record(registration); },
+                     [this](const graph::Alignment& alignment) { return publish(alignment); },
+                     [this] { on_events(); }}),
       store_failures_(kStoreFailurePeriod) {
-  session_ties_.begin(own_nodes(store_));
+  loop_closing_.begin_session(session_);
 }
 
 Agent::~Agent() = default;
@@ -124,7 +116,10 @@ Status Agent::start() {
   config_.exchange.payload_size = [](const exchange::Message& message) {
     return wire::encode(message).size();
   };
-  Result<exchange::Exchange> made = exchange::Exchange::make(config_.exchange, store_, bus_.now());
+  config_.exchange.clouds.order = config_.loop_closure.order;
+  config_.exchange.clouds.cancel_when_aligned = config_.loop_closure.stop_when_peer_aligned;
+  Result<exchange::Exchange> made =
+      exchange::Exchange::make(config_.exchange, store_, loop_closing_.scheduler(), bus_.now());
   if (!made) return tl::unexpected(made.error());
   exchange_.emplace(std::move(*made));
   exchange_->begin_session(session_);
@@ -151,7 +146,7 @@ Status Agent::start() {
   if (config_.placement.method == graph::PlacementMethod::graph) {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
-        [this](std::span<const graph::Alignment> used) { exchange_->on_used_alignments(used); });
+        [this](std::span<const graph::Alignment> used) { loop_closing_.on_used_alignments(used); });
     live_timer_ =
         bus_.every(kLivePlacementPeriod, {"placement", [this] { live_placement_->refresh(session_); }});
   }
@@ -172,11 +167,12 @@ std::set<AgentId> Agent::lost() const {
 
 bool Agent::idle() const {
   const bool solving = live_placement_ && !live_placement_->idle();
-  return jobs_ == 0 && !solving && perception_->idle() && exchange_->idle(bus_.now(), lost());
+  return loop_closing_.idle() && !solving && perception_->idle() && exchange_->idle(bus_.now(), lost());
 }
 
 WorkSeconds Agent::work_seconds() const {
-  WorkSeconds all = work_;
+  const loop_closure::RegistrationCounters& registrations = loop_closing_.registrations();
+  WorkSeconds all{odometry_seconds_, registrations.registration_seconds, registrations.spherization_seconds};
   if (live_placement_) all.placement = live_placement_->cpu_seconds();
   return all;
 }
@@ -209,7 +205,7 @@ void Agent::on_perceived(Perceived&& perceived) {
   }
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
-  work_.odometry += perceived.cpu_seconds;
+  odometry_seconds_ += perceived.cpu_seconds;
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   motion_.add(update);
@@ -277,7 +273,7 @@ bool Agent::begin_session(const char* why) {
   motion_ = {};
   level_ = {};
   node_generator_ = place::NodeGenerator(config_.nodes);
-  session_ties_.begin(own_nodes(store_));
+  loop_closing_.begin_session(session_);
   const std::size_t index = *sessions_.index_of(session_);
   spdlog::warn("{}: {}: session {} ({})", config_.id.str(), why, index,
                to_string(graph::FrameId{config_.id, session_}));
@@ -331,68 +327,13 @@ void Agent::freeze_node(const Perceived& perceived) {
   if (navigator_) navigator_->on_node(node);
   spdlog::debug("{}: node with {} points in {} bytes", to_string(node.id), submap->points,
                 submap->encoded.size());
-  // What came back from others may still lack its submap.
-  if (const auto tie = session_ties_.on_own_node(node); tie && store_.has_submap(tie->earlier->id))
-    register_own(*tie->earlier, node, tie->prior);
-  if (config_.placement.method == graph::PlacementMethod::graph) {
-    if (const auto closure = loop_closures_.on_own_node(node))
-      register_own(closure->earlier, closure->later, prior_of(*closure));
-  }
+  loop_closing_.on_own_node(node);
   on_events();
 }
 
 void Agent::freeze_rest() {
   if (submap_.points() == 0 || !last_perceived_) return;
   freeze_node(*last_perceived_);
-}
-
-void Agent::register_own(const graph::Node& target, const graph::Node& source,
-                         const registration::Prior& prior) {
-  struct Job {
-    std::shared_ptr<OwnCloud> target, source;
-    registration::Prior prior;
-    registration::Drifts drifts;
-    Registered registered;
-  };
-  auto job = std::make_shared<Job>(Job{own_clouds_.of(store_, target),
-                                       own_clouds_.of(store_, source),
-                                       prior,
-                                       drifts_around(target, source),
-                                       {}});
-  ++jobs_;
-  const bool taken =
-      bus_.offload(bus::Lane::kBackground,
-                   {"registration",
-                    [this, job] {
-                      const CpuTimer all(job->registered.cpu_seconds);
-                      {
-                        const CpuTimer timer(job->registered.spherize_seconds);
-                        job->target->spherized();
-                        job->source->spherized();
-                      }
-                      const auto target = job->target->prepared(config_.registration);
-                      const auto source = job->source->prepared(config_.registration);
-                      if (target && source) {
-                        job->registered.input =
-                            input_of(*job->target, job->source->node(), job->source->spherized()->bytes,
-                                     job->prior, config_.registration.method);
-                        job->registered.result = registration::register_clouds(
-                            *target, *source, config_.registration, job->prior, job->drifts);
-                      } else {
-                        job->registered.result = tl::unexpected(target ? source.error() : target.error());
-                      }
-                    }},
-                   [this, job] {
-                     --jobs_;
-                     conclude(job->target->node(), job->source->node(), job->registered, std::nullopt);
-                   });
-  if (!taken) note_refused_work();
-}
-
-void Agent::note_refused_work() {
-  --jobs_;
-  ++registrations_.failed;
-  spdlog::warn("{}: {} jobs wait already; one was let go", config_.id.str(), bus::Bus::kMostWork);
 }
 
 // ---- others
@@ -402,168 +343,58 @@ void Agent::on_events() {
   for (const exchange::Event& event : exchange_->take_events()) {
     std::visit([this](const auto& specific) { handle(specific); }, event);
   }
+  loop_closing_.register_received();
 }
 
 void Agent::handle(const exchange::CloudNeeded& needed) {
   const graph::Node* node = store_.node(needed.node);
   if (node == nullptr) return exchange_->decline_cloud(needed.node);
-  const std::shared_ptr<OwnCloud> own = own_clouds_.of(store_, *node);
-  auto seconds = std::make_shared<double>(0.0);
-  ++jobs_;
-  const bool taken =
-      bus_.offload(bus::Lane::kBackground,
-                   {"spherization",
-                    [own, seconds] {
-                      const CpuTimer timer(*seconds);
-                      own->spherized();
-                    }},
-                   [this, own, seconds] {
-                     --jobs_;
-                     work_.spherization += *seconds;
-                     const NodeId id = own->node().id;
-                     const auto& cloud = own->spherized();
-                     if (!cloud) {
-                       ++registrations_.failed;
-                       spdlog::warn("{}: no spherized cloud: {}", to_string(id), cloud.error().message);
-                       return exchange_->decline_cloud(id);
-                     }
-                     ++registrations_.clouds_made;
-                     registrations_.largest_cloud_bytes =
-                         std::max(registrations_.largest_cloud_bytes, cloud->bytes.size());
-                     wire::SpherizedCloud message{id, config_.spherize.radius_m, cloud->voxel_m,
-                                                  static_cast<std::uint32_t>(cloud->encoded), cloud->bytes};
-                     const Status provided = exchange_->provide_cloud(id, wire::encode(message), bus_.now());
-                     if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
-                   });
-  if (taken) return;
-  note_refused_work();
-  exchange_->decline_cloud(needed.node);
+  loop_closing_.make_cloud(*node, [this, id = needed.node](std::optional<Bytes> cloud) {
+    if (!cloud) return exchange_->decline_cloud(id);
+    const Status provided = exchange_->provide_cloud(id, std::move(*cloud), bus_.now());
+    if (!provided) spdlog::error("{}: {}", to_string(id), provided.error().message);
+  });
 }
 
-void Agent::handle(const exchange::CloudArrived& arrived) {
-  const graph::Node* ours = store_.node(arrived.pair.ours);
-  const graph::Node* theirs = store_.node(arrived.pair.theirs);
-  if (ours == nullptr || theirs == nullptr) return exchange_->on_rejected(arrived.pair, bus_.now());
-  struct Job {
-    std::shared_ptr<OwnCloud> target;
-    graph::Node source;
-    Bytes encoded;
-    registration::Prior prior;
-    registration::Drifts drifts;
-    Registered registered;
-  };
-  const auto prior = arrived.T_ours_theirs ? prior_of(*arrived.T_ours_theirs, ours->up_in_base)
-                                           : prior_of(*ours, *theirs, config_.exchange.encounters);
-  if (!prior) {
-    // Only the peer knows how the two lie to each other; it registers them too.
-    spdlog::info("{}: nothing tells how {} lies to {}", config_.id.str(), to_string(theirs->id),
-                 to_string(ours->id));
-    return exchange_->on_rejected(arrived.pair, bus_.now());
-  }
-  auto job = std::make_shared<Job>(
-      Job{own_clouds_.of(store_, *ours), *theirs, arrived.cloud, *prior, drifts_around(*ours, *theirs), {}});
-  ++jobs_;
-  const bool taken = bus_.offload(bus::Lane::kBackground,
-                                  {"registration",
-                                   [this, job] {
-                                     const CpuTimer all(job->registered.cpu_seconds);
-                                     {
-                                       const CpuTimer timer(job->registered.spherize_seconds);
-                                       job->target->spherized();
-                                     }
-                                     job->registered.result =
-                                         register_encoded(*job->target, job->source, job->encoded, job->prior,
-                                                          job->drifts, job->registered.input);
-                                   }},
-                                  [this, job, pair = arrived.pair] {
-                                    --jobs_;
-                                    conclude(job->target->node(), job->source, job->registered, pair);
-                                  });
-  if (taken) return;
-  note_refused_work();
-  exchange_->on_rejected(arrived.pair, bus_.now());
-}
-
-registration::Drifts Agent::drifts_around(const graph::Node& target, const graph::Node& source) const {
-  return {drift_around(store_, target, config_.spherize.radius_m),
-          drift_around(store_, source, config_.spherize.radius_m)};
-}
-
-Result<registration::RegistrationResult> Agent::register_encoded(OwnCloud& target, const graph::Node& source,
-                                                                 const Bytes& encoded,
-                                                                 const registration::Prior& prior,
-                                                                 const registration::Drifts& drifts,
-                                                                 store::LoggedRegistration& input) const {
-  const auto message = wire::decode<wire::SpherizedCloud>(encoded);
-  if (!message) return tl::unexpected(message.error());
-  if (message->node != source.id) return failure("the cloud is of node " + to_string(message->node));
-  const auto source_cloud = cloud::decode(message->payload);
-  if (!source_cloud) return tl::unexpected(source_cloud.error());
-  const auto target_cloud = target.prepared(config_.registration);
-  if (!target_cloud) return tl::unexpected(target_cloud.error());
-  input = input_of(target, source, message->payload, prior, config_.registration.method);
-  return registration::register_clouds(
-      *target_cloud, registration::PreparedCloud(*source_cloud, source.up_in_base, config_.registration),
-      config_.registration, prior, drifts);
-}
-
-void Agent::conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
-                     const std::optional<exchange::NodePair>& pair) {
-  log_registration(i.id, j.id, registered);
-  if (registered.result) keep_input(registered.input);
-  work_.registration += registered.cpu_seconds - registered.spherize_seconds;
-  work_.spherization += registered.spherize_seconds;
-  const auto is = [&](registration::Verdict verdict) {
-    return registered.result && registered.result->verdict == verdict;
-  };
-  const bool accepted = is(registration::Verdict::accepted);
-  if (!registered.result) {
-    ++registrations_.failed;
+bool Agent::publish(graph::Alignment alignment) {
+  alignment.seq = store_.next_alignment_seq(session_);
+  const Result<graph::Alignment> rounded = wire::quantised(alignment);
+  const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
+                                         : Result<store::Put>(tl::unexpected(rounded.error()));
+  if (put && *put == store::Put::kAdded) return true;
+  if (!put) {
+    handle(exchange::StoreFailed{put.error()});
   } else {
-    ++(accepted                               ? registrations_.accepted
-       : is(registration::Verdict::ambiguous) ? registrations_.ambiguous
-                                              : registrations_.rejected);
+    spdlog::error("{}: alignment with {} not stored: its name is taken", to_string(alignment.i),
+                  to_string(alignment.j));
   }
-  // An ambiguous one goes to the fleet with all its modes: what others find may tell which is right.
-  if (accepted || is(registration::Verdict::ambiguous)) {
-    graph::Alignment alignment = alignment_of(i.id, j.id, config_.id, *registered.result);
-    alignment.seq = store_.next_alignment_seq(session_);
-    const Result<graph::Alignment> rounded = wire::quantised(alignment);
-    const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
-                                           : Result<store::Put>(tl::unexpected(rounded.error()));
-    if (put && *put == store::Put::kAdded) {
-      // What was under way when a session began says nothing of it.
-      if (accepted && i.id.agent == j.id.agent && i.session != session_ && j.session == session_)
-        session_ties_.on_accepted(i, j);
-      return on_events();
-    }
-    if (!put) {
-      handle(exchange::StoreFailed{put.error()});
-    } else {
-      spdlog::error("{}: alignment with {} not stored: its name is taken", to_string(i.id), to_string(j.id));
-    }
-  }
-  if (pair) exchange_->on_rejected(*pair, bus_.now());
+  return false;
 }
 
-void Agent::log_registration(const NodeId& i, const NodeId& j, const Registered& registered) {
+void Agent::record(const loop_closure::Registration& registration) {
+  log_registration(registration);
+  if (registration.result) keep_input(registration.input);
+}
+
+void Agent::log_registration(const loop_closure::Registration& registration) {
   const std::filesystem::path file = config_.directory / "registrations.csv";
   std::error_code error;
   const bool fresh = !std::filesystem::exists(file, error);
   std::ofstream out(file, std::ios::app);
   if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
-  out << to_string(i) << ',' << to_string(j) << ',';
-  if (registered.result) {
-    const registration::RegistrationResult& r = *registered.result;
+  const std::string source = to_string(registration.source.id);
+  out << to_string(registration.target.id) << ',' << source << ',';
+  if (registration.result) {
+    const registration::RegistrationResult& r = *registration.result;
     out << registration::to_string(r.verdict) << ',' << r.rmse << ',' << r.inlier_fraction << ',' << r.overlap
-        << ',' << registered.cpu_seconds << ",\"" << r.reason << "\"\n";
+        << ',' << registration.cpu_seconds << ",\"" << r.reason << "\"\n";
     spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", config_.id.str(),
-                 registration::to_string(r.verdict), to_string(j), r.rmse, 100.0 * r.inlier_fraction,
+                 registration::to_string(r.verdict), source, r.rmse, 100.0 * r.inlier_fraction,
                  r.reason.empty() ? "" : ", ", r.reason);
   } else {
-    out << "failed,,,," << registered.cpu_seconds << ",\"" << registered.result.error().message << "\"\n";
-    spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), to_string(j),
-                 registered.result.error().message);
+    out << "failed,,,," << registration.cpu_seconds << ",\"" << registration.result.error().message << "\"\n";
+    spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), source,
+                 registration.result.error().message);
   }
 }
 
@@ -674,7 +505,7 @@ void Agent::handle(const exchange::StrangerHeard& heard) {
 void Agent::handle(const exchange::NodeAdded& added) {
   const graph::Node* node = store_.node(added.id);
   if (node == nullptr) return;  // its name became contested meanwhile
-  if (added.id.agent == config_.id) session_ties_.add_earlier(*node);
+  if (added.id.agent == config_.id) loop_closing_.on_returned_node(*node);
   if (navigator_) navigator_->on_node(*node);
 }
 

@@ -19,13 +19,16 @@ Status AgentConfig::validate() const {
   for (const Status& status :
        {of("lidar", perception.lidar.validate()), of("odometry", perception.odometry.validate()),
         of("localization", perception.localization.validate()), of("nodes", nodes.validate()),
-        loop_closures.validate(), of("submap", submap.validate()), of("spherize", spherize.validate()),
-        of("registration", registration.validate()), of("exchange", complete_exchange.validate(id)),
-        of("store", store.validate()), of("map", map.validate()), placement.validate()}) {
+        own_path.validate(), of("exchange", loop_closure.validate()), of("submap", submap.validate()),
+        of("spherize", spherize.validate()), of("registration", registration.validate()),
+        of("exchange", complete_exchange.validate(id)), of("store", store.validate()),
+        of("map", map.validate()), placement.validate()}) {
     if (!status) return status;
   }
-  // Else both clouds of a closure hold the same submaps.
-  if (loop_closures.min_path < 2.0 * static_cast<double>(spherize.radius_m))
+  if (loop_closure.max_active > exchange.clouds.max_receiving)
+    return failure("exchange: encounters.max_active must be at most cloud_transfer.max_receiving");
+  // Else both clouds of a candidate hold the same submaps.
+  if (own_path.min_path < 2.0 * static_cast<double>(spherize.radius_m))
     return failure("loop_closures.min_path must be at least twice spherize.radius");
   return {};
 }

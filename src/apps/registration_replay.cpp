@@ -3,10 +3,10 @@
 #include <map>
 #include <utility>
 
-#include "fleetmap/agent/cloud_drift.hpp"
-#include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/loop_closure/cloud_drift.hpp"
+#include "fleetmap/loop_closure/registered_alignment.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/registration_log.hpp"
 #include "fleetmap/wire/messages.hpp"
@@ -78,7 +78,8 @@ class Replay {
   registration::Drifts drifts(const graph::Node& target, const graph::Node& source) const {
     if (config_.method == registration::Method::paper) return {};
     const double reach = static_cast<double>(registration::SpherizeConfig{}.radius_m);
-    return {agent::drift_around(held_.store, target, reach), agent::drift_around(held_.store, source, reach)};
+    return {loop_closure::drift_around(held_.store, target, reach),
+            loop_closure::drift_around(held_.store, source, reach)};
   }
 
   void keep(const AgentId& agent, const store::LoggedRegistration& logged,
@@ -88,7 +89,7 @@ class Replay {
        : registered.verdict == Verdict::ambiguous ? result_.ambiguous
                                                   : result_.rejected);
     if (registered.verdict == Verdict::rejected) return;
-    graph::Alignment alignment = agent::alignment_of(logged.target, logged.source, agent, registered);
+    graph::Alignment alignment = loop_closure::alignment_of(logged.target, logged.source, agent, registered);
     alignment.seq = next_seq_[agent]++;
     if (auto rounded = wire::quantised(alignment)) {
       result_.alignments.push_back(std::move(*rounded));

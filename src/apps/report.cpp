@@ -41,15 +41,15 @@ json links_json(const std::vector<bus::LinkUse>& links) {
   return rows;
 }
 
-json exchange_json(const exchange::ExchangeStats& stats) {
+json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::LoopClosureStats& loops) {
   const auto proofs = [&](exchange::ItemProof proof) {
     return stats.proofs[static_cast<std::size_t>(proof)];
   };
   return {{"long_range_wire_bytes", stats.long_range.wire_bytes},
-          {"encounters_found", stats.encounters.found},
-          {"encounters_alike", stats.encounters.alike},
-          {"encounters_tied", stats.encounters.tied},
-          {"encounters_begun", stats.encounters.begun},
+          {"encounters_found", loops.by_position},
+          {"encounters_alike", loops.by_descriptor},
+          {"encounters_tied", loops.by_transform},
+          {"encounters_begun", loops.requested},
           {"clouds_received", stats.cloud_receiver.received},
           {"clouds_given_up", stats.cloud_receiver.given_up},
           {"cloud_requests", stats.cloud_receiver.requests},
@@ -294,7 +294,7 @@ std::string lost_ways(const odometry::LoamCounters& odometry) {
 }
 
 json agent_report(const agent::Agent& agent, const agent::Results* results) {
-  const agent::RegistrationCounters& registrations = agent.registrations();
+  const loop_closure::RegistrationCounters& registrations = agent.registrations();
   json report = {{"sensors", perception_json(agent)},
                  {"localization", localization_json(agent.perception().localization_counters())},
                  {"bus_drops", bus_drops_json(agent.bus_stats())},
@@ -309,7 +309,7 @@ json agent_report(const agent::Agent& agent, const agent::Results* results) {
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
                  {"store_failures", agent.store_failures()},
-                 {"exchange", exchange_json(agent.exchange_stats())}};
+                 {"exchange", exchange_json(agent.exchange_stats(), agent.loop_closure_stats())}};
   add_holdings(report, agent.store(), results);
   return report;
 }

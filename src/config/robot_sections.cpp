@@ -219,49 +219,49 @@ void read_registration(Section& top, agent::AgentConfig& agent) {
       std::max(1.0, agent.perception.localization.gps.correlation_time);
 }
 
-void read_encounters(Section& top, exchange::EncounterConfig& encounters) {
+void read_loop_closure(Section& top, loop_closure::LoopClosureConfig& closure) {
   Section proximity = top.section("proximity");
-  std::string uncertainty = place::to_string(encounters.proximity.uncertainty);
+  std::string uncertainty = place::to_string(closure.proximity.uncertainty);
   proximity.read("uncertainty", uncertainty);
   if (uncertainty != "sigma" && uncertainty != "variance")
     proximity.problem("uncertainty", "expected 'sigma' or 'variance', found '" + uncertainty + "'");
-  encounters.proximity.uncertainty =
+  closure.proximity.uncertainty =
       uncertainty == "variance" ? place::Uncertainty::variance : place::Uncertainty::sigma;
-  proximity.read("radius_scale", encounters.proximity.radius_scale);
-  proximity.read("min_radius", encounters.proximity.min_radius);
-  proximity.read("max_radius", encounters.proximity.max_radius);
+  proximity.read("radius_scale", closure.proximity.radius_scale);
+  proximity.read("min_radius", closure.proximity.min_radius);
+  proximity.read("max_radius", closure.proximity.max_radius);
   proximity.finish();
-  proximity.check(encounters.proximity.validate());
+  proximity.check(closure.proximity.validate());
 
   // The paper lets both ends register, and keeps the better of the two.
-  encounters.stop_when_peer_aligned = false;
+  closure.stop_when_peer_aligned = false;
   Section section = top.section("encounters");
-  section.read("spacing", encounters.spacing_m);
-  section.read("spacing_aligned", encounters.spacing_aligned_m);
-  section.read("spacing_failed", encounters.spacing_failed_m);
-  section.read("ripe_nodes", encounters.ripe_nodes);
-  section.read_seconds("ripe_after", encounters.ripe_after);
-  section.read_seconds("retry_after", encounters.retry_after);
-  section.read("max_attempts", encounters.max_attempts);
-  section.read("stop_when_peer_aligned", encounters.stop_when_peer_aligned);
-  std::string order = exchange::to_string(encounters.order);
+  section.read("spacing", closure.spacing_m);
+  section.read("spacing_aligned", closure.spacing_aligned_m);
+  section.read("spacing_failed", closure.spacing_failed_m);
+  section.read("ripe_nodes", closure.min_nodes_after);
+  section.read_seconds("ripe_after", closure.max_wait);
+  section.read_seconds("retry_after", closure.retry_after);
+  section.read("max_attempts", closure.max_attempts);
+  section.read("stop_when_peer_aligned", closure.stop_when_peer_aligned);
+  std::string order = closure.order == exchange::CloudOrder::kFirstCome ? "first_come" : "worth";
   section.read("order", order);
   if (order != "worth" && order != "first_come")
     section.problem("order", "expected 'worth' or 'first_come', found '" + order + "'");
-  encounters.order =
-      order == "first_come" ? exchange::EncounterOrder::kFirstCome : exchange::EncounterOrder::kWorth;
-  section.read("min_worth", encounters.min_worth);
+  closure.order =
+      order == "first_come" ? exchange::CloudOrder::kFirstCome : exchange::CloudOrder::kInformation;
+  section.read("min_worth", closure.min_information);
   section.finish();
-  section.check(encounters.validate());
+  section.check(closure.validate());
 }
 
-void read_loop_closures(Section& top, agent::LoopClosureConfig& closures) {
+void read_own_path(Section& top, loop_closure::OwnPathConfig& own_path) {
   Section section = top.section("loop_closures");
-  section.read("reach", closures.reach);
-  section.read("min_path", closures.min_path);
-  section.read("spacing", closures.spacing);
+  section.read("reach", own_path.reach);
+  section.read("min_path", own_path.min_path);
+  section.read("spacing", own_path.spacing);
   section.finish();
-  section.check(closures.validate());
+  section.check(own_path.validate());
 }
 
 /// Names of robots, none when the key is not there.
@@ -279,7 +279,6 @@ void read_names(Section& section, const char* key, std::vector<AgentId>& ids) {
 
 void read_exchange(Section& top, agent::AgentConfig& agent) {
   exchange::ExchangeConfig& exchange = agent.exchange;
-  read_encounters(top, exchange.encounters);
   Section long_range = top.section("long_range");
   double budget_kbit_s = exchange.long_range.fleet_bytes_per_second * 8e-3;
   long_range.read("budget_kbit_s", budget_kbit_s);
@@ -365,13 +364,13 @@ void use_paper_defaults(agent::AgentConfig& agent) {
   agent.registration.method = registration::Method::paper;
   agent.placement.method = graph::PlacementMethod::paper;
   agent.spherize.ground_voxel_m = 0.0f;
-  place::ProximityConfig& proximity = agent.exchange.encounters.proximity;
+  place::ProximityConfig& proximity = agent.loop_closure.proximity;
   proximity.uncertainty = place::Uncertainty::variance;
   proximity.min_radius = 20.0;
   proximity.max_radius = 30.0;
   // Of all that are found, the least E is kept.
-  agent.exchange.encounters.order = exchange::EncounterOrder::kFirstCome;
-  agent.exchange.encounters.min_worth = 0.0;
+  agent.loop_closure.order = exchange::CloudOrder::kFirstCome;
+  agent.loop_closure.min_information = 0.0;
 }
 
 }  // namespace
@@ -389,7 +388,8 @@ void read_agent(Section& top, agent::AgentConfig& agent) {
   agent.perception.localization.site_origin = agent.site_origin;
   read_map_making(top, agent);
   read_registration(top, agent);
-  read_loop_closures(top, agent.loop_closures);
+  read_own_path(top, agent.own_path);
+  read_loop_closure(top, agent.loop_closure);
   read_exchange(top, agent);
 }
 

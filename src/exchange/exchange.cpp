@@ -55,9 +55,6 @@ Status ExchangeConfig::validate(const AgentId& self) const {
   }
   if (!payload_size) return failure("exchange.payload_size must be set");
   if (status_period <= Duration::zero()) return failure("exchange.status_period must be positive");
-  if (encounters.max_active > clouds.max_receiving) {
-    return failure("encounters.max_active must be at most cloud_transfer.max_receiving");
-  }
   const std::set<AgentId> radio(on_radio.begin(), on_radio.end());
   if (!on_radio.empty() && (radio.size() != on_radio.size() || !radio.contains(self))) {
     return failure("long_range.robots must name each robot once, and this one, '" + self.str() + "'");
@@ -66,28 +63,32 @@ Status ExchangeConfig::validate(const AgentId& self) const {
     if (!names.contains(agent))
       return failure("long_range.robots: '" + agent.str() + "' is not in the fleet");
   }
-  for (const Status& status : {long_range.validate(), clouds.validate(), encounters.validate(),
-                               reconcile.validate(), submaps.validate()}) {
+  for (const Status& status :
+       {long_range.validate(), clouds.validate(), reconcile.validate(), submaps.validate()}) {
     if (!status) return status;
   }
   return {};
 }
 
-ExchangeConfig for_fleet(ExchangeConfig config) {
-  config.on_radio = config.all_on_radio();
-  const std::size_t robots = std::max<std::size_t>(config.on_radio.size(), 2);
+double period_factor(const ExchangeConfig& config) {
+  const std::size_t robots = std::max<std::size_t>(config.all_on_radio().size(), 2);
   const double load = static_cast<double>(robots * config.long_range.copies(robots)) /
                       config.long_range.fleet_bytes_per_second;
-  const double factor = std::max(1.0, load / kUsualLoad);
-  for (Duration* period :
-       {&config.status_period, &config.reconcile.digest_min_period, &config.reconcile.digest_max_period,
-        &config.reconcile.peer_timeout, &config.encounters.peer_timeout}) {
+  return std::max(1.0, load / kUsualLoad);
+}
+
+ExchangeConfig for_fleet(ExchangeConfig config) {
+  config.on_radio = config.all_on_radio();
+  const double factor = period_factor(config);
+  for (Duration* period : {&config.status_period, &config.reconcile.digest_min_period,
+                           &config.reconcile.digest_max_period, &config.reconcile.peer_timeout}) {
     *period = longer(*period, factor);
   }
   return config;
 }
 
-Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, Stamp now) {
+Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+                                Stamp now) {
   if (auto status = config.validate(store.self()); !status) return tl::unexpected(status.error());
   AdoptedItems adopted;
   if (config.authenticator) {
@@ -96,7 +97,7 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
     adopted = *result;
   }
   const ExchangeConfig adapted = for_fleet(config);
-  Exchange exchange(adapted, store, now);
+  Exchange exchange(adapted, store, loop_closer, now);
   // A large fleet that starts at once would else tell all at once, and while its links still say Hello.
   const std::vector<AgentId>& all = adapted.on_radio;
   const auto place = std::ranges::find(all, store.self()) - all.begin();
@@ -115,7 +116,7 @@ Result<Exchange> Exchange::make(const ExchangeConfig& config, store::Store& stor
   return exchange;
 }
 
-Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
+Exchange::Exchange(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer, Stamp now)
     : config_(config),
       store_(&store),
       self_(store.self()),
@@ -125,7 +126,7 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       queue_(config.long_range, others_of(config.on_radio, self_), config.payload_size),
       cloud_sender_(self_, config.clouds),
       cloud_receiver_(self_, config.clouds),
-      encounters_(self_, config.encounters),
+      loop_closer_(&loop_closer),
       reconcile_(self_, config.reconcile),
       submap_receiver_(self_, config.submaps),
       submap_sender_(self_, config.submaps),
@@ -133,9 +134,9 @@ Exchange::Exchange(const ExchangeConfig& config, store::Store& store, Stamp now)
       present_(shares_.present(now)) {
   std::ranges::set_difference(fleet_, on_radio_, std::inserter(elsewhere_, elsewhere_.end()));
   status_.position = GeoPoint{};
-  for (const auto& [id, alignment] : store.alignments()) encounters_.on_alignment(alignment, now);
+  for (const auto& [id, alignment] : store.alignments()) loop_closer_->on_alignment(alignment, now);
   for (const auto& [id, node] : store.nodes()) {
-    encounters_.on_node(node, now);
+    loop_closer_->on_node(node, now);
     if (!store.has_submap(id)) without_submap_[id] = now;
   }
 }
@@ -149,7 +150,7 @@ Result<Put> Exchange::on_own_node(const graph::Node& made, ByteView submap, Stam
   if (!put || *put != Put::kAdded) return put;
   tell_all(Priority::kNews, node);
   reconcile_.on_item(now);
-  encounters_.on_node(node, now);
+  loop_closer_->on_node(node, now);
   return put;
 }
 
@@ -159,20 +160,14 @@ Result<Put> Exchange::on_own_alignment(const graph::Alignment& made, Stamp now) 
   if (!put || *put != Put::kAdded) return put;
   tell_all(Priority::kNews, alignment);
   reconcile_.on_item(now);
-  encounters_.on_alignment(alignment, now);
-  if (alignment.best().rmse <= graph::kGoodRmse && config_.encounters.stop_when_peer_aligned) {
+  loop_closer_->on_alignment(alignment, now);
+  if (alignment.best().rmse <= graph::kGoodRmse && config_.clouds.cancel_when_aligned) {
     // The peer will stop asking when it hears of this.
     const bool i_is_ours = alignment.i.agent == self_;
     queue_.cancel_cloud(i_is_ours ? alignment.j.agent : alignment.i.agent,
                         i_is_ours ? alignment.i : alignment.j);
   }
   return put;
-}
-
-void Exchange::on_rejected(const NodePair& pair, Stamp now) { encounters_.on_rejected(pair, now); }
-
-void Exchange::on_used_alignments(std::span<const graph::Alignment> used) {
-  encounters_.on_used_alignments(used);
 }
 
 Status Exchange::provide_cloud(const NodeId& node, Bytes cloud, Stamp now) {
@@ -235,7 +230,7 @@ bool Exchange::admit(const Message& message, Reach link, Stamp now) {
   // Who is heard there but does not hear us cannot be asked for anything.
   if (link == Reach::kLongRange || submap_receiver_.hears_us(*sender, now)) {
     reconcile_.on_heard(*sender, now);
-    encounters_.on_heard(*sender, now);
+    loop_closer_->on_heard(*sender, now);
   }
   return !recipient || *recipient == self_;
 }
@@ -256,7 +251,7 @@ void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& 
     events_.push_back(added);
   } else if (*put == Put::kConflict) {
     if (!alignment) {
-      encounters_.forget(id);
+      loop_closer_->on_contested(id);
       without_submap_.erase(id);
     }
     reconcile_.on_contested(now);
@@ -293,7 +288,7 @@ void Exchange::handle(const graph::Node& node, Stamp now) {
   on_put(put, NodeAdded{node.id}, node.id, false, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
-  encounters_.on_node(node, now);
+  loop_closer_->on_node(node, now);
   if (!store_->has_submap(node.id)) without_submap_[node.id] = now;
 }
 
@@ -311,16 +306,15 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
   on_put(put, AlignmentAdded{id}, name, true, now);
   if (!put || *put != Put::kAdded) return;
   reconcile_.on_item(now);
-  encounters_.on_alignment(alignment, now);
+  loop_closer_->on_alignment(alignment, now);
 }
 
-void Exchange::handle(const ProximityMatch& match, Stamp now) { encounters_.on_match(match, now); }
+void Exchange::handle(const ProximityMatch& match, Stamp now) { loop_closer_->on_match(match, now); }
 
 void Exchange::handle(const CloudFragment& fragment, Stamp now) {
   auto cloud = cloud_receiver_.add(fragment, now);
   if (!cloud) return;
-  for (const NodePair& pair : encounters_.on_cloud(fragment.node))
-    events_.push_back(CloudArrived{pair, *cloud, encounters_.tied(pair)});
+  loop_closer_->on_cloud(fragment.node, std::move(*cloud));
 }
 
 void Exchange::handle(const CloudRequest& request, Stamp now) {
@@ -328,7 +322,7 @@ void Exchange::handle(const CloudRequest& request, Stamp now) {
     ++bad_requests_;
     return;
   }
-  encounters_.on_cloud_request(request.from, request.node);
+  loop_closer_->on_cloud_request(request.from, request.node);
   if (auto fragments = cloud_sender_.answer(request, now)) {
     send_fragments(std::move(*fragments), request.worth);
     return;
@@ -431,7 +425,7 @@ void Exchange::handle(const SubmapChunk& chunk, Stamp now) {
 // -------------------------------------------------------------------------------------------------------
 
 void Exchange::send_fragments(std::vector<CloudFragment> fragments, float worth) {
-  if (config_.encounters.order == EncounterOrder::kFirstCome) worth = 0.0f;
+  if (config_.clouds.order == CloudOrder::kFirstCome) worth = 0.0f;
   for (CloudFragment& fragment : fragments) queue_.push_fragment(std::move(fragment), worth);
 }
 
@@ -464,22 +458,22 @@ void Exchange::note_near(Stamp now) {
   to_near_.push_back(reconcile_.near_digest(*store_));
 }
 
-void Exchange::tick_encounters(Stamp now) {
-  auto due = encounters_.tick(now, shares_.has_room(queue_.backlog_bytes(), now));
+void Exchange::tick_loop_closing(Stamp now) {
+  auto due = loop_closer_->tick(now, shares_.has_room(queue_.backlog_bytes(), now));
   for (const NodePair& pair : due.withdrawn) {
-    if (!encounters_.wants(pair.theirs)) cloud_receiver_.cancel(pair.theirs);
+    if (!loop_closer_->wants(pair.theirs)) cloud_receiver_.cancel(pair.theirs);
     queue_.cancel_cloud(pair.theirs.agent, pair.ours);
   }
   for (ProximityMatch& match : due.matches) queue_.push(Priority::kControl, std::move(match));
-  for (const auto& [node, worth] : due.wanted) {
-    if (!cloud_receiver_.want(node, now, worth)) encounters_.on_cloud_lost(node, now);
+  for (const auto& [node, information] : due.wanted) {
+    if (!cloud_receiver_.want(node, now, information)) loop_closer_->on_cloud_lost(node, now);
   }
 }
 
 void Exchange::tick_clouds(Stamp now) {
   auto due = cloud_receiver_.tick(now);
   for (CloudRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
-  for (const NodeId& node : due.given_up) encounters_.on_cloud_lost(node, now);
+  for (const NodeId& node : due.given_up) loop_closer_->on_cloud_lost(node, now);
 }
 
 void Exchange::tick_items(Stamp now) {
@@ -568,7 +562,7 @@ std::vector<Outgoing> Exchange::tick(Stamp now) {
   note_near(now);
   queue_.set_share(shares_.rate(now), now);
   tick_holds(now);
-  tick_encounters(now);
+  tick_loop_closing(now);
   tick_clouds(now);
   tick_items(now);
   tick_status(now);
@@ -612,7 +606,7 @@ bool Exchange::fleet_caught_up(const std::set<AgentId>& without) const {
 bool Exchange::idle(Stamp now, const std::set<AgentId>& without) const {
   const bool sent = queue_.size(Priority::kControl) == 0 && queue_.size(Priority::kNews) == 0 &&
                     queue_.size(Priority::kBackfill) == 0 && queue_.size(Priority::kCloud) == 0;
-  return sent && needed_.empty() && cloud_receiver_.idle(without) && encounters_.idle(now, without) &&
+  return sent && needed_.empty() && cloud_receiver_.idle(without) && loop_closer_->idle(now, without) &&
          submap_receiver_.idle(*store_, now) && submap_sender_.idle();
 }
 
@@ -621,11 +615,15 @@ bool Exchange::others_busy(Stamp now) const {
 }
 
 ExchangeStats Exchange::stats() const {
-  return {queue_.stats(),          cloud_sender_.stats(),
-          cloud_receiver_.stats(), encounters_.stats(),
-          reconcile_.stats(),      submap_receiver_.stats(),
-          submap_sender_.stats(),  strangers_,
-          bad_requests_,           proofs_};
+  return {queue_.stats(),
+          cloud_sender_.stats(),
+          cloud_receiver_.stats(),
+          reconcile_.stats(),
+          submap_receiver_.stats(),
+          submap_sender_.stats(),
+          strangers_,
+          bad_requests_,
+          proofs_};
 }
 
 TableSizes Exchange::table_sizes() const {

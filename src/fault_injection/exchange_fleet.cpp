@@ -33,10 +33,18 @@ void ExchangeFleet::step() {
   }
   for (auto& [name, robot] : robots_) {
     for (auto& outgoing : robot.exchange->tick(now_ + robot.clock_offset)) send(name, outgoing, robot);
-    for (auto& event : robot.exchange->take_events()) {
-      robot.events.push_back(event);
-      on_event(name, robot, event);
-    }
+    pass_on(name, robot);
+  }
+}
+
+void ExchangeFleet::pass_on(const AgentId& name, Robot& robot) {
+  for (auto& event : robot.exchange->take_events()) {
+    robot.events.push_back(event);
+    on_event(name, robot, event);
+  }
+  for (auto& received : robot.loop_closer->take_received()) {
+    robot.received.push_back(received);
+    on_received(name, robot, received);
   }
 }
 
@@ -49,7 +57,10 @@ Status ExchangeFleet::start(const AgentId& name, const store::StoreConfig& store
   robot.store = std::make_unique<store::Store>(std::move(*opened));
   const auto session = draw_session(*robot.store);
   if (!session) return tl::unexpected(session.error());
-  auto made = exchange::Exchange::make(config_, *robot.store, now_ + clock_offset);
+  loop_closure::LoopClosureConfig loops = loop_config_;
+  loops.peer_timeout = from_seconds(to_seconds(loops.peer_timeout) * exchange::period_factor(config_));
+  robot.loop_closer = std::make_unique<loop_closure::CandidateScheduler>(name, loops);
+  auto made = exchange::Exchange::make(config_, *robot.store, *robot.loop_closer, now_ + clock_offset);
   if (!made) return tl::unexpected(made.error());
   robot.exchange = std::make_unique<exchange::Exchange>(std::move(*made));
   robot.session = *session;

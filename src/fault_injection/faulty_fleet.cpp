@@ -255,9 +255,6 @@ void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Ev
     const Status provided = robot.exchange->provide_cloud(
         needed->node, SyntheticSurvey::cloud_around(needed->node), clock(robot));
     if (!provided) monitor_.note(Invariant::kOwnItems, name, now(), provided.error().message);
-  } else if (const auto* arrived = std::get_if<exchange::CloudArrived>(&event)) {
-    jobs_.push_back(
-        {now() + from_seconds(draws_.between(0.1, kMostRegistration)), name, robot.session, arrived->pair});
   } else if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event)) {
     monitor_.on_conflict(name, *conflict, now());
     trace(name.str() + ": conflict " + to_string(conflict->id));
@@ -271,6 +268,12 @@ void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Ev
   } else if (const auto* elsewhere = std::get_if<exchange::OwnItemsElsewhere>(&event)) {
     trace(name.str() + ": " + elsewhere->peer.str() + " holds own items that the store lacks");
   }
+}
+
+void FaultyFleet::on_received(const AgentId& name, Robot& robot,
+                              const loop_closure::ReceivedCloud& received) {
+  jobs_.push_back({now() + from_seconds(draws_.between(0.1, kMostRegistration)), name, robot.session,
+                   received.candidate.pair()});
 }
 
 void FaultyFleet::map(const AgentId& name, Robot& robot) {
@@ -308,7 +311,7 @@ void FaultyFleet::finish_jobs() {
     }
     if (alignment && put)
       monitor_.note(Invariant::kOwnItems, job.robot, now(), "its own alignment is refused");
-    robot.exchange->on_rejected(job.pair, clock(robot));
+    robot.loop_closer->on_rejected(job.pair, clock(robot));
   }
 }
 
@@ -323,7 +326,7 @@ void FaultyFleet::place(const AgentId& name, Robot& robot) {
   const std::size_t items = robot.store->nodes().size() + robot.store->alignments().size();
   if (period == before || items == member.placed_items) return;
   member.placed_items = items;
-  robot.exchange->on_used_alignments(placement_of(robot).used);
+  robot.loop_closer->on_used_alignments(placement_of(robot).used);
 }
 
 void FaultyFleet::attack() {
@@ -343,6 +346,7 @@ void FaultyFleet::work() {
   for (const auto& [name, entry] : robots()) {
     Robot& robot = this->robot(name);
     robot.events.clear();
+    robot.received.clear();
     if (mapping_) map(name, robot);
     place(name, robot);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/loop_closure/candidate_scheduler.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "store/items.hpp"
@@ -15,11 +16,11 @@ using namespace std::chrono_literals;
 
 AgentId id(const char* name) { return AgentId::parse(name).value(); }
 
-exchange::Exchange make_exchange(store::Store& store) {
+exchange::Exchange make_exchange(store::Store& store, exchange::LoopCloser& loop_closer) {
   exchange::ExchangeConfig config;
   config.fleet = {id("r1"), id("r2")};
   config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
-  return exchange::Exchange::make(config, store, {}).value();
+  return exchange::Exchange::make(config, store, loop_closer, {}).value();
 }
 
 TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
@@ -30,7 +31,8 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   network->set_position(id("r1"), {0.0, 0.0, 0.0});
   network->set_position(id("r2"), {10.0, 0.0, 0.0});
   auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  exchange::Exchange exchange = make_exchange(store);
+  loop_closure::CandidateScheduler loop_closer(id("r1"), {});
+  exchange::Exchange exchange = make_exchange(store, loop_closer);
   FleetLink link(id("r1"), own, exchange, [] {});
 
   const auto say = [&](const exchange::Message& message) {
@@ -85,7 +87,8 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   TalkativeRadio radio(network->add_robot(id("r1")), bytes_a_tick);
   network->add_robot(id("r2"));
   auto store = store::Store::open(folder.path() / "store.db", id("r1")).value();
-  exchange::Exchange exchange = make_exchange(store);
+  loop_closure::CandidateScheduler loop_closer(id("r1"), {});
+  exchange::Exchange exchange = make_exchange(store, loop_closer);
   const NodeId node{id("r1"), 0};
   EXPECT_TRUE(store.put_node_with_submap(testing::make_node(id("r1"), 0, Bytes(100, 1)), Bytes(100, 1)));
   EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));

@@ -4,6 +4,7 @@
 
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/loop_closure/candidate_scheduler.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "support/temporary_folder.hpp"
@@ -97,7 +98,8 @@ TEST_F(ItemKeysTest, AChangedMemberHandsOnWhatIsGenuineAndInventsNothing) {
   config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
   config.authenticator = std::make_shared<ItemKeys>(r2_);
   auto store = store::Store::open(folder.path() / "store.db", id("r2")).value();
-  auto exchange = exchange::Exchange::make(config, store, network->now()).value();
+  loop_closure::CandidateScheduler loop_closer(store.self(), {});
+  auto exchange = exchange::Exchange::make(config, store, loop_closer, network->now()).value();
   std::vector<exchange::ItemRefused> refused;
   FleetLink link(id("r2"), bus_of_r2, exchange, [&] {
     for (const exchange::Event& event : exchange.take_events()) {

@@ -6,10 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "fleetmap/agent/encounter_registration.hpp"
 #include "fleetmap/agent/global_track.hpp"
-#include "fleetmap/agent/own_clouds.hpp"
-#include "fleetmap/agent/pass_around.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/cloud/file_io.hpp"
@@ -246,45 +243,6 @@ TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
   const auto results = write_results(store, config());
   ASSERT_TRUE(results) << results.error().message;
   EXPECT_GT(results->map.points, 0u);
-}
-
-TEST_F(ResultsTest, APassIsOfOneOdometryFrameAndEndsWhereTheRobotTurnsBack) {
-  store::Store store = open();
-  std::vector<graph::Node> nodes;
-  for (const double x : {0.0, 5.0, 10.0, 15.0, 10.0, 5.0, 0.0}) nodes.push_back(add_node(store, x));
-  add_node(store, 5.0, 1);
-  const auto pass = pass_around(store, nodes[1], 11.0);
-  ASSERT_EQ(pass.size(), 4u);
-  for (std::size_t k = 0; k < pass.size(); ++k) EXPECT_EQ(pass[k]->id, nodes[k].id);
-}
-
-TEST_F(ResultsTest, AnOwnCloudIsMadeAnewOnceMoreSubmapsLieAround) {
-  store::Store store = open();
-  const graph::Node first = add_node(store, 0.0);
-  registration::SpherizeConfig config;
-  config.radius_m = 10.0f;
-  OwnClouds clouds(config);
-  const auto alone = clouds.of(store, first);
-  EXPECT_EQ(clouds.of(store, first), alone);
-  ASSERT_TRUE(alone->spherized()) << alone->spherized().error().message;
-  add_node(store, 5.0);
-  const auto both = clouds.of(store, first);
-  ASSERT_NE(both, alone);
-  ASSERT_TRUE(both->spherized());
-  EXPECT_GT(both->spherized()->points_in, alone->spherized()->points_in);
-}
-
-TEST_F(ResultsTest, PriorIsTheDifferenceOfBothGlobalPoses) {
-  store::Store store = open();
-  graph::Node a = add_node(store, 0.0);
-  graph::Node b = add_node(store, 10.0);
-  a.G->q_enu_base = Eigen::Quaterniond(rotation_from_rpy(0, 0, 1.5707963267948966));
-  a.G->covariance = Vector6d(1, 1, 1, 1e-4, 1e-4, 0.01).asDiagonal();
-  b.G->covariance = Vector6d(3, 3, 3, 1e-4, 1e-4, 0.03).asDiagonal();
-  const registration::Prior prior = prior_of(*a.G, *b.G);
-  EXPECT_TRUE(prior.T_target_source.translation().isApprox(Eigen::Vector3d(0, -10, 0), 1e-3));
-  EXPECT_NEAR(prior.sigma_yaw_rad, 0.2, 1e-9);
-  EXPECT_NEAR(prior.sigma_translation_m, std::sqrt(4.0 + 4.0), 1e-3) << "10 m swung by 0.2 rad are 2 m";
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ void measure(const Case& wanted) {
   const double radio =
       bytes.all * 8.0 / 1000.0 / to_seconds(fleet.now() - begun) / static_cast<double>(wanted.groups);
   std::size_t clouds = 0;
-  for (const auto& [name, robot] : fleet.robots()) clouds += testing::arrived(robot).size();
+  for (const auto& [name, robot] : fleet.robots()) clouds += robot.received.size();
   met = wanted.groups > 1;
   const Stamp end = fleet.now();
   const std::size_t nodes = made.size();

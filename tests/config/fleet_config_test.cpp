@@ -126,20 +126,20 @@ TEST_F(FleetConfigTest, ModePaperSelectsMethodPlacementAndSearchOfWhichEachCanBe
   const auto fleet = robot("");
   EXPECT_EQ(fleet.registration.method, registration::Method::correlation);
   EXPECT_EQ(fleet.placement.method, graph::PlacementMethod::graph);
-  EXPECT_EQ(fleet.exchange.encounters.proximity.uncertainty, place::Uncertainty::sigma);
+  EXPECT_EQ(fleet.loop_closure.proximity.uncertainty, place::Uncertainty::sigma);
 
   const auto paper = robot("mode: paper\n");
   EXPECT_EQ(paper.registration.method, registration::Method::paper);
   EXPECT_EQ(paper.placement.method, graph::PlacementMethod::paper);
   EXPECT_EQ(paper.spherize.ground_voxel_m, 0.0f);
-  EXPECT_EQ(paper.exchange.encounters.proximity.uncertainty, place::Uncertainty::variance);
-  EXPECT_EQ(paper.exchange.encounters.proximity.min_radius, 20.0);
-  EXPECT_EQ(paper.exchange.encounters.proximity.max_radius, 30.0);
+  EXPECT_EQ(paper.loop_closure.proximity.uncertainty, place::Uncertainty::variance);
+  EXPECT_EQ(paper.loop_closure.proximity.min_radius, 20.0);
+  EXPECT_EQ(paper.loop_closure.proximity.max_radius, 30.0);
 
   const auto mixed = robot("mode: paper\nregistration: {method: correlation}\nproximity: {max_radius: 25}\n");
   EXPECT_EQ(mixed.registration.method, registration::Method::correlation);
   EXPECT_EQ(mixed.placement.method, graph::PlacementMethod::paper);
-  EXPECT_EQ(mixed.exchange.encounters.proximity.max_radius, 25.0);
+  EXPECT_EQ(mixed.loop_closure.proximity.max_radius, 25.0);
 
   const auto other =
       robot("registration: {method: paper, paper: {max_rmse: 0.3}}\nplacement: {method: paper}\n");

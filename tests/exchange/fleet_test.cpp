@@ -64,16 +64,14 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
     EXPECT_GE(fleet.robot("r1").store->alignments().size(), 3u) << "seed " << seed;
     // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
     for (const auto& [name, robot] : fleet.robots()) {
-      const auto stats = robot.exchange->stats();
-      const auto clouds = testing::arrived(robot);
-      EXPECT_EQ(stats.encounters.begun, clouds.size() + stats.encounters.lost +
-                                            stats.encounters.settled_by_peer + stats.encounters.yielded);
-      for (const auto& arrived : clouds) {
-        const auto& source = fleet.robots().at(arrived.pair.theirs.agent);
-        EXPECT_EQ(arrived.cloud, source.clouds.at(arrived.pair.theirs));
+      const auto stats = robot.loop_closer->stats();
+      EXPECT_EQ(stats.requested, robot.received.size() + stats.lost + stats.ended_by_peer + stats.yielded);
+      for (const auto& [candidate, cloud] : robot.received) {
+        const auto& source = fleet.robots().at(candidate.source.agent);
+        EXPECT_EQ(cloud, source.clouds.at(candidate.source));
       }
       if (network.loss == 0.0) {
-        EXPECT_EQ(stats.encounters.lost, 0u);
+        EXPECT_EQ(stats.lost, 0u);
       }
     }
   }
@@ -144,10 +142,10 @@ TEST(ForFleet, ASmallFleetOnTheUsualBudgetKeepsItsPeriods) {
 }
 
 TEST(Fleet, small_messages_do_not_wait_behind_clouds) {
-  SimFleet fleet({"r1", "r2"}, {}, 7, [](ExchangeConfig& config) {
-    config.encounters.spacing_m = config.encounters.spacing_aligned_m = 0.0;  // as many clouds as will go
-    config.encounters.stop_when_peer_aligned = false;
-    config.encounters.max_active = 6;
+  SimFleet fleet({"r1", "r2"}, {}, 7, {}, [](loop_closure::LoopClosureConfig& config) {
+    config.spacing_m = config.spacing_aligned_m = 0.0;  // as many clouds as will go
+    config.stop_when_peer_aligned = false;
+    config.max_active = 6;
   });
   fleet.start("r1");
   fleet.start("r2");
@@ -182,7 +180,7 @@ TEST(Fleet, a_late_joiner_gets_everything_and_meets_the_others) {
   fleet.add_node("r3", 40.0);
   fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 161); });
   ASSERT_TRUE(settled(fleet, 161));
-  EXPECT_GE(testing::arrived(fleet.robot("r3")).size(), 2u);  // one of r1 and one of r2
+  EXPECT_GE(fleet.robot("r3").received.size(), 2u);  // one of r1 and one of r2
 }
 
 TEST(Fleet, items_of_an_absent_robot_are_passed_on) {
@@ -515,11 +513,12 @@ TEST(Fleet, configuration_names_what_is_wrong) {
   auto store = store::Store::open(folder / "store.db", agent("r1")).value();
   ExchangeConfig config;
   config.payload_size = testing::payload_size;
-  EXPECT_FALSE(Exchange::make(config, store, {}));
+  loop_closure::CandidateScheduler loop_closer(agent("r1"), {});
+  EXPECT_FALSE(Exchange::make(config, store, loop_closer, {}));
   config.fleet = {agent("r1"), agent("r2")};
-  EXPECT_TRUE(Exchange::make(config, store, {}));
+  EXPECT_TRUE(Exchange::make(config, store, loop_closer, {}));
   config.long_range.fleet_bytes_per_second = 0.0;
-  const auto refused = Exchange::make(config, store, {});
+  const auto refused = Exchange::make(config, store, loop_closer, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("long_range.fleet_bytes_per_second"), std::string::npos);
 }

@@ -15,8 +15,6 @@ using testing::SimFleet;
 
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
-void no_encounters(ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; }
-
 /// Every robot holds the same contents under the same names.
 bool equal_contents(const SimFleet& fleet) {
   const auto& first = *fleet.robots().begin()->second.store;
@@ -77,7 +75,7 @@ class Hostile : public ::testing::Test {
     EXPECT_TRUE(all_made_are_held());
     EXPECT_TRUE(all_complete());
   }
-  SimFleet fleet_{kThree, {.loss = 0.1}, 5, no_encounters};
+  SimFleet fleet_{kThree, {.loss = 0.1}, 5, {}, testing::no_candidates};
   std::vector<graph::Node> made_;
   int east_ = 0;
 };
@@ -309,7 +307,7 @@ TEST_F(Hostile, chunks_nobody_asked_for_do_not_reach_the_disk) {
 
 /// A fleet's oldest maps may be lost with their robots.
 TEST(HostileSubmaps, thousands_that_nobody_has_do_not_keep_live_ones_from_being_asked_for) {
-  SimFleet fleet({"r1", "r2", "r3"}, {}, 5, no_encounters);
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 5, {}, testing::no_candidates);
   fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
   fleet.start("r1");
   fleet.start("r3");

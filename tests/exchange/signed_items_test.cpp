@@ -83,9 +83,8 @@ class SignedItems : public ::testing::Test {
     return fleet_.all([&](const SimFleet::Robot& robot) { return robot.store->is_contested(id); });
   }
 
-  static void no_encounters(ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; }
   std::shared_ptr<const StandInSignatures> signatures_ = std::make_shared<StandInSignatures>(17);
-  SimFleet fleet_{kThree, {.loss = 0.1}, 5, no_encounters};
+  SimFleet fleet_{kThree, {.loss = 0.1}, 5, {}, testing::no_candidates};
   std::vector<graph::Node> made_;
   int east_ = 0;
 };
@@ -219,8 +218,7 @@ TEST_F(SignedItems, items_of_a_maker_whose_certificate_is_to_come_are_asked_for_
 }
 
 TEST(SignedItemsLater, a_fleet_that_gets_keys_signs_its_items_and_drops_what_nobody_signs) {
-  const auto no_encounters = [](ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; };
-  SimFleet fleet(kThree, {.loss = 0.1}, 5, no_encounters);
+  SimFleet fleet(kThree, {.loss = 0.1}, 5, {}, testing::no_candidates);
   fleet.reachable = [](const AgentId&, const AgentId&, Reach) { return true; };
   for (const auto& name : kThree) fleet.start(name, 7);
   std::vector<graph::Node> made;

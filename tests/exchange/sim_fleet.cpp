@@ -14,13 +14,16 @@ namespace fleetmap::testing {
 std::size_t payload_size(const Message& message) { return wire::encode(message).size(); }
 
 SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
-                   const std::function<void(exchange::ExchangeConfig&)>& adjust)
+                   const std::function<void(exchange::ExchangeConfig&)>& adjust,
+                   const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops)
     : ExchangeFleet(static_cast<const ScratchFolder&>(*this) / "", {}, std::chrono::milliseconds(20)),
       network_(network),
       random_(seed) {
   for (const auto& name : names) config_.fleet.push_back(agent(name));
   config_.payload_size = payload_size;
   if (adjust) adjust(config_);
+  if (adjust_loops) adjust_loops(loop_config_);
+  config_.clouds.cancel_when_aligned = loop_config_.stop_when_peer_aligned;
 }
 
 void SimFleet::share_radio(std::span<const std::string> names) {
@@ -57,10 +60,7 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
 void SimFleet::forge(const std::string& name, const Message& message, std::optional<AgentId> from) {
   Robot& r = robot(name);
   r.exchange->on_message(message, exchange::usual_reach(message), now(), std::move(from));
-  for (auto& event : r.exchange->take_events()) {
-    r.events.push_back(event);
-    on_event(agent(name), r, event);
-  }
+  pass_on(agent(name), r);
 }
 
 void SimFleet::name_anew(Robot& robot) {
@@ -144,23 +144,19 @@ void SimFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event
     auto& cloud = robot.clouds[needed->node];
     if (cloud.empty()) cloud = random_bytes(cloud_bytes, needed->node.seq + 31);
     if (!robot.exchange->provide_cloud(needed->node, cloud, now())) throw std::runtime_error("cloud refused");
-  } else if (const auto* arrived = std::get_if<exchange::CloudArrived>(&event)) {
-    if (!register_clouds) return;
-    const auto rmse = registration(arrived->pair);
-    if (rmse) {
-      add_alignment(name.str(), arrived->pair, *rmse);
-    } else {
-      robot.exchange->on_rejected(arrived->pair, now());
-    }
   }
 }
 
-std::vector<exchange::CloudArrived> arrived(const SimFleet::Robot& robot) {
-  std::vector<exchange::CloudArrived> clouds;
-  for (const exchange::Event& event : robot.events) {
-    if (const auto* cloud = std::get_if<exchange::CloudArrived>(&event)) clouds.push_back(*cloud);
+void SimFleet::on_received(const AgentId& name, Robot& robot, const loop_closure::ReceivedCloud& received) {
+  if (!register_clouds) return;
+  const exchange::NodePair pair = received.candidate.pair();
+  if (const auto rmse = registration(pair)) {
+    add_alignment(name.str(), pair, *rmse);
+  } else {
+    robot.loop_closer->on_rejected(pair, now());
   }
-  return clouds;
 }
+
+void no_candidates(loop_closure::LoopClosureConfig& config) { config.proximity.min_radius = 0.1; }
 
 }  // namespace fleetmap::testing

@@ -40,7 +40,8 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   using Sent = fault_injection::Packet;
 
   SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
-           const std::function<void(exchange::ExchangeConfig&)>& adjust = {});
+           const std::function<void(exchange::ExchangeConfig&)>& adjust = {},
+           const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops = {});
 
   /// Of those that start from now on: these alone are on their radio.
   void share_radio(std::span<const std::string> names);
@@ -96,6 +97,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   void on_sent(const fault_injection::Packet& packet) override;
   std::vector<Duration> arrivals(const fault_injection::Packet& packet, const AgentId& to) override;
   void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
+  void on_received(const AgentId& name, Robot& robot, const loop_closure::ReceivedCloud& received) override;
 
   void name_anew(Robot& robot);
   /// Until the last packet of `packet` has left the queue; nothing if it dropped one.
@@ -112,8 +114,8 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   std::map<AgentId, std::string> disks_;
 };
 
-/// The clouds that came.
-std::vector<exchange::CloudArrived> arrived(const SimFleet::Robot& robot);
+/// No loop candidates, hence no clouds.
+void no_candidates(loop_closure::LoopClosureConfig& config);
 
 /// Those of one kind that a robot told.
 template <class Kind>

@@ -24,8 +24,6 @@ void link(SimFleet& fleet, const bool& open) {
   };
 }
 
-void no_encounters(ExchangeConfig& config) { config.encounters.proximity.min_radius = 0.1; }
-
 std::uint64_t chunk_bytes_sent(const SimFleet& fleet) {
   std::uint64_t bytes = 0;
   for (const auto& sent : fleet.sent()) {
@@ -136,7 +134,7 @@ TEST(SubmapTransfer, takes_each_chunk_from_one_peer_and_shares_the_work) {
   std::map<AgentId, std::uint64_t> served;
   constexpr unsigned kSeeds = 6;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
-    SimFleet fleet({"r1", "r2", "r3"}, {}, seed, no_encounters);
+    SimFleet fleet({"r1", "r2", "r3"}, {}, seed, {}, testing::no_candidates);
     bool open = false;
     bool r3_reached = false;
     fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
@@ -173,7 +171,7 @@ TEST(SubmapTransfer, ten_robots_on_one_channel_send_little_twice) {
       network.short_range = {mbit * 125'000.0, 100'000.0};
       std::vector<std::string> names;
       for (std::size_t k = 1; k <= robots; ++k) names.push_back("r" + std::to_string(k));
-      SimFleet fleet(names, network, 3, no_encounters);
+      SimFleet fleet(names, network, 3, {}, testing::no_candidates);
       bool open = false;
       link(fleet, open);
       for (const std::string& name : names) fleet.start(name);
@@ -209,7 +207,7 @@ TEST(SubmapTransfer, a_peer_at_the_edge_of_reach_does_not_hold_up_the_others) {
     SimFleet::Network network;
     network.max_delay = std::chrono::milliseconds(20);
     network.short_range = {1'875'000.0, 100'000.0};
-    SimFleet fleet({"r1", "r2", "r3"}, network, 4, no_encounters);
+    SimFleet fleet({"r1", "r2", "r3"}, network, 4, {}, testing::no_candidates);
     unsigned chunks = 0;
     fleet.lost = [&](const SimFleet::Sent& sent) {
       if (!std::holds_alternative<SubmapChunk>(sent.outgoing.message) || sent.from != agent("r2"))
@@ -243,7 +241,7 @@ TEST(SubmapTransfer, a_peer_at_the_edge_of_reach_does_not_hold_up_the_others) {
 }
 
 TEST(SubmapTransfer, is_passed_on_by_a_third_robot) {
-  SimFleet fleet({"r1", "r2", "r3"}, {}, 5, no_encounters);
+  SimFleet fleet({"r1", "r2", "r3"}, {}, 5, {}, testing::no_candidates);
   const auto between = [](const AgentId& a, const AgentId& b, const char* x, const char* y) {
     return (a == agent(x) && b == agent(y)) || (a == agent(y) && b == agent(x));
   };

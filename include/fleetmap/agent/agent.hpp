@@ -13,14 +13,12 @@
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/level_track.hpp"
-#include "fleetmap/agent/loop_closures.hpp"
-#include "fleetmap/agent/own_clouds.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/recent_surroundings.hpp"
-#include "fleetmap/agent/session_ties.hpp"
 #include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/loop_closure/loop_closing.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
 #include "fleetmap/store/registration_log.hpp"
 
@@ -28,15 +26,6 @@ namespace fleetmap::agent {
 
 class LivePlacement;
 class Navigator;
-
-struct RegistrationCounters {
-  std::uint64_t accepted = 0;
-  std::uint64_t ambiguous = 0;
-  std::uint64_t rejected = 0;
-  std::uint64_t failed = 0;             ///< a cloud could not be made or decoded
-  std::uint64_t clouds_made = 0;        ///< spherized clouds for others
-  std::size_t largest_cloud_bytes = 0;  ///< payload of the largest of them
-};
 
 /// CPU seconds of the work that a robot offloads.
 struct WorkSeconds {
@@ -94,7 +83,8 @@ class Agent {
   /// Writes that the disk refused.
   std::uint64_t store_failures() const { return store_failures_.total(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
-  const RegistrationCounters& registrations() const { return registrations_; }
+  const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
+  loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
   /// What drives the robot, if this agent does.
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of each scan, as LOAM took them.
@@ -120,14 +110,8 @@ class Agent {
   void on_local_hold(const Bytes& cdr);
   /// GPS may take a while to begin with; nodes without G are made only when it does not come.
   bool worth_waiting_for_gps();
-  /// Two own nodes, off this thread.
-  void register_own(const graph::Node& target, const graph::Node& source, const registration::Prior& prior);
-  /// A job that was counted is not run: too many wait.
-  void note_refused_work();
-
   void on_events();
   void handle(const exchange::CloudNeeded& needed);
-  void handle(const exchange::CloudArrived& arrived);
   void handle(const exchange::PeerStatus& status);
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
@@ -147,22 +131,11 @@ class Agent {
   void handle(const exchange::SubmapAdded&) {}
   void handle(const exchange::MapComplete& complete);
 
-  struct Registered {
-    Result<registration::RegistrationResult> result = failure("not run");
-    double cpu_seconds = 0.0;
-    double spherize_seconds = 0.0;  ///< of cpu_seconds
-    store::LoggedRegistration input;
-  };
-  /// Alg. 3, second half: the encoded spherized cloud of `source` onto that of our node.
-  Result<registration::RegistrationResult> register_encoded(OwnCloud& target, const graph::Node& source,
-                                                            const Bytes& encoded,
-                                                            const registration::Prior& prior,
-                                                            const registration::Drifts& drifts,
-                                                            store::LoggedRegistration& input) const;
-  registration::Drifts drifts_around(const graph::Node& target, const graph::Node& source) const;
-  void conclude(const graph::Node& i, const graph::Node& j, const Registered& registered,
-                const std::optional<exchange::NodePair>& pair);
-  void log_registration(const NodeId& i, const NodeId& j, const Registered& registered);
+  /// The alignment gets a name, is stored, and goes to the fleet. False: it was refused.
+  bool publish(graph::Alignment alignment);
+  /// A registration has ended.
+  void record(const loop_closure::Registration& registration);
+  void log_registration(const loop_closure::Registration& registration);
   /// Keeps both clouds, so that the pair can be registered again by another method.
   void keep_input(const store::LoggedRegistration& input);
   void update_status();
@@ -177,23 +150,19 @@ class Agent {
   std::optional<TrajectoryFile> odometry_file_;  ///< none: it could not be begun, and holds no other frame
   GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
-  OwnClouds own_clouds_;
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
   LevelTrack level_;
   odometry::MotionCovariance motion_;  ///< since the last node
-  LoopClosures loop_closures_;
-  SessionTies session_ties_;
+  loop_closure::LoopClosing loop_closing_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
   bool own_item_contested_ = true;           ///< perhaps: also before the start
   std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
   std::uint64_t clock_resets_ = 0;           ///< likewise
-  std::size_t jobs_ = 0;                     ///< spherizations and registrations under way
-  RegistrationCounters registrations_;
   std::vector<double> scan_seconds_;
-  WorkSeconds work_;                            ///< without the placement's
+  double odometry_seconds_ = 0.0;               ///< CPU
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include "fleetmap/agent/loop_closures.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
@@ -12,6 +11,8 @@
 #include "fleetmap/exchange/exchange.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/place.hpp"
+#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/place/node_generator.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
@@ -29,12 +30,14 @@ struct AgentConfig {
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;
-  LoopClosureConfig
-      loop_closures;  ///< with placement.method graph: the paper's placement has no use for them
+  loop_closure::LoopClosureConfig loop_closure;
+  /// With placement.method graph alone: the paper's placement has no use for loops of one robot.
+  loop_closure::OwnPathConfig own_path;
   SubmapConfig submap;
   registration::SpherizeConfig spherize;
   registration::RegistrationConfig registration;
-  exchange::ExchangeConfig exchange;  ///< payload_size is filled in by the agent
+  exchange::ExchangeConfig exchange;  ///< payload_size, clouds.order and clouds.cancel_when_aligned are
+                                      ///< filled in by the agent
   graph::PlacementConfig placement;
   store::StoreConfig store;
   store::MergeConfig map;

@@ -13,6 +13,12 @@
 
 namespace fleetmap::exchange {
 
+/// Which cloud of several goes over the radio first.
+enum class CloudOrder : std::uint8_t {
+  kInformation,  ///< that with the most information, as its receiver expects
+  kFirstCome,    ///< that which was requested first
+};
+
 struct CloudTransferConfig {
   std::uint32_t max_cloud_bytes = 25'600;        ///< B, 25,000 of payload and a header
   std::size_t max_kept = 16;                     ///< encoded own clouds kept for repeated requests
@@ -25,6 +31,10 @@ struct CloudTransferConfig {
   double backoff = 1.6;         ///< timeouts grow by this with every try that brought nothing
   Duration max_timeout = std::chrono::seconds(30);
   int max_tries = 8;  ///< requests in a row that brought nothing, then it is given up
+  CloudOrder order = CloudOrder::kInformation;
+  /// An own good alignment ends the transfer of our cloud to the peer, which stops as well when it hears of
+  /// it (LoopClosureConfig::stop_when_peer_aligned).
+  bool cancel_when_aligned = true;
   Status validate() const;
 };
 

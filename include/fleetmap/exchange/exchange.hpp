@@ -7,16 +7,15 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <tuple>
 #include <variant>
 #include <vector>
 
 #include "fleetmap/exchange/budget_shares.hpp"
 #include "fleetmap/exchange/cloud_transfer.hpp"
-#include "fleetmap/exchange/encounters.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/exchange/item_proof.hpp"
+#include "fleetmap/exchange/loop_closer.hpp"
 #include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile.hpp"
 #include "fleetmap/exchange/routing.hpp"
@@ -33,7 +32,6 @@ struct ExchangeConfig {
   std::vector<AgentId> on_radio;
   LongRangeConfig long_range;
   CloudTransferConfig clouds;
-  EncounterConfig encounters;
   ReconcileConfig reconcile;
   SubmapTransferConfig submaps;
   Duration status_period = std::chrono::seconds(5);
@@ -51,6 +49,8 @@ struct ExchangeConfig {
 /// what it leaves. Where it would take more than it does of five robots on 145 kbit/s, it comes less often,
 /// and a silent robot is asked for longer.
 ExchangeConfig for_fleet(ExchangeConfig config);
+/// The factor by which for_fleet() stretches the periods, at least 1.
+double period_factor(const ExchangeConfig& config);
 
 // ---- what the agent hears
 // ------------------------------------------------------------------------------------------
@@ -70,13 +70,6 @@ struct SubmapAdded {
 struct CloudNeeded {
   NodeId node;
   AgentId to;
-};
-/// Register this cloud (of pair.theirs) with that of pair.ours: answer with on_own_alignment() or
-/// on_rejected().
-struct CloudArrived {
-  NodePair pair;
-  Bytes cloud;
-  std::optional<UncertainPose> T_ours_theirs;  ///< by alignments found before, where G does not tell
 };
 struct PeerStatus {
   AgentStatus status;
@@ -143,15 +136,14 @@ struct MapComplete {
   std::size_t nodes = 0;
   std::size_t alignments = 0;
 };
-using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, CloudArrived, PeerStatus,
-                           MissionHeard, HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferDoubted,
+using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard,
+                           HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferDoubted,
                            OwnItemsElsewhere, SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
 
 struct ExchangeStats {
   SendQueueStats long_range;
   CloudSenderStats cloud_sender;
   CloudReceiverStats cloud_receiver;
-  EncounterStats encounters;
   ReconcileStats reconcile;
   SubmapReceiverStats submap_receiver;
   SubmapSenderStats submap_sender;
@@ -178,8 +170,10 @@ struct TableSizes {
 /// then take_events().
 class Exchange {
  public:
-  /// `store` outlives this. Begins from what the store holds; unfinished encounters are found again.
-  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, Stamp now);
+  /// `store` and `loop_closer` outlive this. Begins from what the store holds; unfinished loop candidates are
+  /// found again.
+  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+                               Stamp now);
 
   /// Sets the running session. Items of this agent that bear its number and are not in the store are refused
   /// from now on (ItemConflict).
@@ -189,11 +183,6 @@ class Exchange {
   Result<store::Put> on_own_node(const graph::Node& node, ByteView submap, Stamp now);
   /// An accepted registration of ours; the same rule as for nodes.
   Result<store::Put> on_own_alignment(const graph::Alignment& alignment, Stamp now);
-  /// What the fleet's graph uses now (graph::Placement::used): where no GPS tells, encounters are found by
-  /// it.
-  void on_used_alignments(std::span<const graph::Alignment> used);
-  /// A registration of ours that was turned down.
-  void on_rejected(const NodePair& pair, Stamp now);
   /// Answers CloudNeeded. Fails when the cloud is larger than the budget.
   Status provide_cloud(const NodeId& node, Bytes cloud, Stamp now);
   void decline_cloud(const NodeId& node);
@@ -241,7 +230,7 @@ class Exchange {
   std::vector<AgentId> even_with(Stamp now) const { return submap_receiver_.even_with(*store_, now); }
 
  private:
-  Exchange(const ExchangeConfig& config, store::Store& store, Stamp now);
+  Exchange(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer, Stamp now);
   bool member(const AgentId& agent) const { return fleet_.contains(agent); }
   bool admit(const Message& message, Reach link, Stamp now);
   void note_stranger(const AgentId& name);
@@ -275,7 +264,7 @@ class Exchange {
   /// Over the short range to those in reach, and over the radio to the others; orders over both to all.
   void tell_all(Priority priority, Message message);
   void note_near(Stamp now);
-  void tick_encounters(Stamp now);
+  void tick_loop_closing(Stamp now);
   void tick_clouds(Stamp now);
   void tick_items(Stamp now);
   void tick_status(Stamp now);
@@ -301,7 +290,7 @@ class Exchange {
   SendQueue queue_;
   CloudSender cloud_sender_;
   CloudReceiver cloud_receiver_;
-  Encounters encounters_;
+  LoopCloser* loop_closer_;
   Reconcile reconcile_;
   SubmapReceiver submap_receiver_;
   SubmapSender submap_sender_;

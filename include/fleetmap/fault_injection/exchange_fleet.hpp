@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fleetmap/exchange/exchange.hpp"
+#include "fleetmap/loop_closure/candidate_scheduler.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::fault_injection {
@@ -31,11 +32,13 @@ class ExchangeFleet {
  public:
   struct Robot {
     std::unique_ptr<store::Store> store;
+    std::unique_ptr<loop_closure::CandidateScheduler> loop_closer;
     std::unique_ptr<exchange::Exchange> exchange;
     std::uint16_t session = 0;
     Duration clock_offset = Duration::zero();  ///< of the robot's clock from virtual time
     std::vector<exchange::Event> events;       ///< since the robot started, or since they were cleared
-    std::map<NodeId, Bytes> clouds;            ///< made for peers
+    std::vector<loop_closure::ReceivedCloud> received;  ///< likewise
+    std::map<NodeId, Bytes> clouds;                     ///< made for peers
   };
 
   /// `folder` holds the stores. `tick` is the time between two ticks of every exchange.
@@ -80,8 +83,13 @@ class ExchangeFleet {
   /// After which delays copies of `packet` arrive at `to`; none: it is lost.
   virtual std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) = 0;
   virtual void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) = 0;
+  virtual void on_received(const AgentId& name, Robot& robot,
+                           const loop_closure::ReceivedCloud& received) = 0;
+  /// Passes on what the robot's exchange and loop closing have to tell.
+  void pass_on(const AgentId& name, Robot& robot);
 
-  exchange::ExchangeConfig config_;  ///< of the robots that start from now on
+  exchange::ExchangeConfig config_;              ///< of the robots that start from now on
+  loop_closure::LoopClosureConfig loop_config_;  ///< likewise
 
  private:
   struct Flight {

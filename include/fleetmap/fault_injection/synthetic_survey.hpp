@@ -8,11 +8,11 @@
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/exchange/encounters.hpp"
 #include "fleetmap/fault_injection/draws.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/candidate_scheduler.hpp"
 
 namespace fleetmap::fault_injection {
 

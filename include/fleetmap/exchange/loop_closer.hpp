@@ -1,0 +1,63 @@
+#pragma once
+
+#include <compare>
+#include <set>
+#include <vector>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+
+namespace fleetmap::exchange {
+
+/// A node of this robot and one of another. Both robots form the same pair from the same nodes.
+struct NodePair {
+  NodeId ours;
+  NodeId theirs;
+  auto operator<=>(const NodePair&) const = default;
+};
+
+/// What loop closing wants from the transport in one tick.
+struct CloudDemand {
+  struct Wanted {
+    NodeId node;
+    double information = 0.0;  ///< nats, of the alignment that the cloud would give
+  };
+  std::vector<ProximityMatch> matches;  ///< to be sent to the peers
+  std::vector<Wanted> wanted;           ///< clouds to request
+  std::vector<NodePair> withdrawn;      ///< no longer worth the bytes of either cloud
+};
+
+/// Loop closing as the transport uses it. The transport reports items, matches, requests and received clouds
+/// in the order in which they come; each complete cloud is passed on once.
+class LoopCloser {
+ public:
+  virtual ~LoopCloser() = default;
+
+  /// A node was stored, or is in the store at the start; in any order.
+  virtual void on_node(const graph::Node& node, Stamp now) = 0;
+  /// The name of a node became contested: the node is in no pair any more.
+  virtual void on_contested(const NodeId& node) = 0;
+  /// An alignment was stored, whoever computed it.
+  virtual void on_alignment(const graph::Alignment& alignment, Stamp now) = 0;
+  virtual void on_match(const ProximityMatch& match, Stamp now) = 0;
+  /// Any message of `peer` was received.
+  virtual void on_heard(const AgentId& peer, Stamp now) = 0;
+  /// `peer` requested the cloud of our node.
+  virtual void on_cloud_request(const AgentId& peer, const NodeId& ours) = 0;
+  /// The whole encoded cloud of `theirs` was received.
+  virtual void on_cloud(const NodeId& theirs, Bytes cloud) = 0;
+  /// The cloud of `theirs` was given up, or could not be requested.
+  virtual void on_cloud_lost(const NodeId& theirs, Stamp now) = 0;
+  /// `radio_has_room`: a cloud of little information delays nothing.
+  virtual CloudDemand tick(Stamp now, bool radio_has_room) = 0;
+  /// A candidate waits for the cloud of `theirs`.
+  virtual bool wants(const NodeId& theirs) const = 0;
+  /// Nothing is under way or about to be, but for candidates with the agents in `without`.
+  virtual bool idle(Stamp now, const std::set<AgentId>& without) const = 0;
+};
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/loop_closer.hpp"
+#include "fleetmap/graph/alignment_worth.hpp"
+#include "fleetmap/loop_closure/loop_candidate.hpp"
+#include "fleetmap/loop_closure/loop_closure_config.hpp"
+
+namespace fleetmap::loop_closure {
+
+struct LoopClosureStats {
+  std::uint64_t by_position = 0;    ///< pairs within r^i (Alg. 2), or found so by a peer
+  std::uint64_t by_descriptor = 0;  ///< descriptor matches, where G does not give both positions
+  std::uint64_t by_transform = 0;   ///< pairs within r^i by an inter-frame transform, likewise
+  std::uint64_t redundant = 0;      ///< of these, too near to another candidate to be worth their bytes
+  std::uint64_t requested = 0;      ///< clouds
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t lost = 0;  ///< the cloud never came
+  std::uint64_t ended_by_peer =
+      0;                          ///< requested, and ended by the peer's good alignment before the cloud came
+  std::uint64_t yielded = 0;      ///< requested, and given up for the pair that the peer had chosen
+  std::uint64_t crowded_out = 0;  ///< dropped when too many waited
+  std::uint64_t uninformative = 0;  ///< dropped while the radio was busy: below min_information
+};
+
+/// A candidate whose cloud was received: to be registered, and answered by on_alignment() or on_rejected().
+struct ReceivedCloud {
+  LoopCandidate candidate;
+  Bytes cloud;  ///< of candidate.source, encoded
+};
+
+/// Schedules the candidates with other robots: which pairs of nodes are registered, and in which order.
+///
+/// Each node is paired with nodes of other robots by position, descriptor and inter-frame transform. A
+/// candidate waits until both clouds are complete, has its cloud requested in the order of information,
+/// is registered, and ends as done or failed; a failed one is tried once more. Both robots find the same
+/// pairs from the same nodes. If a node was lost on the way and they chose different pairs at one place, the
+/// match messages show it, and the smaller pair wins on both.
+class CandidateScheduler final : public exchange::LoopCloser {
+ public:
+  CandidateScheduler(const AgentId& self, const LoopClosureConfig& config);
+  ~CandidateScheduler() override;
+  CandidateScheduler(const CandidateScheduler&) = delete;
+  CandidateScheduler& operator=(const CandidateScheduler&) = delete;
+
+  void on_node(const graph::Node& node, Stamp now) override;
+  void on_contested(const NodeId& node) override;
+  void on_alignment(const graph::Alignment& alignment, Stamp now) override;
+  void on_match(const exchange::ProximityMatch& match, Stamp now) override;
+  void on_heard(const AgentId& peer, Stamp now) override { heard_[peer] = now; }
+  void on_cloud_request(const AgentId& peer, const NodeId& ours) override;
+  void on_cloud(const NodeId& theirs, Bytes cloud) override;
+  void on_cloud_lost(const NodeId& theirs, Stamp now) override;
+  exchange::CloudDemand tick(Stamp now, bool radio_has_room = false) override;
+  bool wants(const NodeId& theirs) const override;
+  bool idle(Stamp now, const std::set<AgentId>& without = {}) const override;
+
+  /// The alignments that the fleet's graph uses now (graph::Placement::used).
+  void on_used_alignments(std::span<const graph::Alignment> used);
+  /// Our registration of the pair was rejected. (An accepted one comes as on_alignment.)
+  void on_rejected(const NodePair& pair, Stamp now);
+  /// Candidates whose clouds came since the last call.
+  std::vector<ReceivedCloud> take_received();
+  /// T_ours_theirs by an inter-frame transform; none where G gives both positions, where the two frames have
+  /// no transform, and while it is distrusted.
+  std::optional<UncertainPose> transform(const NodePair& pair) const;
+  bool has_good_alignment(const AgentId& peer) const;
+  LoopClosureStats stats() const;
+
+ private:
+  struct State;
+  struct Choice {
+    NodePair pair;
+    double information = 0.0;
+  };
+  /// By a transform: also a candidate that is known already counts as found by it.
+  void offer_by_transform(const LoopCandidate& candidate, Stamp now);
+  void yield_to(const NodePair& pair);
+  void request(exchange::CloudDemand& demand, Stamp now, bool radio_has_room);
+  /// Candidates whose clouds may be requested; those that others have made redundant meanwhile are dropped.
+  std::vector<NodePair> ready(Stamp now);
+  /// Takes the next one to request out of `ready`, in the order of the configuration.
+  std::optional<Choice> choose(std::vector<NodePair>& ready, bool radio_has_room);
+  void announce(exchange::CloudDemand& demand, Stamp now);
+  bool heard(const AgentId& peer, Stamp now) const;
+
+  AgentId self_;
+  LoopClosureConfig config_;
+  graph::AlignmentWorth information_;
+  std::unique_ptr<State> state_;
+  std::map<AgentId, Stamp> heard_;
+  std::vector<NodePair> withdrawn_;
+  std::vector<ReceivedCloud> received_;
+  LoopClosureStats stats_;  ///< without what the set counts
+};
+
+}  // namespace fleetmap::loop_closure

@@ -1,0 +1,110 @@
+#include "candidate_set.hpp"
+
+#include <algorithm>
+
+namespace fleetmap::loop_closure {
+
+using Origin = LoopCandidate::Origin;
+
+ScheduledCandidate* CandidateSet::find(const NodePair& pair) {
+  const auto found = candidates_.find(pair);
+  return found == candidates_.end() ? nullptr : &found->second;
+}
+
+ScheduledCandidate& CandidateSet::find_or_make(const NodePair& pair) {
+  ScheduledCandidate& candidate = candidates_[pair];
+  candidate.candidate.target = pair.ours;
+  candidate.candidate.source = pair.theirs;
+  return candidate;
+}
+
+void CandidateSet::offer(const LoopCandidate& candidate, Stamp now) {
+  const NodePair pair = candidate.pair();
+  if (contains(pair)) return;
+  const Stamp since = replace_rival(candidate, now);
+  if (redundant(pair)) {
+    ++redundant_;
+    return;
+  }
+  add(candidate, since, false);
+}
+
+void CandidateSet::add(const LoopCandidate& candidate, Stamp found, bool known_to_peer) {
+  if (!nodes_.contains(candidate.pair())) return;  // its name became contested
+  ScheduledCandidate scheduled;
+  scheduled.candidate = candidate;
+  scheduled.found = found;
+  scheduled.next_match = found;
+  scheduled.known_to_peer = known_to_peer;
+  candidates_.emplace(candidate.pair(), scheduled);
+  crowd_out();
+}
+
+void CandidateSet::drop_redundant(const NodePair& pair) {
+  candidates_.erase(pair);
+  ++redundant_;
+}
+
+Stamp CandidateSet::replace_rival(const LoopCandidate& candidate, Stamp now) {
+  Stamp since = now;
+  const bool by_descriptor = candidate.origin == Origin::kDescriptor;
+  for (const NodePair& rival : rivals(candidate.pair())) {
+    const ScheduledCandidate& other = candidates_.at(rival);
+    if (other.phase != Phase::kWaiting) continue;
+    const bool better = by_descriptor ? other.candidate.origin == Origin::kDescriptor &&
+                                            other.candidate.match_score < candidate.match_score
+                                      : other.candidate.distance > candidate.distance;
+    if (!better) continue;
+    // A nearer pair goes on waiting; the clouds of a better match begin to.
+    if (!by_descriptor) since = std::min(since, other.found);
+    drop_redundant(rival);
+  }
+  return since;
+}
+
+double CandidateSet::spacing(const ScheduledCandidate& other, const AgentId& peer) const {
+  if (other.phase == Phase::kFailed) return config_.spacing_failed_m;
+  return is_aligned(peer) ? std::max(config_.spacing_m, config_.spacing_aligned_m) : config_.spacing_m;
+}
+
+std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t max) const {
+  std::vector<NodePair> found;
+  if (!nodes_.contains(pair)) return found;
+  for (const auto& [other, candidate] : candidates_) {
+    if (found.size() >= max) break;
+    if (other == pair || other.theirs.agent != pair.theirs.agent) continue;
+    const double limit = spacing(candidate, pair.theirs.agent);
+    if (nodes_.near(pair.ours, other.ours, limit) && nodes_.near(pair.theirs, other.theirs, limit))
+      found.push_back(other);
+  }
+  return found;
+}
+
+std::vector<NodePair> CandidateSet::rivals(const NodePair& pair) const {
+  const std::vector<NodePair> nearby = too_near(pair, 2);
+  if (nearby.size() != 1) return {};
+  const ScheduledCandidate& only = candidates_.at(nearby.front());
+  const bool under_way = only.phase == Phase::kWaiting || only.phase == Phase::kRequested;
+  return under_way && !only.known_to_peer ? nearby : std::vector<NodePair>{};
+}
+
+std::size_t CandidateSet::room() const {
+  const auto waiting = static_cast<std::size_t>(std::ranges::count_if(
+      candidates_, [](const auto& entry) { return entry.second.phase == Phase::kWaiting; }));
+  return config_.max_waiting > waiting ? config_.max_waiting - waiting : 0;
+}
+
+void CandidateSet::crowd_out() {
+  std::size_t waiting = 0;
+  auto oldest = candidates_.end();
+  for (auto it = candidates_.begin(); it != candidates_.end(); ++it) {
+    if (it->second.phase != Phase::kWaiting) continue;
+    ++waiting;
+    if (oldest == candidates_.end() || it->second.found < oldest->second.found) oldest = it;
+  }
+  if (waiting <= config_.max_waiting) return;
+  candidates_.erase(oldest);
+  ++crowded_out_;
+}
+
+}  // namespace fleetmap::loop_closure

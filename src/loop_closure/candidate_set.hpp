@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/loop_closure/loop_candidate.hpp"
+#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "node_index.hpp"
+
+namespace fleetmap::loop_closure {
+
+/// A candidate with another robot, and what has become of it.
+struct ScheduledCandidate {
+  enum class Phase : std::uint8_t { kWaiting, kRequested, kRegistering, kDone, kFailed };
+  LoopCandidate candidate;
+  Phase phase = Phase::kWaiting;
+  Stamp found;
+  Stamp retry_at;  ///< of one that failed
+  int attempts = 0;
+  bool by_transform = false;  ///< an inter-frame transform found it, or is its prior
+  int matches_sent = 0;
+  Stamp next_match;
+  bool known_to_peer = false;
+};
+
+/// The candidates with other robots, at most one at a place: a candidate is redundant if another one of the
+/// same two robots lies nearer than the spacing at both ends. One that nothing has been requested for gives
+/// way to a better rival at its place.
+class CandidateSet {
+ public:
+  using Phase = ScheduledCandidate::Phase;
+  using Candidates = std::map<NodePair, ScheduledCandidate>;
+
+  /// `config` and `nodes` outlive this.
+  CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes) : config_(config), nodes_(nodes) {}
+
+  const Candidates& all() const { return candidates_; }
+  bool contains(const NodePair& pair) const { return candidates_.contains(pair); }
+  /// Null: there is none.
+  ScheduledCandidate* find(const NodePair& pair);
+  ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
+  /// Makes it if there is none.
+  ScheduledCandidate& find_or_make(const NodePair& pair);
+  template <class Visitor>
+  void for_each(Visitor visit) {
+    for (auto& [pair, candidate] : candidates_) visit(pair, candidate);
+  }
+
+  /// Adds a candidate that is neither known nor redundant. It takes the place of a rival that lies farther
+  /// apart, or matches less if both are descriptor matches.
+  void offer(const LoopCandidate& candidate, Stamp now);
+  /// Adds it in any case, unless a node is unknown. The oldest one waiting is dropped if too many wait.
+  void add(const LoopCandidate& candidate, Stamp found, bool known_to_peer);
+  void erase(const NodePair& pair) { candidates_.erase(pair); }
+  template <class Predicate>
+  void erase_if(Predicate predicate) {
+    std::erase_if(candidates_, [&](const auto& entry) { return predicate(entry.first, entry.second); });
+  }
+  /// Erases one that another has made redundant, and counts it.
+  void drop_redundant(const NodePair& pair);
+
+  /// The two robots have a good alignment: their candidates are spaced wider from now on.
+  void on_aligned(const AgentId& peer) { aligned_.insert(peer); }
+  bool is_aligned(const AgentId& peer) const { return aligned_.contains(peer); }
+
+  bool redundant(const NodePair& pair) const { return !too_near(pair, 1).empty(); }
+  /// The candidate without which the pair would not be redundant, if it may give way; one at most.
+  std::vector<NodePair> rivals(const NodePair& pair) const;
+  /// Candidates that may wait besides those that do.
+  std::size_t room() const;
+
+  std::uint64_t redundant_count() const { return redundant_; }
+  std::uint64_t crowded_out_count() const { return crowded_out_; }
+  void count_redundant(std::uint64_t candidates = 1) { redundant_ += candidates; }
+
+ private:
+  /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them.
+  std::vector<NodePair> too_near(const NodePair& pair, std::size_t max) const;
+  double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
+  /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.
+  Stamp replace_rival(const LoopCandidate& candidate, Stamp now);
+  void crowd_out();
+
+  const LoopClosureConfig& config_;
+  const NodeIndex& nodes_;
+  Candidates candidates_;
+  std::set<AgentId> aligned_;
+  std::uint64_t redundant_ = 0;
+  std::uint64_t crowded_out_ = 0;
+};
+
+}  // namespace fleetmap::loop_closure

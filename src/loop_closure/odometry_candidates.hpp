@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/loop_candidate.hpp"
+#include "fleetmap/loop_closure/own_path_config.hpp"
+
+namespace fleetmap::loop_closure {
+
+/// Candidates where a robot comes back to its own path within one odometry frame: rows that lie side by side
+/// are driven minutes apart. Only odometry is used, so it needs no GPS.
+class OdometryCandidates {
+ public:
+  explicit OdometryCandidates(const OwnPathConfig& config) : config_(config) {}
+
+  /// Own nodes in their order. At most one candidate a node: the latest complete node with the nearest
+  /// earlier one. Its prior is the odometry between the two, with the covariance of the way.
+  std::optional<LoopCandidate> propose(const graph::Node& node);
+
+ private:
+  std::optional<std::size_t> nearest_earlier(std::size_t later) const;
+  UncertainPose odometry(std::size_t earlier, std::size_t later) const;
+
+  OwnPathConfig config_;
+  std::vector<graph::Node> nodes_;      ///< of the current frame
+  std::vector<double> path_;            ///< m driven until each of them
+  std::optional<double> last_on_path_;  ///< m, of the last candidate
+};
+
+}  // namespace fleetmap::loop_closure

@@ -1,0 +1,90 @@
+#include "candidate_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include "store/items.hpp"
+
+namespace fleetmap::loop_closure {
+namespace {
+
+using testing::agent;
+using Origin = LoopCandidate::Origin;
+
+const Stamp kStart = stamp_from_ns(1'000'000'000);
+
+/// Nodes of a and of b every 2 m, the same places.
+class CandidateSetTest : public ::testing::Test {
+ protected:
+  CandidateSetTest() {
+    for (std::uint32_t seq = 0; seq < 60; ++seq) {
+      for (const char* name : {"a", "b"}) {
+        auto node = testing::make_node(agent(name), seq, Bytes{}, 2.0 * seq);
+        node.G->covariance = 0.01 * Matrix6d::Identity();
+        nodes_.add(node);
+      }
+    }
+  }
+  static LoopCandidate candidate(std::uint32_t ours, std::uint32_t theirs, double distance) {
+    return {{agent("a"), ours}, {agent("b"), theirs}, Origin::kPosition, distance, 20.0};
+  }
+  static LoopCandidate match(std::uint32_t seq, double score) {
+    return {{agent("a"), seq}, {agent("b"), seq}, Origin::kDescriptor, 1.0, 30.0, score};
+  }
+
+  LoopClosureConfig config_;
+  NodeIndex nodes_{agent("a"), 15.0};
+  CandidateSet set_{config_, nodes_};
+};
+
+TEST_F(CandidateSetTest, CandidatesKeepTheSpacingThatGrowsWithTheFirstGoodAlignment) {
+  set_.offer(candidate(0, 0, 1.0), kStart);
+  set_.offer(candidate(4, 4, 1.0), kStart);  // 8 m on
+  EXPECT_EQ(set_.all().size(), 1u);
+  EXPECT_EQ(set_.redundant_count(), 1u);
+  set_.offer(candidate(6, 6, 1.0), kStart);
+  EXPECT_EQ(set_.all().size(), 2u);
+  set_.on_aligned(agent("b"));
+  EXPECT_TRUE(set_.redundant(candidate(6, 6, 1.0).pair())) << "12 m, and now 20 m are due";
+}
+
+TEST_F(CandidateSetTest, ANearerPairTakesTheTurnOfOneThatWaits) {
+  set_.offer(candidate(0, 3, 6.0), kStart);
+  set_.offer(candidate(1, 2, 2.0), kStart + std::chrono::seconds(5));
+  ASSERT_EQ(set_.all().size(), 1u);
+  const auto& [pair, scheduled] = *set_.all().begin();
+  EXPECT_EQ(pair, candidate(1, 2, 2.0).pair());
+  EXPECT_EQ(scheduled.found, kStart);
+  set_.at(pair).phase = CandidateSet::Phase::kRequested;
+  set_.offer(candidate(2, 2, 0.0), kStart);
+  EXPECT_TRUE(set_.contains(pair)) << "its cloud was requested";
+}
+
+TEST_F(CandidateSetTest, ABetterMatchReplacesAMatchAndNothingElse) {
+  set_.offer(match(0, 0.6), kStart);
+  set_.offer(match(1, 0.5), kStart);
+  EXPECT_TRUE(set_.contains(match(0, 0.6).pair()));
+  set_.offer(match(2, 0.7), kStart + std::chrono::seconds(1));
+  ASSERT_EQ(set_.all().size(), 1u);
+  EXPECT_EQ(set_.all().begin()->second.found, kStart + std::chrono::seconds(1));
+  set_.offer(candidate(20, 20, 9.0), kStart);
+  set_.offer(match(21, 1.9), kStart);
+  EXPECT_TRUE(set_.contains(candidate(20, 20, 9.0).pair()));
+}
+
+TEST_F(CandidateSetTest, TheOldestGivesWayWhenTooManyWait) {
+  config_.max_waiting = 2;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(set_.room(), 2u - std::min(k, 2u));
+    set_.offer(candidate(10 * k, 10 * k, 1.0), kStart + std::chrono::seconds(10 - k));
+  }
+  EXPECT_EQ(set_.crowded_out_count(), 1u);
+  EXPECT_FALSE(set_.contains(candidate(20, 20, 1.0).pair()));
+}
+
+TEST_F(CandidateSetTest, APairWithAnUnknownNodeIsNotAdded) {
+  set_.add(candidate(0, 1000, 1.0), kStart, true);
+  EXPECT_TRUE(set_.all().empty());
+}
+
+}  // namespace
+}  // namespace fleetmap::loop_closure
