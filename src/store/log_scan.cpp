@@ -57,6 +57,7 @@ LogContent scan_log(const std::filesystem::path& log) {
       !std::has_single_bit(page_bytes) || page_bytes < kLeastPage || page_bytes > kMostPage)
     return content;
   content.page_bytes = page_bytes;
+  content.generation = word(head, kGenerationInLog);
   std::map<std::uint64_t, std::size_t> transaction;
   Bytes frame(kFrameHeaderBytes + page_bytes);
   for (std::size_t count = 1; read(in, frame); ++count) {
@@ -66,13 +67,17 @@ LogContent scan_log(const std::filesystem::path& log) {
     sum.add(bytes.subspan(kFrameHeaderBytes), big_endian);
     if (page == 0 || !std::ranges::equal(bytes.subspan(8, 8), head.subspan(16, 8)) || !sum.is_at(bytes, 16))
       break;
-    transaction[page] = kHeaderBytes + (count - 1) * frame.size() + kFrameHeaderBytes;
+    transaction[page] = end_of_frames(count - 1, page_bytes) + kFrameHeaderBytes;
     if (word(bytes, 4) == 0) continue;  // else the database's size, in the last frame of a transaction
     for (const auto& [number, offset] : transaction) content.offset[number] = offset;
     transaction.clear();
     content.frames = count;
   }
   return content;
+}
+
+std::size_t end_of_frames(std::size_t frames, std::size_t page_bytes) {
+  return kHeaderBytes + frames * (kFrameHeaderBytes + page_bytes);
 }
 
 }  // namespace fleetmap::store
