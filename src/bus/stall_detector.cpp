@@ -25,19 +25,48 @@ std::vector<StallNews> StallDetector::look(SteadyTime now, const ThreadActivity&
   for (const EndedWork& ended : seen.ended) {
     const Duration lasted = taken(ended.work.begun, ended.ended);
     if (lasted < limit_) continue;
-    const bool fresh = count(ended.work, lasted);
-    news.push_back({counters_.thread + (fresh ? " was stuck for " : " goes on after ") + in_seconds(lasted) +
-                        " in " + ended.work.name,
-                    !fresh});
+    if (report(now, ended.work, lasted, " was stuck for ", news)) continue;
+    if (reported_ == ended.work.number) {
+      news.push_back(
+          {counters_.thread + " goes on after " + in_seconds(lasted) + " in " + ended.work.name, true});
+    }
   }
   if (seen.under_way) {
     const Duration lasted = taken(seen.under_way->begun, now);
-    if (lasted >= limit_ && count(*seen.under_way, lasted)) {
-      news.push_back(
-          {counters_.thread + " stuck for " + in_seconds(lasted) + " in " + seen.under_way->name, false});
-    }
+    if (lasted >= limit_) report(now, *seen.under_way, lasted, " stuck for ", news);
+  }
+  if (more_.times > 0 && now - *reported_at_ >= kReportPeriod) {
+    news.push_back({summary(now), false});
+    reported_at_ = now;
+    more_ = {};
   }
   return news;
+}
+
+bool StallDetector::report(SteadyTime now, const WorkUnderWay& work, Duration lasted, const char* how,
+                           std::vector<StallNews>& news) {
+  const bool fresh = count(work, lasted);
+  const bool soon = reported_at_ && now - *reported_at_ < kReportPeriod;
+  if (fresh && !soon && more_.times == 0) {
+    reported_ = work.number;
+    reported_at_ = now;
+    news.push_back({counters_.thread + how + in_seconds(lasted) + " in " + work.name, false});
+    return true;
+  }
+  if (reported_ == work.number) return false;
+  more_.times += fresh;
+  if (more_.times > 0 && lasted > more_.longest) {
+    more_.longest = lasted;
+    more_.longest_work = work.name;
+  }
+  return fresh;
+}
+
+std::string StallDetector::summary(SteadyTime now) const {
+  const bool one = more_.times == 1;
+  return counters_.thread + " was stuck " + (one ? "once" : std::to_string(more_.times) + " times") +
+         " more in " + std::to_string(std::chrono::round<std::chrono::seconds>(now - *reported_at_).count()) +
+         " s, for " + (one ? "" : "up to ") + in_seconds(more_.longest) + " in " + more_.longest_work;
 }
 
 void StallDetector::note_pause(SteadyTime now, const ThreadActivity& seen) {

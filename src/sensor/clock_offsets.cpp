@@ -30,6 +30,7 @@ constexpr double kSameRate = 20e-6;
 /// A drift is one beyond this rate and so many standard deviations, when it has come to so many s: a computer
 /// that becomes busier delays samples by less.
 constexpr double kDrift = 30e-6, kCertain = 5.0, kVisible = 0.05;
+constexpr double kOtherDrift = 30e-6;  // s/s, told again when it changed by so much
 /// ... and to so many times what the lags scatter about the line, which a step does not.
 constexpr double kStraight = 10.0;
 
@@ -143,9 +144,11 @@ void ClockOffsets::find_drifts() {
     const bool certain = std::abs(slow) > kDrift &&
                          std::abs(slow) > kCertain * std::hypot(line->deviation, right->deviation) &&
                          std::abs(slow) * line->span > std::max(kVisible, kStraight * line->scatter);
-    const bool fresh = certain && !own.slow;
     own.slow = certain ? std::optional(slow) : std::nullopt;
-    if (fresh) tell_drift(static_cast<Source>(k), slow);
+    // A drift on the edge of what is certain comes and goes.
+    if (!certain || (own.told_slow && std::abs(slow - *own.told_slow) < kOtherDrift)) continue;
+    own.told_slow = slow;
+    tell_drift(static_cast<Source>(k), slow);
   }
 }
 

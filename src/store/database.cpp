@@ -1,6 +1,10 @@
 #include "database.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
+
+#include "log_scan.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -33,7 +37,103 @@ std::string advice(int code) {
   }
 }
 
+constexpr int kPagesBeforeCheckpoint = 1000;  // as SQLite's own
+
+/// The open file of a log; null when nothing was written.
+sqlite3_file* log_file(sqlite3* db) {
+  // SQLite has no call to sync it, but gives it out; its first sync is one of the folder, too.
+  sqlite3_file* file = nullptr;
+  sqlite3_file_control(db, "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&file));
+  return file && file->pMethods ? file : nullptr;
+}
+
+/// Makes pages from `begin` on dirty again that the system counts as clean.
+bool write_again(sqlite3_file& file, std::size_t begin) {
+  sqlite3_int64 size = 0;
+  if (file.pMethods->xFileSize(&file, &size) != SQLITE_OK) return false;
+  Bytes piece;
+  for (auto at = static_cast<sqlite3_int64>(begin); at < size;
+       at += static_cast<sqlite3_int64>(piece.size())) {
+    piece.resize(static_cast<std::size_t>(std::min<sqlite3_int64>(size - at, 1 << 16)));
+    const int bytes = static_cast<int>(piece.size());
+    if (file.pMethods->xRead(&file, piece.data(), bytes, at) != SQLITE_OK) return false;
+    if (file.pMethods->xWrite(&file, piece.data(), bytes, at) != SQLITE_OK) return false;
+  }
+  return true;
+}
+
+/// Moves the whole log into the file, whose sync is that of pages which this process wrote, and empties it:
+/// what a power cut left of it would be moved again.
+bool move_log(sqlite3* db, sqlite3_file& file) {
+  return sqlite3_wal_checkpoint_v2(db, "main", SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr) == SQLITE_OK &&
+         file.pMethods->xSync(&file, SQLITE_SYNC_NORMAL) == SQLITE_OK;
+}
+
+enum class LogSync { kDone, kFailed, kLost };
+
+LogSync sync(LogState& log) {
+  sqlite3_file* file = log_file(log.db);
+  if (!file) return LogSync::kDone;
+  if (log.left) {
+    if (!move_log(log.db, *file)) return LogSync::kFailed;
+    log.left = false;
+    log.frames = log.durable = 0;
+    log.set_doubtful(false);
+    return LogSync::kDone;
+  }
+  if (log.doubtful) {
+    const LogContent found = scan_log(sqlite3_filename_wal(sqlite3_db_filename(log.db, "main")));
+    const bool anew = found.generation > log.generation;  // and nothing was committed since
+    if (log.frames > 0 && !anew && (found.generation < log.generation || found.frames < log.frames))
+      return LogSync::kLost;
+    // What is sound on the disk is not touched: a power cut may tear what is written.
+    const std::size_t begin = anew || log.durable == 0 ? 0 : end_of_frames(log.durable, found.page_bytes);
+    if (!write_again(*file, begin)) return LogSync::kFailed;
+  }
+  const bool synced = file->pMethods->xSync(file, SQLITE_SYNC_NORMAL) == SQLITE_OK;
+  log.set_doubtful(!synced);
+  if (synced) log.durable = log.frames;
+  return synced ? LogSync::kDone : LogSync::kFailed;
+}
+
+/// After each commit. In the place of SQLite's own checkpoints, which hide that a sync has failed, and move a
+/// log into its file of which a power cut would leave half.
+int after_commit(void* state, sqlite3* db, const char* name, int frames) {
+  auto& log = *static_cast<LogState*>(state);
+  log.note_commit(static_cast<std::size_t>(frames));
+  if (frames < kPagesBeforeCheckpoint || (log.doubtful && sync(log) != LogSync::kDone)) return SQLITE_OK;
+  // Syncs the log first.
+  if (sqlite3_wal_checkpoint_v2(db, name, SQLITE_CHECKPOINT_PASSIVE, nullptr, nullptr) == SQLITE_OK) {
+    log.durable = log.frames;
+  } else {
+    log.note_error();
+  }
+  return SQLITE_OK;  // the commit itself is done
+}
+
 }  // namespace
+
+void LogState::note_commit(std::size_t all_frames) {
+  std::array<std::uint8_t, 4> bytes{};
+  sqlite3_file* file = log_file(db);
+  if (file && file->pMethods->xRead(file, bytes.data(), bytes.size(), kGenerationInLog) == SQLITE_OK) {
+    std::uint32_t number = 0;
+    for (const std::uint8_t byte : bytes) number = number << 8 | byte;
+    if (number != generation) durable = 0;
+    generation = number;
+  }
+  frames = all_frames;
+}
+
+void LogState::note_error() {
+  const int code = sqlite3_extended_errcode(db);
+  if (code == SQLITE_IOERR_FSYNC || code == SQLITE_IOERR_DIR_FSYNC) set_doubtful(true);
+}
+
+void LogState::set_doubtful(bool now) {
+  doubtful = now;
+  sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, now ? 1 : 0, nullptr);
+}
 
 Statement& Statement::bind(int index, std::int64_t value) {
   sqlite3_bind_int64(stmt_, index, value);
@@ -56,8 +156,9 @@ Result<bool> Statement::step() {
   const int code = sqlite3_step(stmt_);
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  const char* file = sqlite3_db_filename(db_, "main");
-  return failure(std::string(file ? file : "store") + ": " + sqlite3_errmsg(db_) + advice(code));
+  log_->note_error();
+  const char* file = sqlite3_db_filename(log_->db, "main");
+  return failure(std::string(file ? file : "store") + ": " + sqlite3_errmsg(log_->db) + advice(code));
 }
 
 Status Statement::run() {
@@ -90,12 +191,15 @@ Result<Database> Database::open(const std::filesystem::path& path, bool read_onl
   }
   sqlite3_busy_timeout(handle, kBusyTimeoutMs);
   sqlite3_extended_result_codes(handle, 1);
+  db.log_->db = handle;
+  if (!read_only) sqlite3_wal_hook(handle, after_commit, db.log_.get());
   return db;
 }
 
 Status Database::execute(const char* sql) {
-  if (sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) return error(sql);
-  return {};
+  if (sqlite3_exec(db_.get(), sql, nullptr, nullptr, nullptr) == SQLITE_OK) return {};
+  log_->note_error();
+  return error(sql);
 }
 
 Result<Statement> Database::prepare(std::string_view sql) const {
@@ -103,7 +207,7 @@ Result<Statement> Database::prepare(std::string_view sql) const {
   if (sqlite3_prepare_v2(db_.get(), sql.data(), static_cast<int>(sql.size()), &stmt, nullptr) != SQLITE_OK) {
     return error(sql);
   }
-  return Statement(db_.get(), stmt);
+  return Statement(*log_, stmt);
 }
 
 Result<std::int64_t> Database::integer(const char* sql) const {
@@ -114,13 +218,21 @@ Result<std::int64_t> Database::integer(const char* sql) const {
   return *row ? statement->integer(0) : 0;
 }
 
+void Database::doubt_left_log() {
+  log_->left = true;
+  log_->set_doubtful(true);
+}
+
 Status Database::sync_log() {
-  // SQLite has no call for this, but gives out the log's file, whose first sync is one of the folder, too.
-  sqlite3_file* log = nullptr;
-  sqlite3_file_control(db_.get(), "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&log));
-  if (!log || !log->pMethods) return {};  // nothing was written
-  if (log->pMethods->xSync(log, SQLITE_SYNC_NORMAL) == SQLITE_OK) return {};
-  return failure(file() + ": cannot be synced to the disk; " + kBadDisk);
+  switch (sync(*log_)) {
+    case LogSync::kDone:
+      return {};
+    case LogSync::kFailed:
+      return failure(file() + ": cannot be synced to the disk; " + kBadDisk);
+    case LogSync::kLost:
+      break;
+  }
+  return failure(file() + ": the disk has lost what was written: " + kBadDisk + " and start again");
 }
 
 bool Database::is_damaged() const {

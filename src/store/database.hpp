@@ -12,11 +12,30 @@
 
 namespace fleetmap::store {
 
+/// What is known of a connection's write-ahead log.
+struct LogState {
+  sqlite3* db = nullptr;
+  std::uint32_t generation = 0;  ///< at the last commit (LogContent)
+  std::size_t frames = 0;        ///< that were committed; 0 until the first commit
+  std::size_t durable = 0;       ///< of these, up to the last sync that succeeded
+  /// A sync failed: the system then counts the pages as written and may drop them, so the next sync that
+  /// succeeds says nothing about them.
+  bool doubtful = false;
+  /// It is of a process that was killed, perhaps after such a sync: nobody knows how much of it is on the
+  /// disk.
+  bool left = false;
+
+  void note_commit(std::size_t all_frames);
+  /// Notes whether the last error of the connection was a sync's.
+  void note_error();
+  void set_doubtful(bool now);
+};
+
 /// One prepared statement in use. Bind from 1, read columns from 0.
 class Statement {
  public:
-  Statement(sqlite3* db, sqlite3_stmt* stmt) : db_(db), stmt_(stmt) {}
-  Statement(Statement&& other) noexcept : db_(other.db_), stmt_(std::exchange(other.stmt_, nullptr)) {}
+  Statement(LogState& log, sqlite3_stmt* stmt) : log_(&log), stmt_(stmt) {}
+  Statement(Statement&& other) noexcept : log_(other.log_), stmt_(std::exchange(other.stmt_, nullptr)) {}
   Statement& operator=(Statement&&) = delete;
   ~Statement() { sqlite3_finalize(stmt_); }
 
@@ -31,7 +50,7 @@ class Statement {
   ByteView blob(int column) const;
 
  private:
-  sqlite3* db_;
+  LogState* log_;
   sqlite3_stmt* stmt_;
 };
 
@@ -47,8 +66,16 @@ class Database {
   Result<std::int64_t> integer(const char* sql) const;
   /// Rows that were inserted, updated or deleted since the file was opened.
   std::int64_t changes() const { return sqlite3_total_changes64(db_.get()); }
-  /// What was committed to the write-ahead log survives a power cut from now on.
+  /// What was committed to the write-ahead log survives a power cut from now on. After a sync that failed,
+  /// what came since the last one that succeeded is written again before. Fails also when that can no more be
+  /// read as it was written.
   Status sync_log();
+  /// Part of the log may not be on the disk, though it can be read.
+  bool log_is_doubtful() const { return log_->doubtful; }
+  /// The log is of another process: sync_log() then moves all of it into the file.
+  void doubt_left_log();
+  /// A commit with synchronous = FULL has synced the log.
+  void note_log_synced() { log_->durable = log_->frames; }
   /// The last error shows that the file is damaged or that parts of it cannot be read.
   bool is_damaged() const;
   std::string last_error() const { return sqlite3_errmsg(db_.get()); }
@@ -59,6 +86,7 @@ class Database {
   struct Close {
     void operator()(sqlite3* db) const { sqlite3_close_v2(db); }
   };
+  std::unique_ptr<LogState> log_ = std::make_unique<LogState>();
   std::unique_ptr<sqlite3, Close> db_;
 };
 

@@ -12,11 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "log_scan.hpp"
+
 namespace fleetmap::store {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 100;  // of the file, at the begin of page 1
-constexpr std::size_t kLogHeaderBytes = 32, kFrameHeaderBytes = 24;
 constexpr std::size_t kUsualPage = 4096;
 
 std::uint64_t big_endian(ByteView bytes) {
@@ -98,14 +99,14 @@ class Pages {
   static Result<Pages> open(const std::filesystem::path& file) {
     Pages pages;
     pages.file_.open(file, std::ios::binary | std::ios::ate);
-    pages.log_.open(file.string() + "-wal", std::ios::binary | std::ios::ate);
+    const std::filesystem::path log = file.string() + "-wal";
+    pages.log_.open(log, std::ios::binary);
     const auto file_bytes = pages.file_ ? static_cast<std::size_t>(pages.file_.tellg()) : 0;
-    const auto log_bytes = pages.log_ ? static_cast<std::size_t>(pages.log_.tellg()) : 0;
     if (!pages.file_ && !pages.log_)
       return failure(file.string() + ": cannot be read: " + std::strerror(errno));
     pages.read_header();
     pages.count_ = file_bytes / pages.size_;
-    pages.find_frames(log_bytes);
+    pages.find_frames(log);
     return pages;
   }
 
@@ -146,20 +147,11 @@ class Pages {
     reserved_ = header[20];
   }
 
-  /// The last frame of each page, of those that the log's present generation has written (its salts).
-  void find_frames(std::size_t log_bytes) {
-    if (log_bytes < kLogHeaderBytes) return;
-    const Bytes header = read_at(log_, 0, kLogHeaderBytes);
-    if (header.empty() || big_endian(ByteView(header).subspan(8, 4)) != size_) return;
-    for (std::size_t at = kLogHeaderBytes; at + kFrameHeaderBytes + size_ <= log_bytes;
-         at += kFrameHeaderBytes + size_) {
-      const Bytes frame = read_at(log_, at, kFrameHeaderBytes);
-      if (frame.empty() || !std::equal(frame.begin() + 8, frame.begin() + 16, header.begin() + 16)) return;
-      const std::uint64_t page = big_endian(ByteView(frame).first(4));
-      if (page == 0) return;
-      frames_[page] = at + kFrameHeaderBytes;
-      count_ = std::max(count_, static_cast<std::size_t>(page));
-    }
+  void find_frames(const std::filesystem::path& log) {
+    LogContent content = scan_log(log);
+    if (content.page_bytes != size_) return;
+    frames_ = std::move(content.offset);
+    if (!frames_.empty()) count_ = std::max(count_, static_cast<std::size_t>(frames_.rbegin()->first));
   }
 
   std::ifstream file_, log_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <system_error>
 #include <vector>
@@ -77,6 +78,14 @@ const ByteView* bytes_at(std::span<const Value> values, std::size_t k) {
 
 std::string text(ByteView bytes) { return {bytes.begin(), bytes.end()}; }
 
+/// A row of version 3 and before, or of what is no item.
+std::optional<ItemRow> item_row_without_hash(std::span<const Value> values) {
+  const auto *agent = bytes_at(values, 0), *item = bytes_at(values, 2);
+  const auto* seq = values.size() == 3 ? std::get_if<std::int64_t>(&values[1]) : nullptr;
+  if (!agent || !seq || !item) return std::nullopt;
+  return ItemRow{*agent, *seq, *item, {}, std::nullopt};
+}
+
 /// Rows of version 4, which had no signatures, stay as they are until they are changed.
 std::optional<ItemRow> item_row(std::span<const Value> values) {
   if (values.size() != 4 && values.size() != 5) return std::nullopt;
@@ -103,14 +112,39 @@ std::optional<ValueRow> value_row(std::span<const Value> values) {
   return ValueRow{text(*key), *value};
 }
 
-/// Reads a damaged store page by page and puts into another what bears a hash that shows it is whole.
+/// Names that programs give; keeps other records of two columns out.
+bool is_key(ByteView bytes) {
+  constexpr std::size_t kMost = 64;
+  return !bytes.empty() && bytes.size() <= kMost && std::ranges::all_of(bytes, [](std::uint8_t byte) {
+    return (byte >= 'a' && byte <= 'z') || (byte >= '0' && byte <= '9') || byte == '_' || byte == '-' ||
+           byte == '.';
+  });
+}
+
+/// A row of version 5 and before.
+std::optional<ValueRow> value_row_without_hash(std::span<const Value> values) {
+  const auto *key = bytes_at(values, 0), *value = bytes_at(values, 1);
+  if (values.size() != 2 || !key || !value || !is_key(*key)) return std::nullopt;
+  return ValueRow{text(*key), *value};
+}
+
+/// A rotation, which random bytes are not.
+bool is_rotation(const Eigen::Quaterniond& q) { return std::abs(q.squaredNorm() - 1.0) < 1e-6; }
+
+/// Reads a damaged store page by page and puts into another what is whole. A hash shows that where the
+/// schema had one. Items before version 4 and named values before version 6 count as whole when they decode
+/// to the last byte, bear the name of their row and keep the rules of their type (rotations, symmetric
+/// covariances); they are only taken from a file in which no row of their kind has a hash, since they are
+/// left overs of before a migration elsewhere.
 class Salvage {
  public:
   Salvage(const fs::path& damaged, Store& into) : damaged_(damaged), into_(into) {}
 
   Status run() {
     // A submap is whole if it is what its node names.
-    for (void (Salvage::*take)(std::span<const Value>) : {&Salvage::take_item, &Salvage::take_submap}) {
+    for (void (Salvage::*take)(std::span<const Value>) :
+         {&Salvage::take_hashed, &Salvage::take_without_hash, &Salvage::take_submap}) {
+      if (take == &Salvage::take_without_hash && items_have_hashes_ && values_have_hashes_) continue;
       const Status scanned =
           scan_records(damaged_, [&](std::span<const Value> values) { (this->*take)(values); });
       if (!scanned) return scanned;
@@ -132,9 +166,10 @@ class Salvage {
     if (status_ && !done) status_ = tl::unexpected(done.error());
   }
 
-  void take_item(std::span<const Value> values) {
+  void take_hashed(std::span<const Value> values) {
     if (!status_) return;
     if (const auto row = item_row(values)) {
+      items_have_hashes_ = true;
       if (auto node = decode_node(row->item)) {
         node->signature = row->signature;
         note(into_.put_node(*node));
@@ -143,13 +178,31 @@ class Salvage {
         note(into_.put_alignment(*alignment));
       }
     } else if (const auto named = value_row(values)) {
+      values_have_hashes_ = true;
+      take_value(*named);
+    }
+  }
+
+  void take_without_hash(std::span<const Value> values) {
+    if (!status_) return;
+    if (const auto row = items_have_hashes_ ? std::nullopt : item_row_without_hash(values)) {
+      const auto is_named = [&](const AgentId& maker, std::uint32_t seq) {
+        return maker.str() == text(row->agent) && std::int64_t{seq} == row->seq;
+      };
+      if (const auto node = decode_node(row->item)) {
+        if (is_named(node->id.agent, node->id.seq) && (!node->G || is_rotation(node->G->q_enu_base)))
+          note(into_.put_node(*node));
+      } else if (const auto alignment = decode_alignment(row->item)) {
+        if (is_named(alignment->computed_by, alignment->seq)) note(into_.put_alignment(*alignment));
+      }
+    } else if (const auto named = values_have_hashes_ ? std::nullopt : value_row_without_hash(values)) {
       take_value(*named);
     }
   }
 
   void take_value(const ValueRow& row) {
     if (row.key == kOwnerKey) {
-      if (text(row.value) != into_.self().str())
+      if (AgentId::parse(text(row.value)) && text(row.value) != into_.self().str())
         status_ = failure(damaged_.string() + ": damaged, and the store of agent '" + text(row.value) +
                           "', not of '" + into_.self().str() + "'; every agent needs its own");
       return;
@@ -171,6 +224,7 @@ class Salvage {
   Store& into_;
   Status status_;
   std::size_t values_ = 0;
+  bool items_have_hashes_ = false, values_have_hashes_ = false;
 };
 
 void remove_store(const fs::path& file) {

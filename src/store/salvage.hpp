@@ -18,10 +18,11 @@ Result<std::optional<std::string>> find_damage(const std::filesystem::path& file
                                                const std::string& file_system);
 
 /// Puts a new store in the place of a damaged one, with every item, submap and named value of which a whole
-/// copy is left in any page. The damaged file stays beside it as FILE.damaged-1, -2, ... Returns a sentence
-/// that says what was kept and where the rest lies. Whenever the program dies meanwhile, nothing is lost: the
-/// damaged file is moved after the new one is complete and synced, and finish_salvage() goes on at the next
-/// start. Fails when the store belongs to another agent, or the disk does.
+/// copy is left in any page (rows of schema versions that had no hash: that have the form of one). The
+/// damaged file stays beside it as FILE.damaged-1, -2, ... Returns a sentence that says what was kept and
+/// where the rest lies. Whenever the program dies meanwhile, nothing is lost: the damaged file is moved after
+/// the new one is complete and synced, and finish_salvage() goes on at the next start. Fails when the store
+/// belongs to another agent, or the disk does.
 Result<std::string> salvage(const std::filesystem::path& file, const AgentId& self, const StoreConfig& config,
                             const std::string& damage);
 

@@ -223,10 +223,17 @@ Status Store::State::remove_submap(const NodeId& name) {
 template <class Write>
 Status Store::State::commit(bool durable, const Write& write) {
   if (!durable || !config.power_safe) return write();
+  // Frames behind a hole in the log are lost with it.
+  if (db->log_is_doubtful()) {
+    if (auto status = db->sync_log(); !status) return status;
+  }
   if (auto status = db->execute("PRAGMA synchronous = FULL"); !status) return status;
   const Status written = write();
   if (auto status = db->execute("PRAGMA synchronous = NORMAL"); !status) return status;
-  if (written) synced_changes = db->changes();  // the log is synced as a whole
+  if (written) {
+    db->note_log_synced();  // as a whole
+    synced_changes = db->changes();
+  }
   return written;
 }
 
@@ -455,6 +462,11 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
     if (!salvaged) return tl::unexpected(salvaged.error());
     state->damage.push_back(std::move(*salvaged));
   }
+  // The log of a program that was killed, perhaps after a sync that failed, was moved into the file by
+  // find_damage(), unless that failed.
+  std::error_code none;
+  const auto log_bytes = std::filesystem::file_size(path.string() + "-wal", none);
+  const bool left_log = !none && log_bytes > 0;
   auto db = Database::open(path, false, config.file_system);
   if (!db) return tl::unexpected(db.error());
   state->db.emplace(std::move(*db));
@@ -463,6 +475,7 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
     return tl::unexpected(status.error());
   if (auto status = state->db->execute("PRAGMA synchronous = NORMAL"); !status)
     return tl::unexpected(status.error());
+  if (left_log) state->db->doubt_left_log();
   if (auto status = state->load(); !status) return tl::unexpected(status.error());
   Store store(std::move(state));
   // The process may have died between the last chunk of a download and its completion.
@@ -873,7 +886,8 @@ std::uint32_t Store::next_alignment_seq(std::uint16_t session) const {
 Status Store::sync() {
   State& s = *state_;
   const std::int64_t changes = s.db->changes();
-  if (!s.config.power_safe || s.read_only || s.synced_changes == changes) return {};
+  if (!s.config.power_safe || s.read_only) return {};
+  if (s.synced_changes == changes && !s.db->log_is_doubtful()) return {};
   if (auto status = s.db->sync_log(); !status) return status;
   s.synced_changes = changes;
   return {};

@@ -1,5 +1,6 @@
 #include "fleetmap/bus/stall_detector.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace fleetmap::bus {
@@ -66,11 +67,42 @@ TEST_F(WatchedThread, EachStallIsCounted) {
   pass(3s);
   end();
   pass(500ms);
-  ASSERT_EQ(news_.size(), 4u);
-  EXPECT_EQ(news_[2].text, "callback thread stuck for 2.0 s in timer exchange");
+  EXPECT_EQ(news_.size(), 2u) << "of the second one a line comes within the minute";
+  pass(1min);
+  ASSERT_EQ(news_.size(), 3u);
+  EXPECT_THAT(news_[2].text, ::testing::HasSubstr("was stuck once more in"));
+  EXPECT_THAT(news_[2].text, ::testing::EndsWith("for 3.0 s in timer exchange"));
   EXPECT_EQ(detector_.counters().times, 2u);
   EXPECT_EQ(detector_.counters().longest, 6s);
   EXPECT_EQ(detector_.counters().longest_work, "topic rt/points");
+}
+
+TEST_F(WatchedThread, ManyStallsAreOneLineAMinuteWithTheirCount) {
+  for (int k = 0; k < 100; ++k) {
+    begin("topic rt/points");
+    pass(k == 70 ? 4s : 2500ms);
+    end();
+    pass(500ms);
+  }
+  // 100 in 301.5 s: the first one twice, then five minutes.
+  ASSERT_LE(news_.size(), 7u);
+  ASSERT_GE(news_.size(), 6u);
+  EXPECT_EQ(news_[0].text, "callback thread stuck for 2.0 s in topic rt/points");
+  EXPECT_EQ(news_[1].text, "callback thread goes on after 2.5 s in topic rt/points");
+  EXPECT_THAT(news_[2].text,
+              ::testing::MatchesRegex("callback thread was stuck (19|20) times more in 6[0-3] s, for up to "
+                                      "2.5 s in topic rt/points"));
+  EXPECT_FALSE(news_[2].goes_on);
+  EXPECT_THAT(news_[5].text, ::testing::HasSubstr("for up to 4.0 s"));
+  EXPECT_EQ(detector_.counters().times, 100u);
+  news_.clear();
+  pass(3min);
+  EXPECT_LE(news_.size(), 1u) << "what was left to count";
+  news_.clear();
+  begin("timer exchange");
+  pass(3s);
+  ASSERT_EQ(news_.size(), 1u) << "after a quiet minute it is told at once";
+  EXPECT_EQ(news_[0].text, "callback thread stuck for 2.0 s in timer exchange");
 }
 
 TEST_F(WatchedThread, AStallThatEndsBetweenTwoLooksIsReportedAsAnError) {
@@ -107,6 +139,7 @@ TEST_F(WatchedThread, TheTimeInWhichTheProcessStoodStillIsNotTheWorks) {
   EXPECT_EQ(news_[0].text, "callback thread stuck for 2.0 s in topic rt/points");
   end();
   // A stop of the process during one piece of work does not excuse the next.
+  pass(2min);
   begin("timer exchange");
   pass(2s);
   ASSERT_EQ(news_.size(), 3u);

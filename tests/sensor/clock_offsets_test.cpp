@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <set>
+#include <string>
 
 namespace fleetmap::sensor {
 namespace {
@@ -111,6 +113,20 @@ constexpr WrongClock kWrongClocks[] = {
     {"fast", 0.0, 100e-6, "clock runs (9[5-9]|10[0-5]) ppm too fast .*corrected", 0.075},
     {"slow", 0.0, -100e-6, "clock runs (9[5-9]|10[0-5]) ppm too slow .*corrected", 0.075},
 };
+
+TEST(ClockOffsets, ADriftThatIsFoundAgainIsNamedOnce) {
+  // On the edge of what counts as a drift, so that it comes and goes.
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    for (const double drift : {30e-6, 40e-6, 50e-6}) {
+      Robot robot(seed);
+      robot.drift[kImu] = drift;
+      robot.run(3600.0);
+      std::set<std::string> sentences(robot.news.begin(), robot.news.end());
+      EXPECT_EQ(sentences.size(), robot.news.size()) << ::testing::PrintToString(robot.news);
+      EXPECT_LE(robot.news.size(), 1u) << ::testing::PrintToString(robot.news);
+    }
+  }
+}
 
 class OneClockIsWrong : public ::testing::TestWithParam<std::tuple<WrongClock, std::size_t>> {};
 

@@ -104,6 +104,7 @@ struct PowerCutDisk::State {
   std::mt19937 random;
   std::size_t operations = 0;
   std::size_t syncs = 0;
+  std::size_t failing_syncs = 0;
   std::size_t cut_at = SIZE_MAX;
   bool cut = false;
   std::map<std::string, Entry> entries;
@@ -150,6 +151,12 @@ struct PowerCutDisk::State {
     Extra& e = extra(file);
     if (e.state->cut || !e.state->operate()) return SQLITE_IOERR_FSYNC;
     ++e.state->syncs;
+    if (e.state->failing_syncs > 0) {
+      --e.state->failing_syncs;
+      if (e.content)
+        apply_survivors(*e.content, static_cast<Survival>(e.state->random() % 3), e.state->random);
+      return SQLITE_IOERR_FSYNC;
+    }
     if (e.content) e.content->sync();
     if (std::exchange(e.new_in_folder, false)) e.state->sync_folder();
     return SQLITE_OK;  // the system's disk keeps its power
@@ -225,6 +232,9 @@ const std::string& PowerCutDisk::name() const { return state_->name; }
 void PowerCutDisk::cut_after(std::size_t operations) {
   state_->cut_at = state_->operations + std::max<std::size_t>(operations, 1);
 }
+void PowerCutDisk::fail_syncs(std::size_t count) { state_->failing_syncs = count; }
+void PowerCutDisk::kill() { state_->cut = true; }
+void PowerCutDisk::revive() { state_->cut = false; }
 bool PowerCutDisk::is_cut() const { return state_->cut; }
 std::size_t PowerCutDisk::operations() const { return state_->operations; }
 std::size_t PowerCutDisk::syncs() const { return state_->syncs; }
@@ -245,6 +255,7 @@ void PowerCutDisk::restore_power() {
   }
   s.entries.clear();
   s.cut = false;
+  s.failing_syncs = 0;
   s.cut_at = SIZE_MAX;
 }
 

@@ -23,6 +23,12 @@ class PowerCutDisk {
   /// The power goes at the `operations`-th write, truncation, deletion or sync from now on.
   void cut_after(std::size_t operations);
   bool is_cut() const;
+  /// The next `count` syncs fail, and what they were of is lost as by a power cut, though it can be read
+  /// until there is one: Linux marks pages clean whose write failed.
+  void fail_syncs(std::size_t count);
+  /// The process goes, and the disk keeps its power: every operation fails until revive().
+  void kill();
+  void revive();
   /// Operations since the disk was made.
   std::size_t operations() const;
   std::size_t syncs() const;

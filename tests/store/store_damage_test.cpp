@@ -200,6 +200,66 @@ TEST_F(StoreDamage, ALogWithoutItsDatabaseIsRead) {
   EXPECT_GE(Store::open(file_, kSelf).value().submap_set().size(), kNodes / 4);
 }
 
+/// A store that ran until a power cut, whose database is lost: SQLite looks at a log beside a database
+/// itself.
+class StoreLog : public ::testing::Test {
+ protected:
+  static constexpr std::uintmax_t kFrame = 24 + kPage;
+
+  StoreLog() {
+    auto store = Store::open(running_, kSelf).value();
+    std::uint32_t seq = 0;
+    while (seq < kNodes || log_bytes() < size_.back() + 3 * kFrame) {
+      size_.push_back(log_bytes());
+      // The second half lies between the first, so that its pages change and are split.
+      const std::uint32_t place = seq < kNodes / 2 ? 2 * seq : (2 * seq + 1) % kNodes;
+      EXPECT_EQ(store.put_node(make_node(kPeer, seq < kNodes ? place : seq, {})).value(), Put::kAdded);
+      ++seq;
+    }
+    size_.push_back(log_bytes());
+    std::ofstream(file_).close();
+    fs::copy_file(running_.string() + "-wal", log_);
+  }
+
+  /// Of the nodes that were put first.
+  void expect_nodes(std::size_t count) {
+    auto store = Store::open(file_, kSelf);
+    ASSERT_TRUE(store) << store.error().message;
+    ASSERT_EQ(store->damage().size(), 1u);
+    EXPECT_EQ(store->node_set().size(), count);
+  }
+
+  const ScratchFolder folder_;
+  const fs::path running_ = folder_ / "running.db", file_ = folder_ / "store.db";
+  const fs::path log_ = file_.string() + "-wal";
+  std::vector<std::uintmax_t> size_;  ///< of the log before each node, and after the last
+
+ private:
+  std::uintmax_t log_bytes() const { return fs::file_size(running_.string() + "-wal"); }
+};
+
+TEST_F(StoreLog, IsReadWithoutItsDatabase) { expect_nodes(size_.size() - 1); }
+
+TEST_F(StoreLog, FramesThatAreTornReplaceNoSoundPages) {
+  // Of the frames after 80 nodes the first sector came to the disk.
+  for (std::uintmax_t frame = size_[80]; frame < size_.back(); frame += kFrame)
+    overwrite(log_, frame + 512, Bytes(kFrame - 512));
+  expect_nodes(80);
+}
+
+TEST_F(StoreLog, ATransactionOfWhichThereIsAPartCountsAsNone) {
+  // The last one splits a page.
+  const std::size_t whole = size_.size() - 2;
+  ASSERT_GE(size_[whole + 1], size_[whole] + 3 * kFrame);
+  fs::resize_file(log_, size_[whole + 1] - kFrame);
+  expect_nodes(whole);
+}
+
+TEST_F(StoreLog, OfAnEarlierGenerationDoesNotCount) {
+  overwrite(log_, size_[80] + 8, Bytes(8));
+  expect_nodes(80);
+}
+
 TEST_F(StoreDamage, ASalvageThatWasKilledGoesOnAtTheNextStart) {
   // Complete, but not yet in its place; and before that, half of it.
   for (const char* left : {".salvaged", ".salvaging"}) {

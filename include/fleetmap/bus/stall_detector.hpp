@@ -51,7 +51,10 @@ class StallDetector {
   static constexpr Duration kLongestBetweenLooks = std::chrono::milliseconds(1500);
 
   StallDetector(std::string thread, Duration limit);
-  /// Reports each stall once when it is noticed and once when it is over.
+  /// Of one thread there is a line a minute, however slow the computer is.
+  static constexpr Duration kReportPeriod = std::chrono::minutes(1);
+  /// Reports a stall when it is noticed and when it is over, and those that follow within a minute as one
+  /// line with their count.
   std::vector<StallNews> look(SteadyTime now, const ThreadActivity& seen);
   const StallCounters& counters() const { return counters_; }
 
@@ -64,12 +67,19 @@ class StallDetector {
   Duration taken(SteadyTime begun, SteadyTime ended) const;
   /// Counts the stall; true if it is new.
   bool count(const WorkUnderWay& work, Duration lasted);
+  /// Counts the stall; true if it is new. Adds a line unless there was one within the last minute.
+  bool report(SteadyTime now, const WorkUnderWay& work, Duration lasted, const char* how,
+              std::vector<StallNews>& news);
+  std::string summary(SteadyTime now) const;
 
   Duration limit_;
   StallCounters counters_;
   std::optional<SteadyTime> last_look_;
-  std::vector<Pause> pauses_;             ///< that the work under way has seen
-  std::optional<std::uint64_t> counted_;  ///< the work that was counted last
+  std::vector<Pause> pauses_;              ///< that the work under way has seen
+  std::optional<std::uint64_t> counted_;   ///< the work that was counted last
+  std::optional<std::uint64_t> reported_;  ///< the work that has a line of its own
+  std::optional<SteadyTime> reported_at_;  ///< the last line
+  StallCounters more_;                     ///< stalls since then, without lines of their own
 };
 
 }  // namespace fleetmap::bus

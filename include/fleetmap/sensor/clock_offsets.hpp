@@ -57,6 +57,7 @@ class ClockOffsets {
     std::optional<Stamp> leap_begun;  ///< since when the correction is wrong, if samples are not late
     bool is_off = false;              ///< by a constant offset that is corrected
     std::optional<double> slow;       ///< s/s, while it drifts
+    std::optional<double> told_slow;  ///< s/s, the drift that was told last
     double correction = 0.0;          ///< s
     double told = 0.0;                ///< s, the offset that was told last
     std::optional<Stamp> untold_since;

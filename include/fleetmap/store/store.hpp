@@ -173,7 +173,9 @@ class Store {
   std::uint32_t next_alignment_seq(std::uint16_t session) const;
 
   /// All that was put survives a power cut from now on. Costs a disk sync if something was put since the last
-  /// one, else nothing. Fails when the disk does, and nothing may then be promised to others.
+  /// one, else nothing. Fails when the disk does, and nothing may then be promised to others: a sync that
+  /// failed is never made up for by another one alone. The log is written again first; where it can no more
+  /// be read as it was written, this and all puts of own items fail until the store is opened again.
   Status sync();
 
   Result<std::optional<Bytes>> meta(std::string_view key) const;
