@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/deskew.hpp"
@@ -154,6 +155,7 @@ class Loam::Pipeline {
       compared_;                 ///< some points of the last scan that was handed in, see kComparedPoints
   std::size_t compared_of_ = 0;  ///< its number of points
   int repeated_in_a_row_ = 0;
+  int repeated_before_ = 0;     ///< scans in a row just before the last one
   bool hangs_ = false;          ///< the LiDAR repeats itself while the robot moves
   double usual_upright_ = 0.0;  ///< inliers of late, see MatchResult::upright_inliers
   int in_the_past_ = 0;
@@ -194,6 +196,7 @@ Status Loam::Pipeline::check_repetition(const sensor::Scan& scan) {
     compared_.resize(size);
     for (std::size_t k = 0; k < size; ++k) compared_[k] = at(k);
     compared_of_ = scan.points.size();
+    repeated_before_ = std::exchange(repeated_in_a_row_, 0);
     hangs_ = false;
     return {};
   }
@@ -447,8 +450,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   state_ = now;
   reference_ = reference;
   // Where the robot went while its LiDAR showed old points nobody knows.
-  const bool hung = update.lost && repeated_in_a_row_ >= kHangs;
-  repeated_in_a_row_ = 0;
+  const bool hung = update.lost && repeated_before_ >= kHangs;
   const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart || hung;
   if (restart) {
     forget_map();

@@ -135,6 +135,21 @@ TEST_F(LoamInYard, RefusesRepeatedPointsOfARobotThatMovesAndBeginsAnewAfterSecon
   EXPECT_GT(std::sqrt(update->covariance(0, 0)), 1.0);
 }
 
+/// The robot stood when its driver began to hang: where it went since nobody knows.
+TEST_F(LoamInYard, APlaceThatIsNotThatOfTheRepeatedPointsBeginsAnew) {
+  sensor::Scan scan = scan_at(0.0);
+  for (int k = 0; k < 30; ++k) {
+    scan.stamp = stamp_from_ns(k * 100'000'000LL);
+    ASSERT_TRUE(loam_.add_scan(scan));
+  }
+  sensor::Scan elsewhere = scan_at(20.0);
+  elsewhere.stamp = stamp_from_ns(3'000'000'000LL);
+  const auto update = loam_.add_scan(elsewhere);
+  ASSERT_TRUE(update) << update.error().message;
+  EXPECT_TRUE(update->lost);
+  EXPECT_EQ(loam_.counters().map_restarts, 1u);
+}
+
 /// A simulated LiDAR without noise repeats itself while the robot stands.
 TEST_F(LoamInYard, RepeatedPointsOfARobotThatStandsAreTaken) {
   sensor::Scan scan = scan_at(0.0);
