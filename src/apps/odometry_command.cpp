@@ -90,7 +90,8 @@ bool kept_its_way(const OdometryRun& run) {
   }
   if (counters.map_overflows > 0) {
     std::cout << "the local map was full " << counters.map_overflows
-              << " times: so much is seen only by scans that do not belong together\n";
+              << " times, and what lay farthest was forgotten: scans do not belong together, or "
+                 "odometry.map_radius asks for more than the map holds\n";
   }
   const bool vague = sigma > std::max(kVague, kVagueShare * run.length);
   return counters.map_restarts == 0 && !vague &&

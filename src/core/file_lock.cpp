@@ -15,8 +15,7 @@ const char* remedy(int code) {
   switch (code) {
     case EROFS:
       return "; its disk is read-only: look why (dmesg), make it writable (mount -o remount,rw) or use "
-             "another "
-             "folder";
+             "another folder";
     case EACCES:
     case EPERM:
       return "; let the program's user write in the folder";

@@ -255,7 +255,7 @@ void Exchange::on_put(const Result<Put>& put, const Event& added, const NodeId& 
       without_submap_.erase(id);
     }
     reconcile_.on_contested(now);
-    events_.push_back(ItemConflict{id, alignment, link_, config_.authenticator != nullptr, from_});
+    tell_conflict(id, alignment);
   }
 }
 
@@ -272,6 +272,10 @@ bool Exchange::is_proven(const Item& item, const NodeId& name, bool alignment) {
   return false;
 }
 
+void Exchange::tell_conflict(const NodeId& name, bool alignment) {
+  events_.push_back(ItemConflict{name, alignment, link_, config_.authenticator != nullptr, from_});
+}
+
 bool Exchange::is_forged(const AgentId& maker, std::uint32_t seq, bool held) const {
   return maker == self_ && session_ == session_of(seq) && !held;
 }
@@ -283,7 +287,7 @@ void Exchange::handle(const graph::Node& node, Stamp now) {
   }
   if (!is_proven(node, node.id, false)) return;
   if (is_forged(node.id.agent, node.id.seq, store_->node_set().contains(node.id.agent, node.id.seq)))
-    return events_.push_back(ItemConflict{node.id, false, link_, config_.authenticator != nullptr, from_});
+    return tell_conflict(node.id, false);
   const auto put = store_->put_node(to_store(node, config_.authenticator.get()));
   on_put(put, NodeAdded{node.id}, node.id, false, now);
   if (!put || *put != Put::kAdded) return;
@@ -301,7 +305,7 @@ void Exchange::handle(const graph::Alignment& alignment, Stamp now) {
   const NodeId name{alignment.computed_by, alignment.seq};
   if (!is_proven(alignment, name, true)) return;
   if (is_forged(id.computed_by, id.seq, store_->alignment_set().contains(id.computed_by, id.seq)))
-    return events_.push_back(ItemConflict{name, true, link_, config_.authenticator != nullptr, from_});
+    return tell_conflict(name, true);
   const auto put = store_->put_alignment(to_store(alignment, config_.authenticator.get()));
   on_put(put, AlignmentAdded{id}, name, true, now);
   if (!put || *put != Put::kAdded) return;

@@ -15,27 +15,35 @@ void Pace::set_rate(double bytes_per_second, Stamp now) {
   bucket_.set_rate(bytes_per_second, burst_at(bytes_per_second), now);
 }
 
-bool Pace::take(double bytes, Stamp now, double reserve) {
-  while (!last_second_.empty() && now - last_second_.front().first >= std::chrono::seconds(1)) {
-    in_last_second_ -= last_second_.front().second;
+void Pace::forget_before(Stamp now) {
+  while (!last_second_.empty() && now - last_second_.front().at >= std::chrono::seconds(1)) {
+    const Sent& oldest = last_second_.front();
+    in_last_second_ -= oldest.bytes;
+    taken_in_last_second_ -= oldest.taken ? 1 : 0;
     last_second_.pop_front();
   }
   if (last_second_.empty()) in_last_second_ = 0.0;  // rounding adds up
+}
+
+bool Pace::take(double bytes, Stamp now, double reserve) {
+  forget_before(now);
   const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
-  if (!below_peak && !last_second_.empty()) return false;
+  if (!below_peak && taken_in_last_second_ > 0) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;
-  note(bytes, now);
+  note({now, bytes, true});
   return true;
 }
 
 void Pace::spend(double bytes, Stamp now) {
+  forget_before(now);
   bucket_.spend(bytes, now);
-  note(bytes, now);
+  note({now, bytes, false});
 }
 
-void Pace::note(double bytes, Stamp now) {
-  last_second_.emplace_back(now, bytes);
-  in_last_second_ += bytes;
+void Pace::note(const Sent& sent) {
+  last_second_.push_back(sent);
+  in_last_second_ += sent.bytes;
+  taken_in_last_second_ += sent.taken ? 1 : 0;
 }
 
 }  // namespace fleetmap::exchange

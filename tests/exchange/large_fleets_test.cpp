@@ -116,6 +116,30 @@ TEST(LargeFleets, clouds_that_wait_get_half_of_what_control_leaves_however_many_
   }
 }
 
+TEST(LargeFleets, hellos_to_fifteen_absent_robots_keep_no_cloud_from_the_other_five) {
+  std::vector<std::string> names;
+  for (int k = 1; k <= 20; ++k) names.push_back("r" + std::to_string(k));
+  SimFleet fleet(names, {}, 3);
+  const std::span<const std::string> there = std::span(names).first(5);
+  for (const auto& name : there) fleet.start(name);
+  for (const auto& name : there) fleet.add_node(name, 0.0);
+  std::map<AgentId, Stamp> hello;
+  fleet.run_for(std::chrono::minutes(10), [&] {
+    for (const auto& name : there) {
+      Stamp& last = hello.try_emplace(agent(name), Stamp{}).first->second;
+      if (fleet.now() - last < std::chrono::milliseconds(900)) continue;
+      last = fleet.now();
+      fleet.robot(name).exchange->on_discovery(260, fleet.now());
+    }
+    return false;
+  });
+  EXPECT_TRUE(fleet.equal_sets(5));
+  for (const auto& name : there) {
+    EXPECT_EQ(fleet.robot(name).exchange->queue().size(Priority::kCloud), 0u) << name;
+    EXPECT_GE(fleet.robot(name).store->alignments().size(), 4u) << name;
+  }
+}
+
 /// Twenty robots are too many for one radio without multicast: each node would be sent nineteen times.
 TEST(LargeFleets, groups_on_radios_of_their_own_become_one_where_they_meet) {
   std::vector<std::string> names;

@@ -98,6 +98,27 @@ TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) 
   EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(1000)));
 }
 
+TEST(Pace, hellos_to_absent_robots_hold_back_no_fragment_for_ever) {
+  // The share of one of twenty robots, and Hellos to fifteen absent ones: no second is silent.
+  constexpr double kShare = 18'125.0 / 20.0, kHello = 260.0, kFragment = 1250.0;
+  for (const int period_ms : {400, 700, 950}) {
+    Pace pace(kShare, {});
+    int sent = 0, longest = 0, waited = 0;
+    for (int ms = 0; ms < 300'000; ms += 50) {
+      const Stamp now = kStart + std::chrono::milliseconds(ms);
+      if (ms % period_ms < 50) pace.spend(kHello, now);
+      waited += 50;
+      if (!pace.take(kFragment, now)) continue;
+      ++sent;
+      longest = std::max(longest, std::exchange(waited, 0));
+    }
+    const double left = 300.0 * (kShare - kHello * 1000.0 / period_ms);
+    EXPECT_GT(sent * kFragment, 0.9 * left) << period_ms;
+    EXPECT_LT(sent * kFragment, 1.1 * left + 2.0 * kFragment) << period_ms;
+    EXPECT_LT(longest, 6'500) << period_ms;
+  }
+}
+
 TEST(SendQueue, sends_small_messages_before_clouds_that_wait_longer) {
   LongRangeConfig config;
   config.pace.burst_seconds = 0.5;

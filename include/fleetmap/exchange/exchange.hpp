@@ -234,6 +234,8 @@ class Exchange {
   bool member(const AgentId& agent) const { return fleet_.contains(agent); }
   bool admit(const Message& message, Reach link, Stamp now);
   void note_stranger(const AgentId& name);
+  /// Of the item that is handled.
+  void tell_conflict(const NodeId& name, bool alignment);
   /// The item bears a number that only this agent gives, and has not given.
   bool is_forged(const AgentId& maker, std::uint32_t seq, bool held) const;
   /// The item is held, or its maker signed it; else it is counted and told of.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <deque>
-#include <utility>
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
@@ -23,19 +23,28 @@ class Pace {
   void set_rate(double bytes_per_second, Stamp now);
   double rate() const { return bucket_.rate(); }
   double burst() const { return bucket_.burst(); }
-  /// As TokenBucket::take. An item that is larger than a second's worth goes when nothing went for a second.
+  /// As TokenBucket::take. An item that would exceed the peak goes when none was taken for a second: one that
+  /// is larger than a second's worth, or that what else is sent leaves no room for. So a second has at most
+  /// the peak, or one item and what was spent; the rate holds for both together.
   bool take(double bytes, Stamp now, double reserve = 0.0);
   /// Something else sent `bytes` that count against the rate.
   void spend(double bytes, Stamp now);
 
  private:
-  void note(double bytes, Stamp now);
+  struct Sent {
+    Stamp at;
+    double bytes;
+    bool taken;  ///< not spent
+  };
+  void note(const Sent& sent);
+  void forget_before(Stamp now);
   double burst_at(double rate) const;
 
   PaceConfig config_;
   TokenBucket bucket_;
-  std::deque<std::pair<Stamp, double>> last_second_;  ///< what went, B
-  double in_last_second_ = 0.0;                       ///< B
+  std::deque<Sent> last_second_;
+  double in_last_second_ = 0.0;           ///< B
+  std::size_t taken_in_last_second_ = 0;  ///< items
 };
 
 }  // namespace fleetmap::exchange
