@@ -90,6 +90,7 @@ json perception_json(const agent::Agent& agent) {
       {"refused_scans", seen.refused_scans},
       {"dropped_scans", seen.dropped_scans},
       {"unclear_stamps", seen.unclear_stamps},
+      {"repeated_scans", loam.refused_repeated},
       {"lost_scans", loam.lost},
       {"local_maps_begun_anew", loam.map_restarts},
       {"local_map_full", loam.map_overflows},
