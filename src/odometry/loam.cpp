@@ -34,6 +34,8 @@ constexpr double kWheelSlip = 0.03;        // m a m, 1 sigma
 constexpr double kUsualWheelError = 0.02;  // m
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr std::size_t kComparedPoints = 500;                // of a scan with the one before
+constexpr double kSearchRadius = 5.0, kSearchStep = 1.25;   // m, after a loss
+constexpr double kSamePlace = 0.5;                          // m
 constexpr int kHangs = 3;                                   // scans
 constexpr double kStandsBelow = 0.1, kTurnsBelow = 0.05;    // m/s, rad/s
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
@@ -122,6 +124,7 @@ class Loam::Pipeline {
   void settle(const MatchResult& match, const Sweep& sweep, Stamp reference, OdometryUpdate& update);
   double half_sweep() const;
   bool elsewhere(const MatchResult& match);
+  bool fits_better_elsewhere(const MatchResult& match, Stamp reference);
   void learn_gyro_bias(const MatchResult& match, Stamp reference);
   void insert(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
               const MotionState& state);
@@ -409,6 +412,30 @@ bool Loam::Pipeline::elsewhere(const MatchResult& match) {
   return false;
 }
 
+/// After a loss the match next to the prediction may be one of several: rows look alike, and a recording with
+/// a piece cut out goes on some metres farther.
+bool Loam::Pipeline::fits_better_elsewhere(const MatchResult& match, Stamp reference) {
+  const CpuTimer timer(counters_.cpu.matching);
+  const double dt = std::max(1e-3, to_seconds(reference - reference_));
+  for (double forward = -kSearchRadius; forward <= kSearchRadius; forward += kSearchStep) {
+    for (double left = -kSearchRadius; left <= kSearchRadius; left += kSearchStep) {
+      MotionState before = state_;
+      before.T_odom_base = before.T_odom_base * Eigen::Translation3d(forward, left, 0.0);
+      Matrix12d wide = uncertainty_.covariance();
+      wide.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();
+      const MotionPrior there(config_, before, wide, dt);
+      const MatchResult other =
+          matcher_.align(match_planes_, match_edges_, map_, there, there.predicted(), kFirstError);
+      const double apart =
+          (other.state.T_odom_base.translation() - match.state.T_odom_base.translation()).norm();
+      const bool better = other.upright_inliers >= match.upright_inliers &&
+                          other.upright_inliers * match.upright >= match.upright_inliers * other.upright;
+      if (apart > kSamePlace && better) return true;
+    }
+  }
+  return false;
+}
+
 /// Believes the match or calls the scan lost; moves on; feeds the map.
 void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp reference,
                             OdometryUpdate& update) {
@@ -416,6 +443,9 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   const auto matched = static_cast<int>(match.planes + match.edges);
   update.lost = matched < config_.min_matches || match.inlier_fraction < config_.min_inlier_fraction ||
                 elsewhere(match);
+  // Where it is now nobody can tell by the map.
+  const bool jumped = !update.lost && lost_in_a_row_ > 0 && fits_better_elsewhere(match, reference);
+  update.lost = update.lost || jumped;
   MotionState now = match.state;
   if (update.lost) now = make_prior(reference, dt).predicted();
 
@@ -433,6 +463,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
        .turn_acceleration_variance = trend ? std::optional(trend->variance) : std::nullopt});
   update.pose_noise = pose_noise;
   update.covariance = growth;
+  if (jumped) update.covariance.topLeftCorner<3, 3>().diagonal().array() += kSearchRadius * kSearchRadius;
   update.T_odom_base = now.T_odom_base * T_reference_stamp;
   update.twist = now.twist;
   update.edges = match.edges;
@@ -451,7 +482,7 @@ void Loam::Pipeline::settle(const MatchResult& match, const Sweep& sweep, Stamp 
   reference_ = reference;
   // Where the robot went while its LiDAR showed old points nobody knows.
   const bool hung = update.lost && repeated_before_ >= kHangs;
-  const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart || hung;
+  const bool restart = lost_in_a_row_ >= config_.lost_scans_before_restart || hung || jumped;
   if (restart) {
     forget_map();
     uncertainty_.map_restarted();
