@@ -33,8 +33,7 @@ loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config)
       config.id,       config.loop_closure,
       config.own_path, config.placement.method == graph::PlacementMethod::graph,
       config.spherize, config.registration};
-  loops.candidates.peer_timeout =
-      from_seconds(to_seconds(loops.candidates.peer_timeout) * exchange::period_factor(config.exchange));
+  loops.candidates.peer_timeout = exchange::for_fleet(loops.candidates.peer_timeout, config.exchange);
   return loops;
 }
 

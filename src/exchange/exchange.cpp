@@ -70,19 +70,18 @@ Status ExchangeConfig::validate(const AgentId& self) const {
   return {};
 }
 
-double period_factor(const ExchangeConfig& config) {
+Duration for_fleet(Duration period, const ExchangeConfig& config) {
   const std::size_t robots = std::max<std::size_t>(config.all_on_radio().size(), 2);
   const double load = static_cast<double>(robots * config.long_range.copies(robots)) /
                       config.long_range.fleet_bytes_per_second;
-  return std::max(1.0, load / kUsualLoad);
+  return longer(period, std::max(1.0, load / kUsualLoad));
 }
 
 ExchangeConfig for_fleet(ExchangeConfig config) {
   config.on_radio = config.all_on_radio();
-  const double factor = period_factor(config);
   for (Duration* period : {&config.status_period, &config.reconcile.digest_min_period,
                            &config.reconcile.digest_max_period, &config.reconcile.peer_timeout}) {
-    *period = longer(*period, factor);
+    *period = for_fleet(*period, config);
   }
   return config;
 }

@@ -58,7 +58,7 @@ Status ExchangeFleet::start(const AgentId& name, const store::StoreConfig& store
   const auto session = draw_session(*robot.store);
   if (!session) return tl::unexpected(session.error());
   loop_closure::LoopClosureConfig loops = loop_config_;
-  loops.peer_timeout = from_seconds(to_seconds(loops.peer_timeout) * exchange::period_factor(config_));
+  loops.peer_timeout = exchange::for_fleet(loops.peer_timeout, config_);
   robot.loop_closer = std::make_unique<loop_closure::CandidateScheduler>(name, loops);
   auto made = exchange::Exchange::make(config_, *robot.store, *robot.loop_closer, now_ + clock_offset);
   if (!made) return tl::unexpected(made.error());

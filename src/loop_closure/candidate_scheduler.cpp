@@ -231,6 +231,11 @@ void CandidateScheduler::on_rejected(const NodePair& pair, Stamp now) {
 // ---- requests
 // ---------------------------------------------------------------------------------------------------
 
+bool CandidateScheduler::retryable(const NodePair& pair, const ScheduledCandidate& candidate) const {
+  return candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts &&
+         !state_->candidates.redundant(pair);
+}
+
 std::vector<NodePair> CandidateScheduler::ready(Stamp now) {
   CandidateSet& candidates = state_->candidates;
   const auto clouds_complete = [&](const NodePair& pair, const ScheduledCandidate& candidate) {
@@ -243,8 +248,7 @@ std::vector<NodePair> CandidateScheduler::ready(Stamp now) {
   for (const auto& [pair, candidate] : candidates.all()) {
     // The cheap conditions come first: redundant() visits all others.
     if (!heard(pair.theirs.agent, now) || !clouds_complete(pair, candidate)) continue;
-    const bool retryable = candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts;
-    if (candidate.phase != Phase::kWaiting && !(retryable && !candidates.redundant(pair))) continue;
+    if (candidate.phase != Phase::kWaiting && !retryable(pair, candidate)) continue;
     // The spacing grows with the first good alignment.
     const bool is_obsolete =
         candidate.phase == Phase::kWaiting && !candidate.known_to_peer && candidates.redundant(pair);
@@ -352,9 +356,7 @@ bool CandidateScheduler::idle(Stamp now, const std::set<AgentId>& without) const
     if (without.contains(pair.theirs.agent)) return false;
     if (under_way(candidate)) return true;
     if (!heard(pair.theirs.agent, now)) return false;
-    return candidate.phase == Phase::kWaiting ||
-           (candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts &&
-            !candidates.redundant(pair));
+    return candidate.phase == Phase::kWaiting || retryable(pair, candidate);
   });
 }
 

@@ -414,13 +414,13 @@ bool Loam::Pipeline::elsewhere(const MatchResult& match) {
 bool Loam::Pipeline::fits_better_elsewhere(const MatchResult& match, Stamp reference) {
   const CpuTimer timer(counters_.cpu.matching);
   const double dt = std::max(1e-3, to_seconds(reference - reference_));
+  Matrix12d wide = uncertainty_.covariance();
+  wide.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();
   for (int forward = -kSearchSteps; forward <= kSearchSteps; ++forward) {
     for (int left = -kSearchSteps; left <= kSearchSteps; ++left) {
       MotionState before = state_;
       before.T_odom_base =
           before.T_odom_base * Eigen::Translation3d(kSearchStep * forward, kSearchStep * left, 0.0);
-      Matrix12d wide = uncertainty_.covariance();
-      wide.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();
       const MotionPrior there(config_, before, wide, dt);
       const MatchResult other =
           matcher_.align(match_planes_, match_edges_, map_, there, there.predicted(), kFirstError);

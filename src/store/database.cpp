@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "big_endian.hpp"
 #include "log_scan.hpp"
 
 namespace fleetmap::store {
@@ -117,8 +118,7 @@ void LogState::note_commit(std::size_t all_frames) {
   std::array<std::uint8_t, 4> bytes{};
   sqlite3_file* file = log_file(db);
   if (file && file->pMethods->xRead(file, bytes.data(), bytes.size(), kGenerationInLog) == SQLITE_OK) {
-    std::uint32_t number = 0;
-    for (const std::uint8_t byte : bytes) number = number << 8 | byte;
+    const auto number = static_cast<std::uint32_t>(big_endian(bytes));
     if (number != generation) durable = 0;
     generation = number;
   }

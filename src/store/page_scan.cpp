@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "big_endian.hpp"
 #include "log_scan.hpp"
 
 namespace fleetmap::store {
@@ -19,12 +20,6 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 100;  // of the file, at the begin of page 1
 constexpr std::size_t kUsualPage = 4096;
-
-std::uint64_t big_endian(ByteView bytes) {
-  std::uint64_t value = 0;
-  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
-  return value;
-}
 
 /// Reads from the front of bytes that may end anywhere.
 class Cursor {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 
 using testing::agent;
 using testing::node_at_walls;
-
-const AgentId kA = agent("a");
-const AgentId kB = agent("b");
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 /// Search radius r_min = 20 m.
 graph::Node node_at(const AgentId& agent, std::uint32_t seq, double east_m) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::loop_closure {
@@ -9,8 +10,6 @@ namespace {
 
 using testing::agent;
 using Origin = LoopCandidate::Origin;
-
-const Stamp kStart = stamp_from_ns(1'000'000'000);
 
 /// Nodes of a and of b every 2 m, the same places.
 class CandidateSetTest : public ::testing::Test {

@@ -4,23 +4,18 @@
 
 #include <cmath>
 
+#include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
 
-using testing::agent;
 using testing::node_at_walls;
-
-const AgentId kA = agent("a");
-const AgentId kB = agent("b");
 
 DescriptorCandidates::Side side_of(const graph::Node& node) {
   return node.id.agent == kA ? DescriptorCandidates::Side::kOurs : DescriptorCandidates::Side::kTheirs;
 }
-
-Pose pose(double x, double y, double yaw) { return make_pose(rotation_from_rpy(0, 0, yaw), {x, y, 0.0}); }
 
 const Pose kOdomA = pose(30.0, 70.0, 1.0);
 const Pose kOdomB = pose(-300.0, 20.0, -2.0);

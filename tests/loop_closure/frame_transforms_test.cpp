@@ -4,11 +4,10 @@
 
 #include <random>
 
+#include "loop_closure/two_robots.hpp"
+
 namespace fleetmap::loop_closure {
 namespace {
-
-const AgentId kA = AgentId::parse("a").value();
-const AgentId kB = AgentId::parse("b").value();
 
 /// Two robots that drive side by side, 8 m apart, a node every 4 m; b's odometry frame lies anywhere.
 class FrameTransformsTest : public ::testing::Test {

@@ -4,20 +4,14 @@
 #include <algorithm>
 
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
+#include "loop_closure/two_robots.hpp"
 #include "store/items.hpp"
 #include "support/walled_site.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
 
-using testing::agent;
 using testing::node_at_walls;
-
-const AgentId kA = agent("a");
-const AgentId kB = agent("b");
-const Stamp kStart = stamp_from_ns(1'000'000'000);
-
-Pose pose(double x, double y, double yaw) { return make_pose(rotation_from_rpy(0, 0, yaw), {x, y, 0.0}); }
 
 /// a drives east from 0 along y = 0, b beside it at y = 5 m; a node every 5 m. Odometry frames lie anywhere.
 Pose T_site_node(const NodeId& id) { return pose(5.0 * id.seq, id.agent == kA ? 0.0 : 5.0, 0.3); }

@@ -50,9 +50,10 @@ class StallDetector {
   /// without CPU); that time is not counted as the work's.
   static constexpr Duration kLongestBetweenLooks = std::chrono::milliseconds(1500);
 
-  StallDetector(std::string thread, Duration limit);
   /// Of one thread there is a line a minute, however slow the computer is.
   static constexpr Duration kReportPeriod = std::chrono::minutes(1);
+
+  StallDetector(std::string thread, Duration limit);
   /// Reports a stall when it is noticed and when it is over, and those that follow within a minute as one
   /// line with their count.
   std::vector<StallNews> look(SteadyTime now, const ThreadActivity& seen);
@@ -67,7 +68,7 @@ class StallDetector {
   Duration taken(SteadyTime begun, SteadyTime ended) const;
   /// Counts the stall; true if it is new.
   bool count(const WorkUnderWay& work, Duration lasted);
-  /// Counts the stall; true if it is new. Adds a line unless there was one within the last minute.
+  /// As count(). Adds a line unless there was one within the last minute.
   bool report(SteadyTime now, const WorkUnderWay& work, Duration lasted, const char* how,
               std::vector<StallNews>& news);
   std::string summary(SteadyTime now) const;

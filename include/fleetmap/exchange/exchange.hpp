@@ -49,8 +49,8 @@ struct ExchangeConfig {
 /// what it leaves. Where it would take more than it does of five robots on 145 kbit/s, it comes less often,
 /// and a silent robot is asked for longer.
 ExchangeConfig for_fleet(ExchangeConfig config);
-/// The factor by which for_fleet() stretches the periods, at least 1.
-double period_factor(const ExchangeConfig& config);
+/// `period` as for_fleet() stretches those of the exchange: no shorter than it is.
+Duration for_fleet(Duration period, const ExchangeConfig& config);
 
 // ---- what the agent hears
 // ------------------------------------------------------------------------------------------

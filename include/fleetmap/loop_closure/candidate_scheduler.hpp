@@ -38,6 +38,8 @@ struct ReceivedCloud {
   Bytes cloud;  ///< of candidate.source, encoded
 };
 
+struct ScheduledCandidate;
+
 /// Schedules the candidates with other robots: which pairs of nodes are registered, and in which order.
 ///
 /// Each node is paired with nodes of other robots by position, descriptor and inter-frame transform. A
@@ -86,6 +88,8 @@ class CandidateScheduler final : public exchange::LoopCloser {
   void offer_by_transform(const LoopCandidate& candidate, Stamp now);
   void yield_to(const NodePair& pair);
   void request(exchange::CloudDemand& demand, Stamp now, bool radio_has_room);
+  /// A failed candidate may be tried again.
+  bool retryable(const NodePair& pair, const ScheduledCandidate& candidate) const;
   /// Candidates whose clouds may be requested; those that others have made redundant meanwhile are dropped.
   std::vector<NodePair> ready(Stamp now);
   /// Takes the next one to request out of `ready`, in the order of the configuration.
