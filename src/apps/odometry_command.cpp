@@ -155,6 +155,7 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
+    for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
     if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
       run_.poses.push_back({update->stamp, update->T_odom_base});
