@@ -1,7 +1,7 @@
 #include "fleetmap/odometry/loam.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,10 +35,11 @@ constexpr double kWheelSlip = 0.03;        // m a m, 1 sigma
 constexpr double kUsualWheelError = 0.02;  // m
 constexpr Duration kHold = std::chrono::milliseconds(150);  // how long the outermost rate sample counts
 constexpr std::size_t kComparedPoints = 500;                // of a scan with the one before
-constexpr double kSearchRadius = 5.0, kSearchStep = 1.25;   // m, after a loss
-constexpr double kSamePlace = 0.5;                          // m
-constexpr int kHangs = 3;                                   // scans
-constexpr double kStandsBelow = 0.1, kTurnsBelow = 0.05;    // m/s, rad/s
+constexpr int kSearchSteps = 4;                             // to each side, after a loss
+constexpr double kSearchStep = 1.25, kSearchRadius = kSearchSteps * kSearchStep;  // m
+constexpr double kSamePlace = 0.5;                                                // m
+constexpr int kHangs = 3;                                                         // scans
+constexpr double kStandsBelow = 0.1, kTurnsBelow = 0.05;                          // m/s, rad/s
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
 constexpr double kLeastUpright = 60.0;  // features, to judge by
@@ -152,21 +153,21 @@ class Loam::Pipeline {
   double first_reference_offset_ = 0.0;
   std::vector<Eigen::Vector3d> in_odom_;  ///< keeps its memory between scans
 
+  std::vector<std::uint32_t> compared_;  ///< some coordinates of the last scan that was handed in
+  std::size_t compared_of_ = 0;          ///< its number of points
+
   bool started_ = false;
   bool velocity_known_ = false;
-  MotionState state_;  ///< of the last scan at its reference instant
-  Stamp reference_, last_stamp_;
-  Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
-  int lost_in_a_row_ = 0;
-  std::vector<Eigen::Vector3f>
-      compared_;                 ///< some points of the last scan that was handed in, see kComparedPoints
-  std::size_t compared_of_ = 0;  ///< its number of points
-  int repeated_in_a_row_ = 0;
-  int repeated_before_ = 0;     ///< scans in a row just before the last one
-  bool hangs_ = false;          ///< the LiDAR repeats itself while the robot moves
-  double usual_upright_ = 0.0;  ///< inliers of late, see MatchResult::upright_inliers
+  bool hangs_ = false;         ///< the LiDAR repeats itself while the robot moves
+  int repeated_in_a_row_ = 0;  ///< scans
+  int repeated_before_ = 0;    ///< in a row just before the last one
   int in_the_past_ = 0;
   int insertions_ = 0;  ///< into this local map
+  int lost_in_a_row_ = 0;
+  double usual_upright_ = 0.0;  ///< inliers of late, see MatchResult::upright_inliers
+  MotionState state_;           ///< of the last scan at its reference instant
+  Stamp reference_, last_stamp_;
+  Pose keyframe_ = Pose::Identity(), pruned_at_ = Pose::Identity();
   LoamCounters counters_;
 };
 
@@ -192,16 +193,12 @@ Status Loam::Pipeline::check_time(Stamp stamp) {
 /// robot stands.
 Status Loam::Pipeline::check_repetition(const sensor::Scan& scan) {
   const std::size_t stride = std::max<std::size_t>(1, scan.points.size() / kComparedPoints);
-  const auto at = [&](std::size_t k) { return scan.points[k * stride].position; };
-  const std::size_t size = (scan.points.size() + stride - 1) / stride;
-  bool same = scan.points.size() == compared_of_ && !scan.points.empty();
-  for (std::size_t k = 0; same && k < size; ++k) {
-    const Eigen::Vector3f p = at(k);
-    same = std::memcmp(p.data(), compared_[k].data(), sizeof(float) * 3) == 0;  // NaN as well
+  std::vector<std::uint32_t> coordinates;  // by their bits: NaN is the same as NaN
+  for (std::size_t k = 0; k < scan.points.size(); k += stride) {
+    for (const float x : scan.points[k].position) coordinates.push_back(std::bit_cast<std::uint32_t>(x));
   }
-  if (!same) {
-    compared_.resize(size);
-    for (std::size_t k = 0; k < size; ++k) compared_[k] = at(k);
+  if (coordinates.empty() || scan.points.size() != compared_of_ || coordinates != compared_) {
+    compared_ = std::move(coordinates);
     compared_of_ = scan.points.size();
     repeated_before_ = std::exchange(repeated_in_a_row_, 0);
     hangs_ = false;
@@ -422,10 +419,11 @@ bool Loam::Pipeline::elsewhere(const MatchResult& match) {
 bool Loam::Pipeline::fits_better_elsewhere(const MatchResult& match, Stamp reference) {
   const CpuTimer timer(counters_.cpu.matching);
   const double dt = std::max(1e-3, to_seconds(reference - reference_));
-  for (double forward = -kSearchRadius; forward <= kSearchRadius; forward += kSearchStep) {
-    for (double left = -kSearchRadius; left <= kSearchRadius; left += kSearchStep) {
+  for (int forward = -kSearchSteps; forward <= kSearchSteps; ++forward) {
+    for (int left = -kSearchSteps; left <= kSearchSteps; ++left) {
       MotionState before = state_;
-      before.T_odom_base = before.T_odom_base * Eigen::Translation3d(forward, left, 0.0);
+      before.T_odom_base =
+          before.T_odom_base * Eigen::Translation3d(kSearchStep * forward, kSearchStep * left, 0.0);
       Matrix12d wide = uncertainty_.covariance();
       wide.topLeftCorner<3, 3>() += Eigen::Matrix3d::Identity();
       const MotionPrior there(config_, before, wide, dt);

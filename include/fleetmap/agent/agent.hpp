@@ -147,9 +147,11 @@ class Agent {
   std::uint16_t session_;
   bool told_of_missing_gps_ = false;
   bool rest_frozen_for_meeting_ = false;
+  bool own_item_contested_ = true;               ///< perhaps: also before the start
   std::optional<TrajectoryFile> odometry_file_;  ///< none: it could not be begun, and holds no other frame
   GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
+  double odometry_seconds_ = 0.0;                           ///< CPU
   SubmapBuilder submap_;
   RecentSurroundings recent_surroundings_;
   place::NodeGenerator node_generator_;
@@ -158,11 +160,9 @@ class Agent {
   loop_closure::LoopClosing loop_closing_;
   std::optional<exchange::Exchange> exchange_;
   std::optional<Perceived> last_perceived_;  ///< without its points
-  bool own_item_contested_ = true;           ///< perhaps: also before the start
   std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
   std::uint64_t clock_resets_ = 0;           ///< likewise
   std::vector<double> scan_seconds_;
-  double odometry_seconds_ = 0.0;               ///< CPU
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
