@@ -142,6 +142,7 @@ void Perception::start_next() {
 void Perception::finish(Job& job) {
   busy_ = false;
   loam_counters_ = loam_.counters();
+  for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);

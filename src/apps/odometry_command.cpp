@@ -17,12 +17,12 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
-#include "fleetmap/odometry/motion_covariance.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "way_check.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -51,22 +51,15 @@ struct OdometryRun {
   odometry::LoamCounters counters;
   odometry::LocalMapSize map;  ///< when it was largest
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
-  double length = 0.0;         ///< m
-  odometry::MotionCovariance motion;
+  WayCheck way;
 };
-
-/// A trajectory of which more than this share is prediction is no measurement.
-constexpr double kMostLost = 0.01;
-
-/// m, and share of the length: a way that is stated less well than by both may be anywhere.
-constexpr double kVague = 1.0, kVagueShare = 0.05;
 
 /// Whether the odometry kept its way, as far as it can tell; what it lost is printed.
 bool kept_its_way(const OdometryRun& run) {
   const odometry::LoamCounters& counters = run.counters;
-  const Matrix6d C = run.motion.since_reference();
+  const Matrix6d C = run.way.covariance();
   const double sigma = std::sqrt(C.topLeftCorner<3, 3>().trace());
-  std::cout << "length " << run.length << " m, stated to " << sigma << " m and "
+  std::cout << "length " << run.way.length() << " m, stated to " << sigma << " m and "
             << std::sqrt(C.bottomRightCorner<3, 3>().trace()) * 180.0 / std::numbers::pi
             << " deg (1 sigma) at its end\n";
   if (run.blind > 0) {
@@ -93,9 +86,9 @@ bool kept_its_way(const OdometryRun& run) {
               << " times, and what lay farthest was forgotten: scans do not belong together, or "
                  "odometry.map_radius asks for more than the map holds\n";
   }
-  const bool vague = sigma > std::max(kVague, kVagueShare * run.length);
-  return counters.map_restarts == 0 && !vague &&
-         static_cast<double>(counters.lost) <= kMostLost * static_cast<double>(counters.updates);
+  const std::vector<std::string> doubts = run.way.doubts();
+  for (const std::string& doubt : doubts) std::cout << doubt << '\n';
+  return counters.map_restarts == 0 && doubts.empty();
 }
 
 /// Feeds a recording's samples to the odometry. Some recordings hold a scan at its start, before what gyro
@@ -162,12 +155,11 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
+    for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
     if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
-      if (!run_.poses.empty())
-        run_.length += (run_.poses.back().T_w_base.inverse() * update->T_odom_base).translation().norm();
       run_.poses.push_back({update->stamp, update->T_odom_base});
-      run_.motion.add(update->T_odom_base, update->covariance, update->pose_noise);
+      run_.way.add(*update);
       run_.blind += update->degenerate_count > 0;
       if (update->lost && !run_.first_lost) run_.first_lost = update->stamp;
     } else if (run_.refused++ == 0) {

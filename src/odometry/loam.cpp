@@ -11,6 +11,7 @@
 #include "fleetmap/odometry/deskew.hpp"
 #include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/local_map.hpp"
+#include "fleetmap/odometry/model_check.hpp"
 #include "fleetmap/odometry/pose_uncertainty.hpp"
 #include "fleetmap/odometry/rate_history.hpp"
 #include "fleetmap/odometry/scan_matching.hpp"
@@ -55,6 +56,7 @@ class Loam::Pipeline {
       : config_(std::move(config)),
         status_(check(config_, model)),
         builder_(config_, model),
+        model_check_(model),
         extractor_(config_),
         match_thinning_(config_.match_spacing),
         insert_thinning_(config_.insert_spacing),
@@ -99,6 +101,7 @@ class Loam::Pipeline {
   }
 
   const LoamCounters& counters() const { return counters_; }
+  std::vector<std::string> take_news() { return model_check_.take_news(); }
   LocalMapSize map_size() const { return map_.size(); }
 
  private:
@@ -135,6 +138,7 @@ class Loam::Pipeline {
   LoamConfig config_;
   Status status_;
   SweepBuilder builder_;
+  ModelCheck model_check_;
   FeatureExtractor extractor_;
   Thinning match_thinning_, insert_thinning_;
   LocalMap map_;
@@ -230,6 +234,7 @@ tl::unexpected<Error> Loam::Pipeline::refuse_points(const sensor::Scan& scan) {
 
 const Sweep& Loam::Pipeline::sort(const sensor::Scan& scan) {
   const CpuTimer timer(counters_.cpu.sweep);
+  model_check_.add(scan);
   return builder_.build(scan);
 }
 
@@ -563,6 +568,7 @@ Loam& Loam::operator=(Loam&&) noexcept = default;
 void Loam::add_imu(const sensor::Imu& imu) { pipeline_->add_imu(imu); }
 void Loam::add_wheel(const sensor::Wheel& wheel) { pipeline_->add_wheel(wheel); }
 Result<OdometryUpdate> Loam::add_scan(const sensor::Scan& scan) { return pipeline_->add_scan(scan); }
+std::vector<std::string> Loam::take_news() { return pipeline_->take_news(); }
 const LoamCounters& Loam::counters() const { return pipeline_->counters(); }
 LocalMapSize Loam::map_size() const { return pipeline_->map_size(); }
 

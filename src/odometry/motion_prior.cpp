@@ -69,9 +69,15 @@ void MotionPrior::set_gyro_rate(const Eigen::Vector3d& rate, double sigma) {
   has_gyro_rate_ = true;
 }
 
-void MotionPrior::set_forward_speed(double speed, double sigma) { measure_rate(0, speed, sigma); }
+void MotionPrior::set_forward_speed(double speed, double sigma) {
+  measure_rate(0, speed, sigma);
+  has_forward_speed_ = true;
+}
 
-void MotionPrior::set_yaw_rate(double rate, double sigma) { measure_rate(5, rate, sigma); }
+void MotionPrior::set_yaw_rate(double rate, double sigma) {
+  measure_rate(5, rate, sigma);
+  has_yaw_rate_ = true;
+}
 
 Eigen::Vector3d MotionPrior::turn_acceleration(const Vector6d& twist) const {
   if (turn_acceleration_) return *turn_acceleration_;

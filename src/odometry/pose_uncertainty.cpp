@@ -8,9 +8,13 @@
 namespace fleetmap::odometry {
 namespace {
 
-constexpr double kKept = 0.95;       // of a prior's misfit, from scan to scan
-constexpr double kAssumed = 10.0;    // dimensions in which it is taken to be as stated
-constexpr double kChangeGain = 0.1;  // of the changes of the turn rate: over a second
+constexpr double kKept = 0.95;         // of a prior's misfit, from scan to scan
+constexpr double kAssumed = 10.0;      // dimensions in which it is taken to be as stated
+constexpr double kChangeGain = 0.1;    // of the changes of the turn rate: over a second
+constexpr double kMostlyUnheld = 0.3;  // share of the map near that is as bad as all of it
+constexpr double kSlidesFrom = 0.5;    // such a share, from which on map and scans may slide together
+constexpr double kMapTurn = 1.0;       // rad, the same for a LiDAR that looks ahead
+constexpr double kMapReach = 5.0;      // m of way on which most of the map that is seen is replaced
 
 double square(double value) { return value * value; }
 
@@ -29,13 +33,19 @@ void PoseUncertainty::start() {
   covariance_.setZero();
   covariance_.diagonal().segment<3>(6).setConstant(square(config_.initial_speed));
   covariance_.diagonal().tail<3>().setConstant(square(config_.initial_turn_rate));
-  last_noise_.setZero();
+  hold();
 }
 
 void PoseUncertainty::map_restarted() {
   covariance_.topRows<6>().setZero();
   covariance_.leftCols<6>().setZero();
+  hold();
+}
+
+void PoseUncertainty::hold() {
   last_noise_.setZero();
+  unheld_told_.setZero();
+  unheld_share_ = slid_ = 0.0;
 }
 
 void PoseUncertainty::turn_changed(const Eigen::Vector3d& change) {
@@ -111,24 +121,70 @@ void PoseUncertainty::remember(const Matrix12d& at_reference) {
   covariance_ = 0.5 * (capped + capped.transpose());
 }
 
-/// New ground enters the map at poses that err as `noise` says, that of the reference instant, for which a
-/// scan is matched: so the map drifts with the way. Along degenerate directions, and when lost, the map does
-/// not hold the motion at all, and what a scan adds to their error stays in the map.
+/// New ground enters the map at poses that err as `noise` does, that of the reference instant, for which a
+/// scan is matched: so the map drifts with the way. When lost, the map does not hold the motion at all, and
+/// what a scan adds to its error stays in the map.
 Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const MatchResult& match = scan.match;
   const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
-  Matrix6d growth = way * config_.drift_share * noise;
-  growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
-  growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
   const Matrix6d A = adjoint(scan.T_before_now.inverse());
   const Matrix6d added = noise - A * last_noise_ * A.transpose();
   last_noise_ = noise;
-  const Matrix6d axes = scan.lost ? Matrix6d(Matrix6d::Identity()) : match.degenerate_directions;
-  for (int i = 0; i < (scan.lost ? 6 : match.degenerate_count); ++i) {
-    const Vector6d axis = axes.col(i);
-    growth += std::max(0.0, axis.dot(added * axis)) * axis * axis.transpose();
+  unheld_told_ = (A * unheld_told_ * A.transpose()).eval();
+  const bool unheld = scan.lost || match.degenerate_count > 0;
+  const double renewed = scan.T_before_now.translation().norm() / kMapReach +
+                         so3_log(scan.T_before_now.linear()).norm() / kMapTurn;
+  unheld_share_ += std::min(1.0, renewed) * ((unheld ? 1.0 : 0.0) - unheld_share_);
+  if (!unheld) unheld_told_.setZero();
+
+  Matrix6d growth = Matrix6d::Zero();
+  growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
+  growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
+  if (scan.lost) {
+    const Matrix6d stays = added.diagonal().cwiseMax(0.0).asDiagonal();
+    unheld_told_ += stays;
+    return growth + way * config_.drift_share * noise + stays;
   }
+  Vector6d scale = Vector6d::Ones();  // of the degenerate directions: [m, m, m, and rotation times range]
+  scale.tail<3>().setConstant(1.0 / match.range);
+  const auto V = match.degenerate_directions.leftCols(match.degenerate_count);
+  const Matrix6d held =
+      scale.asDiagonal() * (Matrix6d::Identity() - V * V.transpose()) * scale.cwiseInverse().asDiagonal();
+  return growth + way * config_.drift_share * held * noise * held.transpose() + growth_unheld(match, noise) +
+         growth_sliding(match, way);
+}
+
+/// Along degenerate directions a pose errs as its prior does, and all that enters the map there errs alike.
+/// The next scan that the map holds takes that back, but for the share of the map that was built in such
+/// poses.
+Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d& noise) {
+  const double stays = square(std::min(1.0, unheld_share_ / kMostlyUnheld));
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(match.range);
+  Matrix6d growth = Matrix6d::Zero();
+  for (int i = 0; i < match.degenerate_count; ++i) {
+    const Vector6d across = scale.asDiagonal() * Vector6d(match.degenerate_directions.col(i));
+    const Vector6d axis = scale.cwiseInverse().asDiagonal() * Vector6d(match.degenerate_directions.col(i));
+    const double untold = stays * across.dot(noise * across) - across.dot((unheld_told_ + growth) * across);
+    growth += std::max(0.0, untold) * axis * axis.transpose();
+  }
+  unheld_told_ += growth;
   return growth;
+}
+
+/// A map that was mostly built of scans that it did not hold is no witness where it seems to hold one again:
+/// both may have slid together. Only wheels and a gyro tell whether they did.
+Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
+  if (match.degenerate_count > 0) sliding_ = match;
+  if (unheld_share_ < kSlidesFrom) slid_ = 0.0;
+  if (unheld_share_ < kSlidesFrom || match.degenerate_count > 0) return Matrix6d::Zero();
+  const double before = std::exchange(slid_, slid_ + way);
+  Vector6d scale;
+  scale.head<3>().setConstant(match.speed_measured ? 0.0 : 1.0);
+  scale.tail<3>().setConstant(match.turn_rate_measured ? 0.0 : 1.0 / sliding_.range);
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> axes =
+      scale.asDiagonal() * sliding_.degenerate_directions.leftCols(sliding_.degenerate_count);
+  return (square(slid_) - square(before)) * axes * axes.transpose();
 }
 
 }  // namespace fleetmap::odometry

@@ -61,6 +61,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
                                const MotionPrior& prior, const MotionState& start, double initial_error) {
   MatchResult result;
   result.state = start;
+  result.speed_measured = prior.has_forward_speed();
+  result.turn_rate_measured = prior.has_gyro_rate() || prior.has_yaw_rate();
   looked_up_.assign(planes.size(), {});
   const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
@@ -76,9 +78,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     lidar = with_bent_map(lidar, config_.map_bend_speed, bend_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) {
-      const double range = sums_.range / std::max(1.0, sums_.weight);
-      Vector6d scale;
-      scale << 1, 1, 1, 1 / range, 1 / range, 1 / range;
+      Vector6d scale = Vector6d::Ones();
+      scale.tail<3>().setConstant(1.0 / result.range);
       const auto V = result.degenerate_directions.leftCols(result.degenerate_count);
       const Matrix6d keep =
           scale.asDiagonal() * (Matrix6d::Identity() - V * V.transpose()) * scale.cwiseInverse().asDiagonal();
@@ -244,6 +245,7 @@ void ScanMatcher::find_degeneracy(const Matrix12d& H, MatchResult& result) const
   const Matrix6d share = scale.asDiagonal() * H.topLeftCorner<6, 6>() * scale.asDiagonal() / weight;
   const SymmetricEigen eigen = eigen_of_symmetric(share);
   const double limit = kMinShare + kSpuriousFactor * sums_.spurious / weight;
+  result.range = range;
   result.degenerate_count = static_cast<int>((eigen.values.array() < limit).count());
   result.degenerate_directions = eigen.vectors;
 }

@@ -55,6 +55,7 @@ struct Run {
     const double before = thread_cpu_seconds();
     const auto update = loam.add_scan(variant.keep < 1.0 ? thinned : scan);
     cpu_ms.push_back(1e3 * (thread_cpu_seconds() - before));
+    windows = std::max(windows, loam.map_size().windows);
     if (!update) return;
     estimate.push_back(update->T_odom_base);
     covariance.push_back(update->covariance);
@@ -69,6 +70,7 @@ struct Run {
   std::vector<Pose> estimate, truth;
   std::vector<Matrix6d> covariance, noise;
   std::vector<double> cpu_ms;
+  std::size_t windows = 0;  ///< of the local map, at most
 };
 
 struct Errors {
@@ -130,7 +132,7 @@ void print(const std::string& world, const std::string& sensor, const Run& run) 
   for (const double length : {4.0, 20.0, 100.0}) {
     std::printf(" %.2f |", length == 20.0 ? e.nees : errors_over(run, length).nees);
   }
-  std::printf("\n");
+  std::printf(" %zu |\n", run.windows);
   std::fflush(stdout);
 }
 
@@ -198,7 +200,8 @@ int main(int argc, char** argv) {
   std::printf(
       "| world:seed | LiDAR | used | scans | said to be lost | ATE m | drift over 20 m | worst | deg/m | CPU "
       "ms mean / "
-      "p99 | NEES/6 over 4 m | 20 m | 100 m |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "p99 | NEES/6 over 4 m | 20 m | 100 m | windows "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& world : worlds) {
     for (const std::string& sensor : sensors) {
       if (const int failed = drive(world, sensor, length); failed != 0) return failed;

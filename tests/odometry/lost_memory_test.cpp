@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -32,13 +34,18 @@ class LostMemory : public ::testing::Test {
       place = make_pose(rotation_from_rpy(0, 0, yaw(random)), {x(random), y(random), 0});
   }
 
-  Seen map_of(const testing::PoseAt& pose_at) const {
+  /// `spoil` changes the points of scan k.
+  Seen map_of(
+      const testing::PoseAt& pose_at,
+      const std::function<void(sensor::Scan&, int)>& spoil = [](auto&, int) {}) const {
     Loam loam(config_, vlp16());
     ScanOptions options;
     options.keep = 0.3;
     Seen seen;
     for (int k = 0; k < kScans; ++k) {
-      const auto update = loam.add_scan(make_scan(world_, pose_at, 0.1 * k, vlp16(), options));
+      sensor::Scan scan = make_scan(world_, pose_at, 0.1 * k, vlp16(), options);
+      spoil(scan, k);
+      const auto update = loam.add_scan(scan);
       EXPECT_TRUE(update);
       seen.lost.push_back(update && update->lost);
       seen.windows = std::max(seen.windows, loam.map_size().windows);
@@ -77,6 +84,37 @@ TEST_F(LostMemory, AFullMapForgetsWhatIsFarAndCountsIt) {
   EXPECT_LE(bounded.windows, 20'000u);
   EXPECT_GT(bounded.counters.map_overflows, 0u);
   EXPECT_LT(bounded.bytes, unbounded.bytes);
+}
+
+/// The three ways in which scans fill space that is empty: bench_odometry_lost has them at full length.
+TEST_F(LostMemory, ScansThatDoNotBelongTogetherFillNoMoreThanTheMapMayHold) {
+  config_.max_map_windows = 30'000;
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> x(-5.0, 45.0), y(-8.0, 8.0), yaw(-3.1, 3.1);
+  const auto anywhere = [&] {
+    return make_pose(rotation_from_rpy(0, 0, yaw(random)), {x(random), y(random), 0});
+  };
+  const auto drive = [this](double t) { return drive_.at(t); };
+  const auto swell = [](sensor::Scan& scan, int k) {
+    for (auto& p : scan.points) p.position *= static_cast<float>(1.0 + 0.2 * std::sin(0.15 * k));
+  };
+  const auto mix = [&](sensor::Scan& scan, int) {
+    const Pose T_here_there = anywhere();
+    for (std::size_t i = 0; i < scan.points.size(); i += 2)
+      scan.points[i].position = (T_here_there * scan.points[i].position.cast<double>()).cast<float>();
+  };
+  Pose place = anywhere();
+  int at = 0;
+  const auto jumps = [&](double t) {
+    if (const int now = static_cast<int>(10.0 * t + 1e-6); now != at) place = anywhere(), at = now;
+    return place;
+  };
+  for (const auto& [what, seen] :
+       {std::pair("every scan from elsewhere", map_of(jumps)), std::pair("half of each", map_of(drive, mix)),
+        std::pair("ranges that swell", map_of(drive, swell))}) {
+    EXPECT_LE(seen.windows, 30'000u) << what;
+    EXPECT_LE(seen.bytes, 30'000u * 160u) << what;
+  }
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
@@ -109,6 +111,8 @@ class Loam {
   Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
 
   const LoamCounters& counters() const;
+  /// What of the scans contradicts the LiDAR's model, each once and as a sentence for the log.
+  std::vector<std::string> take_news();
   /// Of the local map after the last scan.
   LocalMapSize map_size() const;
 

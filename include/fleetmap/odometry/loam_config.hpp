@@ -26,9 +26,10 @@ struct LoamConfig {
   double coarse_resolution = 1.5;  ///< m, step of the coarser windows, for sparse places and large errors
   double coarse_noise = 0.1;       ///< m, 1 sigma of the surfaces within a coarser window
   double map_radius = 60.0;        ///< m around the robot; what lies farther is forgotten
-  /// Windows of the map's grids: a full map forgets what lies farthest. Scans that are laid where they do
-  /// not belong would fill all space, 7 million windows within 60 m.
-  int max_map_windows = 600'000;
+  /// Windows of the map's grids, about 120 bytes each: a full map forgets what lies farthest. A VLP-16 needs
+  /// 250,000 and an HDL-64E that is used up to 80 m 411,000. Scans that are laid where they do not belong
+  /// would fill all space, 7 million windows within 60 m.
+  int max_map_windows = 450'000;
   double keyframe_distance = 0.3;  ///< m, a scan enters the map after this motion ...
   double keyframe_angle = 0.1;     ///< ... or this turn, rad
 

@@ -59,6 +59,8 @@ class MotionPrior {
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
   /// A gyro anchors the turn rate, so that the map cannot be bent by more of it than the gyro errs.
   bool has_gyro_rate() const { return has_gyro_rate_; }
+  bool has_forward_speed() const { return has_forward_speed_; }
+  bool has_yaw_rate() const { return has_yaw_rate_; }
   /// During the sweep, as the gyro saw it, rad/s^2.
   void set_turn_acceleration(const Eigen::Vector3d& acceleration) { turn_acceleration_ = acceleration; }
   void set_forward_speed(double speed, double sigma);
@@ -84,7 +86,7 @@ class MotionPrior {
   Pose T_odom_base_;
   Vector6d twist_;
   Matrix12d covariance_;  ///< of the two above
-  bool has_gyro_rate_ = false;
+  bool has_gyro_rate_ = false, has_forward_speed_ = false, has_yaw_rate_ = false;
   std::optional<Eigen::Vector3d> turn_acceleration_;
 };
 

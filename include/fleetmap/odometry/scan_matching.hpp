@@ -31,8 +31,11 @@ struct MatchResult {
   double residual_variance = 1.0;
   double rms = 0.0;  ///< m, of the inliers' distances to their surfaces and edges
   int degenerate_count = 0;
-  /// Unit pose directions [m, m, m, and rotation times the scene's mean range] that the scene does not
-  /// constrain: the first `degenerate_count` columns. There the state follows the prior.
+  bool speed_measured = false, turn_rate_measured = false;  ///< by wheels; by a gyro or by wheels
+  double range = 1.0;                                       ///< m, mean of the matched features
+  /// Unit pose directions [m, m, m, and rotation times `range`] that the scene does not
+  /// constrain: the first `degenerate_count` columns. There the state follows the prior. The others follow,
+  /// the least constrained first.
   Matrix6d degenerate_directions = Matrix6d::Zero();
   int iterations = 0;
   bool converged = false;
