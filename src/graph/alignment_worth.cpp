@@ -9,17 +9,17 @@ namespace fleetmap::graph {
 namespace {
 
 /// m^2: of an alignment that is still to be made, some 2 cm and 0.07 deg.
-constexpr double kExpected = 1.5e-3;
+constexpr double kExpectedVariance = 1.5e-3;
 /// m^2: the least that any edge is taken to leave open.
-constexpr double kLeast = 1e-6;
+constexpr double kMinVariance = 1e-6;
 /// m^2: where neither GPS nor an alignment ties a track to anything.
-constexpr double kNowhere = 1e6;
+constexpr double kUnconstrained = 1e6;
 
 double scalar(const Matrix6d& covariance) {
   const double squared = covariance.diagonal().head<3>().sum() + AlignmentWorth::kLever *
                                                                      AlignmentWorth::kLever *
                                                                      covariance.diagonal().tail<3>().sum();
-  return std::isfinite(squared) ? std::clamp(squared, kLeast, kNowhere) : kNowhere;
+  return std::isfinite(squared) ? std::clamp(squared, kMinVariance, kUnconstrained) : kUnconstrained;
 }
 
 }  // namespace
@@ -29,13 +29,13 @@ class AlignmentWorth::Network {
  public:
   explicit Network(const std::set<NodeId>& nodes) {
     for (const NodeId& node : nodes) index_.emplace(node, static_cast<Eigen::Index>(index_.size()));
-    for (Eigen::Index k = 0; k < size(); ++k) entries_.emplace_back(k, k, 1.0 / kNowhere);
+    for (Eigen::Index k = 0; k < size(); ++k) entries_.emplace_back(k, k, 1.0 / kUnconstrained);
   }
 
   void connect(const NodeId& a, const NodeId& b, double variance) {
     const Eigen::Index i = index_.at(a), j = index_.at(b);
     if (i == j) return;
-    const double conductance = 1.0 / std::max(variance, kLeast);
+    const double conductance = 1.0 / std::max(variance, kMinVariance);
     entries_.emplace_back(i, i, conductance);
     entries_.emplace_back(j, j, conductance);
     entries_.emplace_back(i, j, -conductance);
@@ -43,7 +43,7 @@ class AlignmentWorth::Network {
   }
   void ground(const NodeId& node, double variance) {
     const Eigen::Index k = index_.at(node);
-    entries_.emplace_back(k, k, 1.0 / std::max(variance, kLeast));
+    entries_.emplace_back(k, k, 1.0 / std::max(variance, kMinVariance));
   }
   bool solve() {
     Eigen::SparseMatrix<double> laplacian(size(), size());
@@ -75,13 +75,13 @@ void AlignmentWorth::add(const Node& node) {
 }
 
 void AlignmentWorth::use(std::span<const Alignment> used) {
-  ties_.clear();
+  alignments_.clear();
   for (const Alignment& alignment : used) add(alignment);
 }
 
 void AlignmentWorth::add(const Alignment& alignment) {
   if (alignment.ambiguous()) return;
-  ties_.push_back({{alignment.i, alignment.j}, scalar(alignment.best().covariance)});
+  alignments_.push_back({{alignment.i, alignment.j}, scalar(alignment.best().covariance)});
 }
 
 double AlignmentWorth::along_track(const NodeId& from, const NodeId& to) const {
@@ -99,9 +99,10 @@ std::vector<double> AlignmentWorth::of(std::span<const Pair> pairs, std::span<co
     return places_.contains(pair.first) && places_.contains(pair.second);
   };
   std::vector<Tie> ties;
-  std::ranges::copy_if(ties_, std::back_inserter(ties), [&](const Tie& tie) { return known(tie.pair); });
+  std::ranges::copy_if(alignments_, std::back_inserter(ties),
+                       [&](const Tie& tie) { return known(tie.pair); });
   for (const Pair& pair : expected) {
-    if (known(pair)) ties.push_back({pair, kExpected});
+    if (known(pair)) ties.push_back({pair, kExpectedVariance});
   }
   std::set<NodeId> ends;
   for (const Tie& tie : ties) ends.insert({tie.pair.first, tie.pair.second});
@@ -122,7 +123,7 @@ std::vector<double> AlignmentWorth::of(std::span<const Pair> pairs, std::span<co
   if (!network.solve()) return worths;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (known(pairs[k]))
-      worths[k] = 0.5 * std::log1p(network.between(pairs[k].first, pairs[k].second) / kExpected);
+      worths[k] = 0.5 * std::log1p(network.between(pairs[k].first, pairs[k].second) / kExpectedVariance);
   }
   return worths;
 }

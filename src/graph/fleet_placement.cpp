@@ -8,11 +8,11 @@
 #include <set>
 #include <tuple>
 
-#include "alignment_selection.hpp"
-#include "expectation.hpp"
 #include "fleetmap/geometry/symmetric.hpp"
-#include "graph_solver.hpp"
-#include "reduced_graph.hpp"
+#include "problem/reduced_graph.hpp"
+#include "rejection/alignment_selection.hpp"
+#include "rejection/innovation.hpp"
+#include "solver/graph_solver.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -21,14 +21,14 @@ namespace {
 constexpr std::size_t kMistakesPerOther = 2;
 constexpr std::size_t kMistakesToQuarantine = 4;
 constexpr std::size_t kMistakesPerUsed = 2;
-constexpr int kMostQuarantines = 3;
+constexpr int kMaxQuarantineRounds = 3;
 
-constexpr std::size_t kMostForRigidFit = 40;
+constexpr std::size_t kMaxPosesOfRigidFit = 40;
 
-constexpr double kMostMetres = 1e6;  // of any coordinate; keeps the numbers apart from their rounding
+constexpr double kMaxCoordinate = 1e6;  // of any coordinate; keeps the numbers apart from their rounding
 
 bool is_pose(const Pose& T) {
-  return all_finite(T) && T.translation().cwiseAbs().maxCoeff() <= kMostMetres &&
+  return all_finite(T) && T.translation().cwiseAbs().maxCoeff() <= kMaxCoordinate &&
          (T.linear() * T.linear().transpose()).isIdentity(1e-6);
 }
 
@@ -58,14 +58,15 @@ struct Items {
   std::vector<const Node*> nodes;
   std::vector<const Alignment*> alignments;
   std::vector<AgentId> computed_by;  ///< by alignment
-  std::vector<JudgedAlignment> judged;
+  std::vector<AlignmentOutcome> outcomes;
 };
 
 Items sorted_items(std::span<const Node> nodes, std::span<const Alignment> alignments,
                    const LocalFrame& site) {
   Items items;
   for (const Node& node : nodes) {
-    if (is_valid(node) && site.to_enu(node.G->position).norm() <= kMostMetres) items.nodes.push_back(&node);
+    if (is_valid(node) && site.to_enu(node.G->position).norm() <= kMaxCoordinate)
+      items.nodes.push_back(&node);
   }
   const auto by_id = [](const Node* node) -> const NodeId& { return node->id; };
   if (!std::ranges::is_sorted(items.nodes, {}, by_id)) std::ranges::sort(items.nodes, {}, by_id);
@@ -74,7 +75,7 @@ Items sorted_items(std::span<const Node> nodes, std::span<const Alignment> align
                     [](const Alignment* a) { return std::tie(a->computed_by, a->seq); });
   for (const Alignment* a : items.alignments) {
     items.computed_by.push_back(a->computed_by);
-    items.judged.push_back({a->i, a->j, a->computed_by, a->seq, Judgement::undecided, 0});
+    items.outcomes.push_back({a->i, a->j, a->computed_by, a->seq, AlignmentStatus::undecided, 0});
   }
   return items;
 }
@@ -91,9 +92,9 @@ std::vector<std::size_t> present(Items& items) {
   for (std::size_t k = 0; k < items.alignments.size(); ++k) {
     const Alignment& a = *items.alignments[k];
     if (!is_valid(a)) {
-      items.judged[k].judgement = Judgement::invalid;
+      items.outcomes[k].status = AlignmentStatus::invalid;
     } else if (!holds(items.nodes, a.i) || !holds(items.nodes, a.j)) {
-      items.judged[k].judgement = Judgement::waiting;
+      items.outcomes[k].status = AlignmentStatus::waiting;
     } else {
       present.push_back(k);
     }
@@ -103,7 +104,7 @@ std::vector<std::size_t> present(Items& items) {
 
 /// An alternative that leaves the place open by more than what tells rows apart fits wherever the others do.
 bool is_sharp(const AlignmentMode& mode) {
-  return mode.covariance.diagonal().head<3>().maxCoeff() < kKnownM * kKnownM;
+  return mode.covariance.diagonal().head<3>().maxCoeff() < kCertainM * kCertainM;
 }
 
 std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::size_t>& present,
@@ -111,8 +112,8 @@ std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::
   std::vector<Candidate> candidates;
   for (const std::size_t k : present) {
     const Alignment& a = *items.alignments[k];
-    const std::size_t i = graph.pillar_of.at(a.i), j = graph.pillar_of.at(a.j);
-    const std::size_t frame_i = graph.pillars[i].frame, frame_j = graph.pillars[j].frame;
+    const std::size_t i = graph.pose_of.at(a.i), j = graph.pose_of.at(a.j);
+    const std::size_t frame_i = graph.poses[i].frame, frame_j = graph.poses[j].frame;
     const bool any_sharp = std::ranges::any_of(a.modes, is_sharp);
     for (std::size_t m = 0; m < a.modes.size(); ++m) {
       if (any_sharp && !is_sharp(a.modes[m])) continue;
@@ -124,7 +125,7 @@ std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::
       floor << Eigen::Vector3d::Constant(config.alignment_floor_m),
           Eigen::Vector3d::Constant(config.alignment_floor_rad);
       const Matrix6d C = a.modes[m].covariance + Matrix6d(floor.cwiseAbs2().asDiagonal());
-      candidate.between = Between(i, j, a.modes[m].T_i_j, C);
+      candidate.between = BetweenFactor(i, j, a.modes[m].T_i_j, C);
       candidate.frames = std::minmax(frame_i, frame_j);
       candidate.sign = std::pair(frame_i, i) < std::pair(frame_j, j) ? 1.0 : -1.0;
       candidates.push_back(candidate);
@@ -136,42 +137,42 @@ std::vector<Candidate> candidates_of(const Items& items, const std::vector<std::
 /// Each frame as a rigid whole where its fixes say.
 Estimate rigid_frames(const ReducedGraph& graph, const LocalFrame& site, const FleetPlacementConfig& config) {
   Estimate estimate;
-  estimate.drift.assign(graph.pillars.size(), Eigen::Vector3d::Zero());
+  estimate.drift.assign(graph.poses.size(), Eigen::Vector3d::Zero());
   for (const FrameSpan& frame : graph.frames) {
     std::vector<Node> nodes;
     std::vector<Pose> T_odom_node;
-    const std::size_t stride = 1 + (frame.end_pillar - frame.first_pillar) / kMostForRigidFit;
-    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; p += stride) {
-      nodes.push_back(*graph.nodes[graph.pillars[p].node]);
+    const std::size_t stride = 1 + (frame.end_pose - frame.first_pose) / kMaxPosesOfRigidFit;
+    for (std::size_t p = frame.first_pose; p < frame.end_pose; p += stride) {
+      nodes.push_back(*graph.nodes[graph.poses[p].node]);
       // Nobody knows better than a kilometre; keeps the equations solvable.
       Eigen::Matrix<double, 6, 1> variance = nodes.back().G->covariance.diagonal().cwiseMin(1e6);
       nodes.back().G->covariance = variance.cwiseMax(1e-9).asDiagonal();
       T_odom_node.push_back(nodes.back().T_odom_base);
     }
     const Pose T_enu_odom = fit_to_global_poses(nodes, T_odom_node, site, config.gps_correlation_time);
-    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p)
-      estimate.T_enu.push_back(T_enu_odom * graph.nodes[graph.pillars[p].node]->T_odom_base);
+    for (std::size_t p = frame.first_pose; p < frame.end_pose; ++p)
+      estimate.T_enu.push_back(T_enu_odom * graph.nodes[graph.poses[p].node]->T_odom_base);
   }
   return estimate;
 }
 
-// ---- nodes between pillars
+// ---- nodes between poses
 
-/// A node between pillars a and b: what part of the odometry's error up to b it has.
-struct InBetween {
+/// A node between poses a and b: what part of the odometry's error up to b it has.
+struct InterpolatedNode {
   Pose T_a_node = Pose::Identity();
   Matrix6d P = Matrix6d::Zero();     ///< covariance of T_a_node
   Matrix6d gain = Matrix6d::Zero();  ///< of the error at b
 };
 
-/// The nodes after pillar a, up to and without pillar b; the odometry's error between the two is spread over
-/// them as its covariance says.
-std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, std::size_t b) {
-  std::vector<InBetween> nodes;
-  const Node& first = *graph.nodes[graph.pillars[a].node];
-  const std::size_t end = graph.pillars[b].node;
+/// The nodes after variable a, up to and without variable b; the odometry's error between the two is spread
+/// over them as its covariance says.
+std::vector<InterpolatedNode> nodes_between(const ReducedGraph& graph, std::size_t a, std::size_t b) {
+  std::vector<InterpolatedNode> nodes;
+  const Node& first = *graph.nodes[graph.poses[a].node];
+  const std::size_t end = graph.poses[b].node;
   Matrix6d P = Matrix6d::Zero();
-  for (std::size_t k = graph.pillars[a].node + 1; k <= end; ++k) {
+  for (std::size_t k = graph.poses[a].node + 1; k <= end; ++k) {
     const Node& node = *graph.nodes[k];
     const Matrix6d carry = adjoint(node.T_odom_base.inverse() * graph.nodes[k - 1]->T_odom_base);
     P = carry * P * carry.transpose() + odometry_step(graph, k);
@@ -180,7 +181,7 @@ std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, s
   const Pose T_a_b = nodes.back().T_a_node;
   const Matrix6d P_b_inverse = CholeskyOf(nodes.back().P).inverse();
   nodes.pop_back();
-  for (InBetween& node : nodes) {
+  for (InterpolatedNode& node : nodes) {
     const Matrix6d carry = adjoint(T_a_b.inverse() * node.T_a_node);
     node.gain = node.P * carry.transpose() * P_b_inverse;
   }
@@ -189,13 +190,13 @@ std::vector<InBetween> nodes_between(const ReducedGraph& graph, std::size_t a, s
 
 void place_nodes(const ReducedGraph& graph, const Estimate& estimate, Placement& placement) {
   std::vector<Pose> T_enu(graph.nodes.size());
-  for (std::size_t p = 0; p < graph.pillars.size(); ++p) T_enu[graph.pillars[p].node] = estimate.T_enu[p];
-  for (const Between& step : graph.odometry) {
-    std::size_t k = graph.pillars[step.a].node;
-    if (k + 1 == graph.pillars[step.b].node) continue;
+  for (std::size_t p = 0; p < graph.poses.size(); ++p) T_enu[graph.poses[p].node] = estimate.T_enu[p];
+  for (const BetweenFactor& step : graph.odometry) {
+    std::size_t k = graph.poses[step.a].node;
+    if (k + 1 == graph.poses[step.b].node) continue;
     const Vector6d error =
         se3_log(step.T_a_b.inverse() * estimate.T_enu[step.a].inverse() * estimate.T_enu[step.b]);
-    for (const InBetween& node : nodes_between(graph, step.a, step.b))
+    for (const InterpolatedNode& node : nodes_between(graph, step.a, step.b))
       T_enu[++k] = estimate.T_enu[step.a] * node.T_a_node * se3_exp(node.gain * error);
   }
   auto& placed = placement.T_enu_node;
@@ -203,22 +204,22 @@ void place_nodes(const ReducedGraph& graph, const Estimate& estimate, Placement&
     placed.insert_or_assign(placed.end(), graph.nodes[k]->id, T_enu[k]);
   for (const FrameSpan& frame : graph.frames) {
     const Node& newest = *graph.nodes[frame.end - 1];
-    placement.T_enu_odom[frame.id] = estimate.T_enu[frame.end_pillar - 1] * newest.T_odom_base.inverse();
+    placement.T_enu_odom[frame.id] = estimate.T_enu[frame.end_pose - 1] * newest.T_odom_base.inverse();
   }
 }
 
 Matrix6d covariance_of_node(const ReducedGraph& graph, const GraphSolver& solver, std::size_t k) {
-  const auto after = std::ranges::upper_bound(graph.pillars, k, {}, &Pillar::node);
-  const auto a = static_cast<std::size_t>(after - graph.pillars.begin()) - 1;
-  if (graph.pillars[a].node == k) {
+  const auto after = std::ranges::upper_bound(graph.poses, k, {}, &PoseVariable::node);
+  const auto a = static_cast<std::size_t>(after - graph.poses.begin()) - 1;
+  if (graph.poses[a].node == k) {
     const auto z = solver.sensitivity(a);
     return BlockCholesky::inner(z, z);
   }
   const std::size_t b = a + 1;
-  const std::vector<InBetween> between = nodes_between(graph, a, b);
-  const InBetween& node = between[k - graph.pillars[a].node - 1];
-  const Pose T_a_b = graph.nodes[graph.pillars[a].node]->T_odom_base.inverse() *
-                     graph.nodes[graph.pillars[b].node]->T_odom_base;
+  const std::vector<InterpolatedNode> between = nodes_between(graph, a, b);
+  const InterpolatedNode& node = between[k - graph.poses[a].node - 1];
+  const Pose T_a_b =
+      graph.nodes[graph.poses[a].node]->T_odom_base.inverse() * graph.nodes[graph.poses[b].node]->T_odom_base;
   const Matrix6d H_a = adjoint(node.T_a_node.inverse()) - node.gain * adjoint(T_a_b.inverse());
   const auto z = solver.sensitivity(a, b, H_a, node.gain);
   const Matrix6d carry = adjoint(T_a_b.inverse() * node.T_a_node);
@@ -255,7 +256,7 @@ std::set<AgentId> faulty(const Selection& selection, const Items& items,
   for (const auto& [agent, by_other] : selection.mistakes) {
     std::size_t mistakes = 0;
     for (const auto& [other, count] : by_other) mistakes += std::min(count, kMistakesPerOther);
-    credits[agent].mistakes = mistakes;
+    credits[agent].outlier_sets = mistakes;
     if (mistakes >= kMistakesToQuarantine && mistakes >= kMistakesPerUsed * used[agent]) found.insert(agent);
   }
   return found;
@@ -273,11 +274,11 @@ void solve(Items& items, std::vector<std::size_t>& taking_part, std::span<const 
     solution.selection =
         select_alignments(solution.graph, solution.candidates, items.computed_by, solution.estimate);
     const std::set<AgentId> found = faulty(solution.selection, items, credits);
-    if (found.empty() || attempt == kMostQuarantines) return;
+    if (found.empty() || attempt == kMaxQuarantineRounds) return;
     for (const AgentId& agent : found) credits[agent].quarantined = true;
     std::erase_if(taking_part, [&](std::size_t k) {
       if (!found.contains(items.computed_by[k])) return false;
-      items.judged[k].judgement = Judgement::quarantined;
+      items.outcomes[k].status = AlignmentStatus::quarantined;
       return true;
     });
   }
@@ -292,7 +293,7 @@ std::set<AgentId> unsolvable(std::span<const Node* const> nodes, std::span<const
     while (end < nodes.size() && nodes[end]->id.agent == agent) ++end;
     const ReducedGraph graph = reduce(nodes.subspan(first, end - first), ends, site, config);
     Estimate estimate = rigid_frames(graph, site, config);
-    if (GraphSolver(graph, {}).solve(estimate, kMostSteps) != GraphSolver::Outcome::converged)
+    if (GraphSolver(graph, {}).solve(estimate, kMaxSteps) != GraphSolver::Outcome::converged)
       found.insert(agent);
   }
   return found;
@@ -313,19 +314,20 @@ std::vector<const Node*> set_aside(Items& items, std::vector<std::size_t>& takin
 
 void report(const Solution& solution, Items& items, Placement& placement) {
   const auto& [graph, estimate, candidates, selection] = solution;
-  for (const auto& [alignment, judgement] : selection.judged) items.judged[alignment].judgement = judgement;
+  for (const auto& [alignment, status] : selection.judged) items.outcomes[alignment].status = status;
   for (const auto& [alignment, candidate] : selection.taken) {
-    items.judged[alignment].judgement = Judgement::used;
-    items.judged[alignment].mode = candidates[candidate].mode;
+    items.outcomes[alignment].status = AlignmentStatus::used;
+    items.outcomes[alignment].mode = candidates[candidate].mode;
     placement.used.push_back(*items.alignments[alignment]);
     placement.used.back().modes = {items.alignments[alignment]->modes[candidates[candidate].mode]};
   }
-  for (const JudgedAlignment& one : items.judged) {
+  for (const AlignmentOutcome& one : items.outcomes) {
     AgentCredit& credit = placement.credits[one.computed_by];
-    credit.used += one.judgement == Judgement::used;
-    credit.rejected += one.judgement == Judgement::against_gps || one.judgement == Judgement::against_others;
+    credit.used += one.status == AlignmentStatus::used;
+    credit.rejected +=
+        one.status == AlignmentStatus::against_gps || one.status == AlignmentStatus::against_others;
   }
-  placement.judged = items.judged;
+  placement.outcomes = items.outcomes;
 }
 
 void add_components(const Solution& solution, Placement& placement) {
@@ -344,21 +346,21 @@ void add_components(const Solution& solution, Placement& placement) {
 
 }  // namespace
 
-const char* to_string(Judgement judgement) {
-  switch (judgement) {
-    case Judgement::used:
+const char* to_string(AlignmentStatus status) {
+  switch (status) {
+    case AlignmentStatus::used:
       return "used";
-    case Judgement::against_gps:
+    case AlignmentStatus::against_gps:
       return "against GPS";
-    case Judgement::against_others:
+    case AlignmentStatus::against_others:
       return "against others";
-    case Judgement::undecided:
+    case AlignmentStatus::undecided:
       return "undecided";
-    case Judgement::quarantined:
+    case AlignmentStatus::quarantined:
       return "quarantined";
-    case Judgement::waiting:
+    case AlignmentStatus::waiting:
       return "waiting";
-    case Judgement::invalid:
+    case AlignmentStatus::invalid:
       return "invalid";
   }
   return "";
@@ -383,7 +385,7 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
   Items items = sorted_items(nodes, alignments, site);
   std::vector<std::size_t> taking_part = present(items);
   if (items.nodes.empty()) {
-    placement.judged = items.judged;
+    placement.outcomes = items.outcomes;
     return placement;
   }
   std::vector<NodeId> ends;

@@ -15,7 +15,7 @@ constexpr double kUnknownYaw = 2.0;    // rad
 constexpr double kTiltSigma = 0.05;    // rad, of a level frame
 constexpr double kAgreeM = 3.0;        // m and rad within which two alignments of two frames say the same
 constexpr double kAgreeRad = 0.15;
-constexpr std::size_t kMostLinks = 400;  // of one frame that are compared with each other
+constexpr std::size_t kMaxLinks = 400;  // of one frame that are compared with each other
 
 using Frames = std::map<FrameId, std::vector<const Node*>>;
 
@@ -58,7 +58,7 @@ Supported most_supported(const std::vector<Link>& links, const FrameId& to,
                          const std::map<FrameId, Pose>& located) {
   std::vector<std::pair<const Link*, Pose>> proposals;
   for (const Link& link : links) {
-    if (link.to != to || !located.contains(link.from) || proposals.size() >= kMostLinks) continue;
+    if (link.to != to || !located.contains(link.from) || proposals.size() >= kMaxLinks) continue;
     proposals.emplace_back(&link, located.at(link.from) * link.T_from_to);
   }
   Supported best;

@@ -54,7 +54,7 @@ class AlignmentWorth {
 
   std::map<NodeId, Place> places_;
   std::map<FrameId, Fix> fixes_;  ///< the best of each frame
-  std::vector<Tie> ties_;
+  std::vector<Tie> alignments_;
 };
 
 }  // namespace fleetmap::graph

@@ -15,7 +15,7 @@
 namespace fleetmap::graph {
 
 /// What became of an alignment.
-enum class Judgement {
+enum class AlignmentStatus {
   used,
   against_gps,     ///< contradicts GPS and odometry
   against_others,  ///< contradicts alignments that are better supported
@@ -24,21 +24,21 @@ enum class Judgement {
   waiting,         ///< its nodes are not here yet
   invalid,         ///< has impossible numbers
 };
-const char* to_string(Judgement judgement);
+const char* to_string(AlignmentStatus status);
 
-struct JudgedAlignment {
+struct AlignmentOutcome {
   NodeId i, j;
   AgentId computed_by;
   std::uint32_t seq = 0;
-  Judgement judgement = Judgement::undecided;
+  AlignmentStatus status = AlignmentStatus::undecided;
   std::size_t mode = 0;  ///< that is used
 };
 
 /// How far the alignments that an agent computed can be trusted.
 struct AgentCredit {
   std::size_t used = 0;
-  std::size_t rejected = 0;  ///< contradict GPS, odometry or others
-  std::size_t mistakes = 0;  ///< rejected ones, but those that agree with each other count once
+  std::size_t rejected = 0;      ///< contradict GPS, odometry or others
+  std::size_t outlier_sets = 0;  ///< sets of rejected alignments that agree with each other
   bool quarantined = false;
 };
 
@@ -53,7 +53,7 @@ struct Placement {
   std::vector<Alignment> used;
 
   // Only of method `graph`.
-  std::vector<JudgedAlignment> judged;     ///< every alignment, by (computed_by, seq)
+  std::vector<AlignmentOutcome> outcomes;  ///< every alignment, by (computed_by, seq)
   std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
   std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
 };

@@ -1,4 +1,4 @@
-#include "block_cholesky.hpp"
+#include "solver/block_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

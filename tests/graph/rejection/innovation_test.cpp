@@ -1,17 +1,17 @@
-#include "expectation.hpp"
+#include "rejection/innovation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "simulated_fleet.hpp"
+#include "graph/simulated_fleet.hpp"
 
 namespace fleetmap::graph {
 namespace {
 
 using testing::SimulatedFleet;
 
-TEST(Expectation, OfTheRestIsWhatAGraphWithoutTheTieExpects) {
+TEST(Innovation, OfTheRestIsWhatAGraphWithoutTheTieExpects) {
   SimulatedFleet fleet(4);
   const Eigen::Vector3d off(0.4, 0.0, 0.0);  // far beyond where the Huber weight begins
   const Alignment base = fleet.alignments.front();
@@ -21,30 +21,30 @@ TEST(Expectation, OfTheRestIsWhatAGraphWithoutTheTieExpects) {
   std::vector<NodeId> ends;
   for (const Alignment& a : fleet.alignments) ends.insert(ends.end(), {a.i, a.j});
   const ReducedGraph graph = reduce(nodes, ends, fleet.site, {});
-  std::vector<Between> ties;
+  std::vector<BetweenFactor> ties;
   std::vector<GraphSolver::Ends> pairs;
   for (const Alignment& a : fleet.alignments) {
-    ties.emplace_back(graph.pillar_of.at(a.i), graph.pillar_of.at(a.j), a.best().T_i_j, a.best().covariance);
+    ties.emplace_back(graph.pose_of.at(a.i), graph.pose_of.at(a.j), a.best().T_i_j, a.best().covariance);
     pairs.emplace_back(ties.back().a, ties.back().b);
   }
   Estimate with;
-  with.drift.assign(graph.pillars.size(), Eigen::Vector3d::Zero());
-  for (const Pillar& pillar : graph.pillars)
-    with.T_enu.push_back(fleet.truth.at(graph.nodes[pillar.node]->id));
+  with.drift.assign(graph.poses.size(), Eigen::Vector3d::Zero());
+  for (const PoseVariable& variable : graph.poses)
+    with.T_enu.push_back(fleet.truth.at(graph.nodes[variable.node]->id));
   Estimate without = with;
-  std::vector<const Between*> all;
-  for (const Between& tie : ties) all.push_back(&tie);
+  std::vector<const BetweenFactor*> all;
+  for (const BetweenFactor& tie : ties) all.push_back(&tie);
   const std::array ends_of_last{static_cast<int>(ties.back().a), static_cast<int>(ties.back().b)};
   GraphSolver solver(graph, pairs);
-  solver.set_ties(all);
+  solver.set_alignments(all);
   ASSERT_EQ(solver.solve(with, 100), GraphSolver::Outcome::converged);
   solver.invert(ends_of_last);
-  const Expectation rest = expectation_of_rest(ties.back(), solver, with);
+  const Innovation rest = innovation_without(ties.back(), solver, with);
   all.pop_back();
-  solver.set_ties(all);
+  solver.set_alignments(all);
   ASSERT_EQ(solver.solve(without, 100), GraphSolver::Outcome::converged);
   solver.invert(ends_of_last);
-  const Expectation expected = expectation(ties.back(), solver, without);
+  const Innovation expected = innovation(ties.back(), solver, without);
   EXPECT_NEAR(rest.distance, expected.distance, 0.15 * expected.distance);
   EXPECT_NEAR(rest.sigma_m, expected.sigma_m, 0.05 * expected.sigma_m);
 }

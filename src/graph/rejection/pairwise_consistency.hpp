@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "graph_solver.hpp"
+#include "solver/graph_solver.hpp"
 
 namespace fleetmap::graph {
 
@@ -19,9 +19,9 @@ struct Candidate {
   std::size_t alignment = 0;  ///< index among the alignments
   std::size_t mode = 0;
   std::size_t modes = 1;  ///< that the alignment has
-  Between between;        ///< pillars of i and j; covariance with the floor
+  BetweenFactor between;  ///< poses of i and j; covariance with the floor
   FramePair frames;
-  /// +1 if moving the second frame of the pair (the later node of a loop) moves pillar b, else -1.
+  /// +1 if moving the second frame of the pair (the later node of a loop) moves variable b, else -1.
   double sign = 1.0;
 
   /// A loop closure with several modes. Those of two lanes repeat alike, so that their wrong modes agree with

@@ -1,4 +1,4 @@
-#include "block_kernels.hpp"
+#include "solver/block_kernels.hpp"
 
 #include <cstring>
 #include <type_traits>

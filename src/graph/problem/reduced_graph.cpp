@@ -1,4 +1,4 @@
-#include "reduced_graph.hpp"
+#include "problem/reduced_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +11,16 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr std::size_t kMaxWindowNodes = 16;
-constexpr double kOdometryFloorM = 1e-3;       // m a step: a node's pose is rounded on the wire
-constexpr double kOdometryFloorRad = 2e-4;     // rad a step
-constexpr double kMostSigma = 1e3;             // m; what is worse is no fix
-constexpr double kLeastRestVariance = 0.01;    // m^2, of a window's mean fix
-constexpr double kLeastTiltVariance = 2.5e-7;  // rad^2, (0.03 deg)^2
-constexpr double kMostRotationVariance = 4.0;  // rad^2
+constexpr double kOdometryFloorM = 1e-3;      // m a step: a node's pose is rounded on the wire
+constexpr double kOdometryFloorRad = 2e-4;    // rad a step
+constexpr double kMaxSigma = 1e3;             // m; what is worse is no fix
+constexpr double kMinRestVariance = 0.01;     // m^2, of a window's mean fix
+constexpr double kMinTiltVariance = 2.5e-7;   // rad^2, (0.03 deg)^2
+constexpr double kMaxRotationVariance = 4.0;  // rad^2
 /// Variance that a filter adds each second that it reckons by wheels and gyro.
-constexpr double kReckoning = 0.01;         // m^2/s
-constexpr double kReckoningTurn = 4e-6;     // rad^2/s
-constexpr double kMostCorrelation = 0.998;  // keeps the equations well conditioned
+constexpr double kReckoning = 0.01;        // m^2/s
+constexpr double kReckoningTurn = 4e-6;    // rad^2/s
+constexpr double kMaxCorrelation = 0.998;  // keeps the equations well conditioned
 
 struct Step {
   double metres = 0.0;
@@ -45,8 +45,8 @@ struct Window {
 
 Vector6d variance_of(const Node& node) {
   Vector6d variance = node.G->covariance.diagonal();
-  variance.head<3>() = variance.head<3>().cwiseMax(1e-6).cwiseMin(kMostSigma * kMostSigma);
-  variance.tail<3>() = variance.tail<3>().cwiseMax(kLeastTiltVariance).cwiseMin(kMostRotationVariance);
+  variance.head<3>() = variance.head<3>().cwiseMax(1e-6).cwiseMin(kMaxSigma * kMaxSigma);
+  variance.tail<3>() = variance.tail<3>().cwiseMax(kMinTiltVariance).cwiseMin(kMaxRotationVariance);
   return variance;
 }
 
@@ -106,7 +106,7 @@ double heading_variance(const Window& window, const FleetPlacementConfig& config
   if (V_a == 0.0) return V_b;
   const double left = share_left(V_a, V_b, kReckoningTurn, window.seconds, config);
   const double information = (1.0 - left) * (1.0 - left) / std::max(V_b - left * left * V_a, 1e-3 * V_b);
-  return 1.0 / std::max(information, 1.0 / kMostRotationVariance);
+  return 1.0 / std::max(information, 1.0 / kMaxRotationVariance);
 }
 
 /// Of the place in a window, by a heading of G that is false for longer than it: each window's track is
@@ -119,43 +119,43 @@ Eigen::Vector3d variance_by_heading(const Window& window, const Eigen::Vector3d&
   return shared * window.variance(5) * across.cwiseAbs2();
 }
 
-/// The fixes of a window as one of the pillar at its first node.
-void fill_window(Pillar& pillar, const ReducedGraph& graph, const Window& window, std::size_t windows,
+/// The fixes of a window as one of the variable at its first node.
+void fill_window(PoseVariable& variable, const ReducedGraph& graph, const Window& window, std::size_t windows,
                  const LocalFrame& site, const FleetPlacementConfig& config) {
-  const Node& anchor = *graph.nodes[pillar.node];
+  const Node& anchor = *graph.nodes[variable.node];
   const Pose T_base_odom = anchor.T_odom_base.inverse();
   const double count = static_cast<double>(window.end - window.first);
   for (std::size_t k = window.first; k < window.end; ++k) {
     const Node& node = *graph.nodes[k];
-    pillar.lever += T_base_odom * Eigen::Vector3d(node.T_odom_base.translation());
-    pillar.fix += site.to_enu(node.G->position);
+    variable.lever += T_base_odom * Eigen::Vector3d(node.T_odom_base.translation());
+    variable.fix += site.to_enu(node.G->position);
   }
-  pillar.has_window = true;
-  pillar.lever /= count;
-  pillar.fix /= count;
-  pillar.seconds = to_seconds(anchor.stamp - graph.nodes.front()->stamp);
+  variable.has_window = true;
+  variable.lever /= count;
+  variable.fix /= count;
+  variable.seconds = to_seconds(anchor.stamp - graph.nodes.front()->stamp);
   const Node& last = *graph.nodes[window.end - 1];
   const double seconds = std::abs(to_seconds(last.stamp - anchor.stamp));
-  pillar.R_enu_base = pose_in(site, *anchor.G).linear();
+  variable.R_enu_base = pose_in(site, *anchor.G).linear();
   const Eigen::Vector3d moved =
-      pillar.R_enu_base * (T_base_odom * Eigen::Vector3d(last.T_odom_base.translation()));
+      variable.R_enu_base * (T_base_odom * Eigen::Vector3d(last.T_odom_base.translation()));
   const Eigen::Vector3d drift = config.gps_drift_share * window.best;
-  pillar.drift_sigma = drift.cwiseSqrt();
-  pillar.rest_variance =
+  variable.drift_sigma = drift.cwiseSqrt();
+  variable.rest_variance =
       window.variance.head<3>() - drift + variance_by_heading(window, moved, seconds, windows);
-  pillar.rest_variance.array() += kLeastRestVariance;
+  variable.rest_variance.array() += kMinRestVariance;
   // The level's error drifts as well: what is closer in time than its correlation shares one.
   const double shared = std::max(1.0, config.gps_correlation_time / std::max(1.0, seconds));
   const Vector6d of_anchor = variance_of(anchor);
-  pillar.rotation_variance << shared * of_anchor.segment<2>(3), heading_variance(window, config);
-  pillar.rotation_variance = pillar.rotation_variance.cwiseMin(kMostRotationVariance);
+  variable.rotation_variance << shared * of_anchor.segment<2>(3), heading_variance(window, config);
+  variable.rotation_variance = variable.rotation_variance.cwiseMin(kMaxRotationVariance);
 }
 
 void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is_end, const LocalFrame& site,
                const FleetPlacementConfig& config) {
   const std::vector<Window> windows = windows_of(graph, frame, config);
   std::size_t window = 0;
-  frame.first_pillar = graph.pillars.size();
+  frame.first_pose = graph.poses.size();
   Matrix6d covariance = Matrix6d::Zero();
   for (std::size_t k = frame.first; k < frame.end; ++k) {
     const Node& node = *graph.nodes[k];
@@ -165,25 +165,25 @@ void add_frame(ReducedGraph& graph, FrameSpan frame, const std::vector<bool>& is
     }
     const bool starts_window = window < windows.size() && windows[window].first == k;
     if (!starts_window && !is_end[k] && k + 1 != frame.end) continue;
-    Pillar pillar;
-    pillar.node = k;
-    pillar.frame = graph.frames.size();
-    if (starts_window) fill_window(pillar, graph, windows[window++], windows.size(), site, config);
+    PoseVariable variable;
+    variable.node = k;
+    variable.frame = graph.frames.size();
+    if (starts_window) fill_window(variable, graph, windows[window++], windows.size(), site, config);
     if (k > frame.first) {
-      const std::size_t a = graph.pillars.size() - 1;
-      const Node& before = *graph.nodes[graph.pillars[a].node];
+      const std::size_t a = graph.poses.size() - 1;
+      const Node& before = *graph.nodes[graph.poses[a].node];
       graph.odometry.emplace_back(a, a + 1, before.T_odom_base.inverse() * node.T_odom_base, covariance);
     }
     covariance.setZero();
-    if (is_end[k]) graph.pillar_of[node.id] = graph.pillars.size();
-    graph.pillars.push_back(pillar);
+    if (is_end[k]) graph.pose_of[node.id] = graph.poses.size();
+    graph.poses.push_back(variable);
   }
-  frame.end_pillar = graph.pillars.size();
+  frame.end_pose = graph.poses.size();
   graph.frames.push_back(frame);
 }
 
 /// How the errors of G of two windows that follow each other correlate, axis by axis.
-Eigen::Vector3d correlation(const Pillar& a, const Pillar& b, double seconds,
+Eigen::Vector3d correlation(const PoseVariable& a, const PoseVariable& b, double seconds,
                             const FleetPlacementConfig& config) {
   Eigen::Vector3d result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -192,28 +192,28 @@ Eigen::Vector3d correlation(const Pillar& a, const Pillar& b, double seconds,
     const double V_b = scale * b.drift_sigma(axis) * b.drift_sigma(axis);
     result(axis) = share_left(V_a, V_b, kReckoning, seconds, config) * std::sqrt(V_a / V_b);
   }
-  return result.cwiseMin(kMostCorrelation);
+  return result.cwiseMin(kMaxCorrelation);
 }
 
 /// The drift of a robot's GPS goes on when its program starts anew.
 void link_drifts(ReducedGraph& graph, const FleetPlacementConfig& config) {
   std::map<AgentId, std::vector<std::size_t>> windows;
-  for (std::size_t p = 0; p < graph.pillars.size(); ++p) {
-    if (graph.pillars[p].has_window) windows[graph.nodes[graph.pillars[p].node]->id.agent].push_back(p);
+  for (std::size_t p = 0; p < graph.poses.size(); ++p) {
+    if (graph.poses[p].has_window) windows[graph.nodes[graph.poses[p].node]->id.agent].push_back(p);
   }
   for (auto& [agent, of_agent] : windows) {
-    std::ranges::stable_sort(of_agent, {}, [&](std::size_t p) { return graph.pillars[p].seconds; });
+    std::ranges::stable_sort(of_agent, {}, [&](std::size_t p) { return graph.poses[p].seconds; });
     for (std::size_t k = 1; k < of_agent.size(); ++k) {
       const std::size_t a = of_agent[k - 1], b = of_agent[k];
-      const double seconds = std::max(graph.pillars[b].seconds - graph.pillars[a].seconds, 0.1);
-      graph.drift.push_back({a, b, correlation(graph.pillars[a], graph.pillars[b], seconds, config)});
+      const double seconds = std::max(graph.poses[b].seconds - graph.poses[a].seconds, 0.1);
+      graph.drift.push_back({a, b, correlation(graph.poses[a], graph.poses[b], seconds, config)});
     }
   }
 }
 
 }  // namespace
 
-Between::Between(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C)
+BetweenFactor::BetweenFactor(std::size_t from, std::size_t to, const Pose& T_from_to, const Matrix6d& C)
     : a(from), b(to), T_a_b(T_from_to), covariance(C), information(CholeskyOf(C).inverse()) {}
 
 Matrix6d odometry_step(const ReducedGraph& graph, std::size_t k) {

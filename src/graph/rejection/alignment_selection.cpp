@@ -1,4 +1,4 @@
-#include "alignment_selection.hpp"
+#include "rejection/alignment_selection.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -7,24 +7,24 @@
 #include <set>
 #include <utility>
 
-#include "expectation.hpp"
 #include "fleetmap/geometry/symmetric.hpp"
-#include "judged_alone.hpp"
+#include "rejection/innovation.hpp"
+#include "rejection/prior_gating.hpp"
 
 namespace fleetmap::graph {
 namespace {
 
-constexpr int kMostRounds = 4;
+constexpr int kMaxRounds = 4;
 /// Changes of fewer than one alignment in so many settle a round.
 constexpr std::size_t kFewOf = 25;
 /// To judge by, an estimate need not be exact; the last one must converge.
 constexpr int kStepsARound = 2;
-constexpr int kMostTrials = 6;
+constexpr int kMaxTrials = 6;
 /// Chi squared, three degrees of freedom, 1e-3: of a hypothesis between frames that others tie.
 constexpr double kTiedShiftGate = 16.3;
 /// A hypothesis fits the others if so many of its members do: all but some that fail by themselves.
 constexpr double kClosed = 0.8;
-constexpr double kExpected = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
+constexpr double kSingleGate = 16.0;  // chi squared, six degrees of freedom, 1.4e-2
 /// False alignments of a pair that shift by the same are one mistake.
 constexpr double kSameMistakeM = 1.5;
 
@@ -71,7 +71,7 @@ class Selector {
 
   Selection run(Estimate& estimate) {
     const Estimate rigid = estimate;
-    if (unaided_.solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) {
+    if (unaided_.solve(estimate, kMaxSteps) != GraphSolver::Outcome::converged) {
       estimate = rigid;
       Selection nothing;
       nothing.solvable = false;
@@ -79,11 +79,11 @@ class Selector {
     }
     unaided_.invert(ends_);
     alone_ = judge_alone(candidates_, unaided_, estimate);
-    std::vector<GraphSolver::Ends> may_be_tied;
+    std::vector<GraphSolver::Ends> pairs_to_align;
     for (const auto& [frames, group] : alone_.groups)
       for (const std::size_t c : group)
-        may_be_tied.emplace_back(candidates_[c].between.a, candidates_[c].between.b);
-    if (!may_be_tied.empty()) tied_.emplace(graph_, may_be_tied);
+        pairs_to_align.emplace_back(candidates_[c].between.a, candidates_[c].between.b);
+    if (!pairs_to_align.empty()) tied_.emplace(graph_, pairs_to_align);
     const Estimate start = estimate;
     rounds(estimate);
     const bool tried = doubt(start, estimate);
@@ -94,7 +94,7 @@ class Selector {
     }
     Selection selection = conclude(estimate);
     if (tried && !state_.taken.empty()) {
-      tied_->set_ties(ties());
+      tied_->set_alignments(ties());
       tied_->factor_at(estimate);
     }
     GraphSolver& solver = state_.taken.empty() ? unaided_ : *tied_;
@@ -108,17 +108,17 @@ class Selector {
     take_from(alone_.hypotheses, components);
     bool more = !state_.taken.empty();
     for (int round = 1; more; ++round) {
-      const std::vector<const Between*> judged_by = ties();
-      tied_->set_ties(judged_by);
+      const std::vector<const BetweenFactor*> judged_by = ties();
+      tied_->set_alignments(judged_by);
       if (tied_->solve(estimate, kStepsARound) == GraphSolver::Outcome::failed) return;
-      more = round <= kMostRounds && look_again(estimate, components, round == 1);
+      more = round <= kMaxRounds && look_again(estimate, components, round == 1);
       if (more) continue;
-      if (ties() != judged_by) tied_->set_ties(ties());
-      if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
+      if (ties() != judged_by) tied_->set_alignments(ties());
+      if (tied_->solve(estimate, kMaxSteps) != GraphSolver::Outcome::converged) return;
     }
     if (drop_contradicted(estimate)) {
-      tied_->set_ties(ties());
-      if (tied_->solve(estimate, kMostSteps) != GraphSolver::Outcome::converged) return;
+      tied_->set_alignments(ties());
+      if (tied_->solve(estimate, kMaxSteps) != GraphSolver::Outcome::converged) return;
     }
     state_.solved = true;
   }
@@ -136,8 +136,8 @@ class Selector {
       for (const std::size_t c : group) {
         const std::size_t alignment = candidates_[c].alignment;
         if (state_.taken.contains(alignment) || state_.doubts.left_out.contains(c)) continue;
-        const Expectation seen = expectation(candidates_[c].between, *tied_, estimate);
-        if (seen.distance < kContradicts) {
+        const Innovation seen = innovation(candidates_[c].between, *tied_, estimate);
+        if (seen.distance < kInnovationGate) {
           const bool waits = first && alone_.outvoted.contains(c);
           if (!waits && !candidates_[c].is_ambiguous_loop()) open[frames].push_back(c);
           // What GPS contradicts, with all that agrees with it, comes back with all of it or not at all.
@@ -186,10 +186,10 @@ class Selector {
   /// pulled there. True if there was any.
   bool drop_contradicted(const Estimate& estimate) {
     return std::erase_if(state_.taken, [&](const auto& one) {
-             const Between& tie = candidates_[one.second].between;
+             const BetweenFactor& tie = candidates_[one.second].between;
              const Vector6d e = relative_residual(estimate, tie.a, tie.b, tie.T_a_b).e;
              const bool contradicted =
-                 !(CholeskyOf(judged_covariance(tie)).squared_distance(e) < kContradicts);
+                 !(CholeskyOf(inflated_covariance(tie)).squared_distance(e) < kInnovationGate);
              if (contradicted) state_.contradicting.insert(one.second);
              return contradicted;
            }) > 0;
@@ -204,14 +204,14 @@ class Selector {
   std::set<std::size_t> contradicted_by_rest(const Estimate& estimate) const {
     std::set<std::size_t> found;
     for (const auto& [alignment, c] : state_.taken) {
-      const Expectation rest = expectation_of_rest(candidates_[c].between, *tied_, estimate);
-      if (rest.sigma_m < kKnownM && !(rest.distance < kContradicts)) found.insert(alignment);
+      const Innovation rest = innovation_without(candidates_[c].between, *tied_, estimate);
+      if (rest.sigma_m < kCertainM && !(rest.distance < kInnovationGate)) found.insert(alignment);
     }
     return found;
   }
 
   struct Seen {
-    Expectation by_graph;
+    Innovation by_graph;
     std::size_t candidate = 0;
     bool may_be_taken = false;
   };
@@ -220,7 +220,8 @@ class Selector {
   static std::optional<std::size_t> the_expected_one(const std::vector<Seen>& modes) {
     const auto best =
         std::ranges::min_element(modes, {}, [](const Seen& mode) { return mode.by_graph.cost; });
-    if (!best->may_be_taken || !(best->by_graph.sigma_m <= kKnownM) || best->by_graph.distance > kExpected)
+    if (!best->may_be_taken || !(best->by_graph.sigma_m <= kCertainM) ||
+        best->by_graph.distance > kSingleGate)
       return std::nullopt;
     const bool ahead = std::ranges::all_of(modes, [&](const Seen& mode) {
       return mode.candidate == best->candidate || mode.by_graph.cost - best->by_graph.cost > 2.0 * kMargin;
@@ -228,8 +229,8 @@ class Selector {
     return ahead ? std::optional(best->candidate) : std::nullopt;
   }
 
-  std::vector<const Between*> ties() const {
-    std::vector<const Between*> ties;
+  std::vector<const BetweenFactor*> ties() const {
+    std::vector<const BetweenFactor*> ties;
     for (const auto& [alignment, candidate] : state_.taken) ties.push_back(&candidates_[candidate].between);
     return ties;
   }
@@ -331,7 +332,7 @@ class Selector {
   /// anything was solved again.
   bool doubt(const Estimate& start, Estimate& estimate) {
     int trials = 0;
-    while (trials < kMostTrials) {
+    while (trials < kMaxTrials) {
       const std::vector<Hypothesis> loop = open_loop();
       if (loop.empty()) break;
       Doubts doubts = state_.doubts;
@@ -410,13 +411,13 @@ class Selector {
         continue;
       const auto [alone, end] = against[candidate.alignment];
       const std::size_t all = modes[candidate.alignment];
-      const Judgement judgement = alone == all                              ? Judgement::against_gps
-                                  : undecided.contains(candidate.alignment) ? Judgement::undecided
-                                  : end == all                              ? Judgement::against_others
-                                                                            : Judgement::undecided;
-      selection.judged[candidate.alignment] = judgement;
+      const AlignmentStatus status = alone == all                              ? AlignmentStatus::against_gps
+                                     : undecided.contains(candidate.alignment) ? AlignmentStatus::undecided
+                                     : end == all ? AlignmentStatus::against_others
+                                                  : AlignmentStatus::undecided;
+      selection.judged[candidate.alignment] = status;
       // Of one that is ambiguous by its first mode: that none of them is right is one mistake.
-      if (judgement != Judgement::undecided)
+      if (status != AlignmentStatus::undecided)
         count_mistake(candidate, estimate, clusters[candidate.frames], selection);
     }
     return selection;
@@ -424,7 +425,7 @@ class Selector {
 
   void count_mistake(const Candidate& candidate, const Estimate& estimate,
                      std::vector<std::pair<Eigen::Vector3d, AgentId>>& clusters, Selection& selection) const {
-    const Between& between = candidate.between;
+    const BetweenFactor& between = candidate.between;
     const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
     const Eigen::Vector3d shift = -candidate.sign * (estimate.T_enu[between.b].linear() * r.e.head<3>());
     const AgentId& by = computed_by_[candidate.alignment];
@@ -441,7 +442,7 @@ class Selector {
   std::span<const AgentId> computed_by_;
   GraphSolver unaided_;              ///< by GPS and odometry
   std::optional<GraphSolver> tied_;  ///< by what is taken as well
-  std::vector<int> ends_;            ///< pillars of the candidates
+  std::vector<int> ends_;            ///< poses of the candidates
   JudgedAlone alone_;                ///< as unaided_ sees it
   State state_;
 };

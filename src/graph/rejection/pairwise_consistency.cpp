@@ -1,4 +1,4 @@
-#include "hypotheses.hpp"
+#include "rejection/pairwise_consistency.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
-#include "expectation.hpp"
 #include "fleetmap/geometry/symmetric.hpp"
+#include "rejection/innovation.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -23,11 +23,11 @@ constexpr double kShiftGate = 25.0;  // three, 1.5e-5: all of a hypothesis again
 /// of one place go wrong together, so n that agree are worth log2(1 + n) of one.
 constexpr double kTrust = 6.0;
 /// Of a hypothesis as a whole, against another one's: what many have in common makes them all go wrong.
-constexpr double kMostSupport = 24.0;
-constexpr std::size_t kMostLookedAt = 16;
+constexpr double kMaxSupport = 24.0;
+constexpr std::size_t kMaxCandidates = 16;
 /// On each side, of which it is asked whether they agree.
 constexpr std::size_t kNeighbours = 2;
-constexpr std::size_t kMostJoint = 12;
+constexpr std::size_t kMaxJointCandidates = 12;
 
 /// A candidate as the solved graph sees it: its residual is that of an error drawn from S.
 struct Seen {
@@ -44,14 +44,14 @@ struct Seen {
 Seen look(std::span<const Candidate> all, std::size_t index, const GraphSolver& solver,
           const Estimate& estimate) {
   const Candidate& candidate = all[index];
-  const Between& between = candidate.between;
+  const BetweenFactor& between = candidate.between;
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   Seen seen;
   seen.candidate = index;
   seen.alignment = candidate.alignment;
   seen.e = r.e;
   seen.z = solver.sensitivity(between.a, between.b, r.H_a, Matrix6d::Identity());
-  seen.S = BlockCholesky::inner(seen.z, seen.z) + judged_covariance(between);
+  seen.S = BlockCholesky::inner(seen.z, seen.z) + inflated_covariance(between);
   const CholeskyOf cholesky(seen.S);
   seen.S_inverse = cholesky.inverse();
   seen.cost = seen.e.dot(seen.S_inverse * seen.e) + cholesky.log_det();
@@ -76,7 +76,7 @@ Given given(const Seen& a, const Seen& b, const Matrix6d& S_ba) {
   return {distance, distance + cholesky.log_det(), std::sqrt(S.diagonal().head<3>().maxCoeff())};
 }
 
-/// Where on the way of the first frame: whoever computed it, the end there is the lower pillar.
+/// Where on the way of the first frame: whoever computed it, the end there is the lower variable.
 std::size_t along(const Candidate& candidate) { return std::min(candidate.between.a, candidate.between.b); }
 
 /// `seen` if the member is right that was made nearest to it, and says most of where it must be.
@@ -199,7 +199,7 @@ void vote_on_each_other(const std::vector<std::pair<std::size_t, Seen>>& some,
       const Seen &x = some[a].second, &y = others[b].second;
       const Given one = given(x, y, BlockCholesky::inner(y.z, x.z));
       if (!(one.distance < kPairGate)) continue;
-      const Opinion opinion = one.sigma_m > kKnownM ? Opinion::open : Opinion::agrees;
+      const Opinion opinion = one.sigma_m > kCertainM ? Opinion::open : Opinion::agrees;
       of_some[a] = std::max(of_some[a], opinion);
       of_others[b] = std::max(of_others[b], opinion);
     }
@@ -276,7 +276,7 @@ std::vector<Hypothesis> suspects_of(std::span<const Candidate> all, std::span<co
   std::vector<std::vector<std::size_t>> members;  // of each hypothesis, in `seen`
   for (const Hypothesis& hypothesis : loop) {
     members.emplace_back();
-    for (const std::size_t c : some_of(hypothesis.members, kMostJoint)) {
+    for (const std::size_t c : some_of(hypothesis.members, kMaxJointCandidates)) {
       members.back().push_back(seen.size());
       seen.push_back(look(all, c, solver, estimate));
     }
@@ -288,7 +288,7 @@ std::vector<Hypothesis> suspects_of(std::span<const Candidate> all, std::span<co
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
     double& l = likelihood.emplace_back(-0.5 * shift_of(others, seen, common));
     for (std::size_t other = 0; other < loop.size(); ++other)
-      if (other != k) l += std::min(loop[other].support, kMostSupport);
+      if (other != k) l += std::min(loop[other].support, kMaxSupport);
   }
   const double most = std::ranges::max(likelihood);
   std::vector<Hypothesis> suspects;
@@ -301,7 +301,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
                     const GraphSolver& solver, const Estimate& estimate) {
   Evaluation evaluation;
   std::vector<Seen> seen;
-  for (const std::size_t c : some_of(candidates, kMostLookedAt))
+  for (const std::size_t c : some_of(candidates, kMaxCandidates))
     seen.push_back(look(all, c, solver, estimate));
   const Common common = common_errors(seen);
   const auto consistent = consistency(seen, common);
@@ -320,7 +320,7 @@ Evaluation evaluate(std::span<const Candidate> all, std::span<const std::size_t>
     }
     std::ranges::sort(hypothesis.members);
     hypothesis.frames = all[hypothesis.members.front()].frames;
-    hypothesis.shift = shift_of({some_of(members, kMostJoint)}, seen, common);
+    hypothesis.shift = shift_of({some_of(members, kMaxJointCandidates)}, seen, common);
     hypothesis.support = support_of(weight);
     hypothesis.evidence = hypothesis.support - 0.5 * hypothesis.shift;
     auto& where = hypothesis.shift < kShiftGate ? evaluation.hypotheses : evaluation.rejected;

@@ -4,7 +4,7 @@
 #include <array>
 #include <set>
 
-#include "placed_fleet.hpp"
+#include "graph/placed_fleet.hpp"
 #include "support/measured.hpp"
 
 namespace fleetmap::graph {
@@ -16,7 +16,6 @@ using fleetmap::testing::seeds_to_run;
 using testing::AlignmentName;
 using testing::expect_none_used;
 using testing::joint_error;
-using testing::judgements;
 using testing::kOneRow;
 using testing::kR1;
 using testing::kR2;
@@ -26,6 +25,7 @@ using testing::of;
 using testing::place;
 using testing::SimulatedFleet;
 using testing::SimulatedFleetConfig;
+using testing::statuses;
 
 TEST(FalseAlignments, OneAlignmentOneRowOffIsRejected) {
   for (unsigned seed = 0; seed < 10; ++seed) {
@@ -116,8 +116,8 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
     for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined) << agent.str();
     if (placement.components.size() != 3) continue;
     ++apart;
-    const auto judged = judgements(placement);
-    for (const auto& name : false_ones) EXPECT_EQ(judged.at(name), Judgement::undecided) << of(seed);
+    const auto judged = statuses(placement);
+    for (const auto& name : false_ones) EXPECT_EQ(judged.at(name), AlignmentStatus::undecided) << of(seed);
   }
   EXPECT_GT(apart, 5u);
 }
@@ -190,13 +190,13 @@ TEST(FalseAlignments, ModesOfAmbiguousAlignmentsAreToldApart) {
       }
     }
     const Placement placement = place(fleet);
-    for (const JudgedAlignment& one : placement.judged) {
+    for (const AlignmentOutcome& one : placement.outcomes) {
       const auto& a = *std::ranges::find_if(fleet.alignments, [&](const Alignment& other) {
         return other.computed_by == one.computed_by && other.seq == one.seq;
       });
       if (!a.ambiguous()) continue;
       ++all;
-      if (one.judgement == Judgement::used) ++(one.mode == 3 ? right : wrong);
+      if (one.status == AlignmentStatus::used) ++(one.mode == 3 ? right : wrong);
     }
   }
   EXPECT_EQ(wrong, 0u);
@@ -221,8 +221,8 @@ TEST(FalseAlignments, AModeThatSaysLittleIsNotTakenForTheOneThatSaysMuch) {
       a.modes.back().covariance = Vector6d(1.0, 1.0, 1.0, 0.01, 0.01, 0.01).asDiagonal();
     }
     std::size_t right = 0;
-    for (const JudgedAlignment& one : place(fleet).judged) {
-      if (one.judgement != Judgement::used) continue;
+    for (const AlignmentOutcome& one : place(fleet).outcomes) {
+      if (one.status != AlignmentStatus::used) continue;
       EXPECT_EQ(one.mode, 0u) << "seed " << seed;
       ++right;
     }
@@ -239,7 +239,7 @@ TEST(FalseAlignments, AnAmbiguousAlignmentAllOfWhoseModesAreContradictedIsReject
     Pose T = fleet.truth.at(base.j);
     T.pretranslate(Eigen::Vector3d(near, 0.0, 0.0));
     a.modes.push_back(fleet.seen_at(base.i, T));
-    EXPECT_EQ(judgements(place(fleet)).at({kR1, a.seq}), Judgement::against_others) << near;
+    EXPECT_EQ(statuses(place(fleet)).at({kR1, a.seq}), AlignmentStatus::against_others) << near;
   }
 }
 
@@ -257,7 +257,7 @@ TEST(FalseAlignments, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUs
     const Placement shuffled = place(fleet);
     for (const auto& [id, T] : placement.T_enu_node)
       EXPECT_TRUE(T.matrix() == shuffled.T_enu_node.at(id).matrix()) << to_string(id);
-    EXPECT_EQ(judgements(placement), judgements(shuffled));
+    EXPECT_EQ(statuses(placement), statuses(shuffled));
   }
 }
 
@@ -282,8 +282,8 @@ TEST(FalseAlignments, AFalseLoopClosureDoesNotBendItsRobot) {
     fleet.align({kR1, 5}, {kR1, 25}, kR1);
     fleet.align({kR1, 8}, {kR1, 24}, kR1, kOneRow);
     const Placement placement = place(fleet);
-    EXPECT_EQ(judgements(placement).at({kR1, fleet.alignments[honest].seq}), Judgement::used);
-    EXPECT_NE(judgements(placement).at({kR1, fleet.alignments[honest + 1].seq}), Judgement::used);
+    EXPECT_EQ(statuses(placement).at({kR1, fleet.alignments[honest].seq}), AlignmentStatus::used);
+    EXPECT_NE(statuses(placement).at({kR1, fleet.alignments[honest + 1].seq}), AlignmentStatus::used);
   }
 }
 

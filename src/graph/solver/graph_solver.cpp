@@ -1,4 +1,4 @@
-#include "graph_solver.hpp"
+#include "solver/graph_solver.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,14 +31,14 @@ Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   return Eigen::Matrix3d::Identity() + 0.5 * S + second * S * S;
 }
 
-/// Elimination order of chains: every second pillar first, then every second of the rest, and so on, so that
-/// every pillar is a few steps from the root (cyclic reduction).
+/// Elimination order of chains: every second variable first, then every second of the rest, and so on, so
+/// that every variable is a few steps from the root (cyclic reduction).
 std::vector<int> chain_order(const ReducedGraph& graph, const std::vector<int>& drift_variable) {
   std::vector<std::tuple<int, std::size_t>> by_level;
   for (const FrameSpan& frame : graph.frames) {
-    for (std::size_t p = frame.first_pillar; p < frame.end_pillar; ++p) {
+    for (std::size_t p = frame.first_pose; p < frame.end_pose; ++p) {
       int level = 0;
-      for (std::size_t k = p - frame.first_pillar + 1; k % 2 == 0; k /= 2) ++level;
+      for (std::size_t k = p - frame.first_pose + 1; k % 2 == 0; k /= 2) ++level;
       by_level.emplace_back(level, p);
     }
   }
@@ -59,40 +59,40 @@ RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std:
   return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
 }
 
-double huber_weight(const Between& between, const Vector6d& e) {
+double huber_weight(const BetweenFactor& between, const Vector6d& e) {
   const double squared = e.dot(between.information * e);
   return squared > kHuber ? std::sqrt(kHuber / squared) : 1.0;
 }
 
-GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied) : graph_(&graph) {
-  std::vector<int> dims(graph.pillars.size(), 6);
-  drift_variable_.assign(graph.pillars.size(), -1);
-  first_drift_.assign(graph.pillars.size(), true);
+GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> pairs_to_align) : graph_(&graph) {
+  std::vector<int> dims(graph.poses.size(), 6);
+  drift_variable_.assign(graph.poses.size(), -1);
+  first_drift_.assign(graph.poses.size(), true);
   std::vector<std::pair<int, int>> pairs;
-  for (std::size_t p = 0; p < graph.pillars.size(); ++p) {
-    if (!graph.pillars[p].has_window) continue;
+  for (std::size_t p = 0; p < graph.poses.size(); ++p) {
+    if (!graph.poses[p].has_window) continue;
     drift_variable_[p] = static_cast<int>(dims.size());
     pairs.emplace_back(static_cast<int>(p), drift_variable_[p]);
     dims.push_back(3);
   }
-  for (const Between& step : graph.odometry)
+  for (const BetweenFactor& step : graph.odometry)
     pairs.emplace_back(static_cast<int>(step.a), static_cast<int>(step.b));
-  for (const auto& [a, b] : may_be_tied) pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
-  for (const DriftLink& link : graph.drift) {
+  for (const auto& [a, b] : pairs_to_align) pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+  for (const DriftFactor& link : graph.drift) {
     pairs.emplace_back(drift_variable_[link.a], drift_variable_[link.b]);
     first_drift_[link.b] = false;
   }
   cholesky_.emplace(std::move(dims), pairs,
-                    may_be_tied.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
+                    pairs_to_align.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
 }
 
-void GraphSolver::set_ties(std::vector<const Between*> ties) {
-  ties_ = std::move(ties);
+void GraphSolver::set_alignments(std::vector<const BetweenFactor*> ties) {
+  alignments_ = std::move(ties);
   factoring_ = true;
   at_start_ = true;
 }
 
-void GraphSolver::add_relative(const Estimate& estimate, const Between& between, bool robust) {
+void GraphSolver::add_relative(const Estimate& estimate, const BetweenFactor& between, bool robust) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   const Matrix6d& W = between.information;
   const int a = static_cast<int>(between.a), b = static_cast<int>(between.b);
@@ -109,40 +109,41 @@ void GraphSolver::add_relative(const Estimate& estimate, const Between& between,
 }
 
 void GraphSolver::add_window(const Estimate& estimate, std::size_t p) {
-  const Pillar& pillar = graph_->pillars[p];
+  const PoseVariable& variable = graph_->poses[p];
   const Pose& T = estimate.T_enu[p];
   const int pose = static_cast<int>(p), drift = drift_variable(p);
-  const Eigen::Vector3d weight = pillar.rest_variance.cwiseInverse();
+  const Eigen::Vector3d weight = variable.rest_variance.cwiseInverse();
   const Eigen::Vector3d r =
-      pillar.fix - T * pillar.lever - pillar.drift_sigma.cwiseProduct(estimate.drift[p]);
+      variable.fix - T * variable.lever - variable.drift_sigma.cwiseProduct(estimate.drift[p]);
   Eigen::Matrix<double, 3, 6> J;
-  J << T.linear(), -T.linear() * skew(pillar.lever);
+  J << T.linear(), -T.linear() * skew(variable.lever);
   const Eigen::Matrix<double, 3, 6> WJ = weight.asDiagonal() * J;
-  const Eigen::Vector3d scaled = weight.cwiseProduct(pillar.drift_sigma);
+  const Eigen::Vector3d scaled = weight.cwiseProduct(variable.drift_sigma);
   Matrix6d A = J.transpose() * WJ;
   Vector6d right = WJ.transpose() * r;
   // The orientation of G, about the axes of ENU.
-  const Eigen::Vector3d turn = so3_log(pillar.R_enu_base * T.linear().transpose());
+  const Eigen::Vector3d turn = so3_log(variable.R_enu_base * T.linear().transpose());
   const Eigen::Matrix3d R = so3_log_jacobian(turn) * T.linear();
-  const Eigen::Matrix3d WR = pillar.rotation_variance.cwiseInverse().asDiagonal() * R;
+  const Eigen::Matrix3d WR = variable.rotation_variance.cwiseInverse().asDiagonal() * R;
   A.bottomRightCorner<3, 3>() += R.transpose() * WR;
   right.tail<3>() += WR.transpose() * turn;
   if (factoring_) {
     cholesky_->add<6, 6>(pose, pose, A);
     cholesky_->add<3, 6>(drift, pose, scaled.asDiagonal() * J);
-    cholesky_->add<3, 3>(drift, drift, scaled.cwiseProduct(pillar.drift_sigma).asDiagonal().toDenseMatrix());
+    cholesky_->add<3, 3>(drift, drift,
+                         scaled.cwiseProduct(variable.drift_sigma).asDiagonal().toDenseMatrix());
   }
   part(pose, 6) += right;
   part(drift, 3) += scaled.cwiseProduct(r);
 }
 
 void GraphSolver::add_drifts(const Estimate& estimate) {
-  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+  for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
     if (drift_variable(p) < 0 || !first_drift_[p]) continue;
     if (factoring_) cholesky_->add<3, 3>(drift_variable(p), drift_variable(p), Eigen::Matrix3d::Identity());
     part(drift_variable(p), 3) -= estimate.drift[p];
   }
-  for (const DriftLink& link : graph_->drift) {
+  for (const DriftFactor& link : graph_->drift) {
     const Eigen::Vector3d weight = (1.0 - link.decay.array().square()).inverse();
     const Eigen::Vector3d pull = weight.cwiseProduct(link.decay);
     const Eigen::Vector3d r = estimate.drift[link.b] - link.decay.cwiseProduct(estimate.drift[link.a]);
@@ -160,17 +161,17 @@ void GraphSolver::add_drifts(const Estimate& estimate) {
 void GraphSolver::linearise(const Estimate& estimate) {
   if (factoring_) cholesky_->set_zero();
   right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
-  for (const Between& between : graph_->odometry) add_relative(estimate, between, false);
-  for (const Between* tie : ties_) add_relative(estimate, *tie, true);
-  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
-    if (graph_->pillars[p].has_window) add_window(estimate, p);
+  for (const BetweenFactor& between : graph_->odometry) add_relative(estimate, between, false);
+  for (const BetweenFactor* tie : alignments_) add_relative(estimate, *tie, true);
+  for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
+    if (graph_->poses[p].has_window) add_window(estimate, p);
   }
   add_drifts(estimate);
 }
 
 GraphSolver::Moved GraphSolver::size_of(const Eigen::VectorXd& step) const {
   Moved moved;
-  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+  for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
     const auto xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
     moved.most = std::max(moved.most, xi.cwiseAbs().maxCoeff());
     moved.turn = std::max(moved.turn, xi.tail<3>().cwiseAbs().maxCoeff());
@@ -179,7 +180,7 @@ GraphSolver::Moved GraphSolver::size_of(const Eigen::VectorXd& step) const {
 }
 
 void GraphSolver::move(Estimate& estimate, const Eigen::VectorXd& step) const {
-  for (std::size_t p = 0; p < graph_->pillars.size(); ++p) {
+  for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
     const Vector6d xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
     estimate.T_enu[p] = estimate.T_enu[p] * se3_exp(xi);
     if (drift_variable(p) < 0) continue;
@@ -225,8 +226,8 @@ BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, con
   return cholesky_->forward(H);
 }
 
-BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t pillar) const {
-  const std::array<std::pair<int, Matrix6d>, 1> H{{{static_cast<int>(pillar), Matrix6d::Identity()}}};
+BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t variable) const {
+  const std::array<std::pair<int, Matrix6d>, 1> H{{{static_cast<int>(variable), Matrix6d::Identity()}}};
   return cholesky_->forward(H);
 }
 

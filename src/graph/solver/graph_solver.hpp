@@ -5,18 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include "block_cholesky.hpp"
-#include "reduced_graph.hpp"
+#include "problem/reduced_graph.hpp"
+#include "solver/block_cholesky.hpp"
 
 namespace fleetmap::graph {
 
-/// The variables of the reduced graph, by pillar.
+/// The variables of the reduced graph, by variable.
 struct Estimate {
   std::vector<Pose> T_enu;
   std::vector<Eigen::Vector3d> drift;  ///< of GPS, in units of the window's sigma; zero without a window
 };
 
-/// How the residual of a relative pose between two pillars depends on them: e + H_a xi_a + xi_b.
+/// How the residual of a relative pose between two poses depends on them: e + H_a xi_a + xi_b.
 struct RelativeResidual {
   Vector6d e;  ///< log(T_a_b^-1 T_enu_a^-1 T_enu_b)
   Matrix6d H_a;
@@ -24,23 +24,23 @@ struct RelativeResidual {
 RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b, const Pose& T_a_b);
 
 /// Share by which a tie with the error `e` counts (Huber).
-double huber_weight(const Between& between, const Vector6d& e);
+double huber_weight(const BetweenFactor& between, const Vector6d& e);
 
 /// After which a solve has not converged.
-inline constexpr int kMostSteps = 60;
+inline constexpr int kMaxSteps = 60;
 
 /// Gauss-Newton on the reduced graph with a set of alignments.
 class GraphSolver {
  public:
-  using Ends = std::pair<std::size_t, std::size_t>;  ///< two pillars
+  using Ends = std::pair<std::size_t, std::size_t>;  ///< two poses
 
-  /// `may_be_tied` are the pairs that any alignment may tie, so that the elimination is worked out but once;
-  /// relative_covariance() of these is cheap. Without any the frames are chains, which are eliminated such
-  /// that all covariances are cheap.
-  GraphSolver(const ReducedGraph& graph, std::span<const Ends> may_be_tied);
+  /// `pairs_to_align` are the pairs that any alignment may tie, so that the elimination is worked out but
+  /// once; relative_covariance() of these is cheap. Without any the frames are chains, which are eliminated
+  /// such that all covariances are cheap.
+  GraphSolver(const ReducedGraph& graph, std::span<const Ends> pairs_to_align);
 
   /// The alignments of the next solve(). They must outlive it.
-  void set_ties(std::vector<const Between*> ties);
+  void set_alignments(std::vector<const BetweenFactor*> ties);
 
   enum class Outcome {
     converged,
@@ -55,13 +55,13 @@ class GraphSolver {
   bool factor_at(const Estimate& estimate);
   bool solved() const { return solved_; }
 
-  /// L^-1 H^T of a relative pose between two pillars, whose covariance is the inner product with itself.
+  /// L^-1 H^T of a relative pose between two poses, whose covariance is the inner product with itself.
   BlockCholesky::Sparse sensitivity(std::size_t a, std::size_t b, const Matrix6d& H_a,
                                     const Matrix6d& H_b) const;
-  BlockCholesky::Sparse sensitivity(std::size_t pillar) const;
+  BlockCholesky::Sparse sensitivity(std::size_t variable) const;
 
-  /// Makes relative_covariance() between `pillars` ready for the solution there is.
-  void invert(std::span<const int> pillars) { cholesky_->invert(pillars); }
+  /// Makes relative_covariance() between `poses` ready for the solution there is.
+  void invert(std::span<const int> poses) { cholesky_->invert(poses); }
   /// Of H_a xi_a + xi_b.
   Matrix6d relative_covariance(std::size_t a, std::size_t b, const Matrix6d& H_a) const;
 
@@ -69,11 +69,11 @@ class GraphSolver {
   struct Moved {
     double most = 0.0, turn = 0.0;  ///< m or rad; rad
   };
-  /// By how much the step moves any pillar.
+  /// By how much the step moves any variable.
   Moved size_of(const Eigen::VectorXd& step) const;
   void move(Estimate& estimate, const Eigen::VectorXd& step) const;
   void linearise(const Estimate& estimate);
-  void add_relative(const Estimate& estimate, const Between& between, bool robust);
+  void add_relative(const Estimate& estimate, const BetweenFactor& between, bool robust);
   void add_window(const Estimate& estimate, std::size_t p);
   void add_drifts(const Estimate& estimate);
   int drift_variable(std::size_t p) const { return drift_variable_[p]; }
@@ -82,9 +82,9 @@ class GraphSolver {
   }
 
   const ReducedGraph* graph_;
-  std::vector<const Between*> ties_;
-  std::vector<int> drift_variable_;  ///< by pillar; -1 without a window
-  std::vector<bool> first_drift_;    ///< by pillar
+  std::vector<const BetweenFactor*> alignments_;
+  std::vector<int> drift_variable_;  ///< by variable; -1 without a window
+  std::vector<bool> first_drift_;    ///< by variable
   std::optional<BlockCholesky> cholesky_;
   Eigen::VectorXd right_;
   bool solved_ = false;

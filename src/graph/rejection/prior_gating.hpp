@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hypotheses.hpp"
+#include "rejection/pairwise_consistency.hpp"
 
 namespace fleetmap::graph {
 

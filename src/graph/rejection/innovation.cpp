@@ -1,4 +1,4 @@
-#include "expectation.hpp"
+#include "rejection/innovation.hpp"
 
 #include <cmath>
 
@@ -12,8 +12,8 @@ constexpr double kInflation = 4.0;
 constexpr double kFloorM = 0.1;
 constexpr double kFloorRad = 0.01;
 
-Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& between) {
-  const Matrix6d S = known + judged_covariance(between);
+Innovation judge(const Vector6d& e, const Matrix6d& known, const BetweenFactor& between) {
+  const Matrix6d S = known + inflated_covariance(between);
   const CholeskyOf cholesky(S);
   const double distance = cholesky.squared_distance(e);
   return {distance, std::sqrt(known.diagonal().head<3>().maxCoeff()), distance + cholesky.log_det()};
@@ -21,19 +21,20 @@ Expectation judge(const Vector6d& e, const Matrix6d& known, const Between& betwe
 
 }  // namespace
 
-Matrix6d judged_covariance(const Between& between) {
+Matrix6d inflated_covariance(const BetweenFactor& between) {
   Matrix6d C = kInflation * between.covariance;
   C.diagonal().head<3>().array() += kFloorM * kFloorM;
   C.diagonal().tail<3>().array() += kFloorRad * kFloorRad;
   return C;
 }
 
-Expectation expectation(const Between& between, const GraphSolver& solver, const Estimate& estimate) {
+Innovation innovation(const BetweenFactor& between, const GraphSolver& solver, const Estimate& estimate) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   return judge(r.e, solver.relative_covariance(between.a, between.b, r.H_a), between);
 }
 
-Expectation expectation_of_rest(const Between& between, const GraphSolver& solver, const Estimate& estimate) {
+Innovation innovation_without(const BetweenFactor& between, const GraphSolver& solver,
+                              const Estimate& estimate) {
   const RelativeResidual r = relative_residual(estimate, between.a, between.b, between.T_a_b);
   // Information adds up: what the graph knows is what the rest knows and what the tie says.
   const Matrix6d all = CholeskyOf(solver.relative_covariance(between.a, between.b, r.H_a)).inverse();

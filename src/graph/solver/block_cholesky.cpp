@@ -1,4 +1,4 @@
-#include "block_cholesky.hpp"
+#include "solver/block_cholesky.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "block_kernels.hpp"
+#include "solver/block_kernels.hpp"
 
 namespace fleetmap::graph {
 namespace {

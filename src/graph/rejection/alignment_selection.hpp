@@ -4,15 +4,15 @@
 #include <optional>
 #include <span>
 
-#include "hypotheses.hpp"
+#include "rejection/pairwise_consistency.hpp"
 
 namespace fleetmap::graph {
 
 /// Which alignments, in which mode, are right.
 struct Selection {
-  bool solvable = true;                      ///< GPS and odometry alone; if not, nothing is decided
-  std::map<std::size_t, std::size_t> taken;  ///< alignment to candidate
-  std::map<std::size_t, Judgement> judged;   ///< alignments that are not taken
+  bool solvable = true;                           ///< GPS and odometry alone; if not, nothing is decided
+  std::map<std::size_t, std::size_t> taken;       ///< alignment to candidate
+  std::map<std::size_t, AlignmentStatus> judged;  ///< alignments that are not taken
   /// Of each agent: clusters of alignments that contradict, by the other agent of the pair.
   std::map<AgentId, std::map<AgentId, std::size_t>> mistakes;
   /// With which the estimate was solved, for covariances; none if the equations cannot be solved.

@@ -1,15 +1,15 @@
-#include "judged_alone.hpp"
+#include "rejection/prior_gating.hpp"
 
 #include <algorithm>
 
-#include "expectation.hpp"
+#include "rejection/innovation.hpp"
 
 namespace fleetmap::graph {
 namespace {
 
 /// What contradicts this many times as much as may be is not looked at again.
 constexpr double kHopeless = 4.0;
-constexpr int kLeastToOutvote = 2;
+constexpr int kMinContradictions = 2;
 
 /// Takes the hopeless out of `group`. Returns those that contradict nothing.
 std::vector<std::size_t> open_ones(std::span<const Candidate> candidates, const GraphSolver& solver,
@@ -17,13 +17,13 @@ std::vector<std::size_t> open_ones(std::span<const Candidate> candidates, const 
                                    JudgedAlone& judged) {
   std::vector<std::size_t> open, hopeful;
   for (const std::size_t c : group) {
-    const double distance = expectation(candidates[c].between, solver, estimate).distance;
-    if (distance < kContradicts) {
+    const double distance = innovation(candidates[c].between, solver, estimate).distance;
+    if (distance < kInnovationGate) {
       open.push_back(c);
     } else {
       judged.against_gps.insert(c);
     }
-    if (distance < kHopeless * kContradicts) {
+    if (distance < kHopeless * kInnovationGate) {
       hopeful.push_back(c);
     } else {
       judged.hopeless.insert(c);
@@ -62,7 +62,7 @@ JudgedAlone judge_alone(std::span<const Candidate> candidates, const GraphSolver
     const std::vector<Vote> votes = neighbours_votes(candidates, group, solver, estimate);
     std::set<std::size_t> outvoted;
     for (std::size_t k = 0; k < group.size(); ++k) {
-      if (votes[k].disagree >= kLeastToOutvote && votes[k].disagree > votes[k].agree)
+      if (votes[k].disagree >= kMinContradictions && votes[k].disagree > votes[k].agree)
         outvoted.insert(group[k]);
     }
     const auto is_outvoted = [&](std::size_t c) { return outvoted.contains(c); };
