@@ -2,34 +2,35 @@
 
 #include <limits>
 
-#include "solver/graph_solver.hpp"
+#include "rejection/candidate.hpp"
 
 namespace fleetmap::graph {
 
-/// Quantile of chi squared, six degrees of freedom, 1e-5: beyond it a candidate contradicts what is expected.
+/// Quantile of chi squared, six degrees of freedom, 1e-5: a candidate beyond it contradicts the graph.
 inline constexpr double kInnovationGate = 33.1;
 
-/// m, 1 sigma: what knows a place better tells rows apart. A graph that does decides about a single
-/// candidate.
+/// m, 1 sigma: a position that is certain to this tells rows of a plant apart. A graph that is decides about
+/// single candidates.
 inline constexpr double kCertainM = 1.2;
 
-/// What a graph expects of a relative pose that was measured between two of its poses.
+/// Innovation of a measured relative pose: its deviation from the one that a solved graph predicts.
 struct Innovation {
-  double distance = 0.0;  ///< squared Mahalanobis distance of what was measured from what is expected
-  double sigma_m = std::numeric_limits<double>::infinity();  ///< how well the graph knows, in the worst axis
-  /// -2 log likelihood of what was measured, less a constant: `distance`, and log det of the covariance that
-  /// it is judged by. What says little fits anywhere, and is no likelier for it.
+  double distance = 0.0;  ///< squared Mahalanobis distance, six degrees of freedom
+  double sigma_m = std::numeric_limits<double>::infinity();  ///< m, of the prediction, along its worst axis
+  /// -2 log likelihood without its constant: `distance` and the log det of the innovation's covariance, which
+  /// makes measurements of large covariance less likely.
   double cost = 0.0;
 };
 
-/// Covariance of a registration's error as candidates are judged by it.
-Matrix6d inflated_covariance(const BetweenFactor& between);
+/// C_ij times four and a floor, because registration underestimates its errors. The gates use it; a smaller
+/// one would separate alignments that agree.
+Matrix6d inflated_covariance(const BetweenFactor& factor);
 
-/// Of a solved graph in which `between` is no tie. Needs solver.invert().
-Innovation innovation(const BetweenFactor& between, const GraphSolver& solver, const Estimate& estimate);
+/// Innovation of `factor`, which is not part of the solved graph. Needs solver.invert().
+Innovation innovation(const BetweenFactor& factor, const SolvedGraph& solved);
 
-/// Of the rest of a solved graph in which `between` is a tie. Distance 0 where the rest knows nothing.
-Innovation innovation_without(const BetweenFactor& between, const GraphSolver& solver,
-                              const Estimate& estimate);
+/// Innovation of `factor`, which is part of the solved graph, against the rest of it (leave one out).
+/// Distance 0 where the rest does not determine the relative pose. Needs solver.invert().
+Innovation innovation_without(const BetweenFactor& factor, const SolvedGraph& solved);
 
 }  // namespace fleetmap::graph

@@ -3,24 +3,21 @@
 #include <map>
 #include <set>
 #include <span>
-#include <vector>
 
-#include "rejection/pairwise_consistency.hpp"
+#include "rejection/candidate.hpp"
 
 namespace fleetmap::graph {
 
-/// What GPS and odometry say of all candidates, before any is taken.
-struct JudgedAlone {
-  std::map<FramePair, std::vector<std::size_t>> groups;  ///< candidates, but for the hopeless
-  std::map<FramePair, Evaluation> hypotheses;
-  std::set<std::size_t> against_gps;  ///< candidates that contradict
-  std::set<std::size_t> together;     ///< of these, what contradicts as a whole, though not one by one
-  std::set<std::size_t> hopeless;     ///< of these, what is not looked at again
-  std::set<std::size_t> outvoted;     ///< candidates that their neighbours contradict
+/// Result of gating all candidates by the prior, which is the graph of GPS and odometry without alignments.
+struct PriorGating {
+  std::map<FramePair, Indices> groups;      ///< candidates that are not gated out, by frame pair
+  std::map<FramePair, Indices> compatible;  ///< those of them that the prior does not contradict
+  std::set<std::size_t> contradicting;      ///< candidates beyond kInnovationGate
+  std::set<std::size_t> gated_out;          ///< those of them beyond four times the gate: never accepted
 };
 
-/// `solver` is without any candidate, solved, and ready for relative_covariance() between their ends.
-JudgedAlone judge_alone(std::span<const Candidate> candidates, const GraphSolver& solver,
-                        const Estimate& estimate);
+/// Gates each candidate alone by the squared Mahalanobis distance of its innovation. `prior` must be ready
+/// for relative_covariance() between the candidates' ends.
+PriorGating gate_by_prior(std::span<const Candidate> candidates, const SolvedGraph& prior);
 
 }  // namespace fleetmap::graph

@@ -19,9 +19,6 @@ constexpr double kTurnToFactor = 0.002;  // rad
 constexpr double kShrinks = 0.5;
 /// Before a step that turns anything by more, errors are those of the start, and alignments count in full.
 constexpr double kTurnOfStart = 0.02;  // rad
-/// An alignment whose squared error is beyond the 99 % quantile of six degrees of freedom counts less.
-constexpr double kHuber = 16.8;
-
 /// How log(R) changes with a small turn before R's right side: log(R exp(d)) = log(R) + J d.
 Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   const double angle = log.norm();
@@ -52,17 +49,6 @@ std::vector<int> chain_order(const ReducedGraph& graph, const std::vector<int>& 
 }
 
 }  // namespace
-
-RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b,
-                                   const Pose& T_a_b) {
-  const Pose T_b_a = estimate.T_enu[b].inverse() * estimate.T_enu[a];
-  return {-se3_log(T_b_a * T_a_b), -adjoint(T_b_a)};
-}
-
-double huber_weight(const BetweenFactor& between, const Vector6d& e) {
-  const double squared = e.dot(between.information * e);
-  return squared > kHuber ? std::sqrt(kHuber / squared) : 1.0;
-}
 
 GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> pairs_to_align) : graph_(&graph) {
   std::vector<int> dims(graph.poses.size(), 6);

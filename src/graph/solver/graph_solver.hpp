@@ -5,26 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "problem/reduced_graph.hpp"
+#include "problem/estimate.hpp"
 #include "solver/block_cholesky.hpp"
 
 namespace fleetmap::graph {
-
-/// The variables of the reduced graph, by variable.
-struct Estimate {
-  std::vector<Pose> T_enu;
-  std::vector<Eigen::Vector3d> drift;  ///< of GPS, in units of the window's sigma; zero without a window
-};
-
-/// How the residual of a relative pose between two poses depends on them: e + H_a xi_a + xi_b.
-struct RelativeResidual {
-  Vector6d e;  ///< log(T_a_b^-1 T_enu_a^-1 T_enu_b)
-  Matrix6d H_a;
-};
-RelativeResidual relative_residual(const Estimate& estimate, std::size_t a, std::size_t b, const Pose& T_a_b);
-
-/// Share by which a tie with the error `e` counts (Huber).
-double huber_weight(const BetweenFactor& between, const Vector6d& e);
 
 /// After which a solve has not converged.
 inline constexpr int kMaxSteps = 60;

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <set>
+#include <span>
+#include <vector>
+
+#include "rejection/linearised_candidate.hpp"
+
+namespace fleetmap::graph {
+
+/// How many of the two alignments before and the two after a candidate, along the track, are consistent with
+/// it.
+struct Votes {
+  int consistent = 0, contradicting = 0;
+};
+
+/// Votes on each of `candidates` of one frame pair. An alignment votes for a candidate if any of its modes is
+/// consistent with it, against it if none is, and abstains where it would be consistent with any position.
+/// This test has no model in the literature: it uses that odometry between neighbours is precise to
+/// centimetres, so it separates false alignments even where GPS makes any two candidates consistent.
+std::vector<Votes> neighbour_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
+                                   const SolvedGraph& solved);
+
+/// Those of `group`, of one frame pair, that at least two neighbours contradict, and more than are
+/// consistent. Empty if these are all of `compatible`: then the votes decide nothing.
+std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all,
+                                             std::span<const std::size_t> group,
+                                             std::span<const std::size_t> compatible,
+                                             const SolvedGraph& solved);
+
+}  // namespace fleetmap::graph
