@@ -13,7 +13,7 @@
 namespace fleetmap::graph {
 namespace {
 
-/// What every step reads.
+/// Input of every step.
 struct Input {
   SortedItems items;
   std::vector<AgentId> computed_by;  ///< by alignment
@@ -122,7 +122,8 @@ void add_poses(const ReducedGraph& graph, const Estimate& estimate, Placement& p
   }
 }
 
-/// Nodes that take no part in the graph: each frame where its fixes are, and a component of its own.
+/// Adds the nodes that are not part of the graph: each frame at the fit to its fixes, as a component of its
+/// own.
 void add_unsolvable(const Input& input, std::span<const Node* const> nodes, Placement& placement) {
   if (nodes.empty()) return;
   const ReducedGraph graph = reduce(nodes, std::span<const NodeId>(), input.site, input.config);

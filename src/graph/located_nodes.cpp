@@ -13,7 +13,7 @@ namespace {
 constexpr double kUnknownSigma = 1e3;  // m
 constexpr double kUnknownYaw = 2.0;    // rad
 constexpr double kTiltSigma = 0.05;    // rad, of a level frame
-constexpr double kAgreeM = 3.0;        // m and rad within which two alignments of two frames say the same
+constexpr double kAgreeM = 3.0;        // m and rad within which two alignments of two frames agree
 constexpr double kAgreeRad = 0.15;
 constexpr std::size_t kMaxLinks = 400;  // of one frame that are compared with each other
 
@@ -53,7 +53,7 @@ struct Supported {
   std::size_t votes = 0;
 };
 
-/// Where most alignments lay the frame `to`; the first of equals.
+/// The pose of frame `to` that most alignments support; the first of equals.
 Supported most_supported(const std::vector<Link>& links, const FrameId& to,
                          const std::map<FrameId, Pose>& located) {
   std::vector<std::pair<const Link*, Pose>> proposals;

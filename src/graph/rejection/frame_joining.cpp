@@ -131,8 +131,8 @@ struct Gating {
   std::map<std::size_t, std::size_t> confirmed;  ///< alignment to candidate
 };
 
-/// What `gate` needs besides the candidates of one pair.
-struct GatingInput {
+/// Input of one round.
+struct RoundInput {
   const RejectionProblem& problem;
   const PriorEvidence& evidence;
   const TrialExclusions& exclusions;
@@ -141,7 +141,7 @@ struct GatingInput {
   bool first_round = false;  ///< candidates that neighbours reject wait for the second one
 };
 
-Gating gate(const GatingInput& input) {
+Gating gate(const RoundInput& input) {
   Gating gating;
   for (const auto& [frames, group] : input.evidence.gating.groups) {
     std::map<std::size_t, std::vector<GatedMode>> modes;  // by alignment
@@ -172,7 +172,7 @@ struct Round {
   bool repeat = false;  ///< enough changed
 };
 
-Round next_round(const GatingInput& input) {
+Round next_round(const RoundInput& input) {
   const auto& [problem, evidence, exclusions, solved, accepted, first_round] = input;
   const std::set<std::size_t> refuted = contradicted_by_rest(problem.candidates, accepted, solved);
   Gating gating = gate(input);

@@ -7,7 +7,7 @@
 
 namespace fleetmap::graph {
 
-/// What a loop check excludes from the next trial.
+/// Candidates and frames that a loop check excludes from the next trial.
 struct TrialExclusions {
   std::set<std::size_t> candidates;  ///< of hypotheses that are inconsistent around a loop
   std::set<std::size_t> undecided;   ///< of these, where several hypotheses may be the false one

@@ -9,13 +9,13 @@
 
 namespace fleetmap::graph {
 
-/// What outlier rejection decides with: the graph, and all candidates that may be accepted.
+/// Input of outlier rejection: the graph, and all candidates that may be accepted.
 struct RejectionProblem {
   const ReducedGraph& graph;
   std::span<const Candidate> candidates;
 };
 
-/// What GPS and odometry alone tell about all candidates.
+/// Evidence of GPS and odometry alone about all candidates.
 struct PriorEvidence {
   PriorGating gating;
   std::set<std::size_t> rejected_by_neighbours;

@@ -10,15 +10,16 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr double kConverged = 1e-4;  // m or rad
-/// Where ties contradict each other, Huber's weight creeps: steps this small, at last, are good enough.
+/// Where alignments contradict each other, Huber weights converge slowly: a last step this small is accepted.
 constexpr double kNearlyConverged = 0.01;  // m or rad
 /// The equations are factored anew after a step that turns anything by more, or that shrank to no less than
-/// this share of the one before; else only their right side is set up. What a reused matrix is wrong by, for
-/// a turn d, is W d^2 of a stiff tie: in the directions that only GPS holds that can exceed what GPS knows.
-constexpr double kTurnToFactor = 0.002;  // rad
+/// this share of the one before; else only their right side is set up. The error of a reused matrix after a
+/// rotation d is W d^2 for a factor of information W, which may exceed the information of GPS where no other
+/// factor acts.
+constexpr double kRotationToFactor = 0.002;  // rad
 constexpr double kShrinks = 0.5;
-/// Before a step that turns anything by more, errors are those of the start, and alignments count in full.
-constexpr double kTurnOfStart = 0.02;  // rad
+/// After a step of a larger rotation the residuals are those of the starting values: no Huber weights yet.
+constexpr double kRotationOfStart = 0.02;  // rad
 /// How log(R) changes with a small turn before R's right side: log(R exp(d)) = log(R) + J d.
 Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   const double angle = log.norm();
@@ -28,8 +29,8 @@ Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   return Eigen::Matrix3d::Identity() + 0.5 * S + second * S * S;
 }
 
-/// Elimination order of chains: every second variable first, then every second of the rest, and so on, so
-/// that every variable is a few steps from the root (cyclic reduction).
+/// Elimination order of chains: every second pose variable first, then every second of the rest, and so on,
+/// so that every variable is a few steps from the root (cyclic reduction).
 std::vector<int> chain_order(const ReducedGraph& graph, const std::vector<int>& drift_variable) {
   std::vector<std::tuple<int, std::size_t>> by_level;
   for (const FrameSpan& frame : graph.frames) {
@@ -72,8 +73,8 @@ GraphSolver::GraphSolver(const ReducedGraph& graph, std::span<const Ends> pairs_
                     pairs_to_align.empty() ? chain_order(graph, drift_variable_) : std::vector<int>());
 }
 
-void GraphSolver::set_alignments(std::vector<const BetweenFactor*> ties) {
-  alignments_ = std::move(ties);
+void GraphSolver::set_alignments(std::vector<const BetweenFactor*> alignments) {
+  alignments_ = std::move(alignments);
   factoring_ = true;
   at_start_ = true;
 }
@@ -88,7 +89,7 @@ void GraphSolver::add_relative(const Estimate& estimate, const BetweenFactor& be
     cholesky_->add<6, 6>(b, b, W);
     cholesky_->add<6, 6>(b, a, WH);
   }
-  // In the matrix ties count in full: one that is softer than what follows would make the steps grow.
+  // The matrix is set up without Huber weights: with them it would be too soft and the steps would grow.
   const Vector6d We = (robust && !at_start_ ? huber_weight(between, r.e) : 1.0) * (W * r.e);
   part(a, 6) -= r.H_a.transpose() * We;
   part(b, 6) -= We;
@@ -148,19 +149,19 @@ void GraphSolver::linearise(const Estimate& estimate) {
   if (factoring_) cholesky_->set_zero();
   right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cholesky_->size()));
   for (const BetweenFactor& between : graph_->odometry) add_relative(estimate, between, false);
-  for (const BetweenFactor* tie : alignments_) add_relative(estimate, *tie, true);
+  for (const BetweenFactor* alignment : alignments_) add_relative(estimate, *alignment, true);
   for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
     if (graph_->poses[p].has_window) add_window(estimate, p);
   }
   add_drifts(estimate);
 }
 
-GraphSolver::Moved GraphSolver::size_of(const Eigen::VectorXd& step) const {
-  Moved moved;
+GraphSolver::StepSize GraphSolver::size_of(const Eigen::VectorXd& step) const {
+  StepSize moved;
   for (std::size_t p = 0; p < graph_->poses.size(); ++p) {
     const auto xi = step.segment<6>(static_cast<Eigen::Index>(cholesky_->offset(static_cast<int>(p))));
-    moved.most = std::max(moved.most, xi.cwiseAbs().maxCoeff());
-    moved.turn = std::max(moved.turn, xi.tail<3>().cwiseAbs().maxCoeff());
+    moved.max = std::max(moved.max, xi.cwiseAbs().maxCoeff());
+    moved.rotation = std::max(moved.rotation, xi.tail<3>().cwiseAbs().maxCoeff());
   }
   return moved;
 }
@@ -174,24 +175,24 @@ void GraphSolver::move(Estimate& estimate, const Eigen::VectorXd& step) const {
   }
 }
 
-GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int most) {
+GraphSolver::Outcome GraphSolver::solve(Estimate& estimate, int max_steps) {
   solved_ = false;
   double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < most; ++iteration) {
+  for (int iteration = 0; iteration < max_steps; ++iteration) {
     linearise(estimate);
     if (factoring_ && !cholesky_->factor()) return Outcome::failed;
     const Eigen::VectorXd step = cholesky_->solve(right_);
     if (!step.allFinite()) return Outcome::failed;
-    const Moved moved = size_of(step);
-    if (!factoring_ && moved.most > before) {
-      factoring_ = true;  // the reused matrix does not hold here: not taken
+    const StepSize moved = size_of(step);
+    if (!factoring_ && moved.max > before) {
+      factoring_ = true;  // the reused matrix is not valid here: the step is discarded
       continue;
     }
     move(estimate, step);
-    factoring_ = moved.turn > kTurnToFactor || moved.most > kShrinks * before;
-    at_start_ = moved.turn > kTurnOfStart;
-    before = moved.most;
-    if (moved.most >= kConverged) continue;
+    factoring_ = moved.rotation > kRotationToFactor || moved.max > kShrinks * before;
+    at_start_ = moved.rotation > kRotationOfStart;
+    before = moved.max;
+    if (moved.max >= kConverged) continue;
     solved_ = true;
     return Outcome::converged;
   }
@@ -212,8 +213,8 @@ BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t a, std::size_t b, con
   return cholesky_->forward(H);
 }
 
-BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t variable) const {
-  const std::array<std::pair<int, Matrix6d>, 1> H{{{static_cast<int>(variable), Matrix6d::Identity()}}};
+BlockCholesky::Sparse GraphSolver::sensitivity(std::size_t pose) const {
+  const std::array<std::pair<int, Matrix6d>, 1> H{{{static_cast<int>(pose), Matrix6d::Identity()}}};
   return cholesky_->forward(H);
 }
 
