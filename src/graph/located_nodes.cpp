@@ -103,7 +103,7 @@ std::map<FrameId, Pose> fitted(const Frames& frames, const LocalFrame& site, dou
 void locate_the_rest(const Frames& frames, const std::vector<Link>& links, std::map<FrameId, Pose>& located) {
   while (located.size() < frames.size()) {
     Supported best;
-    FrameId chosen;
+    FrameId next;
     const FrameId* first = nullptr;
     for (const auto& [frame, nodes] : frames) {
       if (located.contains(frame)) continue;
@@ -111,11 +111,11 @@ void locate_the_rest(const Frames& frames, const std::vector<Link>& links, std::
       const Supported found = most_supported(links, frame, located);
       if (found.votes > best.votes) {
         best = found;
-        chosen = frame;
+        next = frame;
       }
     }
     if (best.votes > 0) {
-      located[chosen] = best.T_enu_odom;
+      located[next] = best.T_enu_odom;
     } else {
       located[*first] = level(frames.at(*first));
     }

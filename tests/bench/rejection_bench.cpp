@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <set>
@@ -266,9 +267,10 @@ int main() {
   for (const int share : {0, 10, 20, 40, 60})
     conditions.emplace_back(std::to_string(share).append(" % false"),
                             [share](unsigned seed) { return mission(seed, 0.01 * share); });
-  for (const double gps_sigma : {1.5, 3.0, 5.0})
-    conditions.emplace_back(std::string("false pair, GPS of ").append(std::to_string(gps_sigma)),
-                            [gps_sigma](unsigned seed) { return false_pair(seed, gps_sigma); });
+  for (const char* gps_sigma : {"1.5", "3.0", "5.0"})
+    conditions.emplace_back(
+        std::string("false pair, GPS of ").append(gps_sigma).append(" m"),
+        [sigma = std::strtod(gps_sigma, nullptr)](unsigned seed) { return false_pair(seed, sigma); });
   conditions.emplace_back("ambiguous", ambiguous);
   std::printf(
       "| method | condition | wrong kept | right lost | wrong kept, %% | right lost, %% | ATE, m | CPU, ms "

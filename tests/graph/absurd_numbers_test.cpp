@@ -100,10 +100,10 @@ TEST(AbsurdNumbers, ARobotOfAbsurdNumbersHurtsItselfAlone) {
       for (Node& node : fleet.nodes)
         if (node.id.agent == kR3) spoil(fleet, node);
       const Placement placement = place(fleet);
-      const auto judged = statuses(placement);
+      const auto status = statuses(placement);
       for (const Alignment& a : fleet.alignments) {
         const bool of_others = a.i.agent != kR3 && a.j.agent != kR3;
-        EXPECT_EQ(judged.at({a.computed_by, a.seq}) == AlignmentStatus::used, of_others) << of(seed);
+        EXPECT_EQ(status.at({a.computed_by, a.seq}) == AlignmentStatus::used, of_others) << of(seed);
       }
       expect_at_most(joint_error(fleet, placement, {kR1, kR2}), 0.58, "joint error beside absurd nodes",
                      seed);

@@ -145,9 +145,9 @@ TEST(FleetPlacement, AKidnappedRobotIsAFrameOfItsOwnUntilAlignedWithAnother) {
   EXPECT_EQ(apart.T_enu_odom.size(), 4u);
   fleet.align({kR1, 12}, {kR1, 40}, kR1);  // with itself, before
   fleet.align({kR1, 20}, {kR1, 50}, kR1);
-  const Placement tied = place(fleet);
-  EXPECT_EQ(tied.components.size(), 2u);
-  EXPECT_LT(joint_error(fleet, tied, {kR1}), 0.6);
+  const Placement joined = place(fleet);
+  EXPECT_EQ(joined.components.size(), 2u);
+  EXPECT_LT(joint_error(fleet, joined, {kR1}), 0.6);
 }
 
 TEST(FleetPlacement, WithoutAlignmentsEveryFrameLiesWhereItsGpsSays) {

@@ -6,6 +6,7 @@
 
 #include "problem/initial_estimate.hpp"
 #include "rejection/frame_joining.hpp"
+#include "rejection/neighbour_votes.hpp"
 
 namespace fleetmap::graph::testing {
 
@@ -35,6 +36,12 @@ Indices ReducedFleet::between(const AgentId& a, const AgentId& b) const {
 PriorSolution::PriorSolution(const ReducedFleet& fleet) : solver_(fleet.graph, {}), estimate_(fleet.initial) {
   solver_.solve(estimate_, kMaxSteps);
   solver_.invert(ends_of(fleet.candidates));
+}
+
+PriorEvidence evidence_of(const ReducedFleet& fleet, const PriorSolution& prior) {
+  PriorGating gating = gate_by_prior(fleet.candidates, prior.solved());
+  std::set<std::size_t> rejected = rejected_by_neighbours(fleet.candidates, gating, prior.solved());
+  return prior_evidence(fleet.candidates, std::move(gating), std::move(rejected), prior.solved());
 }
 
 }  // namespace fleetmap::graph::testing

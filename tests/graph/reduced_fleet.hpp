@@ -34,4 +34,7 @@ class PriorSolution {
   Estimate estimate_;
 };
 
+/// Gating, votes and consistent sets of all candidates.
+PriorEvidence evidence_of(const ReducedFleet& fleet, const PriorSolution& prior);
+
 }  // namespace fleetmap::graph::testing

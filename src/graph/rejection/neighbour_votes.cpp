@@ -77,18 +77,21 @@ std::vector<Votes> neighbour_votes(std::span<const Candidate> all, std::span<con
   return votes;
 }
 
-std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all,
-                                             std::span<const std::size_t> group,
-                                             std::span<const std::size_t> compatible,
-                                             const SolvedGraph& solved) {
-  const std::vector<Votes> votes = neighbour_votes(all, group, solved);
+std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all, const PriorGating& gating,
+                                             const SolvedGraph& prior) {
   std::set<std::size_t> rejected;
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    if (votes[k].contradicting >= kMinContradictions && votes[k].contradicting > votes[k].consistent)
-      rejected.insert(group[k]);
+  for (const auto& [frames, group] : gating.groups) {
+    const std::vector<Votes> votes = neighbour_votes(all, group, prior);
+    std::set<std::size_t> of_pair;
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      if (votes[k].contradicting >= kMinContradictions && votes[k].contradicting > votes[k].consistent)
+        of_pair.insert(group[k]);
+    }
+    const bool all_are =
+        std::ranges::all_of(gating.compatible.at(frames), [&](std::size_t c) { return of_pair.contains(c); });
+    if (!all_are) rejected.merge(of_pair);
   }
-  const bool all_are = std::ranges::all_of(compatible, [&](std::size_t c) { return rejected.contains(c); });
-  return all_are ? std::set<std::size_t>() : rejected;
+  return rejected;
 }
 
 }  // namespace fleetmap::graph

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rejection/linearised_candidate.hpp"
+#include "rejection/prior_gating.hpp"
 
 namespace fleetmap::graph {
 
@@ -21,11 +22,9 @@ struct Votes {
 std::vector<Votes> neighbour_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                                    const SolvedGraph& solved);
 
-/// Those of `group`, of one frame pair, that at least two neighbours contradict, and more than are
-/// consistent. Empty if these are all of `compatible`: then the votes decide nothing.
-std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all,
-                                             std::span<const std::size_t> group,
-                                             std::span<const std::size_t> compatible,
-                                             const SolvedGraph& solved);
+/// Candidates that at least two neighbours contradict, and more than are consistent with them. Of a frame
+/// pair whose compatible candidates would all be rejected none is: there the votes decide nothing.
+std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all, const PriorGating& gating,
+                                             const SolvedGraph& prior);
 
 }  // namespace fleetmap::graph

@@ -4,6 +4,7 @@
 
 #include "rejection/alignment_statuses.hpp"
 #include "rejection/loop_check.hpp"
+#include "rejection/neighbour_votes.hpp"
 #include "rejection/quarantine.hpp"
 
 namespace fleetmap::graph {
@@ -30,7 +31,7 @@ std::map<AgentId, std::size_t> by_agent(const std::map<std::size_t, std::size_t>
   return counts;
 }
 
-/// Steps 1 to 3.
+/// Steps 1 to 5.
 Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidates, const Estimate& initial) {
   Rejection result;
   result.candidates = std::move(candidates);
@@ -45,7 +46,10 @@ Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidat
   prior_solver.invert(ends_of(problem.candidates));
   const SolvedGraph prior{prior_solver, prior_estimate};
 
-  const PriorEvidence evidence = prior_evidence(problem.candidates, prior);
+  PriorGating gating = gate_by_prior(problem.candidates, prior);
+  std::set<std::size_t> rejected = rejected_by_neighbours(problem.candidates, gating, prior);
+  const PriorEvidence evidence =
+      prior_evidence(problem.candidates, std::move(gating), std::move(rejected), prior);
   std::optional<GraphSolver> solver = solver_with_candidates(problem, evidence.gating);
   const LoopCheck nothing_joined{{}, {.solved = true, .estimate = prior_estimate}};
   LoopCheck check = nothing_joined;

@@ -25,10 +25,12 @@ struct Rejection {
 };
 
 /// Outlier rejection. Each step is a file of this folder:
-/// 1. gating by the prior, votes of neighbours, pairwise consistent sets (prior_evidence),
-/// 2. joining of frames by the best sets (frame_joining),
-/// 3. check of the loops that they form (loop_check),
-/// 4. quarantine of agents with many outlier sets, after which 1 to 3 are repeated without them (quarantine).
+/// 1. gating by the prior (prior_gating),
+/// 2. votes of neighbours (neighbour_votes),
+/// 3. pairwise consistent sets of each pair of frames (pairwise_consistency, prior_evidence),
+/// 4. joining of frames by the best sets (frame_joining),
+/// 5. check of the loops that they form (loop_check),
+/// 6. quarantine of agents with many outlier sets, after which 1 to 5 are repeated without them (quarantine).
 /// Compared with PCM, graduated non-convexity and a Cauchy kernel in tests/bench/rejection_bench.cpp.
 ///
 /// `initial`: poses to start from; `computed_by` runs by alignment. `graph` must outlive the result.

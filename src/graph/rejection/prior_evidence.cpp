@@ -1,8 +1,7 @@
 #include "rejection/prior_evidence.hpp"
 
 #include <algorithm>
-
-#include "rejection/neighbour_votes.hpp"
+#include <utility>
 
 namespace fleetmap::graph {
 namespace {
@@ -24,16 +23,17 @@ std::set<std::size_t> rejected_together(std::span<const Candidate> candidates, c
 
 }  // namespace
 
-PriorEvidence prior_evidence(std::span<const Candidate> candidates, const SolvedGraph& prior) {
+PriorEvidence prior_evidence(std::span<const Candidate> candidates, PriorGating gating,
+                             std::set<std::size_t> rejected_by_neighbours, const SolvedGraph& prior) {
   PriorEvidence evidence;
-  evidence.gating = gate_by_prior(candidates, prior);
-  evidence.contradicting = evidence.gating.contradicting;
+  evidence.contradicting = gating.contradicting;
+  evidence.gating = std::move(gating);
+  evidence.rejected_by_neighbours = std::move(rejected_by_neighbours);
   for (const auto& [frames, group] : evidence.gating.groups) {
     Indices compatible = evidence.gating.compatible.at(frames);
-    std::set<std::size_t> rejected = rejected_by_neighbours(candidates, group, compatible, prior);
-    std::erase_if(compatible,
-                  [&](std::size_t c) { return rejected.contains(c) || candidates[c].is_ambiguous_loop(); });
-    evidence.rejected_by_neighbours.merge(rejected);
+    std::erase_if(compatible, [&](std::size_t c) {
+      return evidence.rejected_by_neighbours.contains(c) || candidates[c].is_ambiguous_loop();
+    });
     const ConsistentSets& sets = evidence.sets[frames] = consistent_sets(candidates, compatible, prior);
     for (const Hypothesis& one : sets.rejected)
       evidence.contradicting.insert(one.members.begin(), one.members.end());

@@ -26,8 +26,8 @@ struct PriorEvidence {
   std::set<std::size_t> contradicting_together;
 };
 
-/// Gating by the prior, votes of neighbours, consistent sets. `prior` must be ready for relative_covariance()
-/// between the candidates' ends.
-PriorEvidence prior_evidence(std::span<const Candidate> candidates, const SolvedGraph& prior);
+/// Adds the pairwise consistent sets of each frame pair to the results of the steps before.
+PriorEvidence prior_evidence(std::span<const Candidate> candidates, PriorGating gating,
+                             std::set<std::size_t> rejected_by_neighbours, const SolvedGraph& prior);
 
 }  // namespace fleetmap::graph

@@ -25,7 +25,7 @@ class BlockCholesky {
                 const std::vector<int>& order = {});
 
   void set_zero();
-  /// A_ij += block (d_i x d_j); of a pair i != j only one of both may be given, the other is its transpose.
+  /// A_ij += block (d_i x d_j); of a pair i != j only one of both may be added, the other is its transpose.
   template <int I, int J>
   void add(int i, int j, const Eigen::Matrix<double, I, J>& block) {
     double* values = find_block(i, j);
@@ -47,8 +47,8 @@ class BlockCholesky {
   Sparse forward(std::span<const std::pair<int, Matrix6d>> H_transposed) const;
   static Matrix6d inner(const Sparse& a, const Sparse& b);
 
-  /// Computes those blocks of A^-1 where L has any, of all pairs of `variables` that were given in particular
-  /// (Takahashi's recursion), for at most twice what factor() takes.
+  /// Computes those blocks of A^-1 where L has any, in particular of all pairs of `variables` of the
+  /// constructor (Takahashi's recursion), for at most twice what factor() takes.
   void invert(std::span<const int> variables);
   /// Block (i, j) of A^-1 for two of those variables, of 6 numbers, after invert(): none where L has no such
   /// block, zero where no factors connect the two.
@@ -64,7 +64,7 @@ class BlockCholesky {
   struct Row {
     int row = 0;
     std::size_t at = 0;  ///< in values_
-    bool zero = false;   ///< of L: pairs that were given, but to which nothing was added
+    bool zero = false;   ///< of L: pairs of the constructor to which nothing was added
   };
   void order_by_degree(const std::vector<std::pair<int, int>>& pairs);
   void analyse(const std::vector<std::pair<int, int>>& pairs);

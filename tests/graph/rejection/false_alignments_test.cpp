@@ -116,8 +116,8 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
     for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined) << agent.str();
     if (placement.components.size() != 3) continue;
     ++apart;
-    const auto judged = statuses(placement);
-    for (const auto& name : false_ones) EXPECT_EQ(judged.at(name), AlignmentStatus::undecided) << of(seed);
+    const auto status = statuses(placement);
+    for (const auto& name : false_ones) EXPECT_EQ(status.at(name), AlignmentStatus::undecided) << of(seed);
   }
   EXPECT_GT(apart, 5u);
 }
@@ -261,7 +261,7 @@ TEST(FalseAlignments, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUs
   }
 }
 
-/// Where GPS lets almost anything agree with anything, neighbours along the way outvote the false ones.
+/// Where GPS lets almost anything agree with anything, the votes of neighbours reject the false ones.
 TEST(FalseAlignments, OfALongMissionAtFiveMetresOfGpsOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
   for (const unsigned seed : {1u, 3u}) {
     SimulatedFleetConfig config = testing::long_mission(5, 2000);

@@ -8,6 +8,7 @@
 namespace fleetmap::graph {
 namespace {
 
+using testing::evidence_of;
 using testing::kOneRow;
 using testing::kR1;
 using testing::kR2;
@@ -18,7 +19,7 @@ using testing::SimulatedFleet;
 
 JoinedFrames join(const ReducedFleet& fleet, const TrialExclusions& exclusions = {}) {
   const PriorSolution prior(fleet);
-  const PriorEvidence evidence = prior_evidence(fleet.candidates, prior.solved());
+  const PriorEvidence evidence = evidence_of(fleet, prior);
   std::vector<GraphSolver::Ends> pairs;
   for (const Candidate& candidate : fleet.candidates)
     pairs.emplace_back(candidate.factor.a, candidate.factor.b);

@@ -10,6 +10,7 @@
 namespace fleetmap::graph {
 namespace {
 
+using testing::evidence_of;
 using testing::kOneRow;
 using testing::kR1;
 using testing::kR2;
@@ -58,7 +59,7 @@ TEST(LoopCheck, TheFalseSideOfATriangleIsAlwaysAnOutlierCandidate) {
       const SimulatedFleet fleet = triangle(seed, sigma);
       const ReducedFleet reduced(fleet);
       const PriorSolution prior(reduced);
-      const PriorEvidence evidence = prior_evidence(reduced.candidates, prior.solved());
+      const PriorEvidence evidence = evidence_of(reduced, prior);
       std::vector<Hypothesis> loop;
       for (const auto& [frames, sets] : evidence.sets) {
         const auto& some = sets.hypotheses.empty() ? sets.rejected : sets.hypotheses;
@@ -79,7 +80,7 @@ TEST(LoopCheck, TheFalseSideOfATriangleIsAlwaysAnOutlierCandidate) {
 
 LoopCheck check(const ReducedFleet& reduced) {
   const PriorSolution prior(reduced);
-  const PriorEvidence evidence = prior_evidence(reduced.candidates, prior.solved());
+  const PriorEvidence evidence = evidence_of(reduced, prior);
   std::vector<GraphSolver::Ends> pairs;
   for (const Candidate& candidate : reduced.candidates)
     pairs.emplace_back(candidate.factor.a, candidate.factor.b);

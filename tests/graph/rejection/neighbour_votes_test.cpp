@@ -44,7 +44,10 @@ TEST(NeighbourVotes, AFalseOneAmongTrueOnesIsRejectedEvenWhereGpsTellsNothing) {
     EXPECT_EQ(votes[2].contradicting, 1);
     EXPECT_EQ(votes[2].consistent, 3);
     EXPECT_EQ(votes[0].consistent, 2) << "the first one has neighbours on one side";
-    EXPECT_EQ(rejected_by_neighbours(reduced.candidates, group, group, prior.solved()),
+    PriorGating gating;
+    gating.groups[reduced.candidates.front().frames] = group;
+    gating.compatible = gating.groups;
+    EXPECT_EQ(rejected_by_neighbours(reduced.candidates, gating, prior.solved()),
               std::set<std::size_t>{group[3]});
   }
 }
@@ -55,9 +58,12 @@ TEST(NeighbourVotes, WhereAllCompatibleOnesAreRejectedTheyDecideNothing) {
   const SimulatedFleet fleet = aligned_at(shifts, 5.0);
   const ReducedFleet reduced(fleet);
   const PriorSolution prior(reduced);
-  const Indices group = reduced.between(kR1, kR2);
-  EXPECT_TRUE(rejected_by_neighbours(reduced.candidates, group, group, prior.solved()).empty());
-  EXPECT_TRUE(rejected_by_neighbours(reduced.candidates, group, {}, prior.solved()).empty());
+  const FramePair frames = reduced.candidates.front().frames;
+  PriorGating gating;
+  gating.groups[frames] = gating.compatible[frames] = reduced.between(kR1, kR2);
+  EXPECT_TRUE(rejected_by_neighbours(reduced.candidates, gating, prior.solved()).empty());
+  gating.compatible[frames].clear();
+  EXPECT_TRUE(rejected_by_neighbours(reduced.candidates, gating, prior.solved()).empty());
 }
 
 }  // namespace

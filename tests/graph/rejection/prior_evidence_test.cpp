@@ -8,6 +8,7 @@
 namespace fleetmap::graph {
 namespace {
 
+using testing::evidence_of;
 using testing::kR1;
 using testing::kR2;
 using testing::PriorSolution;
@@ -19,7 +20,7 @@ TEST(PriorEvidence, TrueAlignmentsOfAPairAreOneHypothesis) {
     const SimulatedFleet fleet(seed);
     const ReducedFleet reduced(fleet);
     const PriorSolution prior(reduced);
-    const PriorEvidence evidence = prior_evidence(reduced.candidates, prior.solved());
+    const PriorEvidence evidence = evidence_of(reduced, prior);
     EXPECT_TRUE(evidence.contradicting.empty()) << seed;
     for (const auto& [frames, sets] : evidence.sets) {
       ASSERT_FALSE(sets.hypotheses.empty()) << seed;
@@ -37,7 +38,7 @@ TEST(PriorEvidence, AHypothesisThatThePriorContradictsIsRejectedAsAWhole) {
     fleet.align(pairs[k].first, pairs[k].second, kR1, Eigen::Vector3d(11.0, 0.0, 0.0));
   const ReducedFleet reduced(fleet);
   const PriorSolution prior(reduced);
-  const PriorEvidence evidence = prior_evidence(reduced.candidates, prior.solved());
+  const PriorEvidence evidence = evidence_of(reduced, prior);
   EXPECT_EQ(evidence.contradicting.size(), reduced.candidates.size());
   for (const std::size_t c : evidence.contradicting_together) EXPECT_TRUE(evidence.contradicting.contains(c));
 }
@@ -51,7 +52,7 @@ TEST(PriorEvidence, AgreementOfAmbiguousLoopsIsNoEvidence) {
   }
   const ReducedFleet reduced(fleet);
   const PriorSolution prior(reduced);
-  const PriorEvidence evidence = prior_evidence(reduced.candidates, prior.solved());
+  const PriorEvidence evidence = evidence_of(reduced, prior);
   ASSERT_EQ(evidence.sets.size(), 1u);
   EXPECT_TRUE(evidence.sets.begin()->second.hypotheses.empty());
 }
