@@ -28,11 +28,14 @@ std::vector<const BetweenFactor*> factors_of(std::span<const Candidate> candidat
 /// Pose variables at the ends of the candidates.
 std::vector<int> ends_of(std::span<const Candidate> candidates);
 
-/// Accepts hypotheses in order of evidence, like the incremental pose graphs of PCM: the clear best
-/// hypothesis of each pair of unconnected frames joins them; the graph is solved; all candidates are gated
-/// anew with its smaller covariance; single candidates are accepted where it is certain; accepted ones that
-/// the rest contradicts are removed. Four rounds at most. `prior` is the solution without alignments.
-/// `solver` was made for all pairs that are not gated out and is left with the accepted factors.
+/// Accepts hypotheses in order of evidence: the clear best one of each pair of unconnected frames joins them;
+/// the graph is solved; all candidates are gated anew with its smaller covariance; single candidates are
+/// accepted where it is certain; accepted ones that the rest contradicts are removed. Four rounds at most.
+/// Like graduated non-convexity (Yang et al., RA-L 2020) it goes from certain to less certain candidates, but
+/// with decisions instead of weights.
+///
+/// `prior` is the solution without alignments. `solver` was made for all pairs that are not gated out and is
+/// left with the accepted factors.
 JoinedFrames join_frames(const RejectionProblem& problem, const PriorEvidence& evidence,
                          const TrialExclusions& exclusions, const Estimate& prior, GraphSolver& solver);
 
