@@ -7,7 +7,6 @@
 namespace fleetmap::graph {
 namespace {
 
-using testing::PriorSolution;
 using testing::ReducedFleet;
 using testing::SimulatedFleet;
 

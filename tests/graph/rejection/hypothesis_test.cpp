@@ -17,7 +17,8 @@ using testing::SimulatedFleet;
 
 TEST(Hypothesis, SupportGrowsWithMembersButLessWithEach) {
   EXPECT_EQ(support_of(0.0), 0.0);
-  for (double n = 1.0; n < 40.0; ++n) {
+  for (int k = 1; k < 40; ++k) {
+    const double n = k;
     EXPECT_GT(support_of(n), support_of(n - 1.0));
     EXPECT_LT(support_of(n + 1.0) - support_of(n), support_of(n) - support_of(n - 1.0));
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "graph/placed_fleet.hpp"
 #include "graph/reduced_fleet.hpp"
@@ -33,7 +34,8 @@ TEST(PriorGating, TrueOnesAreCompatibleAndDistantOnesAreGatedOut) {
 
 TEST(PriorGating, EveryCandidateIsInItsGroupOrGatedOut) {
   SimulatedFleet fleet(3);
-  for (double metres = 2.0; metres < 60.0; metres *= 1.3) {
+  for (int k = 0; k < 13; ++k) {
+    const double metres = 2.0 * std::pow(1.3, k);
     const auto [i, j] = fleet.near_pairs(kR1, kR2, 1).front();
     fleet.align(i, j, kR1, Eigen::Vector3d(metres, 0.0, 0.0));
   }
