@@ -92,11 +92,11 @@ struct Fate {
 std::map<std::pair<AgentId, std::uint32_t>, Fate> fates(const graph::Placement& placement) {
   std::map<std::pair<AgentId, std::uint32_t>, Fate> fates;
   for (const graph::Alignment& used : placement.used)
-    fates[{used.computed_by, used.seq}] = {graph::to_string(graph::Judgement::used), 0};
-  for (const graph::JudgedAlignment& one : placement.judged) {
+    fates[{used.computed_by, used.seq}] = {graph::to_string(graph::AlignmentStatus::used), 0};
+  for (const graph::AlignmentOutcome& one : placement.outcomes) {
     Fate& fate = fates[{one.computed_by, one.seq}];
-    fate.judgement = graph::to_string(one.judgement);
-    if (one.judgement == graph::Judgement::used) fate.mode = one.mode;
+    fate.judgement = graph::to_string(one.status);
+    if (one.status == graph::AlignmentStatus::used) fate.mode = one.mode;
   }
   return fates;
 }

@@ -93,8 +93,8 @@ json judgements_json(const graph::Placement& placement, const std::vector<graph:
     if (!one.right) wrong.emplace(one.i, one.j);
   }
   json result = json::object();
-  for (const graph::JudgedAlignment& one : placement.judged) {
-    json& entry = result[graph::to_string(one.judgement)];
+  for (const graph::AlignmentOutcome& one : placement.outcomes) {
+    json& entry = result[graph::to_string(one.status)];
     if (entry.is_null()) entry = {{"count", 0}, {"wrong", 0}};
     entry["count"] = entry["count"].get<int>() + 1;
     if (wrong.contains({one.i, one.j})) entry["wrong"] = entry["wrong"].get<int>() + 1;

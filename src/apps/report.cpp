@@ -231,7 +231,7 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
   for (const auto& [agent, credit] : results->placement.credits) {
     credits[agent.str()] = {{"used", credit.used},
                             {"rejected", credit.rejected},
-                            {"mistakes", credit.mistakes},
+                            {"mistakes", credit.outlier_sets},
                             {"quarantined", credit.quarantined}};
   }
   if (!credits.empty()) report["alignments_computed_by"] = credits;

@@ -96,7 +96,7 @@ void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out
     if (!entry.results) continue;
     for (const auto& [agent, credit] : entry.results->placement.credits) {
       if (credit.quarantined)
-        std::cout << agent.str() << " is in quarantine: " << credit.mistakes
+        std::cout << agent.str() << " is in quarantine: " << credit.outlier_sets
                   << " alignments that it computed are false, and none of its is used\n";
     }
     break;

@@ -8,34 +8,34 @@
 namespace fleetmap::graph {
 namespace {
 
-/// m^2: of an alignment that is still to be made, some 2 cm and 0.07 deg.
-constexpr double kExpected = 1.5e-3;
-/// m^2: the least that any edge is taken to leave open.
-constexpr double kLeast = 1e-6;
-/// m^2: where neither GPS nor an alignment ties a track to anything.
-constexpr double kNowhere = 1e6;
+/// m^2: assumed variance of a future alignment, about 2 cm and 0.07 deg.
+constexpr double kExpectedVariance = 1.5e-3;
+/// m^2: lower bound of the variance of an edge.
+constexpr double kMinVariance = 1e-6;
+/// m^2: variance of a track without GPS and alignments.
+constexpr double kUnconstrained = 1e6;
 
 double scalar(const Matrix6d& covariance) {
   const double squared = covariance.diagonal().head<3>().sum() + AlignmentWorth::kLever *
                                                                      AlignmentWorth::kLever *
                                                                      covariance.diagonal().tail<3>().sum();
-  return std::isfinite(squared) ? std::clamp(squared, kLeast, kNowhere) : kNowhere;
+  return std::isfinite(squared) ? std::clamp(squared, kMinVariance, kUnconstrained) : kUnconstrained;
 }
 
 }  // namespace
 
-/// Nodes that are ends of something, and the conductances (1 / variance) between them and to the ground.
+/// Nodes that are ends of edges, and the conductances (1 / variance) between them and to the ground.
 class AlignmentWorth::Network {
  public:
   explicit Network(const std::set<NodeId>& nodes) {
     for (const NodeId& node : nodes) index_.emplace(node, static_cast<Eigen::Index>(index_.size()));
-    for (Eigen::Index k = 0; k < size(); ++k) entries_.emplace_back(k, k, 1.0 / kNowhere);
+    for (Eigen::Index k = 0; k < size(); ++k) entries_.emplace_back(k, k, 1.0 / kUnconstrained);
   }
 
   void connect(const NodeId& a, const NodeId& b, double variance) {
     const Eigen::Index i = index_.at(a), j = index_.at(b);
     if (i == j) return;
-    const double conductance = 1.0 / std::max(variance, kLeast);
+    const double conductance = 1.0 / std::max(variance, kMinVariance);
     entries_.emplace_back(i, i, conductance);
     entries_.emplace_back(j, j, conductance);
     entries_.emplace_back(i, j, -conductance);
@@ -43,7 +43,7 @@ class AlignmentWorth::Network {
   }
   void ground(const NodeId& node, double variance) {
     const Eigen::Index k = index_.at(node);
-    entries_.emplace_back(k, k, 1.0 / std::max(variance, kLeast));
+    entries_.emplace_back(k, k, 1.0 / std::max(variance, kMinVariance));
   }
   bool solve() {
     Eigen::SparseMatrix<double> laplacian(size(), size());
@@ -68,26 +68,28 @@ class AlignmentWorth::Network {
 };
 
 void AlignmentWorth::add(const Node& node) {
-  if (!places_.emplace(node.id, Place{node.frame(), scalar(node.odom_covariance)}).second || !node.G) return;
+  if (!track_nodes_.emplace(node.id, TrackNode{node.frame(), scalar(node.odom_covariance)}).second || !node.G)
+    return;
   const double variance = scalar(node.G->covariance);
   const auto [fix, first] = fixes_.try_emplace(node.frame(), Fix{node.id, variance});
   if (!first && variance < fix->second.variance) fix->second = {node.id, variance};
 }
 
 void AlignmentWorth::use(std::span<const Alignment> used) {
-  ties_.clear();
+  alignments_.clear();
   for (const Alignment& alignment : used) add(alignment);
 }
 
 void AlignmentWorth::add(const Alignment& alignment) {
   if (alignment.ambiguous()) return;
-  ties_.push_back({{alignment.i, alignment.j}, scalar(alignment.best().covariance)});
+  alignments_.push_back({{alignment.i, alignment.j}, scalar(alignment.best().covariance)});
 }
 
 double AlignmentWorth::along_track(const NodeId& from, const NodeId& to) const {
   double variance = 0.0;
   std::uint32_t before = from.seq;
-  for (auto place = places_.upper_bound(from); place != places_.end() && !(to < place->first); ++place) {
+  for (auto place = track_nodes_.upper_bound(from); place != track_nodes_.end() && !(to < place->first);
+       ++place) {
     variance += place->second.variance * static_cast<double>(place->first.seq - before);
     before = place->first.seq;
   }
@@ -96,33 +98,34 @@ double AlignmentWorth::along_track(const NodeId& from, const NodeId& to) const {
 
 std::vector<double> AlignmentWorth::of(std::span<const Pair> pairs, std::span<const Pair> expected) const {
   const auto known = [&](const Pair& pair) {
-    return places_.contains(pair.first) && places_.contains(pair.second);
+    return track_nodes_.contains(pair.first) && track_nodes_.contains(pair.second);
   };
-  std::vector<Tie> ties;
-  std::ranges::copy_if(ties_, std::back_inserter(ties), [&](const Tie& tie) { return known(tie.pair); });
+  std::vector<Edge> edges;
+  std::ranges::copy_if(alignments_, std::back_inserter(edges),
+                       [&](const Edge& edge) { return known(edge.pair); });
   for (const Pair& pair : expected) {
-    if (known(pair)) ties.push_back({pair, kExpected});
+    if (known(pair)) edges.push_back({pair, kExpectedVariance});
   }
   std::set<NodeId> ends;
-  for (const Tie& tie : ties) ends.insert({tie.pair.first, tie.pair.second});
+  for (const Edge& edge : edges) ends.insert({edge.pair.first, edge.pair.second});
   for (const Pair& pair : pairs) {
     if (known(pair)) ends.insert({pair.first, pair.second});
   }
   for (const auto& [frame, fix] : fixes_) ends.insert(fix.node);
 
   Network network(ends);
-  for (const Tie& tie : ties) network.connect(tie.pair.first, tie.pair.second, tie.variance);
+  for (const Edge& edge : edges) network.connect(edge.pair.first, edge.pair.second, edge.variance);
   for (const auto& [frame, fix] : fixes_) network.ground(fix.node, fix.variance);
   for (auto end = ends.begin(); end != ends.end() && std::next(end) != ends.end(); ++end) {
     const auto next = std::next(end);
-    if (places_.at(*end).frame == places_.at(*next).frame)
+    if (track_nodes_.at(*end).frame == track_nodes_.at(*next).frame)
       network.connect(*end, *next, along_track(*end, *next));
   }
   std::vector<double> worths(pairs.size(), 0.0);
   if (!network.solve()) return worths;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (known(pairs[k]))
-      worths[k] = 0.5 * std::log1p(network.between(pairs[k].first, pairs[k].second) / kExpected);
+      worths[k] = 0.5 * std::log1p(network.between(pairs[k].first, pairs[k].second) / kExpectedVariance);
   }
   return worths;
 }

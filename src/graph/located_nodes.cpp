@@ -13,9 +13,9 @@ namespace {
 constexpr double kUnknownSigma = 1e3;  // m
 constexpr double kUnknownYaw = 2.0;    // rad
 constexpr double kTiltSigma = 0.05;    // rad, of a level frame
-constexpr double kAgreeM = 3.0;        // m and rad within which two alignments of two frames say the same
+constexpr double kAgreeM = 3.0;        // m and rad within which two alignments of two frames agree
 constexpr double kAgreeRad = 0.15;
-constexpr std::size_t kMostLinks = 400;  // of one frame that are compared with each other
+constexpr std::size_t kMaxLinks = 400;  // of one frame that are compared with each other
 
 using Frames = std::map<FrameId, std::vector<const Node*>>;
 
@@ -53,12 +53,12 @@ struct Supported {
   std::size_t votes = 0;
 };
 
-/// Where most alignments lay the frame `to`; the first of equals.
+/// The pose of frame `to` that most alignments support; the first of equals.
 Supported most_supported(const std::vector<Link>& links, const FrameId& to,
                          const std::map<FrameId, Pose>& located) {
   std::vector<std::pair<const Link*, Pose>> proposals;
   for (const Link& link : links) {
-    if (link.to != to || !located.contains(link.from) || proposals.size() >= kMostLinks) continue;
+    if (link.to != to || !located.contains(link.from) || proposals.size() >= kMaxLinks) continue;
     proposals.emplace_back(&link, located.at(link.from) * link.T_from_to);
   }
   Supported best;
@@ -103,7 +103,7 @@ std::map<FrameId, Pose> fitted(const Frames& frames, const LocalFrame& site, dou
 void locate_the_rest(const Frames& frames, const std::vector<Link>& links, std::map<FrameId, Pose>& located) {
   while (located.size() < frames.size()) {
     Supported best;
-    FrameId chosen;
+    FrameId next;
     const FrameId* first = nullptr;
     for (const auto& [frame, nodes] : frames) {
       if (located.contains(frame)) continue;
@@ -111,11 +111,11 @@ void locate_the_rest(const Frames& frames, const std::vector<Link>& links, std::
       const Supported found = most_supported(links, frame, located);
       if (found.votes > best.votes) {
         best = found;
-        chosen = frame;
+        next = frame;
       }
     }
     if (best.votes > 0) {
-      located[chosen] = best.T_enu_odom;
+      located[next] = best.T_enu_odom;
     } else {
       located[*first] = level(frames.at(*first));
     }

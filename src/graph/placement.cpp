@@ -31,14 +31,14 @@ std::vector<Alignment> best_of_each_pair(std::span<const Alignment> alignments,
         best[frame_i < frame_j ? FramePair(frame_i, frame_j) : FramePair(frame_j, frame_i)];
     if (slot == nullptr || preference(a) < preference(*slot)) slot = &a;
   }
-  std::vector<Alignment> chosen;
-  for (const auto& [pair, alignment] : best) chosen.push_back(*alignment);
-  std::ranges::sort(chosen,
+  std::vector<Alignment> selected;
+  for (const auto& [pair, alignment] : best) selected.push_back(*alignment);
+  std::ranges::sort(selected,
                     [](const Alignment& a, const Alignment& b) { return preference(a) < preference(b); });
-  return chosen;
+  return selected;
 }
 
-/// Odometry frames joined so far, each given in its group's root frame.
+/// Odometry frames joined so far, each with its pose in the root frame of its group.
 struct Groups {
   std::map<FrameId, FrameId> root;
   std::map<FrameId, Pose> T_root_odom;

@@ -15,13 +15,13 @@ using fleetmap::testing::expect_at_most;
 using fleetmap::testing::seeds_to_run;
 using testing::count;
 using testing::joint_error;
-using testing::judgements;
 using testing::kR1;
 using testing::kR2;
 using testing::kR3;
 using testing::of;
 using testing::place;
 using testing::SimulatedFleet;
+using testing::statuses;
 
 TEST(AbsurdNumbers, ARobotWhoseHeadingIsFalseDoesNotKeepTheOthersApart) {
   for (const double turn : {0.5, 1.0, M_PI}) {
@@ -63,7 +63,7 @@ TEST(AbsurdNumbers, ImpossibleNumbersDoNotCount) {
   bad.G->covariance(0, 0) = std::nan("");
   fleet.nodes.push_back(bad);
   const Placement placement = place(fleet);
-  EXPECT_EQ(count(placement, Judgement::invalid), 6u);
+  EXPECT_EQ(count(placement, AlignmentStatus::invalid), 6u);
   EXPECT_EQ(placement.T_enu_node.size(), reference.T_enu_node.size());
   for (const auto& [id, T] : reference.T_enu_node)
     EXPECT_TRUE(T.matrix() == placement.T_enu_node.at(id).matrix()) << to_string(id);
@@ -100,10 +100,10 @@ TEST(AbsurdNumbers, ARobotOfAbsurdNumbersHurtsItselfAlone) {
       for (Node& node : fleet.nodes)
         if (node.id.agent == kR3) spoil(fleet, node);
       const Placement placement = place(fleet);
-      const auto judged = judgements(placement);
+      const auto status = statuses(placement);
       for (const Alignment& a : fleet.alignments) {
         const bool of_others = a.i.agent != kR3 && a.j.agent != kR3;
-        EXPECT_EQ(judged.at({a.computed_by, a.seq}) == Judgement::used, of_others) << of(seed);
+        EXPECT_EQ(status.at({a.computed_by, a.seq}) == AlignmentStatus::used, of_others) << of(seed);
       }
       expect_at_most(joint_error(fleet, placement, {kR1, kR2}), 0.58, "joint error beside absurd nodes",
                      seed);

@@ -14,7 +14,7 @@ const AgentId kC = AgentId::parse("c").value();
 constexpr double kStep = 1e-5;  // variance of each axis, [m^2, rad^2]
 /// m^2: mean square displacement of a point 10 m away.
 constexpr double scalar(double variance) { return 3.0 * variance + 3.0 * 100.0 * variance; }
-constexpr double kExpected = 1.5e-3;
+constexpr double kExpectedVariance = 1.5e-3;
 
 Node node(const AgentId& agent, std::uint32_t seq, std::optional<double> gps_sigma = std::nullopt,
           std::uint16_t session = 0) {
@@ -44,7 +44,7 @@ double worth(const AlignmentWorth& worth, const NodeId& i, const NodeId& j,
   return worth.of(std::span(&pair, 1), expected).front();
 }
 
-double of_variance(double variance) { return 0.5 * std::log1p(variance / kExpected); }
+double of_variance(double variance) { return 0.5 * std::log1p(variance / kExpectedVariance); }
 
 TEST(AlignmentWorth, IsThatOfTheWayBetweenTheTwo) {
   AlignmentWorth graph;

@@ -15,7 +15,6 @@ using fleetmap::testing::seeds_to_run;
 using testing::count;
 using testing::expect_none_used;
 using testing::joint_error;
-using testing::judgements;
 using testing::kOneRow;
 using testing::kR1;
 using testing::kR2;
@@ -25,6 +24,7 @@ using testing::of;
 using testing::place;
 using testing::SimulatedFleet;
 using testing::SimulatedFleetConfig;
+using testing::statuses;
 
 TEST(FleetPlacement, AllTrueAlignmentsAreUsedAndTieTheFleet) {
   for (unsigned seed = 1; seed <= seeds_to_run(10); ++seed) {
@@ -70,7 +70,7 @@ TEST(FleetPlacement, SameSetSameBitsWhateverTheOrder) {
     }
     for (const auto& [frame, T] : reference.T_enu_odom)
       EXPECT_TRUE(T.matrix() == placement.T_enu_odom.at(frame).matrix());
-    EXPECT_EQ(judgements(placement), judgements(reference));
+    EXPECT_EQ(statuses(placement), statuses(reference));
     EXPECT_EQ(placement.components, reference.components);
   }
 }
@@ -145,9 +145,9 @@ TEST(FleetPlacement, AKidnappedRobotIsAFrameOfItsOwnUntilAlignedWithAnother) {
   EXPECT_EQ(apart.T_enu_odom.size(), 4u);
   fleet.align({kR1, 12}, {kR1, 40}, kR1);  // with itself, before
   fleet.align({kR1, 20}, {kR1, 50}, kR1);
-  const Placement tied = place(fleet);
-  EXPECT_EQ(tied.components.size(), 2u);
-  EXPECT_LT(joint_error(fleet, tied, {kR1}), 0.6);
+  const Placement joined = place(fleet);
+  EXPECT_EQ(joined.components.size(), 2u);
+  EXPECT_LT(joint_error(fleet, joined, {kR1}), 0.6);
 }
 
 TEST(FleetPlacement, WithoutAlignmentsEveryFrameLiesWhereItsGpsSays) {
@@ -167,7 +167,7 @@ TEST(FleetPlacement, ALoneNodeIsPlaced) {
   fleet.nodes.resize(1);
   const Placement placement = place(fleet);
   ASSERT_EQ(placement.T_enu_node.size(), 1u);
-  EXPECT_EQ(count(placement, Judgement::waiting), fleet.alignments.size());
+  EXPECT_EQ(count(placement, AlignmentStatus::waiting), fleet.alignments.size());
 }
 
 }  // namespace

@@ -29,15 +29,14 @@ double joint_error(const SimulatedFleet& fleet, const Placement& placement, cons
   return std::sqrt((moved - B).squaredNorm() / static_cast<double>(n));
 }
 
-std::map<AlignmentName, Judgement> judgements(const Placement& placement) {
-  std::map<AlignmentName, Judgement> result;
-  for (const JudgedAlignment& one : placement.judged) result[{one.computed_by, one.seq}] = one.judgement;
+std::map<AlignmentName, AlignmentStatus> statuses(const Placement& placement) {
+  std::map<AlignmentName, AlignmentStatus> result;
+  for (const AlignmentOutcome& one : placement.outcomes) result[{one.computed_by, one.seq}] = one.status;
   return result;
 }
 
-std::size_t count(const Placement& placement, Judgement judgement) {
-  return static_cast<std::size_t>(
-      std::ranges::count(placement.judged, judgement, &JudgedAlignment::judgement));
+std::size_t count(const Placement& placement, AlignmentStatus status) {
+  return static_cast<std::size_t>(std::ranges::count(placement.outcomes, status, &AlignmentOutcome::status));
 }
 
 std::set<AlignmentName> names_from(const SimulatedFleet& fleet, std::size_t first) {
@@ -49,9 +48,9 @@ std::set<AlignmentName> names_from(const SimulatedFleet& fleet, std::size_t firs
 
 void expect_none_used(const Placement& placement, const std::set<AlignmentName>& names,
                       const std::string& what) {
-  for (const auto& [name, judgement] : judgements(placement)) {
+  for (const auto& [name, status] : statuses(placement)) {
     if (names.contains(name)) {
-      EXPECT_NE(judgement, Judgement::used) << what << ": " << name.first.str() << '/' << name.second;
+      EXPECT_NE(status, AlignmentStatus::used) << what << ": " << name.first.str() << '/' << name.second;
     }
   }
 }

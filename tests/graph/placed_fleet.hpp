@@ -29,8 +29,8 @@ Placement place(const SimulatedFleet& fleet, std::span<const NodeId> covariance_
 double joint_error(const SimulatedFleet& fleet, const Placement& placement,
                    const std::set<AgentId>& agents = {});
 
-std::map<AlignmentName, Judgement> judgements(const Placement& placement);
-std::size_t count(const Placement& placement, Judgement judgement);
+std::map<AlignmentName, AlignmentStatus> statuses(const Placement& placement);
+std::size_t count(const Placement& placement, AlignmentStatus status);
 
 /// Names of the alignments from the k-th on.
 std::set<AlignmentName> names_from(const SimulatedFleet& fleet, std::size_t first);

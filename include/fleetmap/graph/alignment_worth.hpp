@@ -10,7 +10,7 @@
 
 namespace fleetmap::graph {
 
-/// What one more alignment of two nodes would teach the fleet's graph, in nats.
+/// Information that one more alignment of two nodes would add to the fleet's graph, in nats.
 ///
 /// The information that an edge adds is the growth of log det of the graph's information matrix
 /// (D-optimality; Khosoussi et al., "Reliable Graphs for SLAM", IJRR 2019). Of a graph with one scalar
@@ -25,9 +25,9 @@ class AlignmentWorth {
 
   /// In any order.
   void add(const Node& node);
-  /// What the fleet's graph uses now, instead of all alignments before.
+  /// Replaces all alignments by those that the fleet's graph uses now.
   void use(std::span<const Alignment> used);
-  /// One that the graph has not judged yet.
+  /// Adds one that the graph has not classified yet.
   void add(const Alignment& alignment);
 
   /// The worth of each pair, were the pairs in `expected` aligned already. Pairs of unknown nodes are worth
@@ -35,7 +35,7 @@ class AlignmentWorth {
   std::vector<double> of(std::span<const Pair> pairs, std::span<const Pair> expected) const;
 
  private:
-  struct Place {
+  struct TrackNode {
     FrameId frame;
     double variance = 0.0;  ///< m^2, of the odometry since the node before
   };
@@ -43,7 +43,7 @@ class AlignmentWorth {
     NodeId node;
     double variance = 0.0;  ///< m^2
   };
-  struct Tie {
+  struct Edge {
     Pair pair;
     double variance = 0.0;  ///< m^2
   };
@@ -52,9 +52,9 @@ class AlignmentWorth {
   /// next.
   double along_track(const NodeId& from, const NodeId& to) const;
 
-  std::map<NodeId, Place> places_;
+  std::map<NodeId, TrackNode> track_nodes_;
   std::map<FrameId, Fix> fixes_;  ///< the best of each frame
-  std::vector<Tie> ties_;
+  std::vector<Edge> alignments_;
 };
 
 }  // namespace fleetmap::graph

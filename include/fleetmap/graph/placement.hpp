@@ -14,46 +14,46 @@
 
 namespace fleetmap::graph {
 
-/// What became of an alignment.
-enum class Judgement {
+/// Status of an alignment in the placement.
+enum class AlignmentStatus {
   used,
   against_gps,     ///< contradicts GPS and odometry
   against_others,  ///< contradicts alignments that are better supported
-  undecided,       ///< too little speaks for it, or for it rather than another
+  undecided,       ///< too little evidence for it, or for it rather than another
   quarantined,     ///< of an agent that mostly computes false ones
-  waiting,         ///< its nodes are not here yet
+  waiting,         ///< its nodes have not arrived yet
   invalid,         ///< has impossible numbers
 };
-const char* to_string(Judgement judgement);
+const char* to_string(AlignmentStatus status);
 
-struct JudgedAlignment {
+struct AlignmentOutcome {
   NodeId i, j;
   AgentId computed_by;
   std::uint32_t seq = 0;
-  Judgement judgement = Judgement::undecided;
+  AlignmentStatus status = AlignmentStatus::undecided;
   std::size_t mode = 0;  ///< that is used
 };
 
-/// How far the alignments that an agent computed can be trusted.
+/// Reliability of the alignments that an agent computed.
 struct AgentCredit {
   std::size_t used = 0;
-  std::size_t rejected = 0;  ///< contradict GPS, odometry or others
-  std::size_t mistakes = 0;  ///< rejected ones, but those that agree with each other count once
+  std::size_t rejected = 0;      ///< contradict GPS, odometry or others
+  std::size_t outlier_sets = 0;  ///< sets of rejected alignments that agree with each other
   bool quarantined = false;
 };
 
-/// Where every node lies in the site's ENU frame. A function of the set of nodes and alignments alone, so
+/// Pose of every node in the site's ENU frame. A function of the set of nodes and alignments alone, so
 /// agents that hold the same set hold the same placement, bit for bit, in whatever order the items arrived.
 struct Placement {
   std::map<NodeId, Pose> T_enu_node;
   std::map<FrameId, Pose> T_enu_odom;
-  /// Odometry frames that alignments tie together; each group lies where its nodes' GPS says.
+  /// Odometry frames that alignments connect; each component is placed by its nodes' GPS.
   std::vector<std::vector<FrameId>> components;
-  /// The alignments that tie them, each with the one mode that was taken.
+  /// The alignments that connect them, each with its accepted mode alone.
   std::vector<Alignment> used;
 
   // Only of method `graph`.
-  std::vector<JudgedAlignment> judged;     ///< every alignment, by (computed_by, seq)
+  std::vector<AlignmentOutcome> outcomes;  ///< every alignment, by (computed_by, seq)
   std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
   std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
 };
