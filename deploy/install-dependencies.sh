@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs with apt what is missing to build and test fleetmap on Debian 12. Needs root, directly or through sudo.
+#   deploy/install-dependencies.sh --browser    also Chromium, in which the monitor's page is tested
 set -euo pipefail
 
 packages=(
@@ -7,10 +8,14 @@ packages=(
   fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
   libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
-  libsqlite3-dev libssl-dev liblzma-dev libembree-dev libpng-dev
+  libsqlite3-dev libssl-dev liblzma-dev libembree-dev libpng-dev libboost-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   iproute2 procps python3
 )
+
+# The page of `fleetmap monitor` is bundled with npm; one that did not come from Debian serves as well.
+command -v npm >/dev/null || packages+=(npm)
+[ "${1:-}" != --browser ] || packages+=(chromium)
 
 missing=()
 for package in "${packages[@]}"; do

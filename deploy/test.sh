@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-./deploy/install-dependencies.sh
+./deploy/install-dependencies.sh --browser
 presets=("$@")
 [ "${#presets[@]}" -gt 0 ] || presets=(shipped asan tsan)
 for preset in "${presets[@]}"; do

@@ -25,6 +25,7 @@ void add_map(CLI::App& app, int& exit_code);
 void add_world(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
+void add_monitor(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_fuzz_fleet(CLI::App& app, int& exit_code);
 

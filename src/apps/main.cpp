@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   add_eval(app, exit_code);
   add_experiment(app, exit_code);
   add_trial(app, exit_code);
+  add_monitor(app, exit_code);
   add_check_config(app, exit_code);
   add_keys(app, exit_code);
   add_fuzz_fleet(app, exit_code);

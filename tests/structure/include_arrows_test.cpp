@@ -27,6 +27,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"registration", {"cloud"}},
     {"graph", {"geometry"}},
     {"store", {"cloud", "graph"}},
+    {"monitor", {"store", "graph"}},
     {"exchange", {"store", "place"}},
     {"bus", {"trust"}},
     {"wire", {"exchange", "sensor", "bus"}},
@@ -38,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"agent", {"odometry", "localization", "loop_closure", "planning", "trust"}},
     {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
     {"fault_injection", {"agent"}},
-    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval", "fault_injection"}},
+    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval", "fault_injection", "monitor"}},
 };
 
 /// Third-party headers that only the named places may include.
@@ -54,6 +55,7 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<GeographicLib/", {"src/geometry"}},
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},
+    {"^<boost/", {"src/monitor/server.cpp"}},
     {"^<openssl/", {"src/trust", "src/core/bytes.cpp", "src/core/file_hash.cpp"}},
 };
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
+#include "fleetmap/graph/placement.hpp"
+#include "fleetmap/monitor/attempt.hpp"
+
+namespace fleetmap::monitor {
+
+/// How much of what `maker` made one robot holds.
+struct Holding {
+  AgentId holder, maker;
+  std::size_t nodes = 0, submaps = 0, alignments = 0;
+};
+
+/// All that the page shows of a fleet, as one robot holds it. A value: whoever has it may hand it to any
+/// thread.
+struct FleetView {
+  std::string title;  ///< where it comes from: a folder, a store, a robot
+  AgentId self;       ///< the robot whose store this is
+  GeoPoint origin;    ///< of ENU
+  std::vector<graph::Node> nodes;
+  std::vector<bool> has_submap;  ///< parallel to `nodes`
+  std::vector<graph::Alignment> alignments;
+  graph::Placement placement;
+  std::vector<Attempt> attempts;   ///< of all robots whose registrations are known
+  std::vector<Holding> holdings;   ///< of all robots whose stores are known
+  std::vector<std::string> notes;  ///< what could not be read
+};
+
+/// All robots that made a node or an alignment, ran a registration or hold something, by name.
+std::vector<AgentId> robots_of(const FleetView& view);
+
+/// What the placement made of each alignment, by (computed_by, seq). Mode `paper` tells only which it used.
+using Outcomes = std::map<std::pair<AgentId, std::uint32_t>, graph::AlignmentStatus>;
+Outcomes outcomes_of(const FleetView& view);
+
+/// Parallel to FleetView::attempts: the alignment that came of each attempt, as an index into
+/// FleetView::alignments.
+std::vector<std::optional<std::size_t>> alignments_of_attempts(const FleetView& view);
+
+}  // namespace fleetmap::monitor

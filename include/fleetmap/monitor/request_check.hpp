@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fleetmap::monitor {
+
+/// What of a request decides whether it is answered; absent headers are empty.
+struct RequestHead {
+  std::string_view host, origin, cookie, authorization;
+};
+
+/// The name is an IP address or localhost, with any port. Browsers send the name of a page's own site, so a
+/// foreign name that was made to resolve to this machine (DNS rebinding) is refused.
+bool is_own_host(std::string_view host);
+/// No Origin, or that of this server: a page of another site may not read or open anything here.
+bool is_own_origin(std::string_view origin, std::string_view host);
+/// The address is one of this machine alone.
+bool is_loopback(std::string_view address);
+
+/// "Cookie: a=b; NAME=VALUE" -> VALUE.
+std::string_view cookie_value(std::string_view cookie, std::string_view name);
+/// Takes as long whatever the first difference is.
+bool equal_secrets(std::string_view a, std::string_view b);
+/// 32 random hexadecimal digits.
+std::string random_token();
+inline constexpr std::size_t kLeastTokenLength = 16;
+
+/// Empty if the request may be answered, else why not. An empty `token` asks for none.
+std::optional<std::string_view> refusal(const RequestHead& head, std::string_view token,
+                                        std::string_view cookie_name);
+
+/// Part of a submap: "/submap/HASH?from=N&count=N", where HASH has 32 hexadecimal digits.
+struct SubmapRequest {
+  std::string hash;
+  std::size_t from = 0, count = 0;
+};
+std::optional<SubmapRequest> parse_submap_request(std::string_view target);
+
+}  // namespace fleetmap::monitor

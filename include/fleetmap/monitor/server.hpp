@@ -1,0 +1,74 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/store/map_merge.hpp"
+
+namespace fleetmap::monitor {
+
+struct ServerConfig {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;                             ///< 0: any that is free
+  std::string token;                                  ///< needed where `address` is not of this machine alone
+  std::size_t max_viewers = 8;                        ///< pages that are open at once
+  std::size_t max_connections = 64;                   ///< of all kinds; more are closed at once
+  std::chrono::milliseconds request_timeout{10'000};  ///< to send a request
+  std::chrono::milliseconds answer_timeout{30'000};   ///< to take its answer
+  std::chrono::milliseconds idle_timeout{30'000};     ///< of a viewer that answers no ping
+  std::size_t cached_bytes = 64u << 20;               ///< of submaps that were decoded
+  Status validate() const;
+};
+
+/// One file of the page, gzip-compressed.
+struct PageFile {
+  const char* path;  ///< "/page.js"
+  const char* type;  ///< "text/javascript"
+  std::span<const std::uint8_t> gzip;
+};
+/// The page as built into the program; empty where it was built without npm.
+std::span<const PageFile> built_in_page();
+/// Why there is no page; empty if there is one.
+std::string why_no_page();
+
+struct ServerStats {
+  std::uint64_t requests = 0;
+  std::uint64_t refused = 0;  ///< a wrong host, origin, token, method or path, or a malformed request
+  std::uint64_t cut = 0;      ///< too slow, too many, or too long a header
+  std::size_t viewers = 0;    ///< now
+};
+
+/// Shows a fleet to browsers: the page, its state and the points of submaps, over HTTP and one WebSocket a
+/// viewer, on a thread of its own. It only reads, and nobody waits for a viewer: a viewer that is slow misses
+/// states, and is cut if it stays so.
+class Server {
+ public:
+  /// `load` is called on the server's thread alone.
+  static Result<std::unique_ptr<Server>> start(const ServerConfig& config, store::SubmapLoader load,
+                                               std::span<const PageFile> page = built_in_page());
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  std::uint16_t port() const;
+  /// To open in a browser: with the token, if there is one.
+  std::string url() const;
+  /// Replaces what is shown. Returns at once.
+  void publish(std::shared_ptr<const FleetView> view);
+  ServerStats stats() const;
+
+  struct State;  ///< of server.cpp
+
+ private:
+  explicit Server(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace fleetmap::monitor

@@ -1,0 +1,76 @@
+#include "content.hpp"
+
+#include "fleetmap/monitor/request_check.hpp"
+#include "fleetmap/monitor/state_json.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+constexpr std::size_t kMostPointsAtOnce = 1u << 18;
+
+std::size_t bytes_of(const QuantisedCloud& cloud) { return cloud.values.size() * sizeof(std::int16_t); }
+
+Reply plain(unsigned status, std::string text) { return {.status = status, .body = std::move(text) + '\n'}; }
+
+}  // namespace
+
+std::shared_ptr<const QuantisedCloud> PointCache::find(const std::string& hash) {
+  const auto found = by_hash_.find(hash);
+  if (found == by_hash_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found->second);
+  return found->second->cloud;
+}
+
+void PointCache::keep(const std::string& hash, std::shared_ptr<const QuantisedCloud> cloud) {
+  if (by_hash_.contains(hash)) return;
+  bytes_ += bytes_of(*cloud);
+  entries_.push_front({hash, std::move(cloud)});
+  by_hash_[hash] = entries_.begin();
+  while (bytes_ > most_bytes_ && entries_.size() > 1) {
+    bytes_ -= bytes_of(*entries_.back().cloud);
+    by_hash_.erase(entries_.back().hash);
+    entries_.pop_back();
+  }
+}
+
+void Content::show(const FleetView& view) {
+  state_ = std::make_shared<const std::string>(state_json(view));
+  submaps_.clear();
+  for (std::size_t k = 0; k < view.nodes.size(); ++k) {
+    if (view.has_submap[k]) submaps_.emplace(to_hex(view.nodes[k].submap_hash), view.nodes[k].id);
+  }
+}
+
+Reply Content::reply(std::string_view target) {
+  if (target.starts_with("/submap/")) return submap(target);
+  if (target == "/state.json") return {.type = "application/json", .body = *state_};
+  return page_file(target.substr(0, target.find('?')));
+}
+
+Reply Content::page_file(std::string_view path) const {
+  if (path == "/") path = "/index.html";
+  for (const PageFile& file : page_) {
+    if (path == file.path)
+      return {.type = file.type, .body = std::string(file.gzip.begin(), file.gzip.end()), .gzip = true};
+  }
+  if (path == "/index.html") return plain(200, why_no_page() + "\nThe fleet's state is at /state.json.");
+  return plain(404, "nothing is here");
+}
+
+Reply Content::submap(std::string_view target) {
+  const auto request = parse_submap_request(target);
+  if (!request) return plain(400, "expected /submap/HASH?from=N&count=N");
+  const auto node = submaps_.find(request->hash);
+  if (node == submaps_.end()) return plain(404, "no such submap");
+  std::shared_ptr<const QuantisedCloud> cloud = cache_.find(request->hash);
+  if (!cloud) {
+    const auto loaded = load_(node->second);
+    if (!loaded) return plain(503, "the submap cannot be read: " + loaded.error().message);
+    cloud = std::make_shared<const QuantisedCloud>(quantised(*loaded));
+    cache_.keep(request->hash, cloud);
+  }
+  const Bytes points = encoded_points(*cloud, request->from, std::min(request->count, kMostPointsAtOnce));
+  return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
+}
+
+}  // namespace fleetmap::monitor

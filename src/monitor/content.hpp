@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/monitor/point_levels.hpp"
+#include "fleetmap/monitor/server.hpp"
+#include "fleetmap/store/map_merge.hpp"
+
+namespace fleetmap::monitor {
+
+struct Reply {
+  unsigned status = 200;
+  std::string type = "text/plain; charset=utf-8";
+  std::string body;
+  bool gzip = false;
+  bool immutable = false;  ///< named by its content, so that a browser may keep it for ever
+};
+
+/// Submaps ready to be sent, those asked for last: at most so many bytes, but at least one.
+class PointCache {
+ public:
+  explicit PointCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  std::shared_ptr<const QuantisedCloud> find(const std::string& hash);
+  void keep(const std::string& hash, std::shared_ptr<const QuantisedCloud> cloud);
+
+ private:
+  struct Entry {
+    std::string hash;
+    std::shared_ptr<const QuantisedCloud> cloud;
+  };
+  std::size_t most_bytes_;
+  std::size_t bytes_ = 0;
+  std::list<Entry> entries_;  ///< the one used last in front
+  std::map<std::string, std::list<Entry>::iterator> by_hash_;
+};
+
+/// What there is to see: the page's files, the state and the submaps. No name is ever a file's. One thread.
+class Content {
+ public:
+  Content(std::span<const PageFile> page, store::SubmapLoader load, std::size_t cached_bytes)
+      : page_(page), load_(std::move(load)), cache_(cached_bytes) {}
+
+  void show(const FleetView& view);
+  /// The state as JSON; "{}" before the first show().
+  std::shared_ptr<const std::string> state() const { return state_; }
+  Reply reply(std::string_view target);
+
+ private:
+  Reply page_file(std::string_view path) const;
+  Reply submap(std::string_view target);
+
+  std::span<const PageFile> page_;
+  store::SubmapLoader load_;
+  PointCache cache_;
+  std::shared_ptr<const std::string> state_ = std::make_shared<const std::string>("{}");
+  std::map<std::string, NodeId> submaps_;  ///< by content hash
+};
+
+}  // namespace fleetmap::monitor

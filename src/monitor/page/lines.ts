@@ -1,0 +1,124 @@
+import * as THREE from 'three';
+import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
+import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
+import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import type {Edge, Hit} from './map';
+import {colourOf, type FleetNode, type State} from './model';
+
+export interface Marks {
+  state: State;
+  nodes: {node: FleetNode; p: THREE.Vector3}[];
+  place: (id: string) => THREE.Vector3 | undefined;
+  edges: Edge[];
+  paths: boolean;
+  dots: boolean;
+  selected?: Hit;
+}
+
+const kEdgeColours = {used: '#12a150', unused: '#e0912f', rejected: '#d92d3a'};
+const kSelected = '#ffffff';
+
+const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
+
+/** Trajectories, edges and nodes, in front of all points. */
+export class Lines {
+  private lines: LineSegments2[] = [];
+  private dots?: THREE.Points;
+  private size = new THREE.Vector2(1, 1);
+
+  constructor(private scene: THREE.Scene) {}
+
+  resize(width: number, height: number): void {
+    this.size.set(width, height);
+    for (const line of this.lines) line.material.resolution.copy(this.size);
+  }
+
+  show(marks: Marks): void {
+    this.clear();
+    if (marks.paths) for (const robot of marks.state.robots) this.path(marks, robot.id);
+    for (const kind of ['rejected', 'unused', 'used'] as const) {
+      const positions = marks.edges.filter((edge) => edge.kind === kind).flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
+      this.segments(positions, '#ffffff', 4.5, 0.55);
+      this.segments(positions, kEdgeColours[kind], 2.5, 1);
+    }
+    const selected = marks.selected;
+    if (selected && 'edge' in selected) {
+      const a = marks.place(selected.edge.a), b = marks.place(selected.edge.b);
+      if (a && b) {
+        this.segments([...a.toArray(), ...b.toArray()], '#10161d', 9, 1);
+        this.segments([...a.toArray(), ...b.toArray()], kSelected, 6, 1);
+        this.segments([...a.toArray(), ...b.toArray()], kEdgeColours[selected.edge.kind], 3, 1);
+      }
+    }
+    if (marks.dots) this.points(marks);
+  }
+
+  private clear(): void {
+    for (const line of this.lines) {
+      this.scene.remove(line);
+      line.geometry.dispose();
+      line.material.dispose();
+    }
+    this.lines = [];
+    if (this.dots) {
+      this.scene.remove(this.dots);
+      this.dots.geometry.dispose();
+      (this.dots.material as THREE.Material).dispose();
+      this.dots = undefined;
+    }
+  }
+
+  /** From node to node of one session. */
+  private path(marks: Marks, robot: string): void {
+    const positions: number[] = [];
+    const own = marks.nodes.filter(({node}) => node.robot === robot).sort((a, b) => a.node.session - b.node.session || a.node.t - b.node.t);
+    for (let k = 1; k < own.length; ++k) {
+      if (own[k].node.session === own[k - 1].node.session) positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
+    }
+    this.segments(positions, '#ffffff', 5, 0.7);
+    this.segments(positions, colourOf(marks.state, robot), 3, 1);
+  }
+
+  private segments(positions: number[], colour: string, width: number, opacity: number): void {
+    if (positions.length === 0) return;
+    const geometry = new LineSegmentsGeometry().setPositions(positions);
+    const material = new LineMaterial({linewidth: width, transparent: true, opacity, depthTest: false, depthWrite: false});
+    material.color.copy(rgb(colour));
+    material.resolution.copy(this.size);
+    const line = new LineSegments2(geometry, material);
+    line.frustumCulled = false;
+    line.renderOrder = this.lines.length;
+    this.lines.push(line);
+    this.scene.add(line);
+  }
+
+  private points(marks: Marks): void {
+    const positions: number[] = [], colours: number[] = [], sizes: number[] = [];
+    const chosen = new Set<string>();
+    const selected = marks.selected;
+    if (selected && 'node' in selected) chosen.add(selected.node);
+    if (selected && 'edge' in selected) chosen.add(selected.edge.a).add(selected.edge.b);
+    for (const {node, p} of marks.nodes) {
+      positions.push(...p.toArray());
+      colours.push(...rgb(colourOf(marks.state, node.robot)).toArray());
+      sizes.push(chosen.has(node.id) ? 16 : 8);
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
+    geometry.setAttribute('tint', new THREE.Float32BufferAttribute(colours, 3));
+    geometry.setAttribute('size', new THREE.Float32BufferAttribute(sizes, 1));
+    const material = new THREE.ShaderMaterial({
+      transparent: true, depthTest: false, depthWrite: false,
+      uniforms: {ratio: {value: Math.min(2, window.devicePixelRatio)}},
+      vertexShader: `attribute vec3 tint; attribute float size; uniform float ratio; varying vec3 vColour; varying float vSize;
+        void main() { vColour = tint; vSize = size; gl_PointSize = size * ratio; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+      fragmentShader: `varying vec3 vColour; varying float vSize;
+        void main() { float r = vSize * length(gl_PointCoord - 0.5); float edge = 0.5 * vSize;
+          gl_FragColor = vec4(mix(vColour, vec3(1.0), smoothstep(edge - 2.4, edge - 1.4, r)), 1.0 - smoothstep(edge - 0.8, edge, r)); }`,
+    });
+    this.dots = new THREE.Points(geometry, material);
+    this.dots.frustumCulled = false;
+    this.dots.renderOrder = 1000;
+    this.scene.add(this.dots);
+  }
+}

@@ -1,0 +1,258 @@
+import 'uplot/dist/uPlot.min.css';
+import {geoText, toGeo} from './geodesy';
+import {follow} from './live';
+import {FleetMap, type ColourMode, type Edge, type Hit, type Layer, type Picture} from './map';
+import {Measure} from './measure';
+import {colourOf, count, duration, metres, type State} from './model';
+import {el, FleetPanel, WhyPanel} from './panels';
+
+const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+const canvas = byId<HTMLCanvasElement>('canvas');
+
+let state: State | undefined;
+let map: FleetMap | undefined;
+try {
+  map = new FleetMap(canvas);
+} catch {
+  byId('no-map').hidden = false;
+  byId('no-map').textContent = 'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
+}
+const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
+const why = new WhyPanel(byId('why'), actions);
+const fleet = new FleetPanel(byId('fleet'), actions);
+
+// The state.
+
+follow((next) => {
+  state = next;
+  document.title = `${next.title} – fleetmap`;
+  byId('title').textContent = next.title;
+  byId('summary').textContent = `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`;
+  map?.show(next);
+  setTime();
+  why.show(next);
+  fleet.show(next);
+}, (connected) => {
+  byId('connection').textContent = connected ? '' : 'connection lost, the last state is shown';
+});
+
+// Selection.
+
+function select(hit: Hit | undefined, go = false): void {
+  map?.select(hit);
+  if (!hit || !state) return showCard(null);
+  if ('node' in hit) return selectNode(hit.node, go);
+  selectEdge(hit.edge, go);
+}
+
+function selectNode(id: string, go: boolean): void {
+  const node = state!.nodes.find((one) => one.id === id);
+  const p = map?.place(id);
+  if (!node) return showCard(null);
+  const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
+  if (p) rows.push(['ENU', p.toArray().map((v) => v.toFixed(2)).join(', ') + ' m'], ['WGS84', geoText(toGeo(state!.origin, p.toArray()))]);
+  rows.push(['GPS', node.gps_sigma_m === undefined ? 'none' : `known to ${node.gps_sigma_m.toFixed(2)} m (1 σ) before alignment`]);
+  rows.push(['submap', node.submap ? `${Math.round(node.bytes / 1000)} kB, held` : node.bytes > 0 ? 'not held here' : 'empty']);
+  const tied = state!.alignments.filter((one) => one.i === id || one.j === id).length;
+  rows.push(['alignments', String(tied)]);
+  showCard([el('h2', {}, `Node ${id}`), table(rows)]);
+  if (go && p) map?.goTo(p);
+}
+
+function selectEdge(edge: Edge, go: boolean): void {
+  const registration = edge.registration === undefined ? undefined : state!.registrations[edge.registration];
+  const alignment = edge.alignment === undefined ? undefined : state!.alignments[edge.alignment];
+  const kind = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'}[edge.kind];
+  const a = map?.place(edge.a), b = map?.place(edge.b);
+  const rows: [string, string][] = [];
+  if (a && b) rows.push(['nodes', `${metres(a.distanceTo(b))} apart as placed`]);
+  if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
+  showCard([el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kind}: ${edge.b} → ${edge.a}`), el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''), table(rows)]);
+  if (edge.registration !== undefined) why.mark(edge.registration);
+  if (go && a && b) map?.goTo(a.clone().add(b).multiplyScalar(0.5));
+}
+
+function selectRegistration(index: number): void {
+  const one = state!.registrations[index];
+  const known = map?.edges.find((edge) => edge.registration === index);
+  const edge: Edge = known ?? {kind: one.verdict === 'accepted' ? 'unused' : 'rejected', a: one.target, b: one.source, registration: index};
+  why.mark(index);
+  select({edge}, true);
+}
+
+function table(rows: [string, string][]): HTMLElement {
+  return el('dl', {}, ...rows.flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, value)]));
+}
+
+function showCard(content: HTMLElement[] | null): void {
+  const card = byId('card');
+  card.hidden = content === null;
+  if (!content) return card.replaceChildren();
+  const close = el('button', {type: 'button', class: 'quiet close', 'aria-label': 'Close'}, '✕');
+  close.onclick = () => {
+    measure?.stop();
+    pressed('measure', false);
+    select(undefined);
+  };
+  card.replaceChildren(close, ...content);
+}
+
+// The map's tools.
+
+function pressed(id: string, on: boolean): void {
+  byId(id).setAttribute('aria-pressed', String(on));
+}
+
+function setPlanar(planar: boolean): void {
+  map?.setPlanar(planar);
+  pressed('view-plan', planar);
+  pressed('view-3d', !planar);
+}
+byId('view-plan').onclick = () => setPlanar(true);
+byId('view-3d').onclick = () => setPlanar(false);
+byId('fit').onclick = () => map?.fit();
+
+let colour: ColourMode = 'robot';
+for (const button of document.querySelectorAll<HTMLElement>('[data-colour]')) {
+  button.onclick = () => {
+    colour = button.dataset.colour as ColourMode;
+    for (const other of document.querySelectorAll('[data-colour]')) other.setAttribute('aria-pressed', String(other === button));
+    map?.setColour(colour);
+  };
+}
+
+function toggleMeasure(): void {
+  if (!measure) return;
+  if (measure.active) measure.stop();
+  else {
+    select(undefined);
+    measure.start();
+  }
+  pressed('measure', measure.active);
+}
+byId('measure').onclick = toggleMeasure;
+
+for (const layer of ['points', 'paths', 'nodes', 'used', 'unused', 'rejected'] as Layer[]) {
+  byId<HTMLInputElement>(`layer-${layer}`).onchange = (event) => {
+    if (!map) return;
+    map.layers[layer] = (event.target as HTMLInputElement).checked;
+    map.remark();
+  };
+}
+
+// A phone draws less than a laptop; whoever drives the slider decides.
+const budget = byId<HTMLInputElement>('budget');
+const memory = (navigator as {deviceMemory?: number}).deviceMemory ?? 4;
+const small = matchMedia('(pointer: coarse)').matches || Math.min(screen.width, screen.height) < 600 || memory < 4;
+budget.value = String(Math.log10(small ? 300_000 : 1_500_000));
+const setBudget = () => {
+  const points = Math.round(10 ** Number(budget.value));
+  byId('budget-value').textContent = count(points);
+  if (map) map.budget = points;
+};
+budget.oninput = setBudget;
+setBudget();
+
+function setTime(): void {
+  if (!state) return;
+  const end = state.nodes.reduce((most, node) => Math.max(most, node.t), 0);
+  const share = Number(byId<HTMLInputElement>('time').value) / 1000;
+  byId('time-value').textContent = duration(share * end);
+  byId('time').setAttribute('aria-valuetext', duration(share * end));
+  if (map) {
+    map.until = share >= 1 ? Infinity : share * end;
+    map.remark();
+  }
+}
+byId('time').oninput = setTime;
+
+if (map) map.onPicture = showPicture;
+function showPicture(picture: Picture): void {
+  byId('drawn').textContent = `${count(picture.drawn)} of ${count(picture.total)} points drawn`;
+  canvas.dataset.drawn = String(picture.drawn);
+  canvas.setAttribute('aria-label', `Map of ${state?.title ?? 'the fleet'}: ${picture.planar ? 'plan' : '3D'} view, ${count(picture.drawn)} points`);
+  showScale(picture);
+  showLegend(picture);
+  measure?.draw();
+}
+
+function showScale(picture: Picture): void {
+  const most = 110 * picture.metresPerPixel, power = 10 ** Math.floor(Math.log10(most));
+  const length = [5, 2, 1].map((k) => k * power).find((one) => one <= most) ?? power;
+  byId('scale').querySelector('i')!.style.width = `${length / picture.metresPerPixel}px`;
+  byId('scale').querySelector('span')!.textContent = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
+}
+
+let legendOf = '';
+function showLegend(picture: Picture): void {
+  if (!state) return;
+  const heights = picture.heights.map((h) => h.toFixed(1));
+  const key = colour + heights.join() + state.robots.length;
+  if (key === legendOf) return;
+  legendOf = key;
+  const robots = state.robots.map((robot) => el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id));
+  if (colour === 'robot') byId('legend').replaceChildren(...robots);
+  else byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, colour === 'height' ? `${heights[0]} m` : 'weak', el('i', {class: 'turbo'}), colour === 'height' ? `${heights[1]} m` : 'strong'));
+}
+
+// Pointer and keys.
+
+let down: {x: number; y: number} | undefined;
+canvas.addEventListener('pointerdown', (event) => {
+  down = {x: event.offsetX, y: event.offsetY};
+});
+canvas.addEventListener('pointerup', (event) => {
+  if (!map || !down || Math.hypot(event.offsetX - down.x, event.offsetY - down.y) > 5) return;
+  const reach = event.pointerType === 'touch' ? 18 : 10;
+  if (measure?.active) return measure.click(event.offsetX, event.offsetY, reach, state!.origin);
+  select(map.hitAt(event.offsetX, event.offsetY, reach));
+});
+canvas.addEventListener('pointermove', (event) => {
+  if (!map || event.buttons !== 0) return;
+  canvas.style.cursor = measure?.active ? 'crosshair' : map.hitAt(event.offsetX, event.offsetY, 10) ? 'pointer' : 'grab';
+});
+canvas.addEventListener('keydown', (event) => {
+  if (!map || event.ctrlKey || event.metaKey || event.altKey) return;
+  const keys: Record<string, () => void> = {
+    ArrowLeft: () => map.pan(-1, 0), ArrowRight: () => map.pan(1, 0), ArrowUp: () => map.pan(0, 1), ArrowDown: () => map.pan(0, -1),
+    '+': () => map.zoom(1.25), '=': () => map.zoom(1.25), '-': () => map.zoom(0.8), f: () => map.fit(), p: () => setPlanar(!map.planar), m: toggleMeasure,
+    Escape: () => {
+      measure?.stop();
+      pressed('measure', false);
+      select(undefined);
+    },
+  };
+  const act = keys[event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});
+
+// Tabs, as WAI-ARIA has them.
+
+const tabs = [byId('tab-why'), byId('tab-fleet')];
+function openTab(tab: HTMLElement): void {
+  for (const one of tabs) {
+    one.setAttribute('aria-selected', String(one === tab));
+    one.tabIndex = one === tab ? 0 : -1;
+    byId(one.getAttribute('aria-controls')!).hidden = one !== tab;
+  }
+  fleet.redraw();
+}
+for (const tab of tabs) {
+  tab.onclick = () => openTab(tab);
+  tab.onkeydown = (event) => {
+    if (event.key !== 'ArrowLeft' && event.key !== 'ArrowRight') return;
+    const next = tabs[(tabs.indexOf(tab) + 1) % tabs.length];
+    openTab(next);
+    next.focus();
+  };
+}
+
+byId('theme').onclick = () => {
+  const dark = getComputedStyle(document.documentElement).colorScheme === 'dark';
+  document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+  fleet.redraw();
+  map?.draw();
+};

@@ -1,0 +1,351 @@
+import * as THREE from 'three';
+import {MapControls} from 'three/examples/jsm/controls/MapControls.js';
+import {colourOf, type FleetNode, type State} from './model';
+import {pointLook} from './point_material';
+import {Shading} from './shading';
+import {Submap, Submaps} from './submaps';
+import {Lines} from './lines';
+
+export type ColourMode = 'robot' | 'height' | 'intensity';
+export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected';
+
+export interface Edge {
+  kind: 'used' | 'unused' | 'rejected';
+  a: string;
+  b: string;
+  registration?: number;  // index in State.registrations
+  alignment?: number;     // index in State.alignments
+}
+export type Hit = {node: string} | {edge: Edge};
+
+/** What the map tells of itself after each picture. */
+export interface Picture {
+  drawn: number;
+  total: number;
+  metresPerPixel: number;
+  planar: boolean;
+  heights: [number, number];
+}
+
+const kFov = 50;
+const kFar = 20_000;
+
+/** The map: submaps at their poses, trajectories, nodes and registrations. Draws when something changed, and only then. */
+export class FleetMap {
+  readonly layers: Record<Layer, boolean> = {points: true, paths: true, nodes: true, used: true, unused: true, rejected: true};
+  onPicture: (picture: Picture) => void = () => {};
+  edges: Edge[] = [];
+  until = Infinity;
+  planar = false;
+  private state?: State;
+  private nodes = new Map<string, {node: FleetNode; p: THREE.Vector3}>();
+  private renderer: THREE.WebGLRenderer;
+  private shading = new Shading();
+  private points = new THREE.Scene();
+  private marks = new THREE.Scene();
+  private perspective = new THREE.PerspectiveCamera(kFov, 1, 0.5, kFar);
+  private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
+  private controls: {perspective: MapControls; plan: MapControls};
+  private look = pointLook();
+  private submaps: Submaps;
+  private lines: Lines;
+  private scheduled = false;
+  private selected?: Hit;
+  private fitted = false;
+
+  constructor(private canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
+    this.renderer.autoClear = false;
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.submaps = new Submaps(() => this.draw());
+    this.points.add(this.submaps.group);
+    this.lines = new Lines(this.marks);
+    for (const camera of [this.perspective, this.plan]) camera.up.set(0, 0, 1);
+    this.plan.up.set(0, 1, 0);
+    this.controls = {perspective: this.control(this.perspective), plan: this.control(this.plan)};
+    this.controls.plan.enableRotate = false;
+    this.controls.plan.screenSpacePanning = true;
+    this.controls.plan.enabled = false;
+    this.controls.perspective.maxPolarAngle = 0.49 * Math.PI;
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+  }
+
+  private control(camera: THREE.Camera): MapControls {
+    const controls = new MapControls(camera, this.canvas);
+    controls.zoomToCursor = true;
+    controls.enableDamping = false;
+    controls.addEventListener('change', () => this.draw());
+    return controls;
+  }
+
+  get camera(): THREE.PerspectiveCamera | THREE.OrthographicCamera {
+    return this.planar ? this.plan : this.perspective;
+  }
+  private get control_(): MapControls {
+    return this.planar ? this.controls.plan : this.controls.perspective;
+  }
+
+  show(state: State): void {
+    this.state = state;
+    this.nodes.clear();
+    const wanted = new Set<string>();
+    for (const node of state.nodes) {
+      if (!node.T) continue;
+      const [x, y, z, qx, qy, qz, qw] = node.T;
+      const T = new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
+      this.nodes.set(node.id, {node, p: new THREE.Vector3(x, y, z)});
+      if (!node.submap) continue;
+      wanted.add(node.submap);
+      let submap = this.submaps.all.get(node.submap);
+      if (!submap) {
+        submap = new Submap(node.submap, node.robot, node.t, this.look, colourOf(state, node.robot));
+        this.submaps.all.set(node.submap, submap);
+        this.submaps.group.add(submap.object);
+      }
+      submap.place(T);
+    }
+    for (const [hash, submap] of this.submaps.all) {
+      if (wanted.has(hash)) continue;
+      this.submaps.group.remove(submap.object);
+      this.submaps.all.delete(hash);
+    }
+    this.edges = edgesOf(state);
+    this.remark();
+    if (!this.fitted && this.nodes.size > 0) this.fit();
+    this.draw();
+  }
+
+  /** Lines and nodes anew: after a state, the time, a layer or the selection changed. */
+  remark(): void {
+    if (!this.state) return;
+    const place = (id: string) => this.nodes.get(id)?.p;
+    this.lines.show({
+      state: this.state, nodes: [...this.nodes.values()].filter(({node}) => node.t <= this.until), place,
+      edges: this.edges.filter((edge) => this.layers[edge.kind] && this.isThere(edge.a) && this.isThere(edge.b)),
+      paths: this.layers.paths, dots: this.layers.nodes, selected: this.selected,
+    });
+    this.draw();
+  }
+
+  private isThere(id: string): boolean {
+    const known = this.nodes.get(id);
+    return known !== undefined && known.node.t <= this.until;
+  }
+
+  set budget(points: number) {
+    this.submaps.budget = points;
+    this.draw();
+  }
+
+  setColour(mode: ColourMode): void {
+    this.look.mode.value = {robot: 0, height: 1, intensity: 2}[mode];
+    this.draw();
+  }
+
+  select(hit: Hit | undefined): void {
+    this.selected = hit;
+    this.remark();
+  }
+
+  place(id: string): THREE.Vector3 | undefined {
+    return this.nodes.get(id)?.p;
+  }
+
+  setPlanar(planar: boolean): void {
+    if (planar === this.planar) return;
+    const target = this.control_.target.clone();
+    const span = this.metresPerPixel() * this.canvas.clientHeight;
+    this.control_.enabled = false;
+    this.planar = planar;
+    this.control_.enabled = true;
+    this.look_(target, span);
+  }
+
+  /** Looks at `target` so that the picture is `span` metres high there. */
+  private look_(target: THREE.Vector3, span: number): void {
+    if (this.planar) {
+      this.plan.position.copy(target).add(new THREE.Vector3(0, 0, kFar / 2));
+      this.plan.zoom = 2 / span;
+      this.plan.updateProjectionMatrix();
+      this.controls.plan.target.copy(target);
+    } else {
+      const distance = span / (2 * Math.tan((kFov * Math.PI) / 360));
+      const away = this.perspective.position.clone().sub(this.controls.perspective.target);
+      const direction = away.length() > 1 ? away.normalize() : new THREE.Vector3(-0.45, -0.75, 0.62).normalize();
+      this.perspective.position.copy(target).addScaledVector(direction, distance);
+      this.controls.perspective.target.copy(target);
+    }
+    this.control_.update();
+    this.draw();
+  }
+
+  fit(): void {
+    const box = new THREE.Box3();
+    for (const {p} of this.nodes.values()) box.expandByPoint(p);
+    if (box.isEmpty()) return;
+    this.fitted = true;
+    const size = box.getSize(new THREE.Vector3()), aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const span = Math.max(size.y, size.x / aspect) + 24;
+    this.look_(box.getCenter(new THREE.Vector3()), this.planar ? span : 0.86 * span);
+  }
+
+  /** Brings a place into the middle, and near enough to see it. */
+  goTo(p: THREE.Vector3): void {
+    this.look_(p, Math.min(this.metresPerPixel() * this.canvas.clientHeight, 60));
+  }
+
+  pan(right: number, up: number): void {
+    const step = 0.15 * this.metresPerPixel() * this.canvas.clientHeight;
+    const forward = new THREE.Vector3(0, 1, 0);
+    if (!this.planar) this.perspective.getWorldDirection(forward).setZ(0).normalize();
+    const move = forward.clone().multiplyScalar(up * step).add(new THREE.Vector3(forward.y, -forward.x, 0).multiplyScalar(right * step));
+    this.camera.position.add(move);
+    this.control_.target.add(move);
+    this.control_.update();
+    this.draw();
+  }
+
+  zoom(factor: number): void {
+    this.look_(this.control_.target.clone(), (this.metresPerPixel() * this.canvas.clientHeight) / factor);
+  }
+
+  /** Of a pixel at what is looked at. */
+  metresPerPixel(): number {
+    const height = Math.max(1, this.canvas.clientHeight);
+    if (this.planar) return (this.plan.top - this.plan.bottom) / this.plan.zoom / height;
+    const distance = this.perspective.position.distanceTo(this.controls.perspective.target);
+    return (2 * distance * Math.tan((kFov * Math.PI) / 360)) / height;
+  }
+
+  /** In pixels of the canvas; nothing behind the camera. */
+  project(p: THREE.Vector3): {x: number; y: number; depth: number} | undefined {
+    const q = p.clone().project(this.camera);
+    if (q.z < -1 || q.z > 1) return undefined;
+    return {x: ((q.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - q.y) / 2) * this.canvas.clientHeight, depth: q.z};
+  }
+
+  /** The node, else the edge, at a pixel. */
+  hitAt(x: number, y: number, reach: number): Hit | undefined {
+    let best: Hit | undefined, least = reach;
+    if (this.layers.nodes) {
+      for (const {node, p} of this.nodes.values()) {
+        if (node.t > this.until) continue;
+        const q = this.project(p);
+        const d = q ? Math.hypot(q.x - x, q.y - y) : Infinity;
+        if (d < least) [least, best] = [d, {node: node.id}];
+      }
+    }
+    if (best) return best;
+    for (const edge of this.edges) {
+      if (!this.layers[edge.kind] || !this.isThere(edge.a) || !this.isThere(edge.b)) continue;
+      const a = this.project(this.nodes.get(edge.a)!.p), b = this.project(this.nodes.get(edge.b)!.p);
+      if (!a || !b) continue;
+      const length2 = (b.x - a.x) ** 2 + (b.y - a.y) ** 2;
+      const s = length2 > 0 ? Math.min(1, Math.max(0, ((x - a.x) * (b.x - a.x) + (y - a.y) * (b.y - a.y)) / length2)) : 0;
+      const d = Math.hypot(a.x + s * (b.x - a.x) - x, a.y + s * (b.y - a.y) - y);
+      if (d < least) [least, best] = [d, {edge}];
+    }
+    return best;
+  }
+
+  /** The drawn point that is seen at a pixel: the nearest to the eye of those within `reach`. */
+  pointAt(x: number, y: number, reach: number): THREE.Vector3 | undefined {
+    const p = new THREE.Vector3(), q = new THREE.Vector3();
+    const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+    const w = this.canvas.clientWidth, h = this.canvas.clientHeight;
+    let best: THREE.Vector3 | undefined, least = Infinity;
+    for (const submap of this.submaps.all.values()) {
+      const drawn = submap.object.visible ? Math.min(submap.wanted, submap.loaded) : 0;
+      for (let k = 0; k < drawn; ++k) {
+        submap.point(k, p);
+        q.copy(p).applyMatrix4(view);
+        const dx = ((q.x + 1) / 2) * w - x, dy = ((1 - q.y) / 2) * h - y;
+        const off2 = dx * dx + dy * dy;
+        if (off2 > reach * reach || q.z < -1 || q.z > 1) continue;
+        // A point in front wins by far; of those at one depth that under the pointer.
+        const cost = q.z * 1e6 + off2;
+        if (cost < least) [least, best] = [cost, p.clone()];
+      }
+    }
+    return best;
+  }
+
+  private resize(): void {
+    const box = this.canvas.parentElement!.getBoundingClientRect();
+    const width = Math.max(1, Math.round(box.width)), height = Math.max(1, Math.round(box.height));
+    const span = this.fitted ? this.metresPerPixel() * this.canvas.clientHeight : 0;
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setSize(width, height);
+    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
+    this.shading.resize(size.x, size.y);
+    this.perspective.aspect = width / height;
+    this.perspective.updateProjectionMatrix();
+    Object.assign(this.plan, {left: -width / height, right: width / height, top: 1, bottom: -1});
+    this.plan.updateProjectionMatrix();
+    this.lines.resize(width, height);
+    if (span > 0) this.draw();
+  }
+
+  draw(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      this.render();
+    });
+  }
+
+  private render(): void {
+    const camera = this.camera, height = Math.max(1, this.canvas.clientHeight);
+    camera.updateMatrixWorld();
+    const pixelAtOne = this.planar ? this.metresPerPixel() : (2 * Math.tan((kFov * Math.PI) / 360)) / height;
+    this.look.pixelsPerMetre.value = 1 / pixelAtOne;
+    this.look.planar.value = this.planar ? 1 : 0;
+    this.look.ratio.value = this.renderer.getPixelRatio();
+    this.setHeights();
+    this.submaps.group.visible = this.layers.points;
+    this.submaps.allocate(camera, this.planar, this.until);
+    this.renderer.setRenderTarget(null);
+    this.renderer.setClearColor(0x000000, 0);
+    this.renderer.clear();
+    this.shading.draw(this.renderer, this.points, camera, pixelAtOne / this.renderer.getPixelRatio());
+    this.renderer.render(this.marks, camera);
+    let total = 0;
+    for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
+    this.onPicture({
+      drawn: this.layers.points ? this.submaps.drawn : 0, total, metresPerPixel: this.metresPerPixel(), planar: this.planar,
+      heights: [this.look.low.value, this.look.high.value],
+    });
+  }
+
+  /** The colours of height span most of the points. */
+  private setHeights(): void {
+    const heights: number[] = [], p = new THREE.Vector3();
+    for (const submap of this.submaps.all.values()) {
+      const step = Math.max(1, Math.floor(Math.min(submap.loaded, 4096) / 40));
+      for (let k = 0; k < Math.min(submap.loaded, 4096); k += step) heights.push(submap.point(k, p).z);
+    }
+    if (heights.length < 10) return;
+    heights.sort((a, b) => a - b);
+    this.look.low.value = heights[Math.floor(0.02 * heights.length)];
+    this.look.high.value = heights[Math.floor(0.985 * heights.length)];
+  }
+}
+
+/** Alignments, and the registrations that gave none. */
+function edgesOf(state: State): Edge[] {
+  const edges: Edge[] = state.alignments.map((alignment, k) => ({
+    kind: alignment.status === 'used' ? 'used' : 'unused', a: alignment.i, b: alignment.j, alignment: k,
+    registration: registrationOf(state, alignment.i, alignment.j, alignment.by),
+  }));
+  state.registrations.forEach((one, k) => {
+    if (one.verdict === 'rejected' || one.verdict === 'failed') edges.push({kind: 'rejected', a: one.target, b: one.source, registration: k});
+  });
+  return edges;
+}
+
+function registrationOf(state: State, target: string, source: string, by: string): number | undefined {
+  const k = state.registrations.findIndex((one) => one.target === target && one.source === source && one.by === by && one.verdict !== 'rejected' && one.verdict !== 'failed');
+  return k < 0 ? undefined : k;
+}

@@ -1,0 +1,112 @@
+// The fleet's state as the program sends it (src/monitor/state_json.cpp).
+
+export interface Robot {
+  id: string;
+  nodes: number;
+  sessions: number;
+  path_m: number;
+  first_s?: number;
+  last_s?: number;
+  last_node?: string;
+  sigma_m?: number;
+  alignments_used?: number;
+  alignments_rejected?: number;
+  quarantined?: boolean;
+  georeferenced: boolean;
+}
+
+/** x, y, z in m of ENU, and a unit quaternion x, y, z, w. */
+export type PoseValues = [number, number, number, number, number, number, number];
+
+export interface FleetNode {
+  id: string;
+  robot: string;
+  session: number;
+  t: number;
+  bytes: number;
+  T?: PoseValues;
+  submap?: string;
+  gps_sigma_m?: number;
+}
+
+export interface Alignment {
+  i: string;
+  j: string;
+  by: string;
+  status: string;
+  modes: number;
+  rmse_m: number;
+  sentence: string;
+}
+
+export interface Registration {
+  target: string;
+  source: string;
+  by: string;
+  verdict: 'accepted' | 'ambiguous' | 'rejected' | 'failed';
+  status: string | null;
+  rmse_m: number | null;
+  inlier_fraction: number | null;
+  overlap: number | null;
+  reason: string;
+  sentence: string;
+}
+
+export interface Holding {
+  holder: string;
+  maker: string;
+  nodes: number;
+  submaps: number;
+  alignments: number;
+}
+
+export interface Pair {
+  a: string;
+  b: string;
+  joined: boolean;
+  state: string;
+  text: string;
+  attempts: number;
+  accepted: number;
+  used: number;
+  nearest_m: number | null;
+  nearest?: [string, string];
+}
+
+export interface State {
+  title: string;
+  self: string;
+  origin: {latitude_deg: number; longitude_deg: number; altitude_m: number};
+  robots: Robot[];
+  nodes: FleetNode[];
+  alignments: Alignment[];
+  registrations: Registration[];
+  holdings: Holding[];
+  pairs: Pair[];
+  notes: string[];
+}
+
+// Told apart by people with any colour vision, on light and on dark ground.
+const kRobotColours = ['#2f7de1', '#e8743b', '#1fa774', '#d1477a', '#b58900', '#7d5bd6', '#1598a8', '#8c6243', '#5f7488', '#7a8b2a'];
+
+export function colourOf(state: State, robot: string): string {
+  const index = state.robots.findIndex((one) => one.id === robot);
+  return kRobotColours[Math.max(0, index) % kRobotColours.length];
+}
+
+export function duration(seconds: number): string {
+  const whole = Math.round(seconds);
+  const two = (n: number) => String(n).padStart(2, '0');
+  const h = Math.floor(whole / 3600), m = Math.floor(whole / 60) % 60, s = whole % 60;
+  return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
+}
+
+export function count(n: number): string {
+  if (n >= 1e6) return `${(n / 1e6).toFixed(2)} M`;
+  if (n >= 1e4) return `${Math.round(n / 1e3)} k`;
+  return n.toLocaleString('en');
+}
+
+export function metres(m: number): string {
+  return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
+}

@@ -1,0 +1,275 @@
+#include "fleetmap/monitor/pair_answer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "fleetmap/graph/located_nodes.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+using graph::AlignmentStatus;
+using Pair = std::pair<AgentId, AgentId>;
+
+Pair pair_of(const AgentId& a, const AgentId& b) { return a < b ? Pair(a, b) : Pair(b, a); }
+
+std::string metres(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), value < 10.0 ? "%.1f m" : "%.0f m", value);
+  return buffer.data();
+}
+
+std::string times(std::size_t count) { return count == 1 ? "once" : std::to_string(count) + " times"; }
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+/// All that is known of two robots.
+struct Evidence {
+  std::vector<const Attempt*> attempts;
+  std::map<AlignmentStatus, std::size_t> alignments;
+};
+
+struct Placed {
+  NodeId id;
+  Eigen::Vector3d p_enu;
+};
+
+/// The fleet, sorted so that each pair's answer is a look-up.
+struct Facts {
+  std::map<Pair, Evidence> pairs;
+  std::map<AgentId, std::vector<Placed>> placed;
+  std::map<AgentId, std::size_t> nodes;
+  std::map<AgentId, std::set<std::size_t>> components;  ///< indices in Placement::components
+  std::map<AgentId, bool> located;                      ///< some node of the robot has a place on Earth
+};
+
+Facts facts_of(const FleetView& view) {
+  Facts facts;
+  for (const Attempt& attempt : view.attempts)
+    facts.pairs[pair_of(attempt.target.agent, attempt.source.agent)].attempts.push_back(&attempt);
+  const Outcomes outcomes = outcomes_of(view);
+  for (const graph::Alignment& alignment : view.alignments) {
+    const auto outcome = outcomes.find({alignment.computed_by, alignment.seq});
+    const AlignmentStatus status = outcome == outcomes.end() ? AlignmentStatus::undecided : outcome->second;
+    ++facts.pairs[pair_of(alignment.i.agent, alignment.j.agent)].alignments[status];
+  }
+  const auto floating = graph::not_georeferenced(view.nodes, view.placement.components);
+  const std::set<graph::FrameId> nowhere(floating.begin(), floating.end());
+  for (std::size_t k = 0; k < view.placement.components.size(); ++k) {
+    for (const graph::FrameId& frame : view.placement.components[k]) facts.components[frame.agent].insert(k);
+  }
+  for (const graph::Node& node : view.nodes) {
+    ++facts.nodes[node.id.agent];
+    const auto placed = view.placement.T_enu_node.find(node.id);
+    if (placed == view.placement.T_enu_node.end() || nowhere.contains(node.frame())) continue;
+    facts.located[node.id.agent] = true;
+    facts.placed[node.id.agent].push_back({node.id, placed->second.translation()});
+  }
+  return facts;
+}
+
+void find_nearest(const std::vector<Placed>& a, const std::vector<Placed>& b, PairAnswer& answer) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Placed& one : a) {
+    for (const Placed& other : b) {
+      const double squared = (one.p_enu - other.p_enu).squaredNorm();
+      if (squared >= least) continue;
+      least = squared;
+      answer.nearest = std::pair(one.id, other.id);
+    }
+  }
+  if (answer.nearest) answer.nearest_m = std::sqrt(least);
+}
+
+/// "0.34 of ... 0.45" -> "# of ... #": reasons that differ in their numbers alone are one reason.
+std::string without_numbers(const std::string& reason) {
+  std::string kind;
+  for (const char c : reason) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0 || (c == '.' && kind.ends_with('#'));
+    if (!digit) {
+      kind.push_back(c);
+    } else if (!kind.ends_with('#')) {
+      kind.push_back('#');
+    }
+  }
+  return kind;
+}
+
+struct Reason {
+  std::string example;
+  std::size_t count = 0;
+};
+
+/// Why attempts were not accepted, the commonest first.
+std::vector<Reason> reasons_of(const std::vector<const Attempt*>& attempts) {
+  std::map<std::string, Reason> kinds;
+  for (const Attempt* attempt : attempts) {
+    if (attempt->verdict == "accepted") continue;
+    const std::string& said = attempt->reason.empty() ? attempt->verdict : attempt->reason;
+    Reason& reason = kinds[without_numbers(said)];
+    if (reason.count++ == 0) reason.example = said;
+  }
+  std::vector<Reason> sorted;
+  for (auto& [kind, reason] : kinds) sorted.push_back(std::move(reason));
+  std::ranges::stable_sort(sorted, std::greater{}, &Reason::count);
+  return sorted;
+}
+
+std::string listed(const std::vector<Reason>& reasons) {
+  constexpr std::size_t kShown = 3;
+  std::string said;
+  for (std::size_t k = 0; k < std::min(kShown, reasons.size()); ++k)
+    said += (k == 0 ? "" : "; ") + times(reasons[k].count) + " because " + reasons[k].example;
+  if (reasons.size() > kShown) said += "; and for other reasons";
+  return said;
+}
+
+std::string unused_because(const std::map<AlignmentStatus, std::size_t>& alignments) {
+  std::string said;
+  for (const auto& [status, count] : alignments) {
+    if (status != AlignmentStatus::used)
+      said += (said.empty() ? "" : "; ") + std::to_string(count) + ": " + fate(status);
+  }
+  return said;
+}
+
+/// The distance of their nearest nodes, as a clause.
+std::string nearest_clause(const PairAnswer& answer) {
+  return "their nodes came within " + metres(*answer.nearest_m) + " (" + to_string(answer.nearest->first) +
+         " and " + to_string(answer.nearest->second) + ")";
+}
+
+/// Why no alignment of the two is used. The rules stand in the order in which a pair comes to be joined,
+/// from the end: an answer further down means that less was achieved.
+void explain_no_alignment(const Facts& facts, const Evidence& known, const PairRules& rules,
+                          PairAnswer& answer) {
+  const std::string both = answer.a.str() + " and " + answer.b.str();
+  if (!known.alignments.empty()) {
+    answer.state = PairState::alignments_unused;
+    std::size_t found = 0;
+    for (const auto& [status, count] : known.alignments) found += count;
+    answer.text = "registration found " + counted(found, "alignment") + " of " + both +
+                  ", but none is used: " + unused_because(known.alignments);
+  } else if (!known.attempts.empty()) {
+    const std::vector<Reason> reasons = reasons_of(known.attempts);
+    const bool overlap =
+        !reasons.empty() && reasons.front().example.find("overlap too little") != std::string::npos;
+    answer.state = overlap ? PairState::no_overlap : PairState::rejected;
+    answer.text = both + " were registered " + times(known.attempts.size()) +
+                  (overlap ? ", near each other but without enough overlap: " : ", and none was accepted: ") +
+                  listed(reasons);
+  } else if (!facts.nodes.contains(answer.a) || !facts.nodes.contains(answer.b)) {
+    const AgentId& missing = facts.nodes.contains(answer.a) ? answer.b : answer.a;
+    answer.state = PairState::nothing_known;
+    answer.text = "no node of " + missing.str() + " is held here: it made none, or was never heard";
+  } else if (!answer.nearest_m) {
+    const AgentId& lost = facts.located.contains(answer.a) ? answer.b : answer.a;
+    answer.state = PairState::not_tied;
+    answer.text = lost.str() +
+                  " has no place on Earth: it had no GPS, and no alignment ties its frame to one "
+                  "that had, so whether the two met cannot be told";
+  } else if (*answer.nearest_m > rules.search_radius_m) {
+    answer.state = PairState::never_near;
+    answer.text = both + " were never near each other: " + nearest_clause(answer) +
+                  ", and only nodes within " + metres(rules.search_radius_m) + " are registered";
+  } else {
+    answer.state = PairState::not_tried;
+    answer.text = both + " were near, but nobody registered them: " + nearest_clause(answer) +
+                  "; the radio may have failed there, or other pairs were worth more";
+  }
+}
+
+/// Robots that have alignments in use with both.
+std::string go_betweens(const Facts& facts, const AgentId& a, const AgentId& b) {
+  const auto linked = [&](const AgentId& one, const AgentId& other) {
+    const auto known = facts.pairs.find(pair_of(one, other));
+    return known != facts.pairs.end() && known->second.alignments.contains(AlignmentStatus::used);
+  };
+  std::string names;
+  for (const auto& [robot, count] : facts.nodes) {
+    if (robot != a && robot != b && linked(robot, a) && linked(robot, b))
+      names += (names.empty() ? "" : ", ") + robot.str();
+  }
+  return names.empty() ? "others" : names;
+}
+
+PairAnswer answer_of(const Facts& facts, const AgentId& a, const AgentId& b, const PairRules& rules) {
+  PairAnswer answer;
+  answer.a = a;
+  answer.b = b;
+  const auto known = facts.pairs.find({a, b});
+  const Evidence evidence = known == facts.pairs.end() ? Evidence{} : known->second;
+  answer.attempts = evidence.attempts.size();
+  answer.accepted =
+      static_cast<std::size_t>(std::ranges::count(evidence.attempts, "accepted", &Attempt::verdict));
+  if (const auto used = evidence.alignments.find(AlignmentStatus::used); used != evidence.alignments.end())
+    answer.used = used->second;
+  if (facts.placed.contains(a) && facts.placed.contains(b))
+    find_nearest(facts.placed.at(a), facts.placed.at(b), answer);
+  if (answer.used > 0) {
+    answer.state = PairState::joined;
+    answer.text = counted(answer.used, "alignment") + " in use " + (answer.used == 1 ? "joins" : "join") +
+                  " " + a.str() + " and " + b.str();
+  } else {
+    explain_no_alignment(facts, evidence, rules, answer);
+    const auto component = [&](const AgentId& robot) {
+      const auto found = facts.components.find(robot);
+      return found == facts.components.end() ? std::set<std::size_t>{} : found->second;
+    };
+    const auto of_a = component(a), of_b = component(b);
+    if (std::ranges::any_of(of_a, [&](std::size_t k) { return of_b.contains(k); })) {
+      answer.state = PairState::joined_by_others;
+      answer.text = "joined through " + go_betweens(facts, a, b) + "; directly not, since " + answer.text;
+    }
+  }
+  answer.text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(answer.text.front())));
+  answer.text += '.';
+  return answer;
+}
+
+}  // namespace
+
+const char* to_string(PairState state) {
+  switch (state) {
+    case PairState::joined:
+      return "joined";
+    case PairState::joined_by_others:
+      return "joined through others";
+    case PairState::alignments_unused:
+      return "alignments not used";
+    case PairState::rejected:
+      return "registrations rejected";
+    case PairState::no_overlap:
+      return "near, but no overlap";
+    case PairState::not_tried:
+      return "near, but not registered";
+    case PairState::never_near:
+      return "never near";
+    case PairState::not_tied:
+      return "frames not tied";
+    case PairState::nothing_known:
+      return "never heard";
+  }
+  return "";
+}
+
+std::vector<PairAnswer> explain_pairs(const FleetView& view, const PairRules& rules) {
+  const Facts facts = facts_of(view);
+  const std::vector<AgentId> robots = robots_of(view);
+  std::vector<PairAnswer> answers;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t j = i + 1; j < robots.size(); ++j)
+      answers.push_back(answer_of(facts, robots[i], robots[j], rules));
+  }
+  return answers;
+}
+
+}  // namespace fleetmap::monitor

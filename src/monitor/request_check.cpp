@@ -1,0 +1,121 @@
+#include "fleetmap/monitor/request_check.hpp"
+
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <random>
+
+namespace fleetmap::monitor {
+namespace {
+
+bool is_ip(const std::string& address, int family) {
+  std::array<unsigned char, sizeof(in6_addr)> parsed{};
+  return inet_pton(family, address.c_str(), parsed.data()) == 1;
+}
+
+bool all_digits(std::string_view text) {
+  return !text.empty() && text.size() <= 5 &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// "[::1]:80" -> "::1", "a:80" -> "a"; empty if it is neither.
+std::string without_port(std::string_view host) {
+  if (host.starts_with('[')) {
+    const std::size_t end = host.find(']');
+    if (end == std::string_view::npos) return {};
+    const std::string_view rest = host.substr(end + 1);
+    if (!rest.empty() && !(rest.front() == ':' && all_digits(rest.substr(1)))) return {};
+    const std::string address(host.substr(1, end - 1));
+    return is_ip(address, AF_INET6) ? address : std::string();
+  }
+  const std::size_t colon = host.find(':');
+  if (colon == std::string_view::npos) return std::string(host);
+  return all_digits(host.substr(colon + 1)) ? std::string(host.substr(0, colon)) : std::string();
+}
+
+std::optional<std::size_t> number_after(std::string_view text, std::string_view name) {
+  if (!text.starts_with(name)) return std::nullopt;
+  text.remove_prefix(name.size());
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+bool is_own_host(std::string_view host) {
+  const std::string name = without_port(host);
+  return name == "localhost" || is_ip(name, AF_INET) || (host.starts_with('[') && !name.empty());
+}
+
+bool is_own_origin(std::string_view origin, std::string_view host) {
+  return origin.empty() || origin == "http://" + std::string(host);
+}
+
+bool is_loopback(std::string_view address) {
+  const std::string text(address);
+  return text == "::1" || (text.starts_with("127.") && is_ip(text, AF_INET));
+}
+
+std::string_view cookie_value(std::string_view cookie, std::string_view name) {
+  while (!cookie.empty()) {
+    const std::size_t end = std::min(cookie.find(';'), cookie.size());
+    std::string_view one = cookie.substr(0, end);
+    cookie.remove_prefix(std::min(end + 1, cookie.size()));
+    one.remove_prefix(std::min(one.find_first_not_of(' '), one.size()));
+    if (one.starts_with(name) && one.substr(name.size()).starts_with('=')) return one.substr(name.size() + 1);
+  }
+  return {};
+}
+
+bool equal_secrets(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    difference |= static_cast<unsigned>(static_cast<unsigned char>(a[k]) ^ static_cast<unsigned char>(b[k]));
+  return difference == 0;
+}
+
+std::string random_token() {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::random_device source;
+  std::string token;
+  for (int k = 0; k < 32; ++k) token.push_back(kDigits[source() % kDigits.size()]);
+  return token;
+}
+
+std::optional<std::string_view> refusal(const RequestHead& head, std::string_view token,
+                                        std::string_view cookie_name) {
+  if (!is_own_host(head.host)) return "the Host is no address of this program";
+  if (!is_own_origin(head.origin, head.host)) return "pages of other sites are not answered";
+  if (token.empty()) return std::nullopt;
+  constexpr std::string_view kBearer = "Bearer ";
+  const std::string_view bearer = head.authorization.starts_with(kBearer)
+                                      ? head.authorization.substr(kBearer.size())
+                                      : std::string_view{};
+  if (equal_secrets(cookie_value(head.cookie, cookie_name), token) || equal_secrets(bearer, token))
+    return std::nullopt;
+  return "a token is needed: open the address that the program printed";
+}
+
+std::optional<SubmapRequest> parse_submap_request(std::string_view target) {
+  constexpr std::string_view kStart = "/submap/";
+  constexpr std::size_t kHashDigits = 32;
+  if (!target.starts_with(kStart)) return std::nullopt;
+  target.remove_prefix(kStart.size());
+  const std::size_t question = target.find('?');
+  if (question != kHashDigits) return std::nullopt;
+  const std::string_view hash = target.substr(0, question), query = target.substr(question + 1);
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  const std::size_t between = query.find('&');
+  if (!std::ranges::all_of(hash, is_hex) || between == std::string_view::npos) return std::nullopt;
+  const auto from = number_after(query.substr(0, between), "from=");
+  const auto count = number_after(query.substr(between + 1), "count=");
+  if (!from || !count) return std::nullopt;
+  return SubmapRequest{std::string(hash), *from, *count};
+}
+
+}  // namespace fleetmap::monitor

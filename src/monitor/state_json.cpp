@@ -1,0 +1,228 @@
+#include "fleetmap/monitor/state_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "fleetmap/graph/located_nodes.hpp"
+#include "fleetmap/monitor/pair_answer.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+using nlohmann::json;
+
+/// 0.1 mm, or 1e-6 of a quaternion: shorter text, and far below what a pixel shows.
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+json pose_json(const Pose& T) {
+  const Eigen::Vector3d t = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  json values = json::array();
+  for (const double value : {t.x(), t.y(), t.z()}) values.push_back(rounded(value, 1e4));
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) values.push_back(rounded(value, 1e6));
+  return values;
+}
+
+json optional_json(const std::optional<double>& value) { return value ? json(rounded(*value, 1e5)) : json(); }
+
+double horizontal_sigma(const Matrix6d& covariance) {
+  return std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
+}
+
+/// The earliest node's stamp: times are told from there.
+Stamp begin_of(const FleetView& view) {
+  Stamp begin{};
+  for (std::size_t k = 0; k < view.nodes.size(); ++k)
+    begin = k == 0 ? view.nodes[k].stamp : std::min(begin, view.nodes[k].stamp);
+  return begin;
+}
+
+json nodes_json(const FleetView& view) {
+  const Stamp begin = begin_of(view);
+  json nodes = json::array();
+  for (std::size_t k = 0; k < view.nodes.size(); ++k) {
+    const graph::Node& node = view.nodes[k];
+    const auto placed = view.placement.T_enu_node.find(node.id);
+    json one{{"id", to_string(node.id)},
+             {"robot", node.id.agent.str()},
+             {"session", node.session},
+             {"t", rounded(to_seconds(node.stamp - begin), 1e3)},
+             {"bytes", node.submap_bytes}};
+    if (placed != view.placement.T_enu_node.end()) one["T"] = pose_json(placed->second);
+    if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
+    if (node.G) one["gps_sigma_m"] = rounded(horizontal_sigma(node.G->covariance), 1e3);
+    nodes.push_back(std::move(one));
+  }
+  return nodes;
+}
+
+/// The sentence of the attempt that gave an alignment, or what its numbers tell where the attempt's log is
+/// not here.
+std::string sentence_of(const graph::Alignment& alignment, graph::AlignmentStatus status) {
+  std::array<char, 96> numbers{};
+  std::snprintf(numbers.data(), numbers.size(), ", E %.1f cm, %.0f %% are inliers; ",
+                100.0 * alignment.best().rmse, 100.0 * alignment.best().inlier_fraction);
+  return alignment.computed_by.str() + " registered " + to_string(alignment.j) + " onto " +
+         to_string(alignment.i) + ": " + (alignment.ambiguous() ? "several poses fit" : "accepted") +
+         numbers.data() + fate(status) + ".";
+}
+
+json alignments_json(const FleetView& view, const Outcomes& outcomes) {
+  json alignments = json::array();
+  for (const graph::Alignment& alignment : view.alignments) {
+    const auto outcome = outcomes.find({alignment.computed_by, alignment.seq});
+    const auto status = outcome == outcomes.end() ? graph::AlignmentStatus::undecided : outcome->second;
+    alignments.push_back({{"i", to_string(alignment.i)},
+                          {"j", to_string(alignment.j)},
+                          {"by", alignment.computed_by.str()},
+                          {"status", graph::to_string(status)},
+                          {"modes", alignment.modes.size()},
+                          {"rmse_m", rounded(alignment.best().rmse, 1e5)},
+                          {"sentence", sentence_of(alignment, status)}});
+  }
+  return alignments;
+}
+
+json attempts_json(const FleetView& view, const Outcomes& outcomes) {
+  const auto matched = alignments_of_attempts(view);
+  json attempts = json::array();
+  for (std::size_t k = 0; k < view.attempts.size(); ++k) {
+    const Attempt& attempt = view.attempts[k];
+    std::optional<graph::AlignmentStatus> status;
+    if (matched[k]) {
+      const graph::Alignment& alignment = view.alignments[*matched[k]];
+      if (const auto found = outcomes.find({alignment.computed_by, alignment.seq}); found != outcomes.end())
+        status = found->second;
+    }
+    attempts.push_back({{"target", to_string(attempt.target)},
+                        {"source", to_string(attempt.source)},
+                        {"by", attempt.by.str()},
+                        {"verdict", attempt.verdict},
+                        {"status", status ? json(graph::to_string(*status)) : json()},
+                        {"rmse_m", optional_json(attempt.rmse_m)},
+                        {"inlier_fraction", optional_json(attempt.inlier_fraction)},
+                        {"overlap", optional_json(attempt.overlap)},
+                        {"reason", attempt.reason},
+                        {"sentence", sentence(attempt, status)}});
+  }
+  return attempts;
+}
+
+struct RobotSums {
+  std::size_t nodes = 0;
+  std::set<std::uint16_t> sessions;
+  double path_m = 0.0;
+  Stamp first, last;
+  const graph::Node* last_node = nullptr;
+};
+
+/// `view.nodes` may come in any order; a path goes from node to node of one odometry frame.
+std::map<AgentId, RobotSums> sums_of(const FleetView& view) {
+  std::vector<const graph::Node*> nodes;
+  for (const graph::Node& node : view.nodes) nodes.push_back(&node);
+  std::ranges::sort(nodes, {},
+                    [](const graph::Node* node) { return std::pair(node->frame(), node->id.seq); });
+  std::map<AgentId, RobotSums> sums;
+  const graph::Node* before = nullptr;
+  for (const graph::Node* node : nodes) {
+    RobotSums& sum = sums[node->id.agent];
+    if (sum.nodes++ == 0) sum.first = sum.last = node->stamp;
+    sum.sessions.insert(node->session);
+    if (before != nullptr && before->frame() == node->frame())
+      sum.path_m += (before->T_odom_base.translation() - node->T_odom_base.translation()).norm();
+    sum.first = std::min(sum.first, node->stamp);
+    if (sum.last_node == nullptr || node->stamp >= sum.last) sum.last_node = node;
+    sum.last = std::max(sum.last, node->stamp);
+    before = node;
+  }
+  return sums;
+}
+
+json robots_json(const FleetView& view) {
+  const Stamp begin = begin_of(view);
+  const auto sums = sums_of(view);
+  const auto floating = graph::not_georeferenced(view.nodes, view.placement.components);
+  json robots = json::array();
+  for (const AgentId& id : robots_of(view)) {
+    json robot{{"id", id.str()}, {"nodes", 0}, {"sessions", 0}, {"path_m", 0.0}};
+    if (const auto found = sums.find(id); found != sums.end()) {
+      const RobotSums& sum = found->second;
+      robot["nodes"] = sum.nodes;
+      robot["sessions"] = sum.sessions.size();
+      robot["path_m"] = rounded(sum.path_m, 10.0);
+      robot["first_s"] = rounded(to_seconds(sum.first - begin), 1e3);
+      robot["last_s"] = rounded(to_seconds(sum.last - begin), 1e3);
+      robot["last_node"] = to_string(sum.last_node->id);
+      if (const auto C = view.placement.covariance.find(sum.last_node->id);
+          C != view.placement.covariance.end())
+        robot["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
+    }
+    if (const auto credit = view.placement.credits.find(id); credit != view.placement.credits.end()) {
+      robot["alignments_used"] = credit->second.used;
+      robot["alignments_rejected"] = credit->second.rejected;
+      robot["quarantined"] = credit->second.quarantined;
+    }
+    robot["georeferenced"] =
+        std::ranges::none_of(floating, [&](const auto& frame) { return frame.agent == id; });
+    robots.push_back(std::move(robot));
+  }
+  return robots;
+}
+
+json holdings_json(const FleetView& view) {
+  json holdings = json::array();
+  for (const Holding& one : view.holdings)
+    holdings.push_back({{"holder", one.holder.str()},
+                        {"maker", one.maker.str()},
+                        {"nodes", one.nodes},
+                        {"submaps", one.submaps},
+                        {"alignments", one.alignments}});
+  return holdings;
+}
+
+json answers_json(const FleetView& view) {
+  json answers = json::array();
+  for (const PairAnswer& answer : explain_pairs(view)) {
+    json one{{"a", answer.a.str()},
+             {"b", answer.b.str()},
+             {"joined", is_joined(answer.state)},
+             {"state", to_string(answer.state)},
+             {"text", answer.text},
+             {"attempts", answer.attempts},
+             {"accepted", answer.accepted},
+             {"used", answer.used},
+             {"nearest_m", optional_json(answer.nearest_m)}};
+    if (answer.nearest)
+      one["nearest"] = {to_string(answer.nearest->first), to_string(answer.nearest->second)};
+    answers.push_back(std::move(one));
+  }
+  return answers;
+}
+
+}  // namespace
+
+std::string state_json(const FleetView& view) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const Outcomes outcomes = outcomes_of(view);
+  const json state{{"title", view.title},
+                   {"self", view.self.str()},
+                   {"origin",
+                    {{"latitude_deg", view.origin.latitude * kDegrees},
+                     {"longitude_deg", view.origin.longitude * kDegrees},
+                     {"altitude_m", view.origin.altitude}}},
+                   {"robots", robots_json(view)},
+                   {"nodes", nodes_json(view)},
+                   {"alignments", alignments_json(view, outcomes)},
+                   {"registrations", attempts_json(view, outcomes)},
+                   {"holdings", holdings_json(view)},
+                   {"pairs", answers_json(view)},
+                   {"notes", view.notes}};
+  return state.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace fleetmap::monitor

@@ -1,0 +1,96 @@
+#include "monitor/content.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "monitor/views.hpp"
+#include "store/items.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::ViewMaker;
+
+constexpr std::uint8_t kFile[] = {1, 2, 3};
+constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}, {"/main.js", "text/javascript", kFile}};
+
+cloud::PointCloud cloud_of(std::size_t points) {
+  cloud::PointCloud cloud;
+  for (std::size_t k = 0; k < points; ++k) cloud.points.emplace_back(static_cast<float>(k), 1.0f, 2.0f);
+  return cloud;
+}
+
+TEST(Content, gives_the_page_by_exact_path_alone) {
+  Content content(kPage, {}, 1000);
+  EXPECT_EQ(content.reply("/").type, "text/html");
+  EXPECT_TRUE(content.reply("/main.js").gzip);
+  for (const char* path : {"/main.js/", "/../main.js", "//main.js", "/%2e%2e/etc/passwd", "/etc/passwd",
+                           "main.js", "", "/MAIN.JS"})
+    EXPECT_EQ(content.reply(path).status, 404u) << path;
+}
+
+TEST(Content, without_a_page_it_tells_so) {
+  Content content({}, {}, 1000);
+  const Reply reply = content.reply("/");
+  EXPECT_EQ(reply.status, 200u);
+  EXPECT_THAT(reply.body, HasSubstr("/state.json"));
+  EXPECT_EQ(content.reply("/main.js").status, 404u);
+}
+
+TEST(Content, submaps_of_the_shown_view_are_loaded_once) {
+  int loads = 0;
+  Content content(
+      kPage,
+      [&](const NodeId&) {
+        ++loads;
+        return Result<cloud::PointCloud>(cloud_of(100));
+      },
+      1 << 20);
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1);
+  const std::string target = "/submap/" + to_hex(fleet.view.nodes[0].submap_hash) + "?from=0&count=40";
+  EXPECT_EQ(content.reply(target).status, 404u) << "nothing is shown yet";
+  content.show(fleet.view);
+  for (int k = 0; k < 3; ++k) {
+    const Reply reply = content.reply(target);
+    EXPECT_EQ(reply.status, 200u);
+    EXPECT_TRUE(reply.immutable);
+    EXPECT_EQ(reply.body.size(), kPointHeaderBytes + 8 * 40);
+    EXPECT_THAT(reply.body, StartsWith("FMP1"));
+  }
+  EXPECT_EQ(loads, 1);
+  fleet.view.has_submap[0] = false;
+  content.show(fleet.view);
+  EXPECT_EQ(content.reply(target).status, 404u) << "not held any more";
+}
+
+TEST(Content, a_submap_that_cannot_be_read_is_no_end) {
+  Content content(
+      kPage, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("disk error"); }, 1000);
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1);
+  content.show(fleet.view);
+  const Reply reply = content.reply("/submap/" + to_hex(fleet.view.nodes[0].submap_hash) + "?from=0&count=1");
+  EXPECT_EQ(reply.status, 503u);
+  EXPECT_THAT(reply.body, HasSubstr("disk error"));
+}
+
+TEST(PointCache, drops_what_was_used_longest_ago) {
+  const auto cloud = std::make_shared<const QuantisedCloud>(quantised(cloud_of(100)));  // 800 bytes
+  PointCache cache(1700);
+  cache.keep("a", cloud);
+  cache.keep("b", cloud);
+  EXPECT_TRUE(cache.find("a"));
+  cache.keep("c", cloud);
+  EXPECT_TRUE(cache.find("a"));
+  EXPECT_FALSE(cache.find("b"));
+  EXPECT_TRUE(cache.find("c"));
+  PointCache tiny(1);
+  tiny.keep("a", cloud);
+  EXPECT_TRUE(tiny.find("a")) << "the last one stays, however large";
+}
+
+}  // namespace
+}  // namespace fleetmap::monitor

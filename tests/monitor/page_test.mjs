@@ -1,0 +1,183 @@
+// Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
+// that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px.
+//   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
+import assert from 'node:assert/strict';
+import {spawn, spawnSync} from 'node:child_process';
+import {existsSync, mkdtempSync, rmSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+
+const [fleetmap, pageFolder, screenshots] = process.argv.slice(2);
+const require = createRequire(join(pageFolder, 'package.json'));
+const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((file) => existsSync(file));
+if (!executablePath) {
+  console.log('skipped: Chromium is not installed (apt install chromium)');
+  process.exit(77);
+}
+const {chromium} = require('playwright-core');
+const folder = mkdtempSync(join(tmpdir(), 'fleetmap_page_'));
+
+/** Two robots on a small farm; E may hardly exceed what is usual, so that some registrations are rejected. */
+function makeRun() {
+  const out = join(folder, 'run');
+  const source = join(fileURLToPath(new URL('../..', import.meta.url)), 'config/fleets/farm_small.yaml');
+  const run = spawnSync(fleetmap, ['run', '-c', source, '--agents', '2', '--set', 'max_time=45', '--set', 'registration.max_rmse=0.08', '--out', out],
+    {encoding: 'utf8', timeout: 200_000});
+  assert.equal(run.status, 0, run.stderr);
+  return out;
+}
+
+async function serve(out) {
+  const server = spawn(fleetmap, ['monitor', '--run', out, '--port', '0'], {stdio: ['ignore', 'pipe', 'inherit']});
+  const url = await new Promise((found, failed) => {
+    let said = '';
+    server.stdout.on('data', (text) => {
+      said += text;
+      const match = said.match(/http:\S+/);
+      if (match) found(match[0]);
+    });
+    server.on('exit', (code) => failed(new Error(`fleetmap monitor ended with ${code}: ${said}`)));
+  });
+  return {server, url};
+}
+
+/** How many colours and how many covered pixels the map's middle has. */
+async function pixelsOfMap(page) {
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => {
+    const canvas = document.getElementById('canvas');
+    const copy = document.createElement('canvas');
+    Object.assign(copy, {width: canvas.width, height: canvas.height});
+    const context = copy.getContext('2d');
+    context.drawImage(canvas, 0, 0);
+    const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+    const colours = new Set();
+    let covered = 0;
+    for (let k = 0; k < data.length; k += 4) {
+      if (data[k + 3] < 128) continue;
+      ++covered;
+      colours.add((data[k] >> 4 << 8) | (data[k + 1] >> 4 << 4) | (data[k + 2] >> 4));
+    }
+    done({covered: covered / (data.length / 4), colours: colours.size});
+  })));
+}
+
+async function mapIsDrawn(page) {
+  await page.waitForFunction(() => Number(document.getElementById('canvas').dataset.drawn) > 20_000, null, {timeout: 60_000});
+  const pixels = await pixelsOfMap(page);
+  assert.ok(pixels.covered > 0.1, `only ${pixels.covered} of the map's pixels are drawn`);
+  assert.ok(pixels.colours > 50, `only ${pixels.colours} colours: the points are not shaded`);
+}
+
+async function shot(page, name) {
+  if (screenshots) await page.screenshot({path: join(screenshots, `${name}.png`)});
+}
+
+async function visit(browser, url, width, height, state, check) {
+  const context = await browser.newContext({viewport: {width, height}, hasTouch: width < 500, isMobile: width < 500, deviceScaleFactor: 1});
+  const page = await context.newPage();
+  const said = [];
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && said.push(message.text()));
+  page.on('pageerror', (error) => said.push(String(error)));
+  page.on('request', (request) => assert.ok(request.url().startsWith(url) || request.url().startsWith('data:') || request.url().startsWith('ws:'), `asked another site: ${request.url()}`));
+  await page.goto(url);
+  await mapIsDrawn(page);
+  assert.equal(await page.locator('#summary').textContent(), `${state.robots.length} robots · ${state.nodes.length} nodes · ${state.alignments.length} alignments`);
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(wider <= 0, `the page is ${wider} px wider than the window`);
+  await check(page);
+  // Software rendering makes Chromium warn of its own slowness.
+  assert.deepEqual(said.filter((text) => !text.includes('GPU stall') && !text.includes('swiftshader')), []);
+  await context.close();
+}
+
+async function rejectedExplainsItself(page, state) {
+  const rejected = state.registrations.filter((one) => one.verdict === 'rejected');
+  assert.ok(rejected.length > 0, 'the run has no rejected registration to show');
+  await page.locator('#verdict-rejected').click();
+  await page.waitForFunction((n) => document.querySelectorAll('.registration').length === n, rejected.length);
+  const row = page.locator('.registration').first();
+  assert.match(await row.textContent(), /rejected, because inlier RMSE is 0\.\d+ m, at most 0\.08 m is good/);
+  await row.click();
+  assert.match(await page.locator('#card').textContent(), /Rejected registration.*because inlier RMSE/s);
+}
+
+async function onADesk(page, state) {
+  await shot(page, 'desk');
+  await rejectedExplainsItself(page, state);
+  await shot(page, 'desk_rejected');
+  await page.locator('#verdict-all').click();
+  await page.keyboard.press('Escape');
+
+  // The map by keyboard, in plan view, with a node that tells what it is.
+  await page.locator('#canvas').focus();
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('p');
+  assert.equal(await page.locator('#view-plan').getAttribute('aria-pressed'), 'true');
+  await page.keyboard.press('f');
+  await page.locator('[data-colour=height]').click();
+  await mapIsDrawn(page);
+  await page.locator('#tab-fleet').click();
+  const node = page.locator('.robot .link').first();
+  const name = await node.textContent();
+  await node.click();
+  assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${name}.*WGS84.*39\\.000\\d+°, -?[23]\\.\\d+°`, 's'));
+  assert.match(await page.locator('#fleet').textContent(), new RegExp(`${state.robots[0].nodes} nodes on \\d+`));
+  await shot(page, 'desk_plan');
+
+  // It is in the middle of the map now: a click there finds it again.
+  await page.locator('#card .close').click();
+  const box = await page.locator('#canvas').boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${name}`));
+
+  // A measurement across 200 pixels is what the scale makes of them.
+  await page.keyboard.press('Escape');
+  await page.locator('#measure').click();
+  for (const x of [-100, 100]) await page.mouse.click(box.x + box.width / 2 + x, box.y + box.height / 2 + 30);
+  const measured = await page.locator('#card').textContent();
+  const plan = Number(measured.match(/on the plan([\d.]+) m/)[1]);
+  const expected = await page.evaluate(() => {
+    const bar = document.querySelector('#scale i').getBoundingClientRect().width, text = document.querySelector('#scale span').textContent;
+    return (200 / bar) * (text.endsWith('cm') ? parseFloat(text) / 100 : parseFloat(text));
+  });
+  assert.ok(Math.abs(plan / expected - 1) < 0.12, `measured ${plan} m, the scale says ${expected} m`);
+  assert.match(measured, /A39\.000\d+°.*B39\.000\d+°/s);
+  await shot(page, 'desk_measure');
+}
+
+async function onAPhone(page, state) {
+  await shot(page, 'phone');
+  await rejectedExplainsItself(page, state);
+  await page.locator('#tab-fleet').click();
+  assert.equal(await page.locator('.robot').count(), state.robots.length);
+  await page.locator('.robot').first().scrollIntoViewIfNeeded();
+  await shot(page, 'phone_fleet');
+}
+
+/** Every control has a name for screen readers. */
+async function everythingIsNamed(page) {
+  const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, canvas, [role=tab]')].filter((one) =>
+    !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length)).map((one) => one.outerHTML.slice(0, 80)));
+  assert.deepEqual(nameless, []);
+}
+
+let server;
+try {
+  const made = process.env.FLEETMAP_RUN ?? makeRun();
+  let url;
+  ({server, url} = await serve(made));
+  const state = await (await fetch(new URL('state.json', url))).json();
+  const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist']});
+  await visit(browser, url, 1366, 768, state, async (page) => {
+    await everythingIsNamed(page);
+    await onADesk(page, state);
+  });
+  await visit(browser, url, 390, 844, state, (page) => onAPhone(page, state));
+  await browser.close();
+  console.log(`passed: ${state.nodes.length} nodes, ${state.registrations.length} registrations`);
+} finally {
+  server?.kill('SIGINT');
+  rmSync(folder, {recursive: true, force: true});
+}

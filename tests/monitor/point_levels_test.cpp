@@ -1,0 +1,102 @@
+#include "fleetmap/monitor/point_levels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+#include <set>
+#include <tuple>
+
+namespace fleetmap::monitor {
+namespace {
+
+cloud::PointCloud random_cloud(std::size_t size, float extent, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-extent, extent);
+  cloud::PointCloud cloud;
+  for (std::size_t k = 0; k < size; ++k) {
+    cloud.points.emplace_back(place(random), place(random), 0.1f * place(random));
+    cloud.intensities.push_back(static_cast<float>(k));
+  }
+  return cloud;
+}
+
+TEST(PointLevels, the_order_holds_every_finite_point_once) {
+  cloud::PointCloud cloud = random_cloud(5000, 40.0f);
+  cloud.points[7].x() = std::numeric_limits<float>::quiet_NaN();
+  cloud.points[9].z() = std::numeric_limits<float>::infinity();
+  cloud.points[20] = cloud.points[21];  // twice the same
+  const auto order = coarse_to_fine(cloud);
+  EXPECT_EQ(order.size(), 4998u);
+  const std::set<std::uint32_t> once(order.begin(), order.end());
+  EXPECT_EQ(once.size(), 4998u);
+  EXPECT_FALSE(once.contains(7));
+  EXPECT_FALSE(once.contains(9));
+  EXPECT_EQ(coarse_to_fine(cloud), order);
+}
+
+TEST(PointLevels, a_prefix_covers_the_whole_though_most_points_lie_in_one_corner) {
+  cloud::PointCloud cloud = random_cloud(20'000, 1.0f);
+  const cloud::PointCloud wide = random_cloud(400, 40.0f, 2);
+  cloud::append(cloud, wide);
+  const auto order = coarse_to_fine(cloud);
+  const auto cells = [&](std::size_t first) {  // of 10 m
+    std::set<std::pair<int, int>> filled;
+    for (std::size_t k = 0; k < first; ++k) {
+      const Eigen::Vector3f& p = cloud.points[order[k]];
+      filled.emplace(static_cast<int>(std::floor(p.x() / 10.0f)),
+                     static_cast<int>(std::floor(p.y() / 10.0f)));
+    }
+    return filled.size();
+  };
+  EXPECT_EQ(cells(order.size()), 64u);
+  EXPECT_EQ(cells(400), 64u) << "2 % of the points";
+}
+
+TEST(PointLevels, quantised_points_lie_within_half_a_step) {
+  const cloud::PointCloud cloud = random_cloud(3000, 50.0f);
+  const QuantisedCloud quantised = monitor::quantised(cloud);
+  const auto order = coarse_to_fine(cloud);
+  ASSERT_EQ(quantised.size(), order.size());
+  EXPECT_LE(quantised.scale, 50.0f / 32'767.0f);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Eigen::Vector3f steps(quantised.values[4 * k], quantised.values[4 * k + 1],
+                                quantised.values[4 * k + 2]);
+    const Eigen::Vector3f p = quantised.centre + quantised.scale * steps;
+    ASSERT_LE((p - cloud.points[order[k]]).cwiseAbs().maxCoeff(), 0.51f * quantised.scale);
+    ASSERT_NEAR(quantised.values[4 * k + 3] / 32'767.0, order[k] / 2999.0, 1e-4);
+  }
+}
+
+TEST(PointLevels, parts_put_together_are_the_whole) {
+  const QuantisedCloud cloud = quantised(random_cloud(1000, 20.0f));
+  const Bytes whole = encoded_points(cloud, 0, 1000);
+  ASSERT_EQ(whole.size(), kPointHeaderBytes + 8 * 1000);
+  Bytes joined(whole.begin(), whole.begin() + kPointHeaderBytes);
+  for (std::size_t from = 0; from < 1000; from += 300) {
+    const Bytes part = encoded_points(cloud, from, 300);
+    std::uint32_t counts[3];
+    std::memcpy(counts, part.data() + 20, sizeof counts);
+    EXPECT_EQ(counts[0], 1000u);
+    EXPECT_EQ(counts[1], from);
+    EXPECT_EQ(counts[2], std::min<std::size_t>(300, 1000 - from));
+    joined.insert(joined.end(), part.begin() + kPointHeaderBytes, part.end());
+  }
+  EXPECT_EQ(joined, whole);
+  EXPECT_EQ(encoded_points(cloud, 5000, 10).size(), kPointHeaderBytes) << "beyond the end is nothing";
+  EXPECT_EQ(encoded_points(cloud, 0, SIZE_MAX).size(), whole.size());
+}
+
+TEST(PointLevels, clouds_without_extent_or_points) {
+  EXPECT_EQ(quantised({}).size(), 0u);
+  cloud::PointCloud one;
+  one.points.emplace_back(3.0f, 4.0f, 5.0f);
+  const QuantisedCloud quantised = monitor::quantised(one);
+  ASSERT_EQ(quantised.size(), 1u);
+  EXPECT_EQ(quantised.centre, Eigen::Vector3f(3.0f, 4.0f, 5.0f));
+  EXPECT_EQ(quantised.values[0], 0);
+}
+
+}  // namespace
+}  // namespace fleetmap::monitor

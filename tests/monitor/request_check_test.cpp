@@ -1,0 +1,70 @@
+#include "fleetmap/monitor/request_check.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fleetmap::monitor {
+namespace {
+
+TEST(RequestCheck, hosts_are_addresses_or_localhost) {
+  for (const char* own :
+       {"localhost", "localhost:8080", "127.0.0.1:8080", "192.168.1.5", "[::1]:8080", "[fe80::1]"})
+    EXPECT_TRUE(is_own_host(own)) << own;
+  for (const char* foreign : {"", "evil.example", "evil.example:8080", "localhost.evil.example",
+                              "127.0.0.1.evil.example", "127.0.0.1:8080.evil.example", "127.0.0.1:", "[::1",
+                              "[evil]", "[::1]evil", "::1", "localhost:80:80", "2130706433", "a@127.0.0.1"})
+    EXPECT_FALSE(is_own_host(foreign)) << foreign;
+}
+
+TEST(RequestCheck, only_the_own_page_may_ask) {
+  EXPECT_TRUE(is_own_origin("", "127.0.0.1:8080"));
+  EXPECT_TRUE(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8080"));
+  for (const char* foreign :
+       {"http://evil.example", "http://127.0.0.1:8081", "http://127.0.0.1", "https://127.0.0.1:8080", "null"})
+    EXPECT_FALSE(is_own_origin(foreign, "127.0.0.1:8080")) << foreign;
+}
+
+TEST(RequestCheck, loopback_is_this_machine_alone) {
+  EXPECT_TRUE(is_loopback("127.0.0.1"));
+  EXPECT_TRUE(is_loopback("127.9.9.9"));
+  EXPECT_TRUE(is_loopback("::1"));
+  for (const char* open : {"0.0.0.0", "::", "192.168.1.5", "127.evil", "128.0.0.1"})
+    EXPECT_FALSE(is_loopback(open)) << open;
+}
+
+TEST(RequestCheck, a_token_is_taken_from_the_cookie_or_the_header_and_from_nowhere_else) {
+  const std::string token = random_token();
+  ASSERT_EQ(token.size(), 32u);
+  EXPECT_NE(random_token(), token);
+  const std::string cookie = "a=b; fleetmap_80=" + token + "; c=d", bearer = "Bearer " + token;
+  RequestHead head{.host = "10.0.0.1", .origin = "", .cookie = "", .authorization = ""};
+  EXPECT_TRUE(refusal(head, token, "fleetmap_80"));
+  EXPECT_FALSE(refusal(head, "", "fleetmap_80"));
+  head.cookie = cookie;
+  EXPECT_FALSE(refusal(head, token, "fleetmap_80"));
+  EXPECT_TRUE(refusal(head, token, "fleetmap_8")) << "another port's cookie";
+  EXPECT_TRUE(refusal(head, token + "0", "fleetmap_80"));
+  head.cookie = "";
+  head.authorization = bearer;
+  EXPECT_FALSE(refusal(head, token, "fleetmap_80"));
+  head.host = "evil.example";
+  EXPECT_TRUE(refusal(head, token, "fleetmap_80"));
+}
+
+TEST(RequestCheck, submaps_are_asked_for_by_hash_alone) {
+  const auto request = parse_submap_request("/submap/0123456789abcdef0123456789abcdef?from=4096&count=100");
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->hash, "0123456789abcdef0123456789abcdef");
+  EXPECT_EQ(request->from, 4096u);
+  EXPECT_EQ(request->count, 100u);
+  for (const char* wrong :
+       {"/submap/", "/submap/../../etc/passwd?from=0&count=1",
+        "/submap/0123456789abcdef0123456789abcdeg?from=0&count=1", "/submap/0123456789abcdef0123456789abcdef",
+        "/submap/0123456789abcdef0123456789abcdef?from=-1&count=1",
+        "/submap/0123456789abcdef0123456789abcdef?from=0&count=1&x=1",
+        "/submap/0123456789abcdef0123456789abcdef?from=0",
+        "/submap/0123456789abcdef0123456789abcdef?from=99999999999999999999999&count=1"})
+    EXPECT_FALSE(parse_submap_request(wrong)) << wrong;
+}
+
+}  // namespace
+}  // namespace fleetmap::monitor

@@ -1,0 +1,253 @@
+#include "fleetmap/monitor/server.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "fleetmap/monitor/point_levels.hpp"
+#include "monitor/browser.hpp"
+#include "monitor/views.hpp"
+#include "support/eventually.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::AllOf;
+using testing::Browser;
+using testing::eventually;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using testing::ViewMaker;
+
+constexpr std::uint8_t kFile[] = {1, 2, 3};
+constexpr PageFile kPage[] = {{"/index.html", "text/html", kFile}};
+
+std::unique_ptr<Server> start(const ServerConfig& config = {}) {
+  auto load = [](const NodeId&) {
+    cloud::PointCloud cloud;
+    cloud.points.assign(50, Eigen::Vector3f::Ones());
+    return Result<cloud::PointCloud>(cloud);
+  };
+  return Server::start(config, load, kPage).value();
+}
+
+std::shared_ptr<const FleetView> view(const std::string& title = "made up") {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 5);
+  fleet.view.title = title;
+  return std::make_shared<const FleetView>(fleet.view);
+}
+
+TEST(Server, gives_page_state_and_points) {
+  const auto server = start();
+  server->publish(view());
+  Browser browser(server->port());
+  browser.get("/");
+  EXPECT_THAT(browser.answer(),
+              AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("text/html"), HasSubstr("gzip"),
+                    HasSubstr("default-src 'self'"), HasSubstr("nosniff"), HasSubstr("DENY")));
+  browser.get("/state.json");  // over the same connection
+  EXPECT_THAT(browser.answer(), AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("\"title\":\"made up\"")));
+  browser.get("/submap/" + to_hex(view()->nodes[0].submap_hash) + "?from=0&count=9");
+  EXPECT_THAT(browser.answer(), AllOf(HasSubstr("immutable"), HasSubstr("FMP1")));
+  browser.get("/", "", "HEAD");
+  EXPECT_THAT(browser.answer(), StartsWith("HTTP/1.1 200"));
+}
+
+TEST(Server, no_path_leads_to_a_file) {
+  const auto server = start();
+  server->publish(view());
+  for (const char* path : {"/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd",
+                           "/etc/passwd", "/submap/../../etc/passwd", "/./index.html", "/index.html%00.js",
+                           "/store.db", "http://127.0.0.1/x"}) {
+    Browser browser(server->port());
+    browser.get(path);
+    const std::string answer = browser.answer();
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 404") || answer.starts_with("HTTP/1.1 400"))
+        << path << ": " << answer;
+    EXPECT_THAT(answer, Not(HasSubstr("root:")));
+  }
+  EXPECT_EQ(server->stats().refused, 9u);
+}
+
+TEST(Server, other_sites_and_foreign_names_are_refused) {
+  const auto server = start();
+  const auto asked = [&](const std::string& request) {
+    Browser browser(server->port());
+    browser.send(request);
+    return browser.status();
+  };
+  EXPECT_EQ(asked("GET /state.json HTTP/1.1\r\nHost: evil.example\r\n\r\n"), "403");
+  EXPECT_EQ(asked("GET /state.json HTTP/1.1\r\n\r\n"), "403") << "no Host";
+  EXPECT_EQ(asked("GET /state.json HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: http://evil.example\r\n\r\n"),
+            "403");
+  EXPECT_EQ(asked("GET /state.json HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: http://127.0.0.1\r\n\r\n"), "200");
+  EXPECT_EQ(asked("POST /state.json HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"), "405");
+  EXPECT_EQ(asked("DELETE / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"), "405");
+  Browser socket(server->port());
+  socket.upgrade("/live", "Origin: http://evil.example\r\n");
+  EXPECT_EQ(socket.status(), "403");
+  EXPECT_EQ(server->stats().viewers, 0u);
+}
+
+TEST(Server, malformed_requests_are_answered_and_cut) {
+  const auto server = start();
+  for (const std::string& bytes :
+       {std::string("\x16\x03\x01\x02TLS hello\r\n\r\n"), std::string("GET\r\n\r\n"),
+        std::string("GET / HTTP/9.9\r\n\r\n"), std::string("GET / HTTP/1.1\r\nHost 127\r\n\r\n"),
+        std::string("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 9999999\r\n\r\nx")}) {
+    Browser browser(server->port());
+    browser.send(bytes);
+    EXPECT_THAT(browser.status(), ::testing::AnyOf("400", "413", "403")) << bytes;
+    EXPECT_TRUE(browser.closed()) << bytes;
+  }
+  EXPECT_EQ(server->stats().refused, 5u);
+}
+
+TEST(Server, a_long_header_is_refused) {
+  const auto server = start();
+  Browser browser(server->port());
+  browser.get("/", "X-Long: " + std::string(9000, 'x') + "\r\n");
+  EXPECT_EQ(browser.status(), "431");
+  EXPECT_TRUE(browser.closed());
+  EXPECT_EQ(server->stats().cut, 1u);
+}
+
+TEST(Server, who_sends_too_slowly_is_cut) {
+  ServerConfig config;
+  config.request_timeout = milliseconds(200);
+  const auto server = start(config);
+  Browser browser(server->port());
+  ASSERT_TRUE(browser.send("GET / HTTP/1.1\r\nHos"));
+  EXPECT_TRUE(browser.closed());
+  EXPECT_TRUE(eventually([&] { return server->stats().cut == 1; }, seconds(10)));
+}
+
+TEST(Server, viewers_get_the_state_at_once_and_every_newer_one) {
+  const auto server = start();
+  server->publish(view("first"));
+  Browser browser(server->port());
+  browser.upgrade("/live", "Origin: http://" + browser.host() + "\r\n");
+  ASSERT_EQ(browser.status(), "101");
+  EXPECT_EQ(nlohmann::json::parse(browser.message())["title"], "first");
+  EXPECT_EQ(server->stats().viewers, 1u);
+  server->publish(view("second"));
+  EXPECT_EQ(nlohmann::json::parse(browser.message())["title"], "second");
+}
+
+TEST(Server, only_so_many_viewers_at_once) {
+  ServerConfig config;
+  config.max_viewers = 2;
+  const auto server = start(config);
+  server->publish(view());
+  Browser third(server->port());
+  {
+    Browser first(server->port()), second(server->port());
+    for (Browser* browser : {&first, &second}) {
+      browser->upgrade();
+      ASSERT_EQ(browser->status(), "101");
+      browser->message();
+    }
+    third.upgrade();
+    EXPECT_EQ(third.status(), "503");
+  }
+  // Those who left make room.
+  ASSERT_TRUE(eventually([&] { return server->stats().viewers == 0; }, seconds(10)));
+  third.upgrade();
+  EXPECT_EQ(third.status(), "101");
+}
+
+TEST(Server, only_so_many_connections_at_once) {
+  ServerConfig config;
+  config.max_connections = 3;
+  const auto server = start(config);
+  Browser a(server->port()), b(server->port()), c(server->port());
+  for (Browser* browser : {&a, &b, &c}) {
+    browser->get("/");
+    ASSERT_EQ(browser->status(), "200");
+  }
+  Browser more(server->port());
+  EXPECT_TRUE(more.closed());
+  EXPECT_EQ(server->stats().cut, 1u);
+}
+
+TEST(Server, a_viewer_that_reads_nothing_is_dropped_and_holds_nobody_up) {
+  ServerConfig config;
+  config.idle_timeout = milliseconds(400);
+  const auto server = start(config);
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 20'000);  // some megabytes: more than sockets take
+  server->publish(std::make_shared<const FleetView>(fleet.view));
+  Browser deaf(server->port());
+  deaf.upgrade();
+  ASSERT_TRUE(eventually([&] { return server->stats().viewers == 1; }, seconds(20)));
+  server->publish(view("meanwhile"));
+  Browser other(server->port());
+  other.get("/state.json");
+  EXPECT_THAT(other.answer(), HasSubstr("meanwhile"));
+  EXPECT_TRUE(eventually([&] { return server->stats().viewers == 0; }, seconds(20)));
+  EXPECT_EQ(server->stats().cut, 1u);
+}
+
+TEST(Server, viewers_have_nothing_to_tell) {
+  const auto server = start();
+  Browser browser(server->port());
+  browser.upgrade();
+  ASSERT_EQ(browser.status(), "101");
+  ASSERT_TRUE(eventually([&] { return server->stats().viewers == 1; }, seconds(10)));
+  std::string frame("\x82\xff\x00\x00\x00\x00\x7f\xff\xff\xff\x00\x00\x00\x00", 14);  // 2 GB are announced
+  browser.send(frame);
+  EXPECT_TRUE(eventually([&] { return server->stats().viewers == 0; }, seconds(10)));
+}
+
+TEST(Server, a_token_is_exchanged_for_a_cookie_once) {
+  ServerConfig config;
+  config.token = "0123456789abcdef";
+  const auto server = start(config);
+  const auto asked = [&](const std::string& path, const std::string& headers = "") {
+    Browser browser(server->port());
+    browser.get(path, headers);
+    return browser.answer();
+  };
+  EXPECT_THAT(asked("/"), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(asked("/?token=0123456789abcdee"), StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(server->url(), HasSubstr("/?token=0123456789abcdef"));
+  const std::string cookie = "fleetmap_" + std::to_string(server->port()) + "=0123456789abcdef";
+  EXPECT_THAT(asked("/?token=0123456789abcdef"),
+              AllOf(StartsWith("HTTP/1.1 303"), HasSubstr("Location: /\r\n"),
+                    HasSubstr(cookie + "; HttpOnly; SameSite=Strict")));
+  EXPECT_THAT(asked("/", "Cookie: " + cookie + "\r\n"), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(asked("/state.json", "Authorization: Bearer 0123456789abcdef\r\n"), StartsWith("HTTP/1.1 200"));
+  Browser socket(server->port());
+  socket.upgrade();
+  EXPECT_EQ(socket.status(), "403");
+}
+
+TEST(Server, addresses_that_others_reach_need_a_token) {
+  ServerConfig config;
+  EXPECT_TRUE(config.validate());
+  config.address = "0.0.0.0";
+  EXPECT_FALSE(config.validate());
+  config.token = "short";
+  EXPECT_FALSE(config.validate());
+  config.token = "0123456789abcdef";
+  EXPECT_TRUE(config.validate());
+  config.address = "robot.example";
+  EXPECT_FALSE(config.validate());
+}
+
+TEST(Server, a_port_in_use_is_an_error_that_names_it) {
+  const auto server = start();
+  ServerConfig config;
+  config.port = server->port();
+  const auto second = Server::start(config, {}, kPage);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().message, AllOf(HasSubstr(std::to_string(server->port())), HasSubstr("--port")));
+}
+
+}  // namespace
+}  // namespace fleetmap::monitor

@@ -1,0 +1,81 @@
+#include "fleetmap/monitor/state_json.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "monitor/views.hpp"
+#include "store/items.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+using graph::AlignmentStatus;
+using testing::agent;
+using ::testing::HasSubstr;
+using testing::node_id;
+using testing::ViewMaker;
+
+TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 3).robot("r2", 5, 2);
+  fleet.alignment(node_id("r1", 0), node_id("r2", 1), AlignmentStatus::used);
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
+  fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
+  fleet.view.has_submap[1] = false;
+  fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+
+  EXPECT_NEAR(state["origin"]["latitude_deg"], 49.0, 1e-9);
+  ASSERT_EQ(state["nodes"].size(), 5u);
+  EXPECT_EQ(state["nodes"][2]["id"], "r1/2");
+  EXPECT_EQ(state["nodes"][2]["T"], nlohmann::json({8.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_TRUE(state["nodes"][0].contains("submap"));
+  EXPECT_FALSE(state["nodes"][1].contains("submap"));
+  ASSERT_EQ(state["robots"].size(), 2u);
+  EXPECT_EQ(state["robots"][0]["nodes"], 3);
+  EXPECT_NEAR(state["robots"][0]["path_m"], 8.0, 1e-9);
+  EXPECT_EQ(state["robots"][1]["last_node"], "r2/1");
+  EXPECT_EQ(state["registrations"][0]["status"], "used");
+  EXPECT_TRUE(state["registrations"][1]["status"].is_null());
+  EXPECT_THAT(state["registrations"][1]["sentence"].get<std::string>(),
+              HasSubstr("rejected, because only 3 inliers"));
+  EXPECT_EQ(state["alignments"][0]["status"], "used");
+  EXPECT_EQ(state["pairs"][0]["joined"], true);
+  EXPECT_EQ(state["holdings"][0]["submaps"], 1);
+}
+
+TEST(StateJson, names_of_nodes_come_with_their_session_and_text_that_is_no_UTF_8_harms_nothing) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0, 1);
+  fleet.view.nodes[0].id.seq = first_seq(4711) + 3;
+  fleet.view.notes.push_back("caf\xe9");
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  EXPECT_EQ(state["nodes"][0]["id"], "r1#4711/3");
+  EXPECT_FALSE(state["nodes"][0].contains("T")) << "it is not placed";
+}
+
+TEST(StateJson, a_pair_registered_twice_has_an_alignment_each) {
+  ViewMaker fleet;
+  fleet.robot("r1", 0).robot("r2", 5);
+  fleet.alignment(node_id("r1", 0), node_id("r2", 1), AlignmentStatus::against_others);
+  fleet.alignment(node_id("r1", 0), node_id("r2", 1), AlignmentStatus::used);
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "rejected", "x");
+  fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
+  const auto matched = alignments_of_attempts(fleet.view);
+  EXPECT_EQ(matched, (std::vector<std::optional<std::size_t>>{0, std::nullopt, 1}));
+  const auto state = nlohmann::json::parse(state_json(fleet.view));
+  EXPECT_EQ(state["registrations"][0]["status"], "against others");
+  EXPECT_EQ(state["registrations"][2]["status"], "used");
+}
+
+TEST(StateJson, an_empty_fleet_is_a_state_too) {
+  const auto state = nlohmann::json::parse(state_json({}));
+  EXPECT_TRUE(state["nodes"].empty());
+  EXPECT_TRUE(state["pairs"].empty());
+}
+
+}  // namespace
+}  // namespace fleetmap::monitor
