@@ -186,8 +186,8 @@ export class FleetMap {
     if (box.isEmpty()) return;
     this.fitted = true;
     const size = box.getSize(new THREE.Vector3()), aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    const span = Math.max(size.y, size.x / aspect) + 24;
-    this.look_(box.getCenter(new THREE.Vector3()), this.planar ? span : 0.86 * span);
+    const span = Math.max(size.y, size.x / aspect) + 20;
+    this.look_(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.12 * span);
   }
 
   /** Brings a place into the middle, and near enough to see it. */

@@ -23,7 +23,7 @@ void main() {
   for (int k = 0; k < 8; ++k) {
     float angle = 0.785398 * float(k);
     vec2 next = at + radius * texel * vec2(cos(angle), sin(angle));
-    if (texture2D(colours, next).a < 0.5) { shade += 0.25; continue; }
+    if (texture2D(colours, next).a < 0.5) { shade += 0.12; continue; }
     shade += clamp((depth - depthAt(next)) / (pixel * 14.0), 0.0, 1.0);
   }
   gl_FragColor = vec4(colour.rgb * exp(-strength * shade / 8.0), 1.0);
@@ -46,7 +46,7 @@ export class Shading {
       depthWrite: false,
       uniforms: {
         colours: uniform(this.target.texture), depths: uniform(this.target.depthTexture), texel: uniform(new THREE.Vector2()),
-        near: uniform(0), far: uniform(1), planar: uniform(0), pixelAtOne: uniform(1), radius: uniform(1), strength: uniform(1.5),
+        near: uniform(0), far: uniform(1), planar: uniform(0), pixelAtOne: uniform(1), radius: uniform(1), strength: uniform(1.15),
       },
     });
     const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.material);

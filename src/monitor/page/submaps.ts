@@ -101,10 +101,10 @@ export class Submaps {
   budget = 1_000_000;
   drawn = 0;
   private running = 0;
+  private order: Submap[] = [];  // nearest first
 
   constructor(private changed: () => void) {}
 
-  /** `scale`: pixels per metre at a distance of 1 m in perspective, 0 in plan view. */
   allocate(camera: THREE.Camera, planar: boolean, until: number): void {
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
@@ -128,11 +128,8 @@ export class Submaps {
       this.drawn += submap.object.visible ? drawn : 0;
     }
     this.trim();
-    this.fetchMore(seen.sort((a, b) => b.weight - a.weight).map((one) => one.submap));
-  }
-
-  get waiting(): boolean {
-    return this.running > 0;
+    this.order = seen.sort((a, b) => b.weight - a.weight).map((one) => one.submap);
+    this.fetchMore();
   }
 
   private trim(): void {
@@ -142,8 +139,9 @@ export class Submaps {
     for (const submap of this.all.values()) if (submap.wanted <= kFirst) submap.trim();
   }
 
-  private fetchMore(order: Submap[]): void {
-    const coarse = order.filter((one) => one.total < 0), fine = order.filter((one) => one.total >= 0 && one.loaded < Math.min(one.wanted, one.total));
+  /** Goes on where the last picture left off, so that loading does not wait for slow pictures. */
+  private fetchMore(): void {
+    const coarse = this.order.filter((one) => one.total < 0), fine = this.order.filter((one) => one.total >= 0 && one.loaded < Math.min(one.wanted, one.total));
     for (const submap of [...coarse, ...fine]) {
       if (this.running >= kAtOnce) return;
       if (!submap.asked && !submap.failed) void this.fetchPart(submap);
@@ -164,6 +162,7 @@ export class Submaps {
     } finally {
       submap.asked = false;
       --this.running;
+      this.fetchMore();
       this.changed();
     }
   }
