@@ -1,6 +1,7 @@
 // Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
 // that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px.
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
+// FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
 import {spawn, spawnSync} from 'node:child_process';
 import {existsSync, mkdtempSync, rmSync} from 'node:fs';
@@ -64,7 +65,10 @@ async function pixelsOfMap(page) {
 }
 
 async function mapIsDrawn(page) {
-  await page.waitForFunction(() => Number(document.getElementById('canvas').dataset.drawn) > 20_000, null, {timeout: 60_000});
+  await page.waitForFunction(() => {
+    const {drawn, loading} = document.getElementById('canvas').dataset;
+    return Number(drawn) > 20_000 && loading === 'false';
+  }, null, {timeout: 100_000});
   const pixels = await pixelsOfMap(page);
   assert.ok(pixels.covered > 0.1, `only ${pixels.covered} of the map's pixels are drawn`);
   assert.ok(pixels.colours > 50, `only ${pixels.colours} colours: the points are not shaded`);

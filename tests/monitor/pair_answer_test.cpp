@@ -129,7 +129,7 @@ TEST(PairAnswer, a_robot_of_which_nothing_is_held) {
   fleet.view.holdings.push_back({agent("r4"), agent("r4"), 0, 0, 0});
   const PairAnswer answer = answer_of(fleet.view, "r1", "r4");
   EXPECT_EQ(answer.state, PairState::nothing_known);
-  EXPECT_THAT(answer.text, HasSubstr("no node of r4"));
+  EXPECT_THAT(answer.text, HasSubstr("No node of r4"));
 }
 
 TEST(PairAnswer, every_pair_has_one_answer_in_order) {

@@ -193,8 +193,10 @@ TEST(Server, a_viewer_that_reads_nothing_is_dropped_and_holds_nobody_up) {
   EXPECT_EQ(server->stats().cut, 1u);
 }
 
-TEST(Server, viewers_have_nothing_to_tell) {
-  const auto server = start();
+TEST(Server, a_viewer_that_tells_more_than_a_little_is_cut) {
+  ServerConfig config;
+  config.request_timeout = milliseconds(300);  // to close its side
+  const auto server = start(config);
   Browser browser(server->port());
   browser.upgrade();
   ASSERT_EQ(browser.status(), "101");

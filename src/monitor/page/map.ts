@@ -22,6 +22,7 @@ export type Hit = {node: string} | {edge: Edge};
 export interface Picture {
   drawn: number;
   total: number;
+  loading: boolean;
   metresPerPixel: number;
   planar: boolean;
   heights: [number, number];
@@ -314,7 +315,7 @@ export class FleetMap {
     let total = 0;
     for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
     this.onPicture({
-      drawn: this.layers.points ? this.submaps.drawn : 0, total, metresPerPixel: this.metresPerPixel(), planar: this.planar,
+      drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, metresPerPixel: this.metresPerPixel(), planar: this.planar,
       heights: [this.look.low.value, this.look.high.value],
     });
   }

@@ -132,6 +132,11 @@ export class Submaps {
     this.fetchMore();
   }
 
+  /** Some submap in view is not on the map at all yet. */
+  get loading(): boolean {
+    return this.order.some((one) => one.total < 0 && !one.failed);
+  }
+
   private trim(): void {
     let held = 0;
     for (const submap of this.all.values()) held += submap.loaded;
