@@ -243,6 +243,9 @@ export class FleetPanel {
       axes: [{...axis, values: (_, values) => values.map(duration), size: 28}, {...axis, size: 34}],
       series: [{label: 'time', value: (_, t) => (t === null ? '' : duration(t))}, ...state.robots.map((robot) => ({label: robot.id, stroke: colourOf(state, robot.id), width: 2, points: {show: false}, paths: uPlot.paths.stepped!({align: 1})}))],
     }, [times, ...series], this.chart);
+    const canvas = this.chart.querySelector('canvas')!;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', 'Nodes of each robot over the mission; the numbers are in the cards above');
   }
 
   redraw(): void {
