@@ -25,7 +25,7 @@ using boost::system::error_code;
 using net::ip::tcp;
 
 constexpr std::uint32_t kMostHeaderBytes = 8192;
-constexpr std::size_t kMostMessageBytes = 1024;  // a viewer has nothing to tell yet
+constexpr std::size_t kMostHeardBytes = 1024;  // of a viewer, which has nothing to tell yet
 
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
@@ -90,7 +90,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(
         websocket::stream_base::timeout{state_.config.request_timeout, state_.config.idle_timeout, true});
-    socket_.read_message_max(kMostMessageBytes);
+    socket_.read_message_max(0);  // pieces of a message are dropped as they come
     state_.viewers.insert(this);
     ++state_.viewers_now;
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
@@ -118,12 +118,16 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
  private:
   void read() {
-    socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
+    const auto on_bytes = [self = shared_from_this()](error_code error, std::size_t bytes) {
       self->buffer_.consume(self->buffer_.size());
-      if (!error) return self->read();
+      self->heard_ += bytes;
+      if (!error && self->heard_ <= kMostHeardBytes) return self->read();
       self->open_ = false;
       if (error != websocket::error::closed) ++self->state_.cut;
-    });
+      // At once: a closing handshake would wait for one who may not answer.
+      beast::get_lowest_layer(self->socket_).close();
+    };
+    socket_.async_read_some(buffer_, kMostHeardBytes, on_bytes);
   }
 
   State& state_;
@@ -131,6 +135,7 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
   std::shared_ptr<const std::string> writing_, next_;
+  std::size_t heard_ = 0;
   bool open_ = false;
 };
 

@@ -194,16 +194,15 @@ TEST(Server, a_viewer_that_reads_nothing_is_dropped_and_holds_nobody_up) {
 }
 
 TEST(Server, a_viewer_that_tells_more_than_a_little_is_cut) {
-  ServerConfig config;
-  config.request_timeout = milliseconds(300);  // to close its side
-  const auto server = start(config);
+  const auto server = start();
   Browser browser(server->port());
   browser.upgrade();
   ASSERT_EQ(browser.status(), "101");
   ASSERT_TRUE(eventually([&] { return server->stats().viewers == 1; }, seconds(10)));
-  std::string frame("\x82\xff\x00\x00\x00\x00\x7f\xff\xff\xff\x00\x00\x00\x00", 14);  // 2 GB are announced
-  browser.send(frame);
+  const std::string head("\x82\xff\x00\x00\x00\x00\x7f\xff\xff\xff\x00\x00\x00\x00", 14);  // announces 2 GB
+  browser.send(head + std::string(2000, 'x'));
   EXPECT_TRUE(eventually([&] { return server->stats().viewers == 0; }, seconds(10)));
+  EXPECT_EQ(server->stats().cut, 1u);
 }
 
 TEST(Server, a_token_is_exchanged_for_a_cookie_once) {
