@@ -1,4 +1,3 @@
-import 'uplot/dist/uPlot.min.css';
 import {geoText, toGeo} from './geodesy';
 import {follow} from './live';
 import {FleetMap, type ColourMode, type Edge, type Hit, type Layer, type Picture} from './map';
