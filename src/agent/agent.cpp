@@ -12,8 +12,8 @@
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/exchange/reissue.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -39,8 +39,8 @@ loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config)
 
 const char* item(bool alignment) { return alignment ? "alignment" : "node"; }
 
-std::string handed_over(exchange::Reach link, const std::optional<AgentId>& from) {
-  const std::string over = link == exchange::Reach::kLongRange ? "over the radio" : "over the Wi-Fi";
+std::string handed_over(messages::Reach link, const std::optional<AgentId>& from) {
+  const std::string over = link == messages::Reach::kLongRange ? "over the radio" : "over the Wi-Fi";
   return from ? over + " from " + from->str() : over;
 }
 
@@ -112,8 +112,8 @@ Agent::~Agent() = default;
 
 Status Agent::start() {
   if (const Status kept = keep_recipe(store_, config_); !kept) return kept;
-  config_.exchange.payload_size = [](const exchange::Message& message) {
-    return wire::encode(message).size();
+  config_.exchange.payload_size = [](const messages::Message& message) {
+    return fleet_codec::encode(message).size();
   };
   config_.exchange.clouds.order = config_.loop_closure.order;
   config_.exchange.clouds.cancel_when_aligned = config_.loop_closure.stop_when_peer_aligned;
@@ -132,7 +132,7 @@ Status Agent::start() {
     if (!config_.site_origin) return failure(config_.id.str() + ": a mission needs site.origin");
     auto navigator =
         Navigator::create(*config_.navigator, config_.id, *config_.site_origin, bus_,
-                          [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
+                          [this](messages::MissionReport report) { exchange_->tell(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
     for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
@@ -141,7 +141,7 @@ Status Agent::start() {
     if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
   }
   local_hold_ =
-      bus_.subscribe(wire::topics::hold_onboard(), [this](const Bytes& cdr) { on_local_hold(cdr); });
+      bus_.subscribe(fleet_codec::topics::hold_onboard(), [this](const Bytes& cdr) { on_local_hold(cdr); });
   if (config_.placement.method == graph::PlacementMethod::graph) {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
@@ -229,7 +229,7 @@ void Agent::on_perceived(Perceived&& perceived) {
 }
 
 void Agent::navigate() {
-  const bool meeting = navigator_->status().state == planning::MissionState::kMeeting;
+  const bool meeting = navigator_->status().state == messages::MissionState::kMeeting;
   // What was seen since the last node belongs to the maps that are exchanged at the meeting.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
@@ -301,7 +301,7 @@ void Agent::freeze_node(const Perceived& perceived) {
   if (node.id.seq != first_seq(session_)) node.odom_covariance = motion_.lost_since_reference();
   recent_surroundings_.add(submap_.cloud(), node.T_odom_base.translation());
   node.descriptor = recent_surroundings_.describe(node.T_odom_base, node.up_in_base).encode();
-  const Result<graph::Node> rounded = wire::quantised(node);
+  const Result<graph::Node> rounded = fleet_codec::quantised(node);
   if (!rounded) {
     spdlog::warn("{}: node refused: {}", to_string(node.id), rounded.error().message);
     return;
@@ -357,7 +357,7 @@ void Agent::handle(const exchange::CloudNeeded& needed) {
 
 bool Agent::publish(graph::Alignment alignment) {
   alignment.seq = store_.next_alignment_seq(session_);
-  const Result<graph::Alignment> rounded = wire::quantised(alignment);
+  const Result<graph::Alignment> rounded = fleet_codec::quantised(alignment);
   const Result<store::Put> put = rounded ? exchange_->on_own_alignment(*rounded, bus_.now())
                                          : Result<store::Put>(tl::unexpected(rounded.error()));
   if (put && *put == store::Put::kAdded) return true;
@@ -410,9 +410,10 @@ void Agent::handle(const exchange::MissionHeard& heard) {
 }
 
 void Agent::on_local_hold(const Bytes& cdr) {
-  const auto hold = wire::decode<exchange::Hold>(cdr);
-  if (!hold) return spdlog::warn("{}: refused: {}", wire::topics::hold_onboard().name, hold.error().message);
-  for (const exchange::HoldOrder& order : hold->orders) exchange_->on_local_order(order, bus_.now());
+  const auto hold = fleet_codec::decode<messages::Hold>(cdr);
+  if (!hold)
+    return spdlog::warn("{}: refused: {}", fleet_codec::topics::hold_onboard().name, hold.error().message);
+  for (const messages::HoldOrder& order : hold->orders) exchange_->on_local_order(order, bus_.now());
   on_events();
 }
 
@@ -476,7 +477,7 @@ void Agent::name_contested_anew() {
   if (!std::exchange(own_item_contested_, false)) return;
   const exchange::NewNames names{
       session_, [this] { return sessions_.draw(store_, config_.draw_session); },
-      [](const graph::Alignment& alignment) { return wire::quantised(alignment); }};
+      [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
   const Result<std::size_t> told = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
   if (!told) return handle(exchange::StoreFailed{told.error()});
   if (*told > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *told);
@@ -535,7 +536,7 @@ void Agent::handle(const exchange::MapComplete& complete) {
 }
 
 void Agent::update_status() {
-  exchange::AgentStatus status;
+  messages::AgentStatus status;
   status.from = config_.id;
   status.stamp = bus_.now();
   if (const auto G = perception_->global_pose()) {

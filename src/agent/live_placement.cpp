@@ -5,9 +5,9 @@
 
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
 
 namespace fleetmap::agent {
 
@@ -88,7 +88,7 @@ void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odom
   pose.q_enu_base =
       Eigen::Quaterniond(Eigen::Matrix3d(site.R_enu_local(pose.position).transpose() * T_enu_base.linear()));
   pose.covariance = solution_->covariance;
-  bus_.publish(wire::topics::corrected_pose(), wire::encode(pose));
+  bus_.publish(fleet_codec::topics::corrected_pose(), fleet_codec::encode(pose));
 }
 
 }  // namespace fleetmap::agent

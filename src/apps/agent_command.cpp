@@ -12,7 +12,6 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/trust/credentials.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "link_log.hpp"
 #include "live_bus.hpp"
 #include "mission_setup.hpp"

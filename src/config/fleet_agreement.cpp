@@ -6,7 +6,7 @@
 
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/bytes.hpp"
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -55,7 +55,7 @@ bool on_this_machine(const std::string& peer, const bus::DdsLinkConfig& link) {
 }  // namespace
 
 bus::FleetSettings fleet_settings(const agent::AgentConfig& config) {
-  return {.wire_schema = wire::kSchemaVersion,
+  return {.wire_schema = fleet_codec::kSchemaVersion,
           .fleet = hash_of(config.exchange.fleet),
           .submap_voxel = tenths_of_mm(config.submap.voxel),
           .map_voxel = tenths_of_mm(config.map.voxel_m),

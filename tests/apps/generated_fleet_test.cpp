@@ -9,8 +9,8 @@
 
 #include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
@@ -95,7 +95,7 @@ void write_carried_robot(const std::filesystem::path& folder) {
   auto bag = recording::BagWriter::create(folder);
   ASSERT_TRUE(bag) << bag.error().message;
   const testing::SyntheticWorld yard = testing::yard_world(), panels = testing::panel_world();
-  const bus::Topic topic = wire::topics::points();
+  const bus::Topic topic = ros_codec::topics::points();
   for (int k = 0; k < 32; ++k) {
     const double seconds = 0.1 * k;
     const bool carried = k >= 12;
@@ -106,7 +106,7 @@ void write_carried_robot(const std::filesystem::path& folder) {
     sensor::Scan scan = make_scan(
         carried ? panels : yard, [&](double) { return there; }, seconds, odometry::vlp16());
     scan.stamp = stamp_from_ns(1'750'000'000'000'000'000) + from_seconds(seconds);
-    ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, wire::encode(scan)));
+    ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, ros_codec::encode(scan)));
   }
   ASSERT_TRUE(bag->close());
 }
