@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <utility>
 
 #include "fleetmap/agent/live_placement.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/registrations_file.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -45,8 +43,8 @@ std::string handed_over(messages::Reach link, const std::optional<AgentId>& from
 }
 
 /// An odometry that a lost store has left must not be written over: its nodes may come back from others.
-Result<TrajectoryFile> begin_odometry(const std::filesystem::path& directory, std::size_t index) {
-  const std::filesystem::path file = odometry_file(directory, index);
+Result<output::TrajectoryFile> begin_odometry(const std::filesystem::path& directory, std::size_t index) {
+  const std::filesystem::path file = output::odometry_file(directory, index);
   std::error_code error;
   for (int k = 1; std::filesystem::exists(file, error); ++k) {
     const std::filesystem::path aside = file.string() + ".before-" + std::to_string(k);
@@ -55,7 +53,7 @@ Result<TrajectoryFile> begin_odometry(const std::filesystem::path& directory, st
     if (error) return failure(file.string() + ": cannot be moved aside: " + error.message());
     spdlog::warn("{}: is of a store that was lost or replaced; it is {} now", file.string(), aside.string());
   }
-  return TrajectoryFile::create(file);
+  return output::TrajectoryFile::create(file);
 }
 
 }  // namespace
@@ -70,13 +68,14 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   }
   Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
   if (!store) return tl::unexpected(store.error());
-  Result<Sessions> sessions = Sessions::load(*store);
+  Result<store::Sessions> sessions = store::Sessions::load(*store);
   if (!sessions) return tl::unexpected(sessions.error());
   const Result<std::uint16_t> session = sessions->begin(*store, config.draw_session);
   if (!session) return tl::unexpected(session.error());
-  Result<TrajectoryFile> odometry = begin_odometry(config.directory, *sessions->index_of(*session));
+  Result<output::TrajectoryFile> odometry = begin_odometry(config.directory, *sessions->index_of(*session));
   if (!odometry) return tl::unexpected(odometry.error());
-  Result<GlobalTrackFile> track = GlobalTrackFile::append_to(config.directory / "global_track.csv");
+  Result<output::GlobalTrackFile> track =
+      output::GlobalTrackFile::append_to(config.directory / "global_track.csv");
   if (!track) return tl::unexpected(track.error());
   Result<store::RegistrationLog> log =
       store::RegistrationLog::open(config.directory / store::kRegistrationLogFile);
@@ -89,8 +88,8 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   return agent;
 }
 
-Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessions sessions,
-             std::uint16_t session, TrajectoryFile odometry_file, GlobalTrackFile global_file)
+Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
+             std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file)
     : config_(config),
       bus_(bus),
       store_(std::move(store)),
@@ -111,7 +110,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessi
 Agent::~Agent() = default;
 
 Status Agent::start() {
-  if (const Status kept = keep_recipe(store_, config_); !kept) return kept;
+  if (const Status kept = output::keep_recipe(store_, config_.recipe()); !kept) return kept;
   config_.exchange.payload_size = [](const messages::Message& message) {
     return fleet_codec::encode(message).size();
   };
@@ -276,7 +275,7 @@ bool Agent::begin_session(const char* why) {
   const std::size_t index = *sessions_.index_of(session_);
   spdlog::warn("{}: {}: session {} ({})", config_.id.str(), why, index,
                to_string(graph::FrameId{config_.id, session_}));
-  Result<TrajectoryFile> file = begin_odometry(config_.directory, index);
+  Result<output::TrajectoryFile> file = begin_odometry(config_.directory, index);
   odometry_file_.reset();
   if (file) {
     odometry_file_.emplace(std::move(*file));
@@ -376,25 +375,22 @@ void Agent::record(const loop_closure::Registration& registration) {
 }
 
 void Agent::log_registration(const loop_closure::Registration& registration) {
-  const std::filesystem::path file = config_.directory / "registrations.csv";
-  std::error_code error;
-  const bool fresh = !std::filesystem::exists(file, error);
-  std::ofstream out(file, std::ios::app);
-  if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
   const std::string source = to_string(registration.source.id);
-  out << to_string(registration.target.id) << ',' << source << ',';
+  output::RegistrationRow row{registration.target.id, registration.source.id,   "failed",
+                              std::nullopt,           registration.cpu_seconds, ""};
   if (registration.result) {
     const registration::RegistrationResult& r = *registration.result;
-    out << registration::to_string(r.verdict) << ',' << r.rmse << ',' << r.inlier_fraction << ',' << r.overlap
-        << ',' << registration.cpu_seconds << ",\"" << r.reason << "\"\n";
-    spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", config_.id.str(),
-                 registration::to_string(r.verdict), source, r.rmse, 100.0 * r.inlier_fraction,
-                 r.reason.empty() ? "" : ", ", r.reason);
+    row.verdict = registration::to_string(r.verdict);
+    row.fit = {r.rmse, r.inlier_fraction, r.overlap};
+    row.reason = r.reason;
+    spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", config_.id.str(), row.verdict, source,
+                 r.rmse, 100.0 * r.inlier_fraction, r.reason.empty() ? "" : ", ", r.reason);
   } else {
-    out << "failed,,,," << registration.cpu_seconds << ",\"" << registration.result.error().message << "\"\n";
-    spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), source,
-                 registration.result.error().message);
+    row.reason = registration.result.error().message;
+    spdlog::warn("{}: registration with {} failed: {}", config_.id.str(), source, row.reason);
   }
+  const Status written = output::append_registration(config_.directory / "registrations.csv", row);
+  if (!written) spdlog::error("{}", written.error().message);
 }
 
 void Agent::keep_input(const store::LoggedRegistration& input) {

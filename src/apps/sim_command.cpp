@@ -9,6 +9,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
@@ -62,7 +63,7 @@ class LiveRobot {
     bus_->finish_work();
   }
   const std::string& name() const { return name_; }
-  const std::vector<agent::StampedPose>& truth() const { return truth_.poses(); }
+  const output::Trajectory& truth() const { return truth_.poses(); }
   double odometer() const { return twin_.odometer(); }
 
  private:

@@ -8,6 +8,7 @@
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/results.hpp"
 #include "fleetmap/planning/mission_complete.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -291,7 +292,7 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   result.directory = self.agent->config().directory;
   auto written = [&] {
     const CpuTimer timer(results_seconds_);
-    return agent::write_results(self.agent->store(), self.agent->config(), maps_);
+    return output::write_results(self.agent->store(), self.agent->config().results().results(), maps_);
   }();
   if (written) {
     maps_.push_back(written->map);

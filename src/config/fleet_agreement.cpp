@@ -7,6 +7,7 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/output/map_recipe.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -28,7 +29,7 @@ std::uint32_t hash_of(std::vector<AgentId> fleet) {
   return hash_of(names);
 }
 
-/// Of what agent::keep_recipe() keeps, but for the voxel.
+/// Of what output::keep_recipe() keeps, but for the voxel.
 std::uint16_t hash_of_placement(const agent::AgentConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::max();
   const GeoPoint origin = config.site_origin.value_or(GeoPoint{kNone, kNone, kNone});

@@ -4,14 +4,14 @@
 #include <cstdio>
 #include <utility>
 
-#include "fleetmap/agent/results.hpp"
-#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fault_injection/stand_in_signatures.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/place.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -167,7 +167,7 @@ void FaultyFleet::start_robots() {
 }
 
 Result<std::uint16_t> FaultyFleet::draw_session(store::Store& store) {
-  auto sessions = agent::Sessions::load(store);
+  auto sessions = store::Sessions::load(store);
   if (!sessions) return tl::unexpected(sessions.error());
   return sessions->begin(store, [this] { return static_cast<std::uint16_t>(draws_.bits()); });
 }
@@ -316,7 +316,8 @@ void FaultyFleet::finish_jobs() {
 }
 
 graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
-  return graph::place(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store), survey_.site(), {});
+  return graph::place(output::nodes_of(*robot.store), output::alignments_of(*robot.store), survey_.site(),
+                      {});
 }
 
 void FaultyFleet::place(const AgentId& name, Robot& robot) {

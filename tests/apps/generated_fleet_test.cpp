@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -50,8 +50,8 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   std::vector<std::vector<Pose>> trajectories;
   std::vector<Pose> placed_poses, true_poses;
   for (const testing::GeneratedRobot& robot : fleet->robots) {
-    const auto odometry = agent::read_trajectory(out / robot.id / "odometry.tum");
-    const auto placed = agent::read_trajectory(out / robot.id / "trajectory.tum");
+    const auto odometry = output::read_growing_tum(out / robot.id / "odometry.tum");
+    const auto placed = output::read_growing_tum(out / robot.id / "trajectory.tum");
     ASSERT_TRUE(odometry && placed);
     ASSERT_EQ(odometry->size(), robot.T_enu_base.size());
     std::vector<Pose> O, T;

@@ -11,16 +11,16 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/failure_log.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
-#include "fleetmap/agent/global_track.hpp"
 #include "fleetmap/agent/level_track.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/recent_surroundings.hpp"
-#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
+#include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/registration_log.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::agent {
 
@@ -93,8 +93,8 @@ class Agent {
   WorkSeconds work_seconds() const;
 
  private:
-  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessions sessions,
-        std::uint16_t session, TrajectoryFile odometry_file, GlobalTrackFile global_file);
+  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
+        std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file);
   Status start();
   /// Robots that were not heard of for long on a mission.
   std::set<AgentId> lost() const;
@@ -143,13 +143,14 @@ class Agent {
   AgentConfig config_;
   bus::Bus& bus_;
   store::Store store_;
-  Sessions sessions_;
+  store::Sessions sessions_;
   std::uint16_t session_;
   bool told_of_missing_gps_ = false;
   bool rest_frozen_for_meeting_ = false;
-  bool own_item_contested_ = true;               ///< perhaps: also before the start
-  std::optional<TrajectoryFile> odometry_file_;  ///< none: it could not be begun, and holds no other frame
-  GlobalTrackFile global_file_;
+  bool own_item_contested_ = true;  ///< perhaps: also before the start
+  std::optional<output::TrajectoryFile>
+      odometry_file_;  ///< none: it could not be begun, and holds no other frame
+  output::GlobalTrackFile global_file_;
   std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
   double odometry_seconds_ = 0.0;                           ///< CPU
   SubmapBuilder submap_;

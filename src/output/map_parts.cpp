@@ -1,11 +1,11 @@
-#include "fleetmap/agent/map_parts.hpp"
+#include "fleetmap/output/map_parts.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "fleetmap/graph/located_nodes.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& placement) {
   const auto nowhere = graph::not_georeferenced(nodes, placement.components);
@@ -39,12 +39,6 @@ MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& p
   return parts;
 }
 
-std::string to_string(const graph::FrameId& frame) {
-  std::string text = frame.agent.str();
-  if (frame.session > 0) text.append("#").append(std::to_string(frame.session));
-  return text;
-}
-
 std::string file_of(const MapPart& part) {
   const graph::FrameId& first = part.frames.front();
   std::string name = "map-" + first.agent.str();
@@ -52,4 +46,4 @@ std::string file_of(const MapPart& part) {
   return name.append(".ply");
 }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

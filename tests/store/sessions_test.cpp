@@ -1,4 +1,4 @@
-#include "fleetmap/agent/sessions.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 
 #include "store/items.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::store {
 namespace {
 
 const AgentId kSelf = *AgentId::parse("r1");
 
 class SessionsTest : public ::testing::Test {
  protected:
-  store::Store open() { return std::move(store::Store::open(folder_ / "store.db", kSelf).value()); }
+  Store open() { return std::move(Store::open(folder_ / "store.db", kSelf).value()); }
   /// Gives these numbers, one after the other.
   static Sessions::Draw numbers(std::vector<std::uint16_t> given) {
     return [given, k = std::size_t{0}]() mutable { return given.at(k++); };
@@ -23,12 +23,12 @@ class SessionsTest : public ::testing::Test {
 
 TEST_F(SessionsTest, AreKnownByTheirOrderAfterARestart) {
   {
-    store::Store store = open();
+    Store store = open();
     Sessions sessions = Sessions::load(store).value();
     EXPECT_EQ(sessions.begin(store, numbers({700})).value(), 700);
     EXPECT_EQ(sessions.begin(store, numbers({20})).value(), 20);
   }
-  store::Store store = open();
+  Store store = open();
   Sessions sessions = Sessions::load(store).value();
   EXPECT_EQ(sessions.begin(store, numbers({700, 20, 5})).value(), 5)
       << "two had begun, though without a node";
@@ -39,7 +39,7 @@ TEST_F(SessionsTest, AreKnownByTheirOrderAfterARestart) {
 }
 
 TEST_F(SessionsTest, PassOverNumbersThatOwnItemsBear) {
-  store::Store store = open();
+  Store store = open();
   // As others give them back after the store was lost.
   ASSERT_EQ(store.put_node(testing::make_node(kSelf, first_seq(3) + 17, Bytes{})).value(),
             store::Put::kAdded);
@@ -54,7 +54,7 @@ TEST_F(SessionsTest, PassOverNumbersThatOwnItemsBear) {
 }
 
 TEST_F(SessionsTest, ASourceThatIsNotRandomFails) {
-  store::Store store = open();
+  Store store = open();
   Sessions sessions = Sessions::load(store).value();
   const auto always = [] { return std::uint16_t{7}; };
   ASSERT_TRUE(sessions.begin(store, always));
@@ -70,4 +70,4 @@ TEST(RandomSession, HardlyEverComesTwice) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::store

@@ -1,23 +1,23 @@
-#include "fleetmap/agent/sessions.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <random>
 
-namespace fleetmap::agent {
+namespace fleetmap::store {
 namespace {
 
 constexpr const char* kKey = "sessions";
 constexpr int kMaxDraws = 10'000;
 
-bool is_used(const store::Store& store, std::uint16_t session) {
+bool is_used(const Store& store, std::uint16_t session) {
   return store.next_node_seq(session) != first_seq(session) ||
          store.next_alignment_seq(session) != first_seq(session);
 }
 
 }  // namespace
 
-Result<Sessions> Sessions::load(const store::Store& store) {
+Result<Sessions> Sessions::load(const Store& store) {
   Sessions sessions;
   const auto bytes = store.meta(kKey);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -28,7 +28,7 @@ Result<Sessions> Sessions::load(const store::Store& store) {
   return sessions;
 }
 
-Result<std::uint16_t> Sessions::draw(const store::Store& store, const Draw& draw) const {
+Result<std::uint16_t> Sessions::draw(const Store& store, const Draw& draw) const {
   for (int k = 0; k < kMaxDraws; ++k) {
     const std::uint16_t session = draw();
     if (first_seq(session) < kEndOfSeqs && !index_of(session) && !is_used(store, session)) return session;
@@ -37,7 +37,7 @@ Result<std::uint16_t> Sessions::draw(const store::Store& store, const Draw& draw
                  "; export its map, then move the store away");
 }
 
-Result<std::uint16_t> Sessions::begin(store::Store& store, const Draw& draw) {
+Result<std::uint16_t> Sessions::begin(Store& store, const Draw& draw) {
   const Result<std::uint16_t> session = this->draw(store, draw);
   if (!session) return session;
   std::vector<std::uint16_t> numbers = numbers_;
@@ -57,4 +57,4 @@ std::optional<std::size_t> Sessions::index_of(std::uint16_t session) const {
 
 std::uint16_t random_session() { return static_cast<std::uint16_t>(std::random_device{}()); }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::store

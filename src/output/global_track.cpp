@@ -1,11 +1,11 @@
-#include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/output/global_track.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -79,4 +79,4 @@ Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& f
   return track;
 }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,8 +1,8 @@
-#include "fleetmap/agent/map_parts.hpp"
+#include "fleetmap/output/map_parts.hpp"
 
 #include <gtest/gtest.h>
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 using graph::FrameId;
@@ -65,4 +65,4 @@ TEST_F(MapPartsTest, ANodeThatIsNotPlacedIsInNoPart) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,4 +1,4 @@
-#include "fleetmap/agent/line_file.hpp"
+#include "fleetmap/output/line_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,7 +9,7 @@
 #include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 std::string text_of(const std::filesystem::path& path) {
@@ -36,4 +36,4 @@ TEST(LineFile, LeavesOutWholeLinesWhileTheDiskIsFullAndSaysSoOnce) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

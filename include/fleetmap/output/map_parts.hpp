@@ -8,10 +8,7 @@
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/graph/placement.hpp"
 
-namespace fleetmap::agent {
-
-/// "r1", or "r1#4711" for the odometry frame of session 4711.
-std::string to_string(const graph::FrameId& frame);
+namespace fleetmap::output {
 
 /// Odometry frames whose nodes lie right to each other, and may be drawn into one map.
 struct MapPart {
@@ -32,4 +29,4 @@ MapParts map_parts(std::span<const graph::Node> nodes, const graph::Placement& p
 /// "map-r2.ply", or "map-r2.4711.ply" of session 4711: of a part that is not the main one.
 std::string file_of(const MapPart& part);
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,10 +1,10 @@
-#include "fleetmap/agent/global_track.hpp"
+#include "fleetmap/output/global_track.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/temporary_folder.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 GlobalPose made_up(int k) {
@@ -61,4 +61,4 @@ TEST(GlobalTrack, NonsenseInTheMiddleIsAnError) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

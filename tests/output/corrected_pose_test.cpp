@@ -1,10 +1,10 @@
-#include "fleetmap/agent/corrected_pose.hpp"
+#include "fleetmap/output/corrected_pose.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 Pose at(double x, double y) { return make_pose(Eigen::Matrix3d::Identity(), Eigen::Vector3d(x, y, 0.0)); }
@@ -29,4 +29,4 @@ TEST(CorrectedPose, WithoutNodesTheFrameIsRigid) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

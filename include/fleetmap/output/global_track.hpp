@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "fleetmap/agent/line_file.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
+#include "fleetmap/output/line_file.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 /// G over time as a CSV file that grows line by line:
 /// stamp_s,latitude_deg,longitude_deg,altitude_m,qx,qy,qz,qw,sigma_e_m,sigma_n_m,sigma_u_m,sigma_yaw_deg
@@ -27,4 +27,4 @@ class GlobalTrackFile {
 /// cut off (a killed writer) is left out; any other bad line is an error.
 Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file);
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

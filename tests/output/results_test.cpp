@@ -1,4 +1,4 @@
-#include "fleetmap/agent/results.hpp"
+#include "fleetmap/output/results.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include <fstream>
 #include <string>
 
-#include "fleetmap/agent/global_track.hpp"
-#include "fleetmap/agent/submap_builder.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "graph/simulated_fleet.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 const AgentId kSelf = AgentId::parse("r1").value();
@@ -21,9 +21,9 @@ const AgentId kSelf = AgentId::parse("r1").value();
 class ResultsTest : public ::testing::Test {
  protected:
   store::Store open() { return std::move(store::Store::open(folder_.path() / "store.db", kSelf).value()); }
-  AgentConfig config() const {
-    AgentConfig config;
-    config.id = kSelf;
+  ResultsConfig config() const {
+    ResultsConfig config;
+    config.agent = kSelf;
     config.directory = folder_.path();
     return config;
   }
@@ -39,11 +39,9 @@ class ResultsTest : public ::testing::Test {
       node.G->stamp = node.stamp;
       node.G->position = LocalFrame(origin_).to_geo({x, 0.0, 0.0});
     }
-    SubmapBuilder builder(SubmapConfig{});
     cloud::PointCloud points;
     for (int k = 0; k < 50; ++k) points.points.push_back({2.0f, 0.2f * static_cast<float>(k), 0.0f});
-    builder.add(points, node.T_odom_base);
-    const Bytes encoded = builder.freeze(node.T_odom_base)->encoded;
+    const Bytes encoded = cloud::encode(points, {.resolution_m = 0.02}).value();
     node.submap_hash = content_hash(encoded);
     node.submap_bytes = static_cast<std::uint32_t>(encoded.size());
     EXPECT_EQ(store.put_node_with_submap(node, encoded).value(), store::Put::kAdded);
@@ -66,16 +64,16 @@ TEST_F(ResultsTest, MapRecipeMakesTheSameMapAgain) {
   for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
   ASSERT_TRUE(TrajectoryFile::create(odometry_file(folder_.path(), 0)));
-  AgentConfig config = this->config();
-  config.map.voxel_m = 0.25;
-  config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
+  ResultsConfig config = this->config();
+  config.recipe.map.voxel_m = 0.25;
+  config.recipe.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
   EXPECT_EQ(results->map.submaps, 4u);
   EXPECT_EQ(results->missing_submaps, 0u);
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
-  EXPECT_EQ(recipe->origin, *config.site_origin);
+  EXPECT_EQ(recipe->origin, *config.recipe.site_origin);
   const auto again =
       merged_map(store, place(store, recipe->origin, recipe->placement).T_enu_node, recipe->merge);
   EXPECT_EQ(again.cloud.size(), results->map.points);
@@ -98,21 +96,21 @@ TEST_F(ResultsTest, WhatNobodyCanPlaceIsAFileOfItsOwn) {
 }
 
 TEST_F(ResultsTest, WhatAnAgentThatWasKilledHeldBecomesTheMapItWouldHaveMade) {
-  AgentConfig config = this->config();
-  config.map.voxel_m = 0.25;
-  config.placement.method = graph::PlacementMethod::paper;
-  config.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
+  ResultsConfig config = this->config();
+  config.recipe.map.voxel_m = 0.25;
+  config.recipe.placement.method = graph::PlacementMethod::paper;
+  config.recipe.site_origin = geo_point_from_degrees(48.001, 11.0, 500.0);
   store::Store store = open();
-  ASSERT_TRUE(keep_recipe(store, config));  // as an agent does when it starts
+  ASSERT_TRUE(keep_recipe(store, config.recipe));  // as an agent does when it starts
   for (int k = 0; k < 4; ++k) add_node(store, 3.0 * k);
   const auto recipe = map_recipe(store);
   ASSERT_TRUE(recipe);
-  EXPECT_EQ(recipe->origin, *config.site_origin);
+  EXPECT_EQ(recipe->origin, *config.recipe.site_origin);
   EXPECT_EQ(recipe->merge.voxel_m, 0.25);
   EXPECT_EQ(recipe->placement.method, graph::PlacementMethod::paper);
 
-  config.site_origin.reset();
-  ASSERT_TRUE(keep_recipe(store, config));
+  config.recipe.site_origin.reset();
+  ASSERT_TRUE(keep_recipe(store, config.recipe));
   ASSERT_TRUE(map_recipe(store));
   EXPECT_EQ(map_recipe(store)->origin, *site_origin(store, std::nullopt));
 }
@@ -144,8 +142,8 @@ TEST_F(ResultsTest, ARobotInQuarantineIsShown) {
     of_faulty += a.computed_by == faulty;
   }
   ASSERT_GT(of_faulty, 3u);
-  AgentConfig config = this->config();
-  config.placement.method = graph::PlacementMethod::graph;
+  ResultsConfig config = this->config();
+  config.recipe.placement.method = graph::PlacementMethod::graph;
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
   for (const auto& [agent, credit] : results->placement.credits)
@@ -166,11 +164,11 @@ TEST_F(ResultsTest, AMapOfTheSameSetIsCopiedAndOneOfAnotherSetIsMade) {
   store::Store store = open();
   for (int k = 0; k < 3; ++k) add_node(store, 3.0 * k);
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
-  AgentConfig first = config();
+  ResultsConfig first = config();
   first.site_origin = origin_;
   const auto made = write_results(store, first);
   ASSERT_TRUE(made) << made.error().message;
-  AgentConfig second = first;
+  ResultsConfig second = first;
   second.directory = folder_.path() / "r2";
   std::filesystem::create_directories(second.directory);
   ASSERT_TRUE(GlobalTrackFile::append_to(second.directory / "global_track.csv"));
@@ -199,9 +197,9 @@ TEST_F(ResultsTest, ACorrectionOfTheFleetsGraphMovesSubmapsAndSendsNone) {
   for (int k = 0; k < 4; ++k) nodes.push_back(add_node(store, 3.0 * k));
   for (int k = 0; k < 4; ++k) nodes.push_back(add_node(store, 3.0 * k, 1));
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
-  AgentConfig config = this->config();
-  config.site_origin = origin_;
-  config.placement.method = graph::PlacementMethod::graph;
+  ResultsConfig config = this->config();
+  config.recipe.site_origin = origin_;
+  config.recipe.placement.method = graph::PlacementMethod::graph;
   const auto before = write_results(store, config);
   ASSERT_TRUE(before) << before.error().message;
   EXPECT_EQ(before->placement.components.size(), 2u);
@@ -246,4 +244,4 @@ TEST_F(ResultsTest, AMissingOdometryFileCostsOnlyTheTrajectory) {
 }
 
 }  // namespace
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

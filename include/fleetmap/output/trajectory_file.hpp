@@ -4,17 +4,18 @@
 #include <utility>
 #include <vector>
 
-#include "fleetmap/agent/line_file.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/output/line_file.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 struct StampedPose {
   Stamp stamp;
   Pose T_w_base = Pose::Identity();
 };
+using Trajectory = std::vector<StampedPose>;
 
 /// Where the `index`-th session of an agent keeps O (Sessions::index_of): odometry.tum, then odometry-1.tum,
 /// ...
@@ -23,11 +24,15 @@ std::filesystem::path odometry_file(const std::filesystem::path& directory, std:
 /// "stamp_s x y z qx qy qz qw" of base_link, as `evo` reads it.
 std::string tum_line(const StampedPose& pose);
 
-/// Reads a TUM file; a line that is cut off (a killed writer) ends it. Fails with file and line on anything
-/// else.
-Result<std::vector<StampedPose>> read_trajectory(const std::filesystem::path& file);
-Status write_trajectory(const std::filesystem::path& file, const std::vector<StampedPose>& poses);
+/// A TUM file; empty lines and those that begin with # are skipped. Fails with file and line on anything
+/// else, on a number that is not finite, and where stamps go back.
+Result<Trajectory> read_tum(const std::filesystem::path& file);
+/// One that a program still writes, or was killed while it did: a last line that is cut off is left out.
+/// Stamps are taken as they are.
+Result<Trajectory> read_growing_tum(const std::filesystem::path& file);
+Status write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
 
+/// A TUM file that grows line by line.
 class TrajectoryFile {
  public:
   /// Replaces what is there.
@@ -40,4 +45,4 @@ class TrajectoryFile {
   LineFile lines_;
 };
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

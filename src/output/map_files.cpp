@@ -1,4 +1,4 @@
-#include "fleetmap/agent/map_files.hpp"
+#include "fleetmap/output/map_files.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -8,9 +8,10 @@
 
 #include "fleetmap/cloud/cloud_writer.hpp"
 #include "fleetmap/core/file_hash.hpp"
+#include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/store/submap_loader.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 constexpr std::array kMapNames{"map.ply", "map.pcd"};
@@ -36,21 +37,21 @@ ContentHash hash_of_inputs(const store::Store& store, const std::map<NodeId, Pos
   return content_hash(inputs);
 }
 
-Result<MapFiles> copied_map(const MapFiles& other, const AgentConfig& config) {
+Result<MapFiles> copied_map(const MapFiles& other, const std::filesystem::path& directory) {
   for (const char* name : kMapNames) {
     std::error_code error;
-    std::filesystem::copy_file(other.directory / name, config.directory / name,
+    std::filesystem::copy_file(other.directory / name, directory / name,
                                std::filesystem::copy_options::overwrite_existing, error);
-    if (error) return failure((config.directory / name).string() + ": cannot be written: " + error.message());
+    if (error) return failure((directory / name).string() + ": cannot be written: " + error.message());
   }
   MapFiles files = other;
-  files.directory = config.directory;
+  files.directory = directory;
   return files;
 }
 
-void warn_of_unreadable(const store::MapOutline& outline, const AgentConfig& config) {
+void warn_of_unreadable(const store::MapOutline& outline, const AgentId& self) {
   for (const NodeId& id : outline.unreadable)
-    spdlog::warn("{}: submap of {} cannot be read and is left out", config.id.str(), to_string(id));
+    spdlog::warn("{}: submap of {} cannot be read and is left out", self.str(), to_string(id));
 }
 
 }  // namespace
@@ -94,17 +95,18 @@ Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose
 }
 
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                           const AgentConfig& config, std::span<const MapFiles> others) {
+                           const store::MergeConfig& config, const std::filesystem::path& directory,
+                           std::span<const MapFiles> others) {
   MapFiles files;
-  files.directory = config.directory;
-  files.made_of = hash_of_inputs(store, T_map_node, config.map);
+  files.directory = directory;
+  files.made_of = hash_of_inputs(store, T_map_node, config);
   if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
-    return copied_map(*same, config);
+    return copied_map(*same, directory);
   std::vector<std::filesystem::path> paths;
-  for (const char* name : kMapNames) paths.push_back(config.directory / name);
-  const auto map = write_merged(store, T_map_node, config.map, paths);
+  for (const char* name : kMapNames) paths.push_back(directory / name);
+  const auto map = write_merged(store, T_map_node, config, paths);
   if (!map) return tl::unexpected(map.error());
-  warn_of_unreadable(map->outline, config);
+  warn_of_unreadable(map->outline, store.self());
   if (!map->outline.unreadable.empty()) files.made_of = {};  // not for others
   const auto hash = file_hash(paths.front());
   if (!hash) return tl::unexpected(hash.error());
@@ -114,12 +116,13 @@ Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_
   return files;
 }
 
-Result<std::size_t> write_part(store::Store& store, const MapPart& part, const AgentConfig& config) {
-  const std::filesystem::path file = config.directory / file_of(part);
-  const auto map = write_merged(store, part.T_map_node, config.map, std::array{file});
+Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
+                               const std::filesystem::path& directory) {
+  const std::filesystem::path file = directory / file_of(part);
+  const auto map = write_merged(store, part.T_map_node, config, std::array{file});
   if (!map) return tl::unexpected(map.error());
-  warn_of_unreadable(map->outline, config);
-  spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", config.id.str(),
+  warn_of_unreadable(map->outline, store.self());
+  spdlog::warn("{}: nobody knows where {} lies: {} submaps are in {}, not in map.ply", store.self().str(),
                to_string(part.frames.front()), map->outline.submaps, file.string());
   return map->outline.submaps;
 }
@@ -132,4 +135,4 @@ void remove_parts(const std::filesystem::path& directory) {
   }
 }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -9,7 +9,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/store/store.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::store {
 
 /// The sessions of a robot that began with this store, in their order. A session is an odometry frame: one
 /// begins with each start of the program and whenever the odometry begins anew.
@@ -21,11 +21,11 @@ class Sessions {
  public:
   using Draw = std::function<std::uint16_t()>;
 
-  static Result<Sessions> load(const store::Store& store);
+  static Result<Sessions> load(const Store& store);
   /// A number that no own item in the store bears and that no session began with.
-  Result<std::uint16_t> draw(const store::Store& store, const Draw& draw) const;
+  Result<std::uint16_t> draw(const Store& store, const Draw& draw) const;
   /// The same, which is stored before it is used.
-  Result<std::uint16_t> begin(store::Store& store, const Draw& draw);
+  Result<std::uint16_t> begin(Store& store, const Draw& draw);
   /// Counts from 0; nothing for a session that began with another store.
   std::optional<std::size_t> index_of(std::uint16_t session) const;
 
@@ -36,4 +36,4 @@ class Sessions {
 /// From the operating system's source of entropy.
 std::uint16_t random_session();
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::store

@@ -6,14 +6,13 @@
 #include <span>
 #include <string>
 
-#include "fleetmap/agent/agent_config.hpp"
-#include "fleetmap/agent/map_parts.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/store/store.hpp"
 #include "fleetmap/store/tiled_merge.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 /// The map of those nodes whose submaps the store holds, in the frame that their poses are in: as a whole, or
 /// planned to be merged tile by tile. `store` must outlive the latter.
@@ -41,13 +40,15 @@ struct MapFiles {
   std::string hash;  ///< content hash of map.ply: equal on agents that hold the same set
 };
 
-/// Writes map.ply and map.pcd into the agent's directory, or copies those of `others` that are made of the
+/// Writes map.ply and map.pcd into `directory`, or copies those of `others` that are made of the
 /// same. Warns of submaps that cannot be read and leaves them out.
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                           const AgentConfig& config, std::span<const MapFiles> others);
+                           const store::MergeConfig& config, const std::filesystem::path& directory,
+                           std::span<const MapFiles> others);
 /// Writes file_of(part) and returns how many submaps it shows.
-Result<std::size_t> write_part(store::Store& store, const MapPart& part, const AgentConfig& config);
+Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
+                               const std::filesystem::path& directory);
 /// Removes the parts of an earlier run: what nobody could place then may be on the map now.
 void remove_parts(const std::filesystem::path& directory);
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

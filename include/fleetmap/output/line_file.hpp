@@ -8,7 +8,7 @@
 
 #include "fleetmap/core/result.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 /// A text file that grows line by line; each line is with the operating system before `add` returns. A line
 /// that does not fit on a full disk is left out whole, and lines go on when there is room.
@@ -27,4 +27,4 @@ class LineFile {
   bool fits_ = true;                ///< the last line
 };
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,11 +1,11 @@
-#include "fleetmap/agent/line_file.hpp"
+#include "fleetmap/output/line_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 #include <utility>
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 LineFile::LineFile(std::filesystem::path path, std::ofstream out)
     : path_(std::move(path)), out_(std::move(out)) {
@@ -38,4 +38,4 @@ Status LineFile::add(const std::string& line) {
                  "); lines are left out until it can, and this is not said again");
 }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

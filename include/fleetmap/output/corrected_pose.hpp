@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 
 /// A node where odometry saw it, and where it is placed.
 struct CorrectedNode {
@@ -21,4 +21,4 @@ struct CorrectedNode {
 Pose corrected_pose(std::span<const CorrectedNode> nodes, const Pose& T_enu_odom,
                     const StampedPose& odometry);
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,8 +1,8 @@
-#include "fleetmap/agent/corrected_pose.hpp"
+#include "fleetmap/output/corrected_pose.hpp"
 
 #include <algorithm>
 
-namespace fleetmap::agent {
+namespace fleetmap::output {
 namespace {
 
 Pose carried_by(const CorrectedNode& node, const Pose& T_odom_base) {
@@ -22,4 +22,4 @@ Pose corrected_pose(std::span<const CorrectedNode> nodes, const Pose& T_enu_odom
   return interpolate(carried_by(before, odometry.T_w_base), carried_by(*after, odometry.T_w_base), share);
 }
 
-}  // namespace fleetmap::agent
+}  // namespace fleetmap::output

@@ -1,14 +1,15 @@
+#include "fleetmap/output/trajectory_file.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
-#include <string>
 
-#include "fleetmap/eval/trajectory.hpp"
+namespace fleetmap::output {
 
-namespace fleetmap::eval {
 namespace {
 
 std::optional<double> number_of(const std::string& text) {
@@ -53,12 +54,11 @@ std::optional<StampedPose> pose_of(const std::string& line) {
   const auto stamp = stamp_of(stamp_text);
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   if (!stamp || fields >> text || !(std::abs(q.norm() - 1.0) < 0.1)) return std::nullopt;
-  return StampedPose{*stamp, make_pose(q.normalized(), Eigen::Vector3d(v[0], v[1], v[2]))};
+  return StampedPose{*stamp, make_pose(q, Eigen::Vector3d(v[0], v[1], v[2]))};
 }
 
-}  // namespace
-
-Result<Trajectory> read_tum(const std::filesystem::path& file) {
+/// `complete`: the file has an end; stamps are in order.
+Result<Trajectory> read_lines(const std::filesystem::path& file, bool complete) {
   std::ifstream in(file);
   if (!in) return failure(file.string() + ": cannot be read");
   Trajectory trajectory;
@@ -68,33 +68,53 @@ Result<Trajectory> read_tum(const std::filesystem::path& file) {
     const auto pose = pose_of(line);
     const std::string where = file.string() + ":" + std::to_string(number);
     if (!pose) {
+      if (!complete && in.peek() == std::ifstream::traits_type::eof()) break;
       return failure(where +
                      ": expected 'stamp_s x y z qx qy qz qw': eight finite numbers, the last four a unit "
                      "quaternion");
     }
-    if (!trajectory.empty() && pose->stamp < trajectory.back().stamp)
+    if (complete && !trajectory.empty() && pose->stamp < trajectory.back().stamp)
       return failure(where + ": the stamp is before that of the line above; sort the file by time");
     trajectory.push_back(*pose);
   }
   return trajectory;
 }
 
+}  // namespace
+
+std::filesystem::path odometry_file(const std::filesystem::path& directory, std::size_t index) {
+  return directory / (index == 0 ? "odometry.tum" : "odometry-" + std::to_string(index) + ".tum");
+}
+
+std::string tum_line(const StampedPose& pose) {
+  const Eigen::Quaterniond q(pose.T_w_base.linear());
+  const Eigen::Vector3d t = pose.T_w_base.translation();
+  const std::int64_t ns = to_ns(pose.stamp);
+  std::array<char, 256> text{};
+  // The stamp is written from its integer: a double would round a Unix time to 100 ns.
+  std::snprintf(text.data(), text.size(), "%s%lld.%09lld %.6f %.6f %.6f %.9f %.9f %.9f %.9f",
+                ns < 0 ? "-" : "", static_cast<long long>(std::abs(ns) / 1'000'000'000),
+                static_cast<long long>(std::abs(ns) % 1'000'000'000), t.x(), t.y(), t.z(), q.x(), q.y(),
+                q.z(), q.w());
+  return text.data();
+}
+
+Result<Trajectory> read_tum(const std::filesystem::path& file) { return read_lines(file, true); }
+
+Result<Trajectory> read_growing_tum(const std::filesystem::path& file) { return read_lines(file, false); }
+
 Status write_tum(const std::filesystem::path& file, const Trajectory& trajectory) {
   std::ofstream out(file, std::ios::trunc);
-  std::array<char, 320> text{};
-  for (const StampedPose& pose : trajectory) {
-    const Eigen::Quaterniond q(pose.T_enu_base.linear());
-    const Eigen::Vector3d t = pose.T_enu_base.translation();
-    const std::int64_t ns = to_ns(pose.stamp);
-    std::snprintf(text.data(), text.size(), "%s%lld.%09lld %.6f %.6f %.6f %.9f %.9f %.9f %.9f\n",
-                  ns < 0 ? "-" : "", static_cast<long long>(std::abs(ns) / 1'000'000'000),
-                  static_cast<long long>(std::abs(ns) % 1'000'000'000), t.x(), t.y(), t.z(), q.x(), q.y(),
-                  q.z(), q.w());
-    out << text.data();
-  }
+  for (const StampedPose& pose : trajectory) out << tum_line(pose) << '\n';
   out.flush();
   if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
   return {};
 }
 
-}  // namespace fleetmap::eval
+Result<TrajectoryFile> TrajectoryFile::create(const std::filesystem::path& file) {
+  Result<LineFile> lines = LineFile::open(file, std::ios::trunc);
+  if (!lines) return tl::unexpected(lines.error());
+  return TrajectoryFile(std::move(*lines));
+}
+
+}  // namespace fleetmap::output
