@@ -1,5 +1,7 @@
 #include "fleetmap/output/trajectory_file.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -115,6 +117,20 @@ Result<TrajectoryFile> TrajectoryFile::create(const std::filesystem::path& file)
   Result<LineFile> lines = LineFile::open(file, std::ios::trunc);
   if (!lines) return tl::unexpected(lines.error());
   return TrajectoryFile(std::move(*lines));
+}
+
+Result<TrajectoryFile> TrajectoryFile::begin_session(const std::filesystem::path& directory,
+                                                     std::size_t index) {
+  const std::filesystem::path file = odometry_file(directory, index);
+  std::error_code error;
+  for (int k = 1; std::filesystem::exists(file, error); ++k) {
+    const std::filesystem::path aside = file.string() + ".before-" + std::to_string(k);
+    if (std::filesystem::exists(aside, error)) continue;
+    std::filesystem::rename(file, aside, error);
+    if (error) return failure(file.string() + ": cannot be moved aside: " + error.message());
+    spdlog::warn("{}: is of a store that was lost or replaced; it is {} now", file.string(), aside.string());
+  }
+  return create(file);
 }
 
 }  // namespace fleetmap::output

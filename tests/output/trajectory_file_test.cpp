@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -86,6 +88,23 @@ TEST(TrajectoryFile, OnlyOneThatStillGrowsMayEndWithinALine) {
   EXPECT_EQ(growing->size(), 2u) << "stamps are taken as they are";
   EXPECT_FALSE(read_tum(file));
   EXPECT_FALSE(read_tum(folder.write("u.tum", "1.5 0 0 0 0 0 0 1\n2.5 0 0")));
+}
+
+TEST(TrajectoryFile, OdometryOfALostStoreIsMovedAside) {
+  const testing::TemporaryFolder folder;
+  folder.write("odometry.tum", "first\n");
+  ASSERT_TRUE(TrajectoryFile::begin_session(folder.path(), 0));
+  folder.write("odometry.tum", "second\n");
+  ASSERT_TRUE(TrajectoryFile::begin_session(folder.path(), 0));
+  const auto line_of = [&](const char* name) {
+    std::ifstream in(folder.path() / name);
+    std::string line;
+    std::getline(in, line);
+    return line;
+  };
+  EXPECT_EQ(line_of("odometry.tum.before-1"), "first");
+  EXPECT_EQ(line_of("odometry.tum.before-2"), "second");
+  EXPECT_TRUE(read_tum(folder.path() / "odometry.tum")->empty());
 }
 
 TEST(OdometryFile, EachSessionHasItsOwn) {

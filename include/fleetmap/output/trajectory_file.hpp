@@ -37,6 +37,9 @@ class TrajectoryFile {
  public:
   /// Replaces what is there.
   static Result<TrajectoryFile> create(const std::filesystem::path& file);
+  /// odometry_file(directory, index), begun anew. One that a lost store has left is moved aside and not
+  /// written over, since its nodes may come back from other robots.
+  static Result<TrajectoryFile> begin_session(const std::filesystem::path& directory, std::size_t index);
   /// As LineFile::add.
   Status add(const StampedPose& pose) { return lines_.add(tum_line(pose)); }
 
