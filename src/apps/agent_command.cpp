@@ -7,12 +7,11 @@
 #include "drive_watchdog.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/trust/credentials.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "link_log.hpp"
 #include "live_bus.hpp"
 #include "mission_setup.hpp"
@@ -268,7 +267,7 @@ int run(const AgentOptions& options) {
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  const auto results = agent::write_results((*agent)->store(), (*agent)->config());
+  const auto results = output::write_results((*agent)->store(), (*agent)->config().results().results());
   if (!results) spdlog::warn("{}", results.error().message);
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
                                       radio_access(config->dds, **bus), (*bus)->stalls());

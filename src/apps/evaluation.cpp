@@ -6,6 +6,7 @@
 #include "evaluation_page.hpp"
 #include "fleet_evaluation.hpp"
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "map_evaluation.hpp"
 #include "mode_evaluation.hpp"
 #include "run_folder.hpp"
@@ -29,7 +30,7 @@ json errors_json(const eval::TrajectoryErrors& e) {
 }
 
 /// Errors of one track, or a note why there are none.
-json compared(const std::optional<eval::Trajectory>& estimate, const AgentFolder& agent, const char* name,
+json compared(const std::optional<output::Trajectory>& estimate, const AgentFolder& agent, const char* name,
               std::vector<std::string>& notes) {
   if (!estimate || !agent.truth) return nullptr;
   const auto errors = eval::compare(*estimate, *agent.truth);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fleetmap/eval/plot.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -186,14 +187,14 @@ void add_calibration(eval::HtmlPage& page, const json& evaluation) {
   page.table(rows);
 }
 
-eval::LineSeries track(const std::string& name, const eval::Trajectory& trajectory) {
+eval::LineSeries track(const std::string& name, const output::Trajectory& trajectory) {
   eval::LineSeries series;
   series.name = name;
   series.markers = false;
   const std::size_t step = trajectory.size() / kPlottedPoses + 1;
   for (std::size_t i = 0; i < trajectory.size(); i += step) {
-    series.x.push_back(trajectory[i].T_enu_base.translation().x());
-    series.y.push_back(trajectory[i].T_enu_base.translation().y());
+    series.x.push_back(trajectory[i].T_w_base.translation().x());
+    series.y.push_back(trajectory[i].T_w_base.translation().y());
   }
   return series;
 }
@@ -205,11 +206,11 @@ eval::LineSeries error_over_time(const std::string& name, const AgentFolder& age
   series.markers = false;
   const std::size_t step = agent.trajectory->size() / kPlottedPoses + 1;
   for (std::size_t i = 0; i < agent.trajectory->size(); i += step) {
-    const eval::StampedPose& pose = (*agent.trajectory)[i];
+    const output::StampedPose& pose = (*agent.trajectory)[i];
     const auto truth = eval::pose_at(*agent.truth, pose.stamp);
     if (!truth) continue;
     series.x.push_back(to_seconds(pose.stamp - start));
-    series.y.push_back((pose.T_enu_base.translation() - truth->translation()).norm());
+    series.y.push_back((pose.T_w_base.translation() - truth->translation()).norm());
   }
   return series;
 }

@@ -4,9 +4,10 @@
 #include <map>
 #include <numbers>
 
-#include "fleetmap/agent/global_track.hpp"
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -72,7 +73,7 @@ struct FilterErrors {
 json filter_json(RunFolder& run, const LocalFrame& site) {
   FilterErrors errors;
   for (const AgentFolder& agent : run.agents) {
-    const auto track = agent::read_global_track(agent.directory / "global_track.csv");
+    const auto track = output::read_global_track(agent.directory / "global_track.csv");
     if (!track || !agent.truth) continue;
     for (const GlobalPose& G : *track) {
       if (const auto T_true = eval::pose_at(*agent.truth, G.stamp)) errors.add(G, pose_in(site, G), *T_true);
@@ -113,7 +114,7 @@ json consistency_json(std::span<const eval::StatedError> errors) {
 }
 
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
-  std::map<AgentId, const eval::Trajectory*> tracks;
+  std::map<AgentId, const output::Trajectory*> tracks;
   for (const AgentFolder& agent : run.agents) {
     if (agent.truth) tracks[agent.id] = &*agent.truth;
   }
@@ -203,7 +204,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
 json calibration_json(RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
   json result = json::object();
   if (json ekf = filter_json(run, LocalFrame(held.recipe.origin)); !ekf.is_null()) result["ekf"] = ekf;
-  const auto odometry = eval::odometry_errors(agent::nodes_of(held.store), truth);
+  const auto odometry = eval::odometry_errors(output::nodes_of(held.store), truth);
   if (!odometry.empty()) result["odometry"] = consistency_json(odometry);
   return result;
 }

@@ -10,16 +10,16 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-using exchange::Hold;
-using exchange::HoldOrder;
+using messages::Hold;
+using messages::HoldOrder;
 
 constexpr Duration kLook = std::chrono::milliseconds(50);
 constexpr Duration kRepeat = std::chrono::seconds(1);
@@ -72,10 +72,10 @@ class OrderInForce {
  public:
   OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const HoldOrder& order)
       : bus_(bus), addressed_(std::move(addressed)), order_(order) {
-    heard_ = bus_.subscribe(wire::topics::hold(), [this](const Bytes& cdr) {
-      if (const auto hold = wire::decode<Hold>(cdr)) on_hold(*hold);
+    heard_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
+      if (const auto hold = fleet_codec::decode<Hold>(cdr)) on_hold(*hold);
     });
-    bus_.advertise(wire::topics::hold());
+    bus_.advertise(fleet_codec::topics::hold());
     timer_ = bus_.every(kLook, [this] { look(); });
   }
 
@@ -85,11 +85,12 @@ class OrderInForce {
  private:
   void send() {
     next_ = bus_.now() + kRepeat;
-    bus_.publish(wire::topics::hold(), wire::encode(Hold{order_.issuer, Hold::Driving::kNoRobot, {order_}}));
+    bus_.publish(fleet_codec::topics::hold(),
+                 fleet_codec::encode(Hold{order_.issuer, Hold::Driving::kNoRobot, {order_}}));
   }
   /// Sends when another robot was found, and again from time to time.
   void look() {
-    const std::size_t readers = bus_.matches(wire::topics::hold()).readers;
+    const std::size_t readers = bus_.matches(fleet_codec::topics::hold()).readers;
     if (readers > readers_ || (!confirmed_by_all() && bus_.now() >= next_)) send();
     readers_ = readers;
   }

@@ -9,7 +9,11 @@
 #include <string_view>
 
 #include "commands.hpp"
-#include "fleetmap/agent/results.hpp"
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 #include "map_pictures.hpp"
 #include "options.hpp"
@@ -33,7 +37,7 @@ std::optional<GeoPoint> configured_origin(const MapOptions& options) {
 
 struct OpenedMap {
   store::Store store;
-  agent::MapRecipe recipe;
+  output::MapRecipe recipe;
   graph::Placement placement;
 };
 
@@ -56,18 +60,18 @@ Result<OpenedMap> open_map(const MapOptions& options) {
   if (const Status meant = check_store(options.store); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(options.store);
   if (!store) return tl::unexpected(store.error());
-  const std::optional<agent::MapRecipe> kept = agent::map_recipe(*store);
-  agent::MapRecipe recipe = kept.value_or(agent::MapRecipe{});
+  const std::optional<output::MapRecipe> kept = output::map_recipe(*store);
+  output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
   std::optional<GeoPoint> origin = configured_origin(options);
   if (!origin && kept) origin = kept->origin;
-  origin = agent::site_origin(*store, origin);
+  origin = output::site_origin(*store, origin);
   if (!origin || store->nodes().empty())
     return failure(options.store + ": holds no node, so there is no map");
   if (!is_valid(*origin))
     return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
   recipe.origin = *origin;
   if (options.voxel) recipe.merge.voxel_m = *options.voxel;
-  auto placement = agent::place(*store, *origin, recipe.placement);
+  auto placement = output::place(*store, *origin, recipe.placement);
   return OpenedMap{std::move(*store), recipe, std::move(placement)};
 }
 
@@ -93,7 +97,7 @@ int info(const MapOptions& options) {
             << map->recipe.origin.longitude / kDegree << " deg, " << map->recipe.origin.altitude << " m\n";
   for (const auto& component : map->placement.components) {
     std::cout << "aligned together:";
-    for (const graph::FrameId& frame : component) std::cout << ' ' << agent::to_string(frame);
+    for (const graph::FrameId& frame : component) std::cout << ' ' << graph::to_string(frame);
     std::cout << '\n';
   }
   return kDone;
@@ -101,7 +105,7 @@ int info(const MapOptions& options) {
 
 /// Of the nodes that map.ply shows.
 std::map<NodeId, Pose> shown_poses(const OpenedMap& map) {
-  return agent::map_parts(agent::nodes_of(map.store), map.placement).main.T_map_node;
+  return output::map_parts(output::nodes_of(map.store), map.placement).main.T_map_node;
 }
 
 void name_unreadable(const store::MapOutline& outline) {
@@ -114,7 +118,7 @@ int export_map(const MapOptions& options) {
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
   const std::array files{std::filesystem::path(options.out)};
-  const auto written = agent::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
+  const auto written = output::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
   if (!written) return report(written.error(), kFailed);
   name_unreadable(written->outline);
   std::cout << options.out << ": " << written->points << " points from " << written->outline.submaps
@@ -126,7 +130,7 @@ int export_map(const MapOptions& options) {
 /// points and once to be counted around these.
 Result<std::vector<MapPicture>> pictures_of(OpenedMap& map) {
   constexpr double kDensityRadius = 1.0;  // m
-  auto merge = agent::tiled_map(map.store, shown_poses(map), map.recipe.merge);
+  auto merge = output::tiled_map(map.store, shown_poses(map), map.recipe.merge);
   if (!merge) return tl::unexpected(merge.error());
   store::ThinnedMap thinned(map.recipe.merge.voxel_m, kMostDrawn);
   const auto thin = [&](const store::MapTile& tile) -> Status {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "fleet_evaluation.hpp"
-#include "fleetmap/agent/results.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/graph/place.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "registration_replay.hpp"
 
 namespace fleetmap::apps {
@@ -24,7 +24,7 @@ graph::Placement placed(const HeldFleet& held, graph::PlacementMethod method,
                         std::span<const NodeId> covariance_of) {
   graph::PlacementConfig config = held.recipe.placement;
   config.method = method;
-  return graph::place(agent::nodes_of(held.store), held.alignments, LocalFrame(held.recipe.origin), config,
+  return graph::place(output::nodes_of(held.store), held.alignments, LocalFrame(held.recipe.origin), config,
                       covariance_of);
 }
 
@@ -51,9 +51,9 @@ struct Anchor {
 };
 
 /// O of one session; between two nodes what each of them says goes over into the other.
-void append_session(const std::vector<agent::StampedPose>& odometry, const std::vector<Anchor>& anchors,
-                    eval::Trajectory& trajectory) {
-  for (const agent::StampedPose& pose : odometry) {
+void append_session(const output::Trajectory& odometry, const std::vector<Anchor>& anchors,
+                    output::Trajectory& trajectory) {
+  for (const output::StampedPose& pose : odometry) {
     if (!trajectory.empty() && pose.stamp < trajectory.back().stamp) continue;
     const auto after = std::ranges::lower_bound(anchors, pose.stamp, {}, &Anchor::stamp);
     const Anchor& next = after == anchors.end() ? anchors.back() : *after;
@@ -65,9 +65,9 @@ void append_session(const std::vector<agent::StampedPose>& odometry, const std::
   }
 }
 
-std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held) {
+std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const HeldFleet& held) {
   const graph::Placement& placement = held.placement;
-  const auto begun = agent::Sessions::load(held.store);
+  const auto begun = store::Sessions::load(held.store);
   if (!begun) return std::nullopt;
   std::map<std::size_t, std::vector<Anchor>> sessions;  // in the order in which they began
   for (const auto& [id, node] : held.store.nodes()) {
@@ -76,9 +76,9 @@ std::optional<eval::Trajectory> trajectory_of(const AgentFolder& agent, const He
     if (id.agent == agent.id && index && placed != placement.T_enu_node.end())
       sessions[*index].push_back({node.stamp, placed->second * node.T_odom_base.inverse()});
   }
-  eval::Trajectory trajectory;
+  output::Trajectory trajectory;
   for (const auto& [index, anchors] : sessions) {
-    const auto odometry = agent::read_trajectory(agent::odometry_file(agent.directory, index));
+    const auto odometry = output::read_growing_tum(output::odometry_file(agent.directory, index));
     if (odometry) append_session(*odometry, anchors, trajectory);
   }
   if (trajectory.empty()) return std::nullopt;

@@ -13,10 +13,10 @@
 #include <optional>
 
 #include "commands.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
@@ -42,7 +42,7 @@ double peak_megabytes() {
 
 /// Odometry alone over a recording, with the time that each scan took.
 struct OdometryRun {
-  std::vector<agent::StampedPose> poses;
+  output::Trajectory poses;
   std::vector<double> wall_ms;
   double cpu_s = 0.0;
   std::size_t refused = 0;
@@ -211,7 +211,7 @@ int run(const OdometryOptions& options) {
                    (done->first_refusal.empty() ? "" : ": " + done->first_refusal)},
                   kFailed);
   }
-  if (const Status written = agent::write_trajectory(options.out, done->poses); !written)
+  if (const Status written = output::write_tum(options.out, done->poses); !written)
     return report(written.error(), kFailed);
   const Distribution ms = distribution(done->wall_ms);
   std::cout << std::fixed << std::setprecision(2) << "scans " << done->wall_ms.size() << "  mean " << ms.mean

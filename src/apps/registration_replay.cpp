@@ -5,11 +5,11 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/loop_closure/cloud_drift.hpp"
 #include "fleetmap/loop_closure/registered_alignment.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/registration_log.hpp"
-#include "fleetmap/wire/messages.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -91,7 +91,7 @@ class Replay {
     if (registered.verdict == Verdict::rejected) return;
     graph::Alignment alignment = loop_closure::alignment_of(logged.target, logged.source, agent, registered);
     alignment.seq = next_seq_[agent]++;
-    if (auto rounded = wire::quantised(alignment)) {
+    if (auto rounded = fleet_codec::quantised(alignment)) {
       result_.alignments.push_back(std::move(*rounded));
     } else {
       result_.notes.push_back(rounded.error().message);

@@ -9,7 +9,6 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 #include "sample_player.hpp"

@@ -9,9 +9,12 @@
 #include <set>
 #include <string_view>
 
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/eval/html_page.hpp"
 #include "fleetmap/eval/plot.hpp"
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/results.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -184,12 +187,12 @@ std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcom
   std::vector<eval::LineSeries> tracks;
   for (const auto& entry : outcome.agents) {
     const std::string id = entry.id.str();
-    const auto poses = agent::read_trajectory(out / id / "trajectory.tum");
+    const auto poses = output::read_growing_tum(out / id / "trajectory.tum");
     if (!poses || poses->empty()) continue;
     eval::LineSeries& track = tracks.emplace_back();
     track.name = id;
     track.markers = false;
-    for (const agent::StampedPose& pose : *poses) {
+    for (const output::StampedPose& pose : *poses) {
       track.x.push_back(pose.T_w_base.translation().x());
       track.y.push_back(pose.T_w_base.translation().y());
     }
@@ -204,7 +207,7 @@ std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcom
 }
 
 /// What the agent holds, and the map that was made of it.
-void add_holdings(json& report, const store::Store& store, const agent::Results* results) {
+void add_holdings(json& report, const store::Store& store, const output::Results* results) {
   report["nodes"] = store.nodes().size();
   report["alignments"] = store.alignments().size();
   report["submaps"] = store.submap_set().size();
@@ -217,15 +220,15 @@ void add_holdings(json& report, const store::Store& store, const agent::Results*
   json groups = json::array();
   for (const auto& component : results->placement.components) {
     json frames = json::array();
-    for (const graph::FrameId& frame : component) frames.push_back(agent::to_string(frame));
+    for (const graph::FrameId& frame : component) frames.push_back(graph::to_string(frame));
     groups.push_back(frames);
   }
   report["aligned_groups"] = groups;
   json nowhere = json::array();
-  for (const graph::FrameId& frame : results->not_georeferenced) nowhere.push_back(agent::to_string(frame));
+  for (const graph::FrameId& frame : results->not_georeferenced) nowhere.push_back(graph::to_string(frame));
   report["not_georeferenced"] = nowhere;
   json apart = json::array();
-  for (const agent::MapPart& part : results->apart) apart.push_back(agent::file_of(part));
+  for (const output::MapPart& part : results->apart) apart.push_back(output::file_of(part));
   report["maps_apart"] = apart;
   json credits = json::object();
   for (const auto& [agent, credit] : results->placement.credits) {
@@ -294,7 +297,7 @@ std::string lost_ways(const odometry::LoamCounters& odometry) {
   return text;
 }
 
-json agent_report(const agent::Agent& agent, const agent::Results* results) {
+json agent_report(const agent::Agent& agent, const output::Results* results) {
   const loop_closure::RegistrationCounters& registrations = agent.registrations();
   json report = {{"sensors", perception_json(agent)},
                  {"localization", localization_json(agent.perception().localization_counters())},
@@ -327,7 +330,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
   if (outcome.origin_known) report["origin"] = origin_json(outcome.origin);
   for (const auto& entry : outcome.agents) {
     json& agent = report["agents"][entry.id.str()];
-    const agent::Results* results = entry.results ? &*entry.results : nullptr;
+    const output::Results* results = entry.results ? &*entry.results : nullptr;
     agent = entry.agent ? agent_report(*entry.agent, results) : json{{"switched_off", true}};
     if (!entry.agent && entry.store) add_holdings(agent, *entry.store, results);
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
@@ -338,7 +341,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
 }
 
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results, const RadioAccess& access,
+                    const output::Results* results, const RadioAccess& access,
                     const std::vector<bus::StallCounters>& stalls) {
   json report = agent_report(agent, results);
   report["radio_access"] = {{"who_may_join", access.keys ? "members of the fleet" : "anyone"},

@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
 #include "report.hpp"
@@ -161,7 +162,7 @@ int run(const RunOptions& options) {
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
-  std::vector<std::vector<agent::StampedPose>> truths;
+  std::vector<output::Trajectory> truths;
   for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
     truths.push_back(twin->truth(k));
     const Status written = write_truth(outcome->agents[k].directory, truths.back());

@@ -11,6 +11,9 @@
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/file_hash.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
@@ -28,9 +31,9 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-std::optional<eval::Trajectory> trajectory_in(const fs::path& file, std::vector<std::string>& notes) {
+std::optional<output::Trajectory> trajectory_in(const fs::path& file, std::vector<std::string>& notes) {
   if (!is_there(file)) return std::nullopt;
-  auto read = eval::read_tum(file);
+  auto read = output::read_tum(file);
   if (!read) {
     notes.push_back(read.error().message);
     return std::nullopt;
@@ -173,15 +176,15 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run) {
 Result<HeldFleet> open_held(const std::filesystem::path& store_file) {
   auto store = store::Store::open_read_only(store_file);
   if (!store) return tl::unexpected(store.error());
-  const auto recipe = agent::map_recipe(*store);
+  const auto recipe = output::map_recipe(*store);
   if (!recipe) return failure(store_file.string() + ": no map was made of it yet");
-  auto placement = agent::place(*store, recipe->origin, recipe->placement);
-  auto alignments = agent::alignments_of(*store);
+  auto placement = output::place(*store, recipe->origin, recipe->placement);
+  auto alignments = output::alignments_of(*store);
   return HeldFleet{std::move(*store), *recipe, std::move(alignments), std::move(placement)};
 }
 
 store::MergedMap map_with_sources(HeldFleet& held) {
-  return agent::main_map(held.store, held.placement, held.recipe.merge);
+  return output::main_map(held.store, held.placement, held.recipe.merge);
 }
 
 Result<cloud::PointCloud> truth_cloud(const fs::path& file, double points_per_m2) {

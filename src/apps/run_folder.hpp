@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/map_merge.hpp"
 
 namespace fleetmap::apps {
@@ -19,7 +20,7 @@ namespace fleetmap::apps {
 struct AgentFolder {
   AgentId id;
   std::filesystem::path directory;
-  std::optional<eval::Trajectory> trajectory, ekf, odometry, truth;
+  std::optional<output::Trajectory> trajectory, ekf, odometry, truth;
   bool cut_off = false;  ///< it has a store, but neither a map nor a report
 };
 
@@ -54,7 +55,7 @@ std::vector<DistinctMap> distinct_maps(RunFolder& run);
 /// What an agent holds, and where its last results placed it.
 struct HeldFleet {
   store::Store store;
-  agent::MapRecipe recipe;
+  output::MapRecipe recipe;
   std::vector<graph::Alignment> alignments;  ///< those of the store
   graph::Placement placement;
 };

@@ -8,10 +8,12 @@
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 #include "sample_player.hpp"
@@ -61,7 +63,7 @@ class LiveRobot {
     bus_->finish_work();
   }
   const std::string& name() const { return name_; }
-  const std::vector<agent::StampedPose>& truth() const { return truth_.poses(); }
+  const output::Trajectory& truth() const { return truth_.poses(); }
   double odometer() const { return twin_.odometer(); }
 
  private:
@@ -74,24 +76,24 @@ class LiveRobot {
         twin_(std::move(twin)),
         scene_(std::move(scene)) {
     for (const bus::Topic& topic : sensor_topics(names_)) bus_->advertise(topic);
-    bus_->advertise(wire::topics::battery());
-    handles_.push_back(bus_->subscribe(wire::topics::cmd_vel(), [this](const Bytes& cdr) {
-      if (const auto command = wire::decode<wire::VelocityCommand>(cdr))
+    bus_->advertise(ros_codec::topics::battery());
+    handles_.push_back(bus_->subscribe(ros_codec::topics::cmd_vel(), [this](const Bytes& cdr) {
+      if (const auto command = ros_codec::decode<ros_codec::VelocityCommand>(cdr))
         twin_.command(command->forward_speed, command->yaw_rate);
     }));
     if (twin_.config().guided) lead();
     handles_.push_back(bus_->every(kTick, {"twin", [this] { tick(); }}));
     handles_.push_back(bus_->every(kBatteryPeriod, [this] {
-      bus_->publish(wire::topics::battery(),
-                    wire::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));
+      bus_->publish(ros_codec::topics::battery(),
+                    ros_codec::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));
     }));
   }
 
   /// Tells the robot where it is.
   void lead() {
-    bus_->advertise(wire::topics::guide_pose());
+    bus_->advertise(fleet_codec::topics::guide_pose());
     handles_.push_back(bus_->every(kGuidePeriod, [this] {
-      bus_->publish(wire::topics::guide_pose(), wire::encode(true_pose(twin_, site_)));
+      bus_->publish(fleet_codec::topics::guide_pose(), fleet_codec::encode(true_pose(twin_, site_)));
     }));
   }
 

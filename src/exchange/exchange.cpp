@@ -338,18 +338,18 @@ void Exchange::handle(const CloudRequest& request, Stamp now) {
 }
 
 void Exchange::note_own_items(const Digest& digest) {
-  const auto unknown = [this](const std::vector<Range>& ranges, const store::SeqSet& held) {
+  const auto unknown = [this](const std::vector<SeqRange>& ranges, const store::SeqSet& held) {
     store::SeqSet own;
-    for (const Range& range : ranges) {
+    for (const SeqRange& range : ranges) {
       if (range.agent == self_) own.insert(range);
     }
     std::uint64_t items = 0;
-    for (const Range& range : own.minus(held)) items += range.end - range.first;
+    for (const SeqRange& range : own.minus(held)) items += range.end - range.first;
     return items;
   };
-  const auto beyond = [this](const std::vector<Range>& ranges, std::uint32_t next) {
+  const auto beyond = [this](const std::vector<SeqRange>& ranges, std::uint32_t next) {
     const std::uint32_t end = first_seq(*session_) + kItemsPerSession;
-    return std::ranges::any_of(ranges, [&](const Range& range) {
+    return std::ranges::any_of(ranges, [&](const SeqRange& range) {
       return range.agent == self_ && range.first < range.end && range.end > next && range.end <= end;
     });
   };
@@ -374,10 +374,10 @@ void Exchange::handle(const Digest& digest, Stamp now) {
   note_own_items(known);
 }
 
-std::vector<Range> Exchange::of_fleet(const std::vector<Range>& ranges) {
-  std::vector<Range> known;
+std::vector<SeqRange> Exchange::of_fleet(const std::vector<SeqRange>& ranges) {
+  std::vector<SeqRange> known;
   std::ranges::copy_if(ranges, std::back_inserter(known),
-                       [this](const Range& range) { return member(range.agent); });
+                       [this](const SeqRange& range) { return member(range.agent); });
   strangers_ += ranges.size() - known.size();
   return known;
 }

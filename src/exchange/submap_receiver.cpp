@@ -82,7 +82,7 @@ void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
   // One that had no room for all ranges adds to those before.
   if (digest.submaps.size() < config_.max_ranges || peer.holds.ranges().size() > kMaxIntervals)
     peer.holds = {};
-  for (const Range& range : digest.submaps) {
+  for (const SeqRange& range : digest.submaps) {
     const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
     // Nobody numbers so many items of one session that it reaches the next.
     if (ordered && session_of(range.first) == session_of(range.end - 1)) {

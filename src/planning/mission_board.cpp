@@ -35,12 +35,12 @@ MissionBoard::MissionBoard(std::shared_ptr<const FleetPlan> plan, std::size_t se
     }
     planned_.push_back(mine);
   }
-  own_.agent = plan_->fleet[self_].id;
+  own_.from = plan_->fleet[self_].id;
   own_.claimed = planned_[self_];
 }
 
 void MissionBoard::hear(const MissionReport& report, Stamp now) {
-  const auto robot = plan_->find(report.agent);
+  const auto robot = plan_->find(report.from);
   if (!robot || *robot == self_ || !report.position.allFinite()) return;
   MissionReport sound = report;
   sound.done = RowSet(rows(), report.done.bytes());

@@ -5,10 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "fleetmap/messages/mission_report.hpp"
 #include "fleetmap/planning/fleet_plan.hpp"
-#include "fleetmap/planning/mission_progress.hpp"
 
 namespace fleetmap::planning {
+
+using messages::MissionReport;
+using messages::MissionState;
+using messages::RowSet;
 
 /// What one robot knows of the whole mission: from its own work and from the others' reports. Rows and robots
 /// are indices in the plan.

@@ -475,7 +475,7 @@ void MissionExecutive::State::choose(const MissionInput& input) {
 }
 
 void MissionExecutive::State::publish(const MissionInput& input) {
-  report.agent = robot().id;
+  report.from = robot().id;
   report.stamp = input.now;
   report.state = state;
   if (input.pose.position.allFinite()) report.position = input.pose.position;

@@ -245,11 +245,11 @@ TEST(MissionExecutive, ReportsAreSmallAndBrokenOnesAreIgnored) {
   EXPECT_EQ(RowSet(200).bytes().size(), 25u);
 
   MissionReport odd;
-  odd.agent = *AgentId::parse("stranger");
+  odd.from = *AgentId::parse("stranger");
   odd.done = RowSet(plan->mission.rows.size());
   odd.done.set(0);
   executive.on_report(odd, stamp_from_ns(2));
-  odd.agent = testing::name(1);
+  odd.from = testing::name(1);
   odd.position = {std::nan(""), 0.0};
   executive.on_report(odd, stamp_from_ns(2));
   EXPECT_EQ(executive.status().done, 0u);
@@ -267,7 +267,7 @@ TEST(MissionExecutive, ReportsAreSmallAndBrokenOnesAreIgnored) {
 /// Says that all rows are driven, in the name of the second robot.
 MissionReport forged_report(const FleetPlan& plan, Stamp now) {
   MissionReport report;
-  report.agent = plan.fleet[1].id;
+  report.from = plan.fleet[1].id;
   report.stamp = now;
   report.position = plan.fleet[1].start.position;
   const std::size_t rows = plan.mission.rows.size();

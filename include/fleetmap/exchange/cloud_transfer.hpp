@@ -9,9 +9,12 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::CloudFragment;
+using messages::CloudRequest;
 
 /// Which cloud of several goes over the radio first.
 enum class CloudOrder : std::uint8_t {

@@ -16,14 +16,20 @@
 #include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/exchange/item_proof.hpp"
 #include "fleetmap/exchange/loop_closer.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile.hpp"
-#include "fleetmap/exchange/routing.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
 #include "fleetmap/exchange/submap_transfer.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/messages/routing.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::AgentStatus;
+using messages::Hold;
+using messages::HoldOrder;
+using messages::MissionReport;
+using messages::ProximityMatch;
 
 struct ExchangeConfig {
   std::vector<AgentId> fleet;  ///< every agent, this one too; messages and items of others are refused
@@ -244,7 +250,7 @@ class Exchange {
   void note_own_items(const Digest& digest);
   void on_put(const Result<store::Put>& put, const Event& added, const NodeId& id, bool alignment, Stamp now);
   /// Of the ranges, those whose agents are of the fleet; counts the others.
-  std::vector<Range> of_fleet(const std::vector<Range>& ranges);
+  std::vector<SeqRange> of_fleet(const std::vector<SeqRange>& ranges);
   /// All others were heard, and none holds it.
   bool nowhere(const NodeId& submap, const std::set<AgentId>& without) const;
 

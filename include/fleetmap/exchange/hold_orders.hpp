@@ -8,9 +8,12 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Hold;
+using messages::HoldOrder;
 
 /// Of two orders for the same robots: whether `a` replaces `b`. The later stamp wins; at equal stamps the
 /// order to stand does.

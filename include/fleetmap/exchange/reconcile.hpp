@@ -9,10 +9,13 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/content_check.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Digest;
+using messages::ItemRequest;
 
 struct ReconcileConfig {
   Duration digest_min_period = std::chrono::seconds(4);   ///< between digests while what is held changes
@@ -120,7 +123,7 @@ class Reconcile {
     bool told = false;  ///< of the doubt
   };
   enum class Source : std::uint8_t { kRequest, kDigest };
-  store::SeqSet accepted(const std::vector<Range>& ranges, Source source);
+  store::SeqSet accepted(const std::vector<SeqRange>& ranges, Source source);
   void settle_doubts(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
   void settle_pending(Peer& peer, const store::Store& store, Stamp now);
   /// The next digest comes soon.

@@ -16,9 +16,14 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/pace.hpp"
-#include "fleetmap/exchange/routing.hpp"
+#include "fleetmap/messages/routing.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::CloudFragment;
+using messages::Message;
+using messages::Outgoing;
+using messages::Reach;
 
 /// What goes first. Safety and control go before all else. News and state, in this order, go before backfill,
 /// and all three before clouds; but while clouds wait, they get more than half of what is left by safety and

@@ -10,11 +10,15 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/delay_window.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::SubmapChunk;
+using messages::SubmapDigest;
+using messages::SubmapRequest;
 
 struct SubmapTransferConfig {
   double bytes_per_second = 1'875'000;   ///< B/s that this agent sends at most: a link of 15 Mbit/s

@@ -8,12 +8,16 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/messages/mission_report.hpp"
 #include "fleetmap/planning/fleet_plan.hpp"
 #include "fleetmap/planning/mission.hpp"
 #include "fleetmap/planning/mission_config.hpp"
-#include "fleetmap/planning/mission_progress.hpp"
 
 namespace fleetmap::planning {
+
+using messages::MissionReport;
+using messages::MissionState;
+using messages::RowSet;
 
 /// What a robot knows of itself, some times a second.
 struct MissionInput {

@@ -2,10 +2,12 @@
 
 #include <vector>
 
+#include "fleetmap/messages/mission_report.hpp"
 #include "fleetmap/planning/mission.hpp"
-#include "fleetmap/planning/mission_progress.hpp"
 
 namespace fleetmap::planning {
+
+using messages::RowSet;
 
 /// Along which rows the fleet's nodes lie: evidence, which any robot can check, that a row was driven. A
 /// position is metres off and rows lie some metres apart, so it tells a driven row from a distant one and not
