@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 
 namespace fleetmap::apps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/planning/mission_complete.hpp"
+#include "fleetmap/planning/mission/mission_complete.hpp"
 #include "fleetmap/wire/sensors.hpp"
 #include "fleetmap/wire/topics.hpp"
 #include "sample_player.hpp"

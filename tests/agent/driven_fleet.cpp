@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "fleetmap/config/world_config.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
 

@@ -11,7 +11,7 @@
 #include "bus/dds_domains.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "small_twin.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"

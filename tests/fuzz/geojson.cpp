@@ -1,5 +1,5 @@
 // A site's drawing in GeoJSON.
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 
 #include "checks.hpp"
 
