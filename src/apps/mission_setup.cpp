@@ -6,6 +6,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/row_selection.hpp"
 
 namespace fleetmap::apps {
 namespace {

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/eval/picture.hpp"
+#include "fleetmap/planning/mission/plan_geojson.hpp"
 #include "fleetmap/planning/site/geojson.hpp"
 #include "mission_setup.hpp"
 #include "options.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/geojson_writer.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 
 namespace fleetmap::apps {

@@ -1,7 +1,7 @@
+#include "division/timed_route.hpp"
+
 #include <algorithm>
 #include <limits>
-
-#include "division/division_search.hpp"
 
 namespace fleetmap::planning {
 namespace {

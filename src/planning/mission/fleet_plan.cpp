@@ -71,35 +71,6 @@ void add_exchange(FleetPlan& plan) {
 
 }  // namespace
 
-Status ExecutiveConfig::validate() const {
-  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  if (!positive(lost_after)) return failure("lost_after: must be > 0 s");
-  if (!(std::isfinite(listen) && listen >= 0.0)) return failure("listen: must be >= 0 s");
-  if (!positive(orphan_wait)) return failure("orphan_wait: must be > 0 s");
-  if (!(std::isfinite(offer_gain) && offer_gain >= 0.0)) return failure("offer_gain: must be >= 0 s");
-  if (!positive(offer_period)) return failure("offer_period: must be > 0 s");
-  if (!(low_battery >= 0.0 && low_battery < 1.0)) return failure("low_battery: must be within [0, 1)");
-  if (row_attempts < 1) return failure("row_attempts: must be at least 1");
-  if (stuck_limit < 1) return failure("stuck_limit: must be at least 1");
-  if (!positive(stuck_retry)) return failure("stuck_retry: must be > 0 s");
-  if (!positive(stop_patience)) return failure("stop_patience: must be > 0 s");
-  if (!positive(meeting_timeout)) return failure("meeting_timeout: must be > 0 s");
-  return {};
-}
-
-Status MissionConfig::validate() const {
-  if (rows.every < 1) return failure("every: must be at least 1");
-  if (!(rows.max_row_length == 0.0 || rows.max_row_length >= 1.0)) {
-    return failure("max_row_length: must be at least 1 m, or 0 for no limit");
-  }
-  if (!(std::isfinite(speed) && speed > 0.0)) return failure("speed: must be > 0 m/s");
-  for (const Status& status :
-       {division.validate(), routes.validate(), meeting.validate(), executive.validate()}) {
-    if (!status) return status;
-  }
-  return {};
-}
-
 std::optional<std::size_t> FleetPlan::find(const AgentId& id) const {
   const auto found = std::ranges::find(fleet, id, &RobotAbility::id);
   if (found == fleet.end()) return std::nullopt;

@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "fleetmap/planning/site/file_frame.hpp"
+
 namespace fleetmap::planning {
 namespace {
 

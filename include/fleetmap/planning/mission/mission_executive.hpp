@@ -15,6 +15,8 @@
 
 namespace fleetmap::planning {
 
+class ExecutiveState;
+
 /// What a robot knows of itself, some times a second.
 struct MissionInput {
   Stamp now;
@@ -95,9 +97,8 @@ class MissionExecutive {
   const FleetPlan& plan() const;
 
  private:
-  struct State;
-  explicit MissionExecutive(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit MissionExecutive(std::unique_ptr<ExecutiveState> state);
+  std::unique_ptr<ExecutiveState> state_;
 };
 
 }  // namespace fleetmap::planning

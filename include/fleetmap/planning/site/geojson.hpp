@@ -2,21 +2,13 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/planning/site/mission.hpp"
 
 namespace fleetmap::planning {
-
-/// Coordinates of a mission's file.
-enum class FileFrame {
-  kWgs84,  ///< [longitude, latitude] in degrees (RFC 7946)
-  kEnu,    ///< [east, north] in metres from the site's origin; member "frame": "enu"
-};
 
 struct GeoJsonLimits {
   std::size_t file_bytes = 64u << 20;
@@ -36,17 +28,6 @@ Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame
 /// The same from text; problems are reported under `name`.
 Result<Mission> parse_geojson(const std::string& text, const std::string& name, const LocalFrame& site,
                               const GeoJsonLimits& limits = {});
-
-/// Reading it again gives the same mission to a micrometre (ENU) or 0.1 mm (WGS84; 9 decimals of a degree).
-std::string to_geojson(const Mission& mission, const LocalFrame& site, FileFrame frame = FileFrame::kWgs84);
-Status write_geojson(const std::filesystem::path& file, const Mission& mission, const LocalFrame& site,
-                     FileFrame frame = FileFrame::kWgs84);
-
-/// The division as a map shows it: each row with its robot ("robot") and each robot's way ("route",
-/// "length_m", "time_s") in its colour ("#rrggbb", property "stroke" of simplestyle), the meeting place, and
-/// the site.
-std::string to_geojson(const FleetPlan& plan, std::span<const std::string> colours, const LocalFrame& site,
-                       FileFrame frame = FileFrame::kWgs84);
 
 /// The first position of a file in WGS84, at height 0: an origin for a site that names none. Nothing for a
 /// file in ENU or without positions; parse_geojson says what is wrong with the latter.

@@ -70,17 +70,6 @@ struct RobotAbility {
 /// m
 double length_of(std::span<const Eigen::Vector2d> line);
 
-/// Which rows of a site are driven and how they are cut.
-struct RowSelection {
-  int every = 1;                ///< each `every`-th row, from the first
-  double max_row_length = 0.0;  ///< m; longer rows are cut, so that few can be divided. 0: no cut
-};
-
-/// Keeps each `every`-th row and cuts rows into equal pieces along their length; the pieces of every second
-/// row that is cut run back, so that they follow each other as one path. Rows keep their ids unless one is
-/// cut; then all are numbered anew from 0.
-Mission with_selected_rows(Mission mission, const RowSelection& selection);
-
 /// Every waypoint lies within [low, high]; else says which row and waypoint does not, by how much, and what
 /// to do.
 Status check_within(const Mission& mission, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
