@@ -7,7 +7,6 @@
 #include <sstream>
 
 namespace fleetmap::agent {
-
 namespace {
 
 /// "12.345" to nanoseconds without a detour over double, which cannot hold a Unix time to the nanosecond.
