@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -12,16 +11,6 @@
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
-
-/// Minimum, mean, median, 99th percentile and maximum, and their number.
-struct Distribution {
-  std::size_t count = 0;
-  double min = 0.0, mean = 0.0, p50 = 0.0, p99 = 0.0, max = 0.0;
-};
-Distribution distribution(std::vector<double> values);
-
-/// What one agent saw, made, sent and refused.
-nlohmann::json agent_report(const agent::Agent& agent, const output::Results* results);
 
 /// A sentence for the last lines of a run; empty if every scan fitted the local map.
 std::string lost_ways(const odometry::LoamCounters& odometry);

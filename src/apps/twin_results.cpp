@@ -6,7 +6,8 @@
 
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/geojson_writer.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 
 namespace fleetmap::apps {

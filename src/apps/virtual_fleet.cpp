@@ -9,7 +9,7 @@
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/results.hpp"
-#include "fleetmap/planning/mission_complete.hpp"
+#include "fleetmap/planning/mission/mission_complete.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"

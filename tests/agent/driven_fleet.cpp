@@ -7,7 +7,7 @@
 #include "fleetmap/config/world_config.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::testing {

@@ -12,7 +12,7 @@
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "small_twin.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"

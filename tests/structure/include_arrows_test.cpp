@@ -39,9 +39,11 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"output", {"store"}},
     {"eval", {"output"}},
     {"agent", {"odometry", "localization", "loop_closure", "planning", "ros_codec", "output", "trust"}},
-    {"config", {"agent", "bus", "trust", "recording", "sim", "planning", "eval"}},
+    {"config", {"agent", "bus", "trust", "recording", "sim", "planning"}},
     {"fault_injection", {"agent"}},
-    {"apps", {"config", "trust", "recording", "agent", "bus", "sim", "eval", "fault_injection"}},
+    {"run_evaluation", {"config", "eval"}},
+    {"experiment", {"config", "eval"}},
+    {"apps", {"run_evaluation", "experiment", "fault_injection"}},
 };
 
 /// Third-party headers that only the named places may include.

@@ -11,10 +11,10 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/messages/messages.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
-#include "fleetmap/planning/mission_executive.hpp"
-#include "fleetmap/planning/path_follower.hpp"
-#include "fleetmap/planning/row_coverage.hpp"
+#include "fleetmap/planning/driving/path_follower.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/planning/mission/mission_executive.hpp"
+#include "fleetmap/planning/mission/row_coverage.hpp"
 
 namespace fleetmap::agent {
 
