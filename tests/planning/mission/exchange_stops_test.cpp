@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planning/sites.hpp"
 #include "planning/mission/virtual_fleet.hpp"
+#include "planning/sites.hpp"
 
 namespace fleetmap::planning {
 namespace {

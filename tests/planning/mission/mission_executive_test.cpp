@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "planning/sites.hpp"
 #include "planning/mission/virtual_fleet.hpp"
+#include "planning/sites.hpp"
 
 namespace fleetmap::planning {
 namespace {
