@@ -1,4 +1,4 @@
-#include "bending.hpp"
+#include "drift_model.hpp"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ constexpr double kSeenFrom = 6.0;
 
 }  // namespace
 
-Bending::Bending(const MapDrift& drift, const Eigen::Matrix3d& R_level_cloud) {
+DriftModel::DriftModel(const MapDrift& drift, const Eigen::Matrix3d& R_level_cloud) {
   const std::vector<MapStop> assumed =
       drift.stops.empty() ? MapDrift::straight().stops : std::vector<MapStop>{};
   const std::vector<MapStop>& stops = drift.stops.empty() ? assumed : drift.stops;
@@ -28,7 +28,7 @@ Bending::Bending(const MapDrift& drift, const Eigen::Matrix3d& R_level_cloud) {
   }
 }
 
-void Bending::shares_beyond(const Eigen::Vector2d& center, std::vector<double>& shares) const {
+void DriftModel::shares_beyond(const Eigen::Vector2d& center, std::vector<double>& shares) const {
   double all = 0.0;
   const auto weight = [&](std::size_t stop) {
     return 1.0 / (1.0 + (center - stops_[stop]).squaredNorm() / (kSeenFrom * kSeenFrom));
@@ -44,8 +44,8 @@ void Bending::shares_beyond(const Eigen::Vector2d& center, std::vector<double>& 
     shares[k] = k < fixed_ ? shares[k] / all : 1.0 - shares[k] / all;
 }
 
-Matrix6d Bending::gradient_covariance(const std::vector<PatchInformation>& patches,
-                                      const Matrix6d& transport) const {
+Matrix6d DriftModel::gradient_covariance(const std::vector<PatchInformation>& patches,
+                                         const Matrix6d& transport) const {
   std::vector<Matrix6d> beyond(bends_.size(), Matrix6d::Zero());
   std::vector<double> shares;
   for (const PatchInformation& patch : patches) {
