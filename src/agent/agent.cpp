@@ -130,9 +130,9 @@ Status Agent::start() {
       });
   if (config_.navigator) {
     if (!config_.site_origin) return failure(config_.id.str() + ": a mission needs site.origin");
-    auto navigator =
-        Navigator::create(*config_.navigator, config_.id, *config_.site_origin, bus_,
-                          [this](exchange::MissionReport report) { exchange_->tell(std::move(report)); });
+    auto navigator = Navigator::create(
+        *config_.navigator, config_.id, *config_.site_origin, bus_,
+        [this](exchange::MissionReport report) { exchange_->send_report(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
     for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
@@ -233,7 +233,7 @@ void Agent::navigate() {
   // What was seen since the last node belongs to the maps that are exchanged at the meeting.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
-  navigator_->tick(complete() && fleet_caught_up(), exchange_->even_with(bus_.now()));
+  navigator_->tick(complete() && fleet_caught_up(), exchange_->in_sync_with(bus_.now()));
 }
 
 bool Agent::worth_waiting_for_gps() {
@@ -464,7 +464,7 @@ void Agent::handle(const exchange::ItemsAdopted& adopted) {
       config_.id.str(), adopted.items.signed_own, adopted.items.dropped);
 }
 
-void Agent::handle(const exchange::OfferDoubted& doubted) {
+void Agent::handle(const exchange::OfferUndelivered& doubted) {
   spdlog::warn(
       "{}: {} offers {} nodes and {} alignments and does not deliver them: its link works one way, or its "
       "digests are "

@@ -118,7 +118,7 @@ class Agent {
   void handle(const exchange::ItemConflict& conflict);
   void handle(const exchange::ItemRefused& refused);
   void handle(const exchange::ItemsAdopted& adopted);
-  void handle(const exchange::OfferDoubted& doubted);
+  void handle(const exchange::OfferUndelivered& doubted);
   /// Own items whose names are contested get others.
   void name_contested_anew();
   void handle(const exchange::OwnItemsElsewhere& found);

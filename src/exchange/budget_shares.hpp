@@ -11,17 +11,18 @@
 
 namespace fleetmap::exchange {
 
-/// What one robot may send of the budget that all robots of the fleet share, by need and without a master.
+/// Share of one robot of the budget that all robots of the fleet have together, by need and without a
+/// master.
 ///
-/// The budget is divided evenly among the robots that are heard. Who has little to send lends most of its
-/// part to those whose messages wait, and says so in its status. A loan ends when the lender's status no
-/// longer names it, or some status periods after it was last named; the lender counts on the latter, so the
-/// rates of robots that hear each other do not add up to more than the budget, whatever is lost. Only when
-/// robots come back whose parts were given to others may it be a tenth more, until loans of larger parts have
-/// ended.
+/// The budget is divided evenly among the robots that are heard. A robot with a small backlog lends most of
+/// its part to those whose messages wait, and announces that in its status. A loan ends when the lender's
+/// status no longer names it, or some status periods after it was last named; the lender assumes the latter,
+/// so the rates of robots that hear each other never add up to more than the budget, whichever messages are
+/// lost. Only when robots return whose parts were lent to others may the sum be a tenth more, until the
+/// loans of larger parts have ended.
 class BudgetShares {
  public:
-  /// `status_period`: how often each robot tells its status.
+  /// `status_period`: period of each robot's status messages.
   BudgetShares(const AgentId& self, std::span<const AgentId> fleet, double fleet_bytes_per_second,
                Duration status_period, Stamp now);
 
@@ -34,11 +35,11 @@ class BudgetShares {
 
   /// B/s
   double rate(Stamp now) const;
-  /// Neither `backlog` (B, the own) nor what the other robots told last of theirs takes a robot's part longer
-  /// than a second to send.
+  /// True if no backlog, own (`backlog`, B) or reported by another robot, takes a robot's part longer than a
+  /// second to send.
   bool has_room(std::size_t backlog, Stamp now) const;
-  /// The other robots that are there, as far as this one knows: they were heard of late, or this robot has
-  /// not listened for long enough to say that they are gone.
+  /// The other robots that are present: heard within the timeout, or not yet silent for that long since the
+  /// start.
   std::set<AgentId> present(Stamp now) const;
 
  private:
@@ -49,10 +50,10 @@ class BudgetShares {
   struct Peer {
     Stamp heard;
     std::size_t backlog = 0;  ///< B, as of its last status
-    Stamp told;               ///< when that came
+    Stamp status_received;    ///< when its last status arrived
     Borrowed loan;            ///< of the peer to us
   };
-  struct Given {
+  struct Grant {
     std::vector<Loan> loans;
     Stamp until;  ///< borrowers may use them so long
   };
@@ -64,7 +65,7 @@ class BudgetShares {
   double budget_;
   Duration period_;
   std::map<AgentId, Peer> peers_;
-  std::vector<Given> given_;
+  std::vector<Grant> grants_;
 };
 
 }  // namespace fleetmap::exchange

@@ -6,48 +6,21 @@
 #include <set>
 #include <vector>
 
-#include "fleetmap/core/result.hpp"
+#include "content_check.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/content_check.hpp"
+#include "fleetmap/exchange/exchange_stats.hpp"
 #include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/exchange/reconcile_config.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
 
-struct ReconcileConfig {
-  Duration digest_min_period = std::chrono::seconds(4);   ///< between digests while what is held changes
-  Duration digest_max_period = std::chrono::seconds(30);  ///< doubles up to this while nothing changes
-  Duration near_period = std::chrono::seconds(2);         ///< between digests over the short range
-  Duration grace =
-      std::chrono::milliseconds(500);  ///< an item offered is asked for only if it has not come by itself
-  Duration timeout =
-      std::chrono::seconds(8);  ///< of a request that brings nothing; then another agent is asked
-  Duration store_pause =
-      std::chrono::seconds(10);  ///< nothing is asked for after the store failed, then twice as long, ...
-  Duration max_store_pause = std::chrono::minutes(2);
-  Duration peer_timeout = std::chrono::seconds(90);  ///< an agent not heard for so long is not asked
-  std::size_t max_ranges = 28;   ///< in each list of a digest or request, so that it fits one datagram
-  std::uint32_t max_items = 48;  ///< asked for at once of one agent
-  int max_barren = 8;  ///< requests in a row that bring nothing until what an agent offers is not waited for
-  Status validate() const;
-};
-
-struct ReconcileStats {
-  std::uint64_t digests_sent = 0;
-  std::uint64_t digests_heard = 0;
-  std::uint64_t requests_sent = 0;
-  std::uint64_t requests_served = 0;
-  std::uint64_t items_served = 0;
-  std::uint64_t timeouts = 0;
-  std::uint64_t hostile = 0;  ///< ranges that are reversed, beyond kEndOfSeqs or of several sessions
-};
-
-/// Makes the sets of nodes and alignments of all agents equal, whatever was lost: agents tell from time to
-/// time what they hold, and whoever lacks something asks one of those who have it, its maker or not.
+/// Makes the sets of nodes and alignments of all robots equal (anti-entropy): robots periodically send
+/// digests of their sets, and a robot requests missing items from any one that holds them, maker or not.
 ///
-/// An offer is a claim. The latest digest that shows all ranges replaces those before, so a forged or
-/// outdated one lasts until the next; and what an agent goes on offering but does not deliver is no longer
-/// waited for. ContentCheck finds names under which two robots hold different contents.
+/// An offer is a claim. The latest digest that shows all ranges replaces earlier ones, so a forged or
+/// outdated one lasts until the next; items that a robot offers but does not deliver are no longer waited
+/// for. ContentCheck finds names under which two robots hold different contents.
 class Reconcile {
  public:
   Reconcile(const AgentId& self, const ReconcileConfig& config);
@@ -66,11 +39,11 @@ class Reconcile {
     std::vector<const graph::Node*> second_nodes;
     std::vector<const graph::Alignment*> second_alignments;
   };
-  /// What is held of what `request` asks for, at most max_items.
+  /// The held items that `request` names, at most max_items.
   Items answer(const ItemRequest& request, const store::Store& store);
 
-  /// What `peer` offers but does not deliver; told once, until it delivers again.
-  struct Doubt {
+  /// Items that `peer` offers but does not deliver; reported once, until it delivers again.
+  struct UndeliveredOffer {
     AgentId peer;
     std::uint64_t nodes = 0;
     std::uint64_t alignments = 0;
@@ -78,19 +51,19 @@ class Reconcile {
   struct Due {
     std::optional<Digest> digest;
     std::vector<ItemRequest> requests;
-    std::vector<Doubt> doubts;
+    std::vector<UndeliveredOffer> undelivered;
   };
   Due tick(const store::Store& store, Stamp now);
 
   /// For those in reach on the short range: of what is held, as many ranges as fit; the others next time.
   Digest near_digest(const store::Store& store) { return digest_of(store, next_near_range_); }
-  /// An item that came could not be stored: others would go on sending what nobody can keep.
+  /// A received item could not be stored. Requests pause, since the answers could not be stored either.
   void on_store_failure(Stamp now);
   /// A name was found to have two contents.
   void on_contested(Stamp now);
-  /// Everything that any agent, but for those in `without`, offers is held, or was asked for in vain.
+  /// Every item that any robot offers, except those in `without`, is held or was not delivered.
   bool complete(const store::Store& store, const std::set<AgentId>& without = {}) const;
-  /// `peer` has told that it holds all that we hold.
+  /// By its digest `peer` holds everything that this robot holds.
   bool caught_up(const AgentId& peer, const store::Store& store) const;
   std::size_t peers() const { return peers_.size(); }
   const ReconcileStats& stats() const { return stats_; }
@@ -99,8 +72,8 @@ class Reconcile {
   struct Offer {
     store::SeqSet nodes;
     store::SeqSet alignments;
-    store::SeqSet doubted_nodes;  ///< of these, not delivered
-    store::SeqSet doubted_alignments;
+    store::SeqSet undelivered_nodes;  ///< of these, not delivered
+    store::SeqSet undelivered_alignments;
     Stamp since;           ///< when it was first seen to have what we lack
     bool lacking = false;  ///< it has what we lack
   };
@@ -116,14 +89,14 @@ class Reconcile {
     Stamp heard;
     Stamp resting_until;  ///< after a request that brought nothing
     Duration rest = Duration::zero();
-    int barren = 0;     ///< requests in a row that brought nothing
-    bool told = false;  ///< of the doubt
+    int barren = 0;                     ///< requests in a row that brought nothing
+    bool undelivered_reported = false;  ///< of the offer
   };
   enum class Source : std::uint8_t { kRequest, kDigest };
   store::SeqSet accepted(const std::vector<Range>& ranges, Source source);
-  void settle_doubts(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
-  void settle_pending(Peer& peer, const store::Store& store, Stamp now);
-  /// The next digest comes soon.
+  void update_undelivered(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
+  void update_pending(Peer& peer, const store::Store& store, Stamp now);
+  /// Sends the next digest after the shortest period.
   void hurry(Stamp now);
   Digest digest_of(const store::Store& store, std::size_t& next_range) const;
   std::optional<ItemRequest> ask(const AgentId& name, Peer& peer, const store::Store& store, Stamp now);

@@ -11,28 +11,28 @@
 namespace fleetmap::exchange {
 
 /// Finds names under which two robots hold different contents (one is forged, or the maker equivocates),
-/// which digests of names alone never show. Fingerprints of ranges are compared as in a Merkle tree: a range
-/// whose fingerprint differs is cut in the own next digests, the peer compares the parts and cuts what
-/// differs further, until the few items that are left are asked of the peer although they are held. The store
-/// then sees both contents. A peer that sends false fingerprints costs a few cuts and a request that comes
-/// ever more seldom.
+/// which digests of names alone do not show. Fingerprints of ranges are compared as in a Merkle tree: a
+/// range whose fingerprint differs is cut in this robot's next digests, the peer compares the parts and cuts
+/// those that differ, until the few remaining items are requested from the peer although they are held. The
+/// store then receives both contents. A peer that sends false fingerprints causes a few cuts and requests at
+/// growing intervals.
 class ContentCheck {
  public:
   /// Compares the ranges that are held whole. True when one has to be cut.
   bool on_digest(const Digest& digest, const store::Store& store, Stamp now);
   /// `ranges` of nodes or alignments, cut where contents differ.
   std::vector<Range> cut(const std::vector<Range>& ranges, bool alignments) const;
-  /// What is to be asked of `peer` although it is held.
+  /// The items to request from `peer` although they are held.
   std::optional<ItemRequest> ask(const AgentId& self, const AgentId& peer, Stamp now);
-  /// A name is contested now: what is left to be found is asked for without delay.
+  /// A name has become contested: the remaining differences are requested without delay.
   void on_contested();
-  /// Forgets cuts that nobody needed for a while.
+  /// Removes cuts that have not been used for a while.
   void expire(Stamp now);
 
  private:
   using Cuts = std::map<NodeId, Stamp>;  ///< a range ends before this name; until when
   struct Peer {
-    store::SeqSet nodes;  ///< to be asked for
+    store::SeqSet nodes;  ///< to be requested
     store::SeqSet alignments;
     Stamp resting_until;
     Duration rest = Duration::zero();

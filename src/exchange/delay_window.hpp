@@ -4,22 +4,13 @@
 #include <limits>
 #include <optional>
 
-#include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/delay_window_config.hpp"
 
 namespace fleetmap::exchange {
 
-struct DelayWindowConfig {
-  double target_s = 0.25;                ///< s of queueing, above the least delay seen, that a flow may cause
-  std::uint32_t least_bytes = 8'192;     ///< B
-  std::uint32_t first_bytes = 32'768;    ///< B
-  std::uint32_t most_bytes = 1'048'576;  ///< B
-  std::uint32_t step_bytes = 8'192;      ///< B that it grows by in each round trip without queueing
-  Status validate() const;
-};
-
 /// The least delay of a path within the last one to two minutes: what it takes without any queue.
-class LeastDelay {
+class BaseDelay {
  public:
   /// s of queueing in a delay of `delay_s`, which counts from now on.
   double queueing_of(double delay_s, Stamp now);
@@ -41,11 +32,11 @@ class DelayWindow {
   std::uint32_t bytes() const { return static_cast<std::uint32_t>(window_); }
   /// `bytes` arrived after they waited `queueing_s` on their way.
   void on_arrival(double queueing_s, std::uint32_t bytes);
-  /// Something asked for at `asked` did not come. Losses of one round trip count once. The window is halved
-  /// if there was a queue that may have overflowed, else it shrinks by a tenth: radios lose without
-  /// congestion, too.
+  /// A chunk requested at `asked` was lost. Losses of one round trip count once. The window is halved if a
+  /// queue may have overflowed, else it shrinks by a tenth, since radios also lose without congestion.
   void on_loss(Stamp asked, Stamp now);
-  /// What waited of late may have overflowed a queue: losses are its, not a bad link's.
+  /// True if the recent queueing delay may have overflowed a queue: losses are then attributed to it and not
+  /// to a bad link.
   bool queues() const;
   /// From here on it grows by a step a round trip.
   void end_slow_start() { slow_start_ = false; }
