@@ -9,7 +9,7 @@
 #include "fleet_evaluation.hpp"
 #include "fleetmap/agent/results.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "registration_replay.hpp"
 
 namespace fleetmap::apps {
@@ -24,8 +24,8 @@ graph::Placement placed(const HeldFleet& held, graph::PlacementMethod method,
                         std::span<const NodeId> covariance_of) {
   graph::PlacementConfig config = held.recipe.placement;
   config.method = method;
-  return graph::place(agent::nodes_of(held.store), held.alignments, LocalFrame(held.recipe.origin), config,
-                      covariance_of);
+  return graph::compute_placement(agent::nodes_of(held.store), held.alignments,
+                                  LocalFrame(held.recipe.origin), config, covariance_of);
 }
 
 std::vector<NodeId> some_of(const eval::TruePoses& nodes) {

@@ -5,8 +5,8 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/loop_closure/cloud_drift.hpp"
 #include "fleetmap/loop_closure/registered_alignment.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/registration_log.hpp"
 #include "fleetmap/wire/messages.hpp"

@@ -8,7 +8,7 @@
 #include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fault_injection/stand_in_signatures.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/wire/messages.hpp"
 #include "fleetmap/wire/topics.hpp"
@@ -316,7 +316,8 @@ void FaultyFleet::finish_jobs() {
 }
 
 graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
-  return graph::place(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store), survey_.site(), {});
+  return graph::compute_placement(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store),
+                                  survey_.site(), {});
 }
 
 void FaultyFleet::place(const AgentId& name, Robot& robot) {

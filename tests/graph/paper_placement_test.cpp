@@ -1,73 +1,21 @@
-#include "fleetmap/graph/placement.hpp"
+#include "paper_placement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "graph/known_fleet.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
-const GeoPoint kOrigin = geo_point_from_degrees(48.98, 8.39, 110.0);
-
-/// A fleet whose truth is known: each agent's odometry frame lies somewhere in ENU, each node's G has a small
-/// error.
-struct Fleet {
-  LocalFrame site{kOrigin};
-  std::map<AgentId, Pose> T_enu_odom;
-  std::vector<Node> nodes;
-  std::vector<Alignment> alignments;
-  std::mt19937 random;
-
-  explicit Fleet(unsigned seed) : random(seed) {}
-
-  double gauss(double sigma) { return std::normal_distribution<double>(0.0, sigma)(random); }
-
-  void add_agent(const std::string& name, double gps_sigma) {
-    const AgentId agent = AgentId::parse(name).value();
-    const Pose T = make_pose(rotation_from_rpy(gauss(0.05), gauss(0.05), gauss(2.0)),
-                             Eigen::Vector3d(gauss(50.0), gauss(50.0), gauss(1.0)));
-    T_enu_odom[agent] = T;
-    for (std::uint32_t k = 0; k < 30; ++k) {
-      Node node;
-      node.id = {agent, k};
-      node.stamp = stamp_from_ns(std::int64_t{k} * 4'000'000'000);
-      node.T_odom_base = make_pose(rotation_from_rpy(0.0, 0.0, 0.1 * k),
-                                   Eigen::Vector3d(3.0 * k, 10.0 * std::sin(0.2 * k), 0.0));
-      const Pose T_enu_base = T * node.T_odom_base;
-      const Eigen::Vector3d error(gauss(gps_sigma), gauss(gps_sigma), gauss(gps_sigma));
-      node.G.emplace();
-      node.G->position = site.to_geo(T_enu_base.translation() + error);
-      node.G->q_enu_base = Eigen::Quaterniond(
-          Eigen::Matrix3d(site.R_enu_local(node.G->position).transpose() * T_enu_base.linear()));
-      node.G->covariance = Matrix6d::Identity() * std::max(1e-6, gps_sigma * gps_sigma);
-      node.G->covariance.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity() * 1e-4;
-      nodes.push_back(node);
-    }
-  }
-
-  const Node& node(const std::string& agent, std::uint32_t seq) const {
-    return *std::ranges::find(nodes, NodeId{AgentId::parse(agent).value(), seq}, &Node::id);
-  }
-
-  Pose truth(const Node& n) const { return T_enu_odom.at(n.id.agent) * n.T_odom_base; }
-
-  void align(const Node& i, const Node& j, double rmse, const Pose& error = Pose::Identity()) {
-    Alignment a;
-    a.i = i.id;
-    a.j = j.id;
-    a.computed_by = i.id.agent;
-    a.seq = static_cast<std::uint32_t>(alignments.size());
-    a.modes.front().T_i_j = truth(i).inverse() * truth(j) * error;
-    a.modes.front().rmse = rmse;
-    alignments.push_back(a);
-  }
-};
+using testing::KnownFleet;
 
 double distance(const Pose& a, const Pose& b) { return se3_log(a.inverse() * b).norm(); }
 
-TEST(Placement, ExactGlobalPosesPlaceEveryNodeExactly) {
-  Fleet fleet(1);
+TEST(PaperPlacement, ExactGlobalPosesPlaceEveryNodeExactly) {
+  KnownFleet fleet(1);
   fleet.add_agent("r1", 0.0);
   fleet.add_agent("r2", 0.0);
   const Placement placement = place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site);
@@ -77,9 +25,9 @@ TEST(Placement, ExactGlobalPosesPlaceEveryNodeExactly) {
   EXPECT_EQ(placement.components.size(), 2u);
 }
 
-TEST(Placement, AlignmentFixesTheRelativePoseWhateverTheGpsError) {
+TEST(PaperPlacement, AlignmentFixesTheRelativePoseWhateverTheGpsError) {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    Fleet fleet(seed);
+    KnownFleet fleet(seed);
     fleet.add_agent("r1", 3.0);
     fleet.add_agent("r2", 3.0);
     fleet.align(fleet.node("r1", 5), fleet.node("r2", 7), 0.1);
@@ -92,8 +40,8 @@ TEST(Placement, AlignmentFixesTheRelativePoseWhateverTheGpsError) {
   }
 }
 
-TEST(Placement, LeastRmseOfAPairIsKeptAndBadOnesDoNotCount) {
-  Fleet fleet(3);
+TEST(PaperPlacement, LeastRmseOfAPairIsKeptAndBadOnesDoNotCount) {
+  KnownFleet fleet(3);
   fleet.add_agent("r1", 1.0);
   fleet.add_agent("r2", 1.0);
   Pose slip = Pose::Identity();
@@ -109,8 +57,8 @@ TEST(Placement, LeastRmseOfAPairIsKeptAndBadOnesDoNotCount) {
   EXPECT_TRUE(place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site).used.empty());
 }
 
-TEST(Placement, AmbiguousAlignmentsDoNotCount) {
-  Fleet fleet(7);
+TEST(PaperPlacement, AmbiguousAlignmentsDoNotCount) {
+  KnownFleet fleet(7);
   fleet.add_agent("r1", 1.0);
   fleet.add_agent("r2", 1.0);
   fleet.align(fleet.node("r1", 5), fleet.node("r2", 7), 0.1);
@@ -118,8 +66,8 @@ TEST(Placement, AmbiguousAlignmentsDoNotCount) {
   EXPECT_TRUE(place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site).used.empty());
 }
 
-TEST(Placement, SameSetSamePlacementWhateverTheOrder) {
-  Fleet fleet(4);
+TEST(PaperPlacement, SameSetSamePlacementWhateverTheOrder) {
+  KnownFleet fleet(4);
   for (const char* name : {"r1", "r2", "r3", "r4"}) fleet.add_agent(name, 1.5);
   fleet.align(fleet.node("r1", 5), fleet.node("r2", 7), 0.30);
   fleet.align(fleet.node("r3", 5), fleet.node("r2", 9), 0.20);
@@ -137,8 +85,8 @@ TEST(Placement, SameSetSamePlacementWhateverTheOrder) {
   }
 }
 
-TEST(Placement, RestartedAgentIsAFrameOfItsOwnUntilAlignedWithItself) {
-  Fleet fleet(6);
+TEST(PaperPlacement, RestartedAgentIsAFrameOfItsOwnUntilAlignedWithItself) {
+  KnownFleet fleet(6);
   fleet.add_agent("r1", 2.0);
   const Pose T_before_after = make_pose(rotation_from_rpy(0.0, 0.0, 1.0), Eigen::Vector3d(4.0, -7.0, 0.5));
   for (Node& node : fleet.nodes) {
@@ -162,8 +110,8 @@ TEST(Placement, RestartedAgentIsAFrameOfItsOwnUntilAlignedWithItself) {
   EXPECT_LT(distance(placed, truth), 1e-6);
 }
 
-TEST(Placement, AlignmentOfAnUnknownNodeWaits) {
-  Fleet fleet(5);
+TEST(PaperPlacement, AlignmentOfAnUnknownNodeWaits) {
+  KnownFleet fleet(5);
   fleet.add_agent("r1", 1.0);
   fleet.add_agent("r2", 1.0);
   fleet.align(fleet.node("r1", 5), fleet.node("r2", 29), 0.1);
@@ -171,26 +119,10 @@ TEST(Placement, AlignmentOfAnUnknownNodeWaits) {
   EXPECT_TRUE(place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site).used.empty());
 }
 
-TEST(Placement, NothingInNothingOut) {
-  const Placement placement = place_by_least_rmse({}, {}, LocalFrame(kOrigin));
+TEST(PaperPlacement, NothingInNothingOut) {
+  const Placement placement = place_by_least_rmse({}, {}, LocalFrame(testing::kKnownOrigin));
   EXPECT_TRUE(placement.T_enu_node.empty());
   EXPECT_TRUE(placement.components.empty());
-}
-
-TEST(GlobalFit, AveragesIndependentErrors) {
-  double squared = 0.0;
-  constexpr int kRuns = 40;
-  for (unsigned seed = 0; seed < kRuns; ++seed) {
-    Fleet fleet(seed);
-    fleet.add_agent("r1", 1.5);
-    std::vector<Pose> T_odom_node;
-    for (const Node& node : fleet.nodes) T_odom_node.push_back(node.T_odom_base);
-    const Pose T = fit_to_global_poses(fleet.nodes, T_odom_node, fleet.site, 60.0);
-    const Node& middle = fleet.nodes[15];
-    squared += (T * middle.T_odom_base.translation() - fleet.truth(middle).translation()).squaredNorm();
-  }
-  // 30 fixes of 1.5 m an axis: about 1.5 / sqrt(30) an axis at the middle of the path.
-  EXPECT_LT(std::sqrt(squared / kRuns / 3.0), 1.5 * 1.5 / std::sqrt(30.0));
 }
 
 }  // namespace

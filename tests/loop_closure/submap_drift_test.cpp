@@ -1,4 +1,4 @@
-#include "fleetmap/loop_closure/cloud_drift.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 const AgentId kSelf = *AgentId::parse("r1");
 const AgentId kOther = *AgentId::parse("r2");
 
-class CloudDrift : public ::testing::Test {
+class SubmapDrift : public ::testing::Test {
  protected:
   /// A node of the other robot.
   graph::Node add(std::uint32_t seq, double x, double y) {
@@ -26,7 +26,7 @@ class CloudDrift : public ::testing::Test {
   store::Store store_ = std::move(store::Store::open(folder_.path() / "store.db", kSelf).value());
 };
 
-TEST_F(CloudDrift, StopsAreTheNodesAroundWithTheirOwnCovariances) {
+TEST_F(SubmapDrift, StopsAreTheNodesAroundWithTheirOwnCovariances) {
   for (std::uint32_t k = 0; k < 10; ++k) add(k, 4.0 * k, 0.0);
   const auto drift = drift_around(store_, *store_.node({kOther, 5}), 9.0);
   ASSERT_EQ(drift.stops.size(), 5u);  // 3 to 7
@@ -38,7 +38,7 @@ TEST_F(CloudDrift, StopsAreTheNodesAroundWithTheirOwnCovariances) {
   }
 }
 
-TEST_F(CloudDrift, NodesThatAreNotHeldAreBridged) {
+TEST_F(SubmapDrift, NodesThatAreNotHeldAreBridged) {
   add(0, 0.0, 0.0);
   const graph::Node last = add(5, 12.0, 0.0);
   const auto drift = drift_around(store_, last, 20.0);

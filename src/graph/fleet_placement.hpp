@@ -2,19 +2,10 @@
 
 #include <span>
 
-#include "fleetmap/core/result.hpp"
+#include "fleetmap/graph/fleet_placement_config.hpp"
 #include "fleetmap/graph/placement.hpp"
 
 namespace fleetmap::graph {
-
-struct FleetPlacementConfig {
-  double gps_correlation_time = 60.0;  ///< s, of the slowly drifting part of G's error
-  double gps_drift_share = 0.9;        ///< of the variance of G's position that drifts, (0, 1)
-  double window_m = 30.0;              ///< m of path whose fixes count as one
-  double alignment_floor_m = 0.01;  ///< m, added in squares to C_ij: what registration cannot know of itself
-  double alignment_floor_rad = 0.001;  ///< rad, likewise
-  Status validate() const;
-};
 
 /// The fleet's robust pose graph (method `graph`): odometry between the nodes of a frame, G of every node
 /// with an error that drifts slowly (a Gauss-Markov process for each robot), and those alignments, each in at

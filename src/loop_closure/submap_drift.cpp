@@ -1,11 +1,11 @@
-#include "fleetmap/loop_closure/cloud_drift.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 
 #include "pass_around.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
 
-/// Of the odometry over a way of which nothing is known but its ends.
+/// Covariance of the odometry over a path of which only the ends are available.
 Matrix6d usual_covariance(double metres) {
   static const registration::MapDrift usual = registration::MapDrift::straight();
   const Pose step = usual.stops[0].T_cloud_base.inverse() * usual.stops[1].T_cloud_base;

@@ -1,4 +1,4 @@
-#include "fleetmap/graph/alignment_worth.hpp"
+#include "fleetmap/graph/information_gain.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -16,8 +16,8 @@ constexpr double kMinVariance = 1e-6;
 constexpr double kUnconstrained = 1e6;
 
 double scalar(const Matrix6d& covariance) {
-  const double squared = covariance.diagonal().head<3>().sum() + AlignmentWorth::kLever *
-                                                                     AlignmentWorth::kLever *
+  const double squared = covariance.diagonal().head<3>().sum() + InformationGain::kLever *
+                                                                     InformationGain::kLever *
                                                                      covariance.diagonal().tail<3>().sum();
   return std::isfinite(squared) ? std::clamp(squared, kMinVariance, kUnconstrained) : kUnconstrained;
 }
@@ -25,7 +25,7 @@ double scalar(const Matrix6d& covariance) {
 }  // namespace
 
 /// Nodes that are ends of edges, and the conductances (1 / variance) between them and to the ground.
-class AlignmentWorth::Network {
+class InformationGain::Network {
  public:
   explicit Network(const std::set<NodeId>& nodes) {
     for (const NodeId& node : nodes) index_.emplace(node, static_cast<Eigen::Index>(index_.size()));
@@ -67,7 +67,7 @@ class AlignmentWorth::Network {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
 };
 
-void AlignmentWorth::add(const Node& node) {
+void InformationGain::add(const Node& node) {
   if (!track_nodes_.emplace(node.id, TrackNode{node.frame(), scalar(node.odom_covariance)}).second || !node.G)
     return;
   const double variance = scalar(node.G->covariance);
@@ -75,17 +75,17 @@ void AlignmentWorth::add(const Node& node) {
   if (!first && variance < fix->second.variance) fix->second = {node.id, variance};
 }
 
-void AlignmentWorth::use(std::span<const Alignment> used) {
+void InformationGain::use(std::span<const Alignment> used) {
   alignments_.clear();
   for (const Alignment& alignment : used) add(alignment);
 }
 
-void AlignmentWorth::add(const Alignment& alignment) {
+void InformationGain::add(const Alignment& alignment) {
   if (alignment.ambiguous()) return;
   alignments_.push_back({{alignment.i, alignment.j}, scalar(alignment.best().covariance)});
 }
 
-double AlignmentWorth::along_track(const NodeId& from, const NodeId& to) const {
+double InformationGain::along_track(const NodeId& from, const NodeId& to) const {
   double variance = 0.0;
   std::uint32_t before = from.seq;
   for (auto place = track_nodes_.upper_bound(from); place != track_nodes_.end() && !(to < place->first);
@@ -96,7 +96,7 @@ double AlignmentWorth::along_track(const NodeId& from, const NodeId& to) const {
   return variance;
 }
 
-std::vector<double> AlignmentWorth::of(std::span<const Pair> pairs, std::span<const Pair> expected) const {
+std::vector<double> InformationGain::of(std::span<const Pair> pairs, std::span<const Pair> expected) const {
   const auto known = [&](const Pair& pair) {
     return track_nodes_.contains(pair.first) && track_nodes_.contains(pair.second);
   };

@@ -1,18 +1,16 @@
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 
 #include <algorithm>
 
+#include "fleet_placement.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
+#include "paper_placement.hpp"
 
 namespace fleetmap::graph {
 
-const char* to_string(PlacementMethod method) { return method == PlacementMethod::paper ? "paper" : "graph"; }
-
-Status PlacementConfig::validate() const { return fleet.validate(); }
-
-Placement place(std::span<const Node> nodes_as_made, std::span<const Alignment> alignments,
-                const LocalFrame& site, const PlacementConfig& config,
-                std::span<const NodeId> covariance_of) {
+Placement compute_placement(std::span<const Node> nodes_as_made, std::span<const Alignment> alignments,
+                            const LocalFrame& site, const PlacementConfig& config,
+                            std::span<const NodeId> covariance_of) {
   if (config.method == PlacementMethod::graph &&
       std::ranges::all_of(nodes_as_made, [](const Node& node) { return node.G.has_value(); }))
     return place_by_fleet_graph(nodes_as_made, alignments, site, config.fleet, covariance_of);

@@ -1,4 +1,4 @@
-#include "fleetmap/graph/alignment_worth.hpp"
+#include "fleetmap/graph/information_gain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -38,16 +38,16 @@ Alignment alignment(const NodeId& i, const NodeId& j, double variance = kStep) {
   return alignment;
 }
 
-double worth(const AlignmentWorth& worth, const NodeId& i, const NodeId& j,
-             const std::vector<AlignmentWorth::Pair>& expected = {}) {
-  const AlignmentWorth::Pair pair{i, j};
+double worth(const InformationGain& worth, const NodeId& i, const NodeId& j,
+             const std::vector<InformationGain::Pair>& expected = {}) {
+  const InformationGain::Pair pair{i, j};
   return worth.of(std::span(&pair, 1), expected).front();
 }
 
 double of_variance(double variance) { return 0.5 * std::log1p(variance / kExpectedVariance); }
 
-TEST(AlignmentWorth, IsThatOfTheWayBetweenTheTwo) {
-  AlignmentWorth graph;
+TEST(InformationGain, IsThatOfTheWayBetweenTheTwo) {
+  InformationGain graph;
   for (std::uint32_t seq = 0; seq < 20; ++seq) {
     graph.add(node(kA, seq));
     graph.add(node(kB, seq));
@@ -59,8 +59,8 @@ TEST(AlignmentWorth, IsThatOfTheWayBetweenTheTwo) {
   EXPECT_NEAR(worth(graph, {kA, 3}, {kB, 4}), of_variance(scalar(kStep)), 1e-4) << "the same once more";
 }
 
-TEST(AlignmentWorth, TwoWaysLeaveLessOpenThanEither) {
-  AlignmentWorth graph;
+TEST(InformationGain, TwoWaysLeaveLessOpenThanEither) {
+  InformationGain graph;
   for (std::uint32_t seq = 0; seq <= 20; ++seq) {
     graph.add(node(kA, seq));
     graph.add(node(kB, seq));
@@ -76,8 +76,8 @@ TEST(AlignmentWorth, TwoWaysLeaveLessOpenThanEither) {
   EXPECT_GT(worth(graph, {kA, 10}, {kB, 10}), 9.0) << "nothing is known";
 }
 
-TEST(AlignmentWorth, GoesThroughThirdRobotsAndGps) {
-  AlignmentWorth graph;
+TEST(InformationGain, GoesThroughThirdRobotsAndGps) {
+  InformationGain graph;
   for (const AgentId& agent : {kA, kB, kC}) {
     for (std::uint32_t seq = 0; seq < 5; ++seq)
       graph.add(node(agent, seq, agent == kC ? std::nullopt : std::optional(seq == 2 ? 1.0 : 3.0)));
@@ -91,8 +91,8 @@ TEST(AlignmentWorth, GoesThroughThirdRobotsAndGps) {
   EXPECT_NEAR(worth(graph, {kA, 2}, {kB, 2}), of_variance(1.0 / (1.0 / through_c + 1.0 / by_gps)), 1e-4);
 }
 
-TEST(AlignmentWorth, SessionsOfARobotAreTracksOfTheirOwnAndLostNodesCountAsTheNextOne) {
-  AlignmentWorth graph;
+TEST(InformationGain, SessionsOfARobotAreTracksOfTheirOwnAndLostNodesCountAsTheNextOne) {
+  InformationGain graph;
   graph.add(node(kA, 0));
   graph.add(node(kA, 1, {}, 1));
   EXPECT_GT(worth(graph, {kA, 0}, {kA, 1}), 9.0);
@@ -101,8 +101,8 @@ TEST(AlignmentWorth, SessionsOfARobotAreTracksOfTheirOwnAndLostNodesCountAsTheNe
   EXPECT_NEAR(worth(graph, {kB, 0}, {kB, 4}), of_variance(4 * scalar(kStep)), 1e-4);
 }
 
-TEST(AlignmentWorth, WhatIsUnknownOrAmbiguousOrAbsurdTellsNothing) {
-  AlignmentWorth graph;
+TEST(InformationGain, WhatIsUnknownOrAmbiguousOrAbsurdTellsNothing) {
+  InformationGain graph;
   graph.add(node(kA, 0));
   graph.add(node(kB, 0));
   EXPECT_EQ(worth(graph, {kA, 0}, {kC, 7}), 0.0);

@@ -12,12 +12,12 @@ namespace fleetmap::graph {
 
 /// Information that one more alignment of two nodes would add to the fleet's graph, in nats.
 ///
-/// The information that an edge adds is the growth of log det of the graph's information matrix
-/// (D-optimality; Khosoussi et al., "Reliable Graphs for SLAM", IJRR 2019). Of a graph with one scalar
-/// variance an edge that is 0.5 ln(1 + P / R), where P is the effective resistance between the two nodes,
-/// hence what odometry, alignments and GPS on all ways between them leave open, and R the variance of an
-/// alignment. The scalar of a covariance is the mean square displacement of a point kLever away.
-class AlignmentWorth {
+/// It is the growth of log det of the graph's information matrix (D-optimality; Khosoussi et al., "Reliable
+/// Graphs for SLAM", IJRR 2019). For a graph with one scalar variance this is 0.5 ln(1 + P / R), where P is
+/// the effective resistance between the two nodes (the variance that odometry, alignments and GPS on all
+/// paths between them leave) and R the variance of an alignment. A covariance is reduced to a scalar as the
+/// mean square displacement of a point kLever away.
+class InformationGain {
  public:
   using Pair = std::pair<NodeId, NodeId>;
 
@@ -30,8 +30,8 @@ class AlignmentWorth {
   /// Adds one that the graph has not classified yet.
   void add(const Alignment& alignment);
 
-  /// The worth of each pair, were the pairs in `expected` aligned already. Pairs of unknown nodes are worth
-  /// 0.
+  /// The information gain of each pair, given that the pairs in `expected` will be aligned too. Pairs of
+  /// unknown nodes gain 0.
   std::vector<double> of(std::span<const Pair> pairs, std::span<const Pair> expected) const;
 
  private:
@@ -48,8 +48,8 @@ class AlignmentWorth {
     double variance = 0.0;  ///< m^2
   };
   class Network;
-  /// m^2, of the odometry from `from` to `to`, of one frame; what lost nodes would tell is taken from the
-  /// next.
+  /// m^2, variance of the odometry from `from` to `to`, of one frame. The variance of lost nodes is
+  /// estimated from the node after them.
   double along_track(const NodeId& from, const NodeId& to) const;
 
   std::map<NodeId, TrackNode> track_nodes_;
