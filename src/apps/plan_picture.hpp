@@ -2,7 +2,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/eval/picture.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 
 namespace fleetmap::apps {
 

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::AgentStatus;
+using messages::Loan;
 
 /// Share of one robot of the budget that all robots of the fleet have together, by need and without a
 /// master.

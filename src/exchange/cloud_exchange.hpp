@@ -16,6 +16,9 @@
 
 namespace fleetmap::exchange {
 
+using messages::CloudFragment;
+using messages::CloudRequest;
+
 /// Exchange of spherized clouds and of the matches that precede them, as loop closing demands.
 class CloudExchange {
  public:

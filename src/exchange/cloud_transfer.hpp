@@ -11,9 +11,12 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/cloud_transfer_config.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::CloudFragment;
+using messages::CloudRequest;
 
 /// The pieces that `cloud` travels in, all but `to` and `from` derived from it.
 std::vector<CloudFragment> split_cloud(const AgentId& from, const AgentId& to, const NodeId& node,

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
 

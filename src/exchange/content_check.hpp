@@ -5,10 +5,13 @@
 #include <vector>
 
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Digest;
+using messages::ItemRequest;
 
 /// Finds names under which two robots hold different contents (one is forged, or the maker equivocates),
 /// which digests of names alone do not show. Fingerprints of ranges are compared as in a Merkle tree: a
@@ -21,7 +24,7 @@ class ContentCheck {
   /// Compares the ranges that are held whole. True when one has to be cut.
   bool on_digest(const Digest& digest, const store::Store& store, Stamp now);
   /// `ranges` of nodes or alignments, cut where contents differ.
-  std::vector<Range> cut(const std::vector<Range>& ranges, bool alignments) const;
+  std::vector<SeqRange> cut(const std::vector<SeqRange>& ranges, bool alignments) const;
   /// The items to request from `peer` although they are held.
   std::optional<ItemRequest> ask(const AgentId& self, const AgentId& peer, Stamp now);
   /// A name has become contested: the remaining differences are requested without delay.
@@ -37,7 +40,7 @@ class ContentCheck {
     Stamp resting_until;
     Duration rest = Duration::zero();
   };
-  bool compare(const Range& range, std::uint32_t theirs, std::uint32_t ours, Cuts& cuts,
+  bool compare(const SeqRange& range, std::uint32_t theirs, std::uint32_t ours, Cuts& cuts,
                store::SeqSet& to_ask, Stamp now);
 
   Cuts node_cuts_;

@@ -18,6 +18,22 @@
 
 namespace fleetmap::exchange {
 
+using messages::AgentStatus;
+using messages::CloudFragment;
+using messages::CloudRequest;
+using messages::Digest;
+using messages::Hold;
+using messages::HoldOrder;
+using messages::ItemRequest;
+using messages::Message;
+using messages::MissionReport;
+using messages::Outgoing;
+using messages::ProximityMatch;
+using messages::Reach;
+using messages::SubmapChunk;
+using messages::SubmapDigest;
+using messages::SubmapRequest;
+
 /// The parts of an Exchange, the messages that each of them handles, and their order in a tick.
 struct Exchange::State {
   /// Key of the orders in the store.

@@ -20,6 +20,10 @@
 
 namespace fleetmap::exchange {
 
+using messages::Digest;
+using messages::ItemRequest;
+using messages::Reach;
+
 /// Link and robot from which an item arrived; no robot where the link does not identify it.
 struct Delivery {
   Reach link = Reach::kLongRange;

@@ -10,10 +10,10 @@ constexpr std::size_t kMaxReported = 64;
 
 }  // namespace
 
-std::vector<Range> Membership::of_members(const std::vector<Range>& ranges) {
-  std::vector<Range> known;
+std::vector<SeqRange> Membership::of_members(const std::vector<SeqRange>& ranges) {
+  std::vector<SeqRange> known;
   std::ranges::copy_if(ranges, std::back_inserter(known),
-                       [this](const Range& range) { return contains(range.agent); });
+                       [this](const SeqRange& range) { return contains(range.agent); });
   strangers_ += ranges.size() - known.size();
   return known;
 }

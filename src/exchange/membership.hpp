@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
 
@@ -21,7 +21,7 @@ class Membership {
   const std::set<AgentId>& fleet() const { return fleet_; }
   bool contains(const AgentId& agent) const { return fleet_.contains(agent); }
   /// The ranges of the members' items; counts the others.
-  std::vector<Range> of_members(const std::vector<Range>& ranges);
+  std::vector<SeqRange> of_members(const std::vector<SeqRange>& ranges);
 
   /// Counts an item that a stranger made or computed.
   void refuse_item() { ++strangers_; }

@@ -29,7 +29,7 @@ void NeighbourTable::on_digest(const SubmapDigest& digest, Stamp now) {
   // A digest that has no room for all ranges adds to the digests before.
   if (digest.submaps.size() < config_.max_ranges || neighbour.holds.ranges().size() > kMaxIntervals)
     neighbour.holds = {};
-  for (const Range& range : digest.submaps) {
+  for (const SeqRange& range : digest.submaps) {
     const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
     // No robot makes so many items in one session that their numbers reach the next.
     if (ordered && session_of(range.first) == session_of(range.end - 1)) {

@@ -9,11 +9,13 @@
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/submap_transfer_config.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::SubmapDigest;
 
 /// Neighbour table of the short-range link: which robots are within reach, in both directions or in one, and
 /// which submaps each of them holds, by their digests.

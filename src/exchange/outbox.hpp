@@ -6,10 +6,13 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/exchange_config.hpp"
-#include "fleetmap/exchange/routing.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
+#include "fleetmap/messages/routing.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Message;
+using messages::Outgoing;
 
 /// Chooses the link of each message: the short range for robots that are near (NeighbourTable::is_near), the
 /// radio for the others.

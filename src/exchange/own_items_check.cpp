@@ -4,20 +4,20 @@
 
 namespace fleetmap::exchange {
 
-std::uint64_t OwnItemsCheck::count_unknown(const std::vector<Range>& ranges,
+std::uint64_t OwnItemsCheck::count_unknown(const std::vector<SeqRange>& ranges,
                                            const store::SeqSet& held) const {
   store::SeqSet own;
-  for (const Range& range : ranges) {
+  for (const SeqRange& range : ranges) {
     if (range.agent == self_) own.insert(range);
   }
   std::uint64_t items = 0;
-  for (const Range& range : own.minus(held)) items += range.end - range.first;
+  for (const SeqRange& range : own.minus(held)) items += range.end - range.first;
   return items;
 }
 
-bool OwnItemsCheck::names_beyond(const std::vector<Range>& ranges, std::uint32_t next) const {
+bool OwnItemsCheck::names_beyond(const std::vector<SeqRange>& ranges, std::uint32_t next) const {
   const std::uint32_t end = first_seq(*session_) + kItemsPerSession;
-  return std::ranges::any_of(ranges, [&](const Range& range) {
+  return std::ranges::any_of(ranges, [&](const SeqRange& range) {
     return range.agent == self_ && range.first < range.end && range.end > next && range.end <= end;
   });
 }

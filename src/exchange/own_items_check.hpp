@@ -6,10 +6,12 @@
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Digest;
 
 /// Finds items under this robot's name that its store lacks in the digests of others: the store was lost or
 /// restored, or another robot uses the name or the number of the running session.
@@ -23,8 +25,8 @@ class OwnItemsCheck {
   std::vector<Event> on_digest(const Digest& digest, const store::Store& store);
 
  private:
-  bool names_beyond(const std::vector<Range>& ranges, std::uint32_t next) const;
-  std::uint64_t count_unknown(const std::vector<Range>& ranges, const store::SeqSet& held) const;
+  bool names_beyond(const std::vector<SeqRange>& ranges, std::uint32_t next) const;
+  std::uint64_t count_unknown(const std::vector<SeqRange>& ranges, const store::SeqSet& held) const;
 
   AgentId self_;
   std::optional<std::uint16_t> session_;

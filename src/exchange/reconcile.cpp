@@ -65,9 +65,9 @@ SeqSet joined_bounded(SeqSet a, const SeqSet& b) {
 Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
     : self_(self), config_(config), period_(config.digest_min_period) {}
 
-SeqSet Reconcile::accepted(const std::vector<Range>& ranges, Source source) {
+SeqSet Reconcile::accepted(const std::vector<SeqRange>& ranges, Source source) {
   SeqSet set;
-  for (const Range& range : ranges) {
+  for (const SeqRange& range : ranges) {
     const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
     // Nobody numbers so many items of one session that it reaches the next.
     const bool plausible =
@@ -108,7 +108,7 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   const SeqSet nodes = accepted(digest.nodes, Source::kDigest);
   const SeqSet alignments = accepted(digest.alignments, Source::kDigest);
   // A digest with no room for all ranges shows a part, and adds to those before.
-  const auto offer = [this](SeqSet& offered, const std::vector<Range>& ranges, const SeqSet& received) {
+  const auto offer = [this](SeqSet& offered, const std::vector<SeqRange>& ranges, const SeqSet& received) {
     offered = ranges.size() < config_.max_ranges ? received : joined_bounded(std::move(offered), received);
   };
   offer(peer.offer.nodes, digest.nodes, nodes);
@@ -245,8 +245,8 @@ Digest Reconcile::digest_of(const store::Store& store, std::size_t& next_range) 
   const auto alignments = check_.cut(store.alignment_set().ranges(), true);
   digest.nodes = window(nodes, next_range, config_.max_ranges);
   digest.alignments = window(alignments, next_range, config_.max_ranges);
-  for (const Range& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
-  for (const Range& range : digest.alignments)
+  for (const SeqRange& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
+  for (const SeqRange& range : digest.alignments)
     digest.alignment_prints.push_back(store.alignment_print(range));
   next_range = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
                    ? (next_range + config_.max_ranges) % std::max(nodes.size(), alignments.size())

@@ -9,11 +9,14 @@
 #include "content_check.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile_config.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Digest;
+using messages::ItemRequest;
 
 /// Makes the sets of nodes and alignments of all robots equal (anti-entropy): robots periodically send
 /// digests of their sets, and a robot requests missing items from any one that holds them, maker or not.
@@ -93,7 +96,7 @@ class Reconcile {
     bool undelivered_reported = false;  ///< of the offer
   };
   enum class Source : std::uint8_t { kRequest, kDigest };
-  store::SeqSet accepted(const std::vector<Range>& ranges, Source source);
+  store::SeqSet accepted(const std::vector<SeqRange>& ranges, Source source);
   void update_undelivered(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
   void update_pending(Peer& peer, const store::Store& store, Stamp now);
   /// Sends the next digest after the shortest period.

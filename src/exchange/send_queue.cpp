@@ -34,17 +34,17 @@ SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
   struct Visitor {
     Subject operator()(const graph::Node& m) const { return {m.id, 0}; }
     Subject operator()(const graph::Alignment& m) const { return {{m.computed_by, m.seq}, 0}; }
-    Subject operator()(const ProximityMatch& m) const { return {m.theirs, m.ours.seq}; }
+    Subject operator()(const messages::ProximityMatch& m) const { return {m.theirs, m.ours.seq}; }
     Subject operator()(const CloudFragment& m) const { return {m.node, m.index}; }
-    Subject operator()(const CloudRequest& m) const { return {m.node, 0}; }
-    Subject operator()(const Digest&) const { return {}; }
-    Subject operator()(const ItemRequest&) const { return {}; }
-    Subject operator()(const AgentStatus&) const { return {}; }
-    Subject operator()(const MissionReport&) const { return {}; }
-    Subject operator()(const Hold&) const { return {}; }
-    Subject operator()(const SubmapDigest&) const { return {}; }
-    Subject operator()(const SubmapRequest& m) const { return {m.node, m.offset}; }
-    Subject operator()(const SubmapChunk& m) const { return {m.node, m.offset}; }
+    Subject operator()(const messages::CloudRequest& m) const { return {m.node, 0}; }
+    Subject operator()(const messages::Digest&) const { return {}; }
+    Subject operator()(const messages::ItemRequest&) const { return {}; }
+    Subject operator()(const messages::AgentStatus&) const { return {}; }
+    Subject operator()(const messages::MissionReport&) const { return {}; }
+    Subject operator()(const messages::Hold&) const { return {}; }
+    Subject operator()(const messages::SubmapDigest&) const { return {}; }
+    Subject operator()(const messages::SubmapRequest& m) const { return {m.node, m.offset}; }
+    Subject operator()(const messages::SubmapChunk& m) const { return {m.node, m.offset}; }
   };
   const Subject subject = std::visit(Visitor{}, outgoing.message);
   return {outgoing.message.index(), outgoing.to.value_or(AgentId{}), subject.node, subject.part};

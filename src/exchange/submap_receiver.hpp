@@ -10,12 +10,16 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/submap_transfer_config.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 #include "neighbour_table.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::SubmapChunk;
+using messages::SubmapDigest;
+using messages::SubmapRequest;
 
 /// Fetches the submaps that this robot lacks from robots in reach that hold them, maker or not. Limits the
 /// bytes under way by one congestion window for each peer, since each may be behind another path, and one

@@ -9,12 +9,16 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/submap_transfer_config.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::SubmapChunk;
+using messages::SubmapDigest;
+using messages::SubmapRequest;
 
 /// Sends held submaps to the robots that request them, in turns, at the rate of the link.
 class SubmapSender {

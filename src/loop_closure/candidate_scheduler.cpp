@@ -115,7 +115,7 @@ std::optional<UncertainPose> CandidateScheduler::transform(const NodePair& pair)
 // ---- the match handshake
 // ----------------------------------------------------------------------------------------
 
-void CandidateScheduler::on_match(const exchange::ProximityMatch& match, Stamp now) {
+void CandidateScheduler::on_match(const messages::ProximityMatch& match, Stamp now) {
   const NodePair pair{match.theirs, match.ours};  // the sender's "ours" is our "theirs"
   if (match.to != self_ || pair.ours.agent != self_ || pair.theirs.agent != match.from) return;
   CandidateSet& candidates = state_->candidates;

@@ -19,7 +19,7 @@ const std::vector<std::string> kThree{"r1", "r2", "r3"};
 bool equal_contents(const SimFleet& fleet) {
   const auto& first = *fleet.robots().begin()->second.store;
   return fleet.all([&](const SimFleet::Robot& robot) {
-    const auto same_print = [&](const Range& range) {
+    const auto same_print = [&](const SeqRange& range) {
       return robot.store->node_print(range) == first.node_print(range) &&
              robot.store->alignment_print(range) == first.alignment_print(range);
     };

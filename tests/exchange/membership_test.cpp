@@ -16,8 +16,8 @@ const std::vector<AgentId> kFleet{kSelf, kPeer};
 
 TEST(Membership, KeepsTheRangesOfMembersAndCountsTheOthers) {
   Membership members(kSelf, kFleet);
-  const std::vector<Range> ranges{{kPeer, 0, 3}, {kStranger, 0, 9}, {kSelf, 2, 4}};
-  const std::vector<Range> expected{{kPeer, 0, 3}, {kSelf, 2, 4}};
+  const std::vector<SeqRange> ranges{{kPeer, 0, 3}, {kStranger, 0, 9}, {kSelf, 2, 4}};
+  const std::vector<SeqRange> expected{{kPeer, 0, 3}, {kSelf, 2, 4}};
   EXPECT_EQ(members.of_members(ranges), expected);
   EXPECT_EQ(members.strangers(), 1u);
 }

@@ -15,7 +15,7 @@ const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kMaker = agent("r3");
 const NodeId kNode{kMaker, 5};
 const Stamp kStart = stamp_from_ns(1'000'000'000'000);
 
-SubmapDigest digest(std::vector<Range> submaps, std::vector<AgentId> hears) {
+SubmapDigest digest(std::vector<SeqRange> submaps, std::vector<AgentId> hears) {
   return {kPeer, std::move(submaps), std::move(hears)};
 }
 

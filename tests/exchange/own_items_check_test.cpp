@@ -24,7 +24,7 @@ class OwnItemsCheckTest : public ::testing::Test {
       EXPECT_EQ(store_.put_node_with_submap(node, submap).value(), store::Put::kAdded);
     }
   }
-  std::vector<Event> on(std::vector<Range> nodes) {
+  std::vector<Event> on(std::vector<SeqRange> nodes) {
     return check_.on_digest({kPeer, std::move(nodes), {}}, store_);
   }
 

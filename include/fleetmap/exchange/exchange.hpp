@@ -14,12 +14,19 @@
 #include "fleetmap/exchange/exchange_events.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
 #include "fleetmap/exchange/loop_closer.hpp"
-#include "fleetmap/exchange/messages.hpp"
-#include "fleetmap/exchange/routing.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/messages/routing.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::AgentStatus;
+using messages::HoldOrder;
+using messages::Message;
+using messages::MissionReport;
+using messages::Outgoing;
+using messages::Reach;
 
 /// Exchange of one robot with the others, as a state machine: messages and time in, messages and events out.
 /// A message for one robot goes over the short range if the two are near (its digests arrive there and name

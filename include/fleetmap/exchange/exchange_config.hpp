@@ -12,11 +12,13 @@
 #include "fleetmap/exchange/cloud_transfer_config.hpp"
 #include "fleetmap/exchange/item_proof.hpp"
 #include "fleetmap/exchange/long_range_config.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/exchange/reconcile_config.hpp"
 #include "fleetmap/exchange/submap_transfer_config.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Message;
 
 struct ExchangeConfig {
   std::vector<AgentId> fleet;  ///< every agent, this one too; messages and items of others are refused

@@ -8,11 +8,16 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/exchange/item_proof.hpp"
-#include "fleetmap/exchange/messages.hpp"
-#include "fleetmap/exchange/routing.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/messages/routing.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::AgentStatus;
+using messages::HoldOrder;
+using messages::MissionReport;
+using messages::Reach;
 
 /// A node of another robot was stored, or an own one that others returned after our store was lost.
 struct NodeAdded {

@@ -8,9 +8,12 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::Hold;
+using messages::HoldOrder;
 
 /// Whether order `a` replaces order `b` for the same robots. The later stamp wins; at equal stamps an order
 /// to stop wins.

@@ -7,11 +7,13 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::ProximityMatch;
 
 /// A node of this robot and one of another. Both robots form the same pair from the same nodes.
 struct NodePair {

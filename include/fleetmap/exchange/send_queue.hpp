@@ -18,9 +18,13 @@
 #include "fleetmap/exchange/long_range_config.hpp"
 #include "fleetmap/exchange/pace.hpp"
 #include "fleetmap/exchange/priority.hpp"
-#include "fleetmap/exchange/routing.hpp"
+#include "fleetmap/messages/routing.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::CloudFragment;
+using messages::Message;
+using messages::Outgoing;
 
 /// Queue of the long-range link, which keeps to this robot's share of the fleet's budget.
 ///

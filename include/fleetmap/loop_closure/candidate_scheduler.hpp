@@ -59,7 +59,7 @@ class CandidateScheduler final : public exchange::LoopCloser {
   void on_node(const graph::Node& node, Stamp now) override;
   void on_contested(const NodeId& node) override;
   void on_alignment(const graph::Alignment& alignment, Stamp now) override;
-  void on_match(const exchange::ProximityMatch& match, Stamp now) override;
+  void on_match(const messages::ProximityMatch& match, Stamp now) override;
   void on_heard(const AgentId& peer, Stamp now) override { heard_[peer] = now; }
   void on_cloud_request(const AgentId& peer, const NodeId& ours) override;
   void on_cloud(const NodeId& theirs, Bytes cloud) override;
