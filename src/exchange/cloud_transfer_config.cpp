@@ -6,6 +6,9 @@
 
 namespace fleetmap::exchange {
 
+using messages::CloudFragment;
+using messages::CloudRequest;
+
 namespace {
 
 constexpr std::size_t kMaxCloudBytes = CloudFragment::kMaxPayload * CloudRequest::kMaxMissing;

@@ -7,6 +7,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::AgentStatus;
+using messages::Reach;
+
 std::vector<AgentId> others_of(const std::vector<AgentId>& fleet, const AgentId& self) {
   std::vector<AgentId> others;
   std::ranges::remove_copy(fleet, std::back_inserter(others), self);

@@ -7,6 +7,8 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Reach;
+
 constexpr auto kNews = static_cast<std::size_t>(Priority::kNews);
 constexpr auto kBackfill = static_cast<std::size_t>(Priority::kBackfill);
 constexpr auto kCloud = static_cast<std::size_t>(Priority::kCloud);

@@ -7,6 +7,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Digest;
+using messages::SubmapChunk;
+using messages::SubmapDigest;
 using testing::agent;
 using testing::events;
 using testing::make_alignment;

@@ -10,6 +10,10 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::AgentStatus;
+using messages::CloudRequest;
+using messages::Hold;
+using messages::Reach;
 using testing::agent;
 
 const AgentId kSelf = agent("r1"), kNear = agent("r2"), kFar = agent("r3"), kElsewhere = agent("r4");

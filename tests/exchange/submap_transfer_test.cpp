@@ -9,6 +9,7 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::SubmapChunk;
 using testing::agent;
 using testing::SimFleet;
 
