@@ -105,9 +105,9 @@ Status Agent::start() {
       });
   if (config_.navigator) {
     if (!config_.site_origin) return failure(config_.id.str() + ": a mission needs site.origin");
-    auto navigator =
-        Navigator::create(*config_.navigator, config_.id, *config_.site_origin, bus_,
-                          [this](messages::MissionReport report) { exchange_->tell(std::move(report)); });
+    auto navigator = Navigator::create(
+        *config_.navigator, config_.id, *config_.site_origin, bus_,
+        [this](messages::MissionReport report) { exchange_->send_report(std::move(report)); });
     if (!navigator) return tl::unexpected(navigator.error());
     navigator_ = std::move(*navigator);
     for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
@@ -200,7 +200,7 @@ void Agent::navigate() {
   // What was seen since the last node belongs to the maps that are exchanged at the meeting.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
-  navigator_->tick(complete() && fleet_caught_up(), exchange_->even_with(bus_.now()));
+  navigator_->tick(complete() && fleet_caught_up(), exchange_->in_sync_with(bus_.now()));
 }
 
 bool Agent::numbers_run_out() const {

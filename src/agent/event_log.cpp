@@ -65,7 +65,7 @@ struct Log {
         "have signed them",
         self.str(), adopted.items.signed_own, adopted.items.dropped);
   }
-  void operator()(const exchange::OfferDoubted& doubted) const {
+  void operator()(const exchange::OfferUndelivered& doubted) const {
     spdlog::warn(
         "{}: {} offers {} nodes and {} alignments and does not deliver them: its link works one way, or its "
         "digests are "

@@ -60,7 +60,7 @@ void LivePlacement::solve(Job& job) {
   const CpuTimer timer(job.cpu_seconds);
   const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
   graph::Placement placement =
-      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
+      graph::compute_placement(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
   job.used = std::move(placement.used);
   const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/content_check.hpp"
+#include "content_check.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace fleetmap::exchange {
 namespace {
 
 constexpr std::uint32_t kParts = 8;     ///< that a range is cut into
-constexpr std::uint32_t kFewItems = 8;  ///< asked for instead of cutting further
+constexpr std::uint32_t kFewItems = 8;  ///< requested instead of cutting further
 constexpr std::size_t kMaxCuts = 64;    ///< of nodes, and of alignments
 constexpr Duration kCutsLast = std::chrono::minutes(2);
 constexpr Duration kFirstRest =
@@ -73,7 +73,7 @@ std::optional<ItemRequest> ContentCheck::ask(const AgentId& self, const AgentId&
   if ((peer.nodes.empty() && peer.alignments.empty()) || now < peer.resting_until) return std::nullopt;
   const auto few = [](const store::SeqSet& set) { return set.minus({}, kFewItems); };
   ItemRequest request{self, name, few(peer.nodes), few(peer.alignments)};
-  // What still differs then shows in the peer's next digest.
+  // Ranges that still differ then appear in the peer's next digest.
   peer.nodes = {};
   peer.alignments = {};
   peer.rest = std::clamp(2 * peer.rest, kFirstRest, kLongestRest);

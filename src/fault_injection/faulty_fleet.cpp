@@ -8,7 +8,7 @@
 #include "fleetmap/fault_injection/stand_in_signatures.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/sessions.hpp"
@@ -316,8 +316,8 @@ void FaultyFleet::finish_jobs() {
 }
 
 graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
-  return graph::place(output::nodes_of(*robot.store), output::alignments_of(*robot.store), survey_.site(),
-                      {});
+  return graph::compute_placement(output::nodes_of(*robot.store), output::alignments_of(*robot.store),
+                                  survey_.site(), {});
 }
 
 void FaultyFleet::place(const AgentId& name, Robot& robot) {

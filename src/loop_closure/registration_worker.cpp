@@ -8,7 +8,7 @@
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
-#include "fleetmap/loop_closure/cloud_drift.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
@@ -142,7 +142,7 @@ void RegistrationWorker::count(const Registration& registration) {
 void RegistrationWorker::note_refused_job() {
   --jobs_;
   ++counters_.failed;
-  spdlog::warn("{}: {} jobs wait already; one was let go", self_.str(), bus::Bus::kMostWork);
+  spdlog::warn("{}: {} jobs wait already; one was dropped", self_.str(), bus::Bus::kMostWork);
 }
 
 void RegistrationWorker::make_cloud(const graph::Node& node, OnCloud done) {

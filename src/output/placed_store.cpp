@@ -28,7 +28,8 @@ std::vector<graph::Alignment> alignments_of(const store::Store& store) {
 
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
                        const graph::PlacementConfig& config, std::span<const NodeId> covariance_of) {
-  return graph::place(nodes_of(store), alignments_of(store), LocalFrame(origin), config, covariance_of);
+  return graph::compute_placement(nodes_of(store), alignments_of(store), LocalFrame(origin), config,
+                                  covariance_of);
 }
 
 store::MergedMap main_map(store::Store& store, const graph::Placement& placement,

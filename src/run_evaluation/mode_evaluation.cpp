@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fleet_evaluation.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/sessions.hpp"
@@ -24,8 +24,8 @@ graph::Placement placed(const HeldFleet& held, graph::PlacementMethod method,
                         std::span<const NodeId> covariance_of) {
   graph::PlacementConfig config = held.recipe.placement;
   config.method = method;
-  return graph::place(output::nodes_of(held.store), held.alignments, LocalFrame(held.recipe.origin), config,
-                      covariance_of);
+  return graph::compute_placement(output::nodes_of(held.store), held.alignments,
+                                  LocalFrame(held.recipe.origin), config, covariance_of);
 }
 
 std::vector<NodeId> some_of(const eval::TruePoses& nodes) {

@@ -6,8 +6,8 @@
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
-#include "fleetmap/loop_closure/cloud_drift.hpp"
 #include "fleetmap/loop_closure/registered_alignment.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/registration_log.hpp"
 

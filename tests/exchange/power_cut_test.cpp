@@ -10,6 +10,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Digest;
+using messages::Hold;
+using messages::SubmapDigest;
 using testing::agent;
 using testing::PowerCutDisk;
 using testing::SimFleet;

@@ -118,7 +118,7 @@ class Agent {
   void handle(const exchange::PeerStatus&) {}
   void handle(const exchange::ItemRefused&) {}
   void handle(const exchange::ItemsAdopted&) {}
-  void handle(const exchange::OfferDoubted&) {}
+  void handle(const exchange::OfferUndelivered&) {}
   void handle(const exchange::OwnItemsElsewhere&) {}
   void handle(const exchange::StrangerHeard&) {}
   void handle(const exchange::AlignmentAdded&) {}

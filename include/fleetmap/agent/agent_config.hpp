@@ -9,7 +9,7 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/exchange.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/output/results.hpp"

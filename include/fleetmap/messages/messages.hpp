@@ -52,11 +52,12 @@ struct CloudFragment {
 
 /// `from` asks `to` for pieces of a cloud; no index means the whole.
 struct CloudRequest {
+  static constexpr std::size_t kMaxMissing = 256;
   AgentId from;
   AgentId to;
   NodeId node;
   std::vector<std::uint16_t> missing;
-  float worth = 0.0f;  ///< nats, of the alignment that `from` hopes for (graph::AlignmentWorth)
+  float information = 0.0f;  ///< nats, of the alignment that `from` hopes for (graph::InformationGain)
 };
 
 /// What `from` holds. Sent from time to time, so that whoever lacks something asks for it. Each range has a

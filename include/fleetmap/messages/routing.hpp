@@ -20,12 +20,12 @@ struct Outgoing {
 
 /// The link of a message for which there is no choice of links, or no other in reach.
 Reach usual_reach(const Message& message);
-/// What goes to all, but may be sent to one after the other: all such messages of the radio but orders, which
-/// operators hear too.
+/// Whether a message to all may go to one robot after the other: all such radio messages, except orders,
+/// which operators receive too.
 bool may_go_one_by_one(const Message& message);
-/// Who sent it; nothing for nodes and alignments, which any agent may pass on.
+/// Sender of a message; none for nodes and alignments, which any robot may pass on.
 std::optional<AgentId> sender_of(const Message& message);
-/// Whom it is for; nothing when it is for everyone.
+/// Recipient of a message; none if it is for all.
 std::optional<AgentId> recipient_of(const Message& message);
 
 }  // namespace fleetmap::messages

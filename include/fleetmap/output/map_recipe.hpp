@@ -4,7 +4,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 

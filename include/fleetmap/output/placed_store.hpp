@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/registration/registration_config.hpp"
 
 namespace fleetmap::run_evaluation {
