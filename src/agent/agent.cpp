@@ -12,6 +12,7 @@
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/graph/frame_name.hpp"
 
 namespace fleetmap::agent {
 namespace {
