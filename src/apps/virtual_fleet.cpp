@@ -7,6 +7,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/planning/mission/mission_complete.hpp"
