@@ -579,15 +579,18 @@ std::vector<Outgoing> Exchange::tick(Stamp now) {
 
 bool Exchange::complete(const std::set<AgentId>& without) const {
   if (!reconcile_.complete(*store_, without)) return false;
-  if (store_->submap_set().includes(store_->node_set())) return true;
   const auto gone = [&](const NodeId& id) {
     return without.contains(id.agent) && std::ranges::all_of(fleet_, [&](const AgentId& agent) {
              return agent == self_ || without.contains(agent) || submap_receiver_.lacks(agent, id);
            });
   };
-  return std::ranges::all_of(store_->nodes(), [&](const auto& entry) {
-    return store_->has_submap(entry.first) || gone(entry.first) || nowhere(entry.first, without);
-  });
+  for (const SeqRange& lacking : store_->node_set().minus(store_->submap_set())) {
+    for (NodeId id{lacking.agent, lacking.first}; id.seq < lacking.end; ++id.seq) {
+      // A contested name has no node.
+      if (store_->node(id) != nullptr && !gone(id) && !nowhere(id, without)) return false;
+    }
+  }
+  return true;
 }
 
 bool Exchange::nowhere(const NodeId& submap, const std::set<AgentId>& without) const {
