@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/output/placed_store.hpp"
 
 namespace fleetmap::agent {
 
@@ -34,7 +34,7 @@ bool LivePlacement::due() const {
 
 void LivePlacement::refresh(std::uint16_t session) {
   if (under_way_ || !due()) return;
-  const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
+  const std::optional<GeoPoint> origin = output::site_origin(store_, config_.site_origin);
   if (!origin) return;
   items_ = store_.revision();
   auto job = std::make_shared<Job>();
@@ -42,8 +42,8 @@ void LivePlacement::refresh(std::uint16_t session) {
   job->config = config_.placement;
   if (const std::uint32_t next = store_.next_node_seq(session); next != first_seq(session))
     job->newest = NodeId{config_.id, next - 1};
-  job->nodes = nodes_of(store_);
-  job->alignments = alignments_of(store_);
+  job->nodes = output::nodes_of(store_);
+  job->alignments = output::alignments_of(store_);
   under_way_ = true;
   const bool taken = bus_.offload(bus::Lane::kBackground, {"placement", [job] { solve(*job); }}, [this, job] {
     under_way_ = false;
@@ -60,7 +60,7 @@ void LivePlacement::solve(Job& job) {
   const CpuTimer timer(job.cpu_seconds);
   const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
   graph::Placement placement =
-      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
+      graph::compute_placement(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
   job.used = std::move(placement.used);
   const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {
@@ -78,7 +78,7 @@ void LivePlacement::solve(Job& job) {
   }
 }
 
-void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odometry) {
+void LivePlacement::publish(const graph::FrameId& frame, const output::StampedPose& odometry) {
   if (!solution_ || solution_->frame != frame) return;
   const LocalFrame site(solution_->origin);
   const Pose T_enu_base = solution_->T_enu_odom * odometry.T_w_base;
@@ -88,7 +88,7 @@ void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odom
   pose.q_enu_base =
       Eigen::Quaterniond(Eigen::Matrix3d(site.R_enu_local(pose.position).transpose() * T_enu_base.linear()));
   pose.covariance = solution_->covariance;
-  bus_.publish(wire::topics::corrected_pose(), wire::encode(pose));
+  bus_.publish(fleet_codec::topics::corrected_pose(), fleet_codec::encode(pose));
 }
 
 }  // namespace fleetmap::agent

@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "commands.hpp"
-#include "experiment/case.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/world_config.hpp"
+#include "fleetmap/experiment/case.hpp"
 #include "mission_setup.hpp"
 #include "network_check.hpp"
 #include "options.hpp"

@@ -7,7 +7,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/config/world_config.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "fleetmap/sim/parked_things.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "mission_setup.hpp"

@@ -2,7 +2,7 @@
 
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/planning/mission_config.hpp"
+#include "fleetmap/planning/mission/mission_config.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {

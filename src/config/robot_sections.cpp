@@ -296,7 +296,7 @@ void read_exchange(Section& top, agent::AgentConfig& agent) {
   double rate_mbit_s = exchange.submaps.bytes_per_second * 8e-6;
   short_range.read("rate_mbit_s", rate_mbit_s);
   exchange.submaps.bytes_per_second = rate_mbit_s * 125e3;
-  short_range.read("window_bytes", exchange.submaps.window.most_bytes);
+  short_range.read("window_bytes", exchange.submaps.window.max_bytes);
   short_range.read_seconds("peer_timeout", exchange.submaps.peer_timeout);
   short_range.finish();
   short_range.check(exchange.submaps.validate());

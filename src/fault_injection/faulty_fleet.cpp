@@ -4,14 +4,14 @@
 #include <cstdio>
 #include <utility>
 
-#include "fleetmap/agent/results.hpp"
-#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fault_injection/stand_in_signatures.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/map_merge.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -35,7 +35,7 @@ exchange::ExchangeConfig config_of(const Scenario& scenario, bool signatures) {
   config.long_range.max_small = 24;
   config.long_range.max_backfill = 32;
   config.long_range.max_fragments = 16;
-  config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
+  config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   return config;
 }
 
@@ -167,7 +167,7 @@ void FaultyFleet::start_robots() {
 }
 
 Result<std::uint16_t> FaultyFleet::draw_session(store::Store& store) {
-  auto sessions = agent::Sessions::load(store);
+  auto sessions = store::Sessions::load(store);
   if (!sessions) return tl::unexpected(sessions.error());
   return sessions->begin(store, [this] { return static_cast<std::uint16_t>(draws_.bits()); });
 }
@@ -208,7 +208,7 @@ void FaultyFleet::begin_session(const AgentId& name, Robot& robot) {
 void FaultyFleet::reissue(const AgentId& name, Robot& robot) {
   const exchange::NewNames names{
       robot.session, [&] { return draw_session(*robot.store); },
-      [](const graph::Alignment& alignment) { return wire::quantised(alignment); }};
+      [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
   const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, clock(robot));
   trace(name.str() +
         (told ? " names " + std::to_string(*told) + " items anew" : ": " + told.error().message));
@@ -222,24 +222,24 @@ void FaultyFleet::on_sent(const Packet& packet) {
   attacker_.overhear(packet);
 }
 
-std::shared_ptr<const exchange::Message> FaultyFleet::on_air(const Packet& packet) {
+std::shared_ptr<const messages::Message> FaultyFleet::on_air(const Packet& packet) {
   const bool lies = liars_.contains(packet.from);
-  const exchange::Message& message = packet.outgoing.message;
-  const Bytes cdr = wire::encode(lies ? attacker_.lie(message, packet.from) : message);
-  auto decoded = wire::decode_message(wire::topic_of(packet.outgoing), cdr);
+  const messages::Message& message = packet.outgoing.message;
+  const Bytes cdr = fleet_codec::encode(lies ? attacker_.lie(message, packet.from) : message);
+  auto decoded = fleet_codec::decode_message(fleet_codec::topic_of(packet.outgoing), cdr);
   if (!decoded) {
     if (!lies)
       monitor_.note(Invariant::kOwnItems, packet.from, now(),
                     "nobody decodes it: " + decoded.error().message);
     return nullptr;
   }
-  return std::make_shared<const exchange::Message>(std::move(*decoded));
+  return std::make_shared<const messages::Message>(std::move(*decoded));
 }
 
 std::vector<Duration> FaultyFleet::arrivals(const Packet& packet, const AgentId& to) {
   const std::size_t from = member(packet.from).index, receiver = member(to).index;
   const auto reach = packet.outgoing.reach;
-  if (reach == exchange::Reach::kShortRange && mapping_) {
+  if (reach == messages::Reach::kShortRange && mapping_) {
     const Eigen::Vector3d apart =
         survey_.T_enu_base(from, time()).translation() - survey_.T_enu_base(receiver, time()).translation();
     if (apart.norm() > kWifi) return {};
@@ -316,7 +316,8 @@ void FaultyFleet::finish_jobs() {
 }
 
 graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
-  return graph::place(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store), survey_.site(), {});
+  return graph::compute_placement(output::nodes_of(*robot.store), output::alignments_of(*robot.store),
+                                  survey_.site(), {});
 }
 
 void FaultyFleet::place(const AgentId& name, Robot& robot) {

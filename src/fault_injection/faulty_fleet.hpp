@@ -51,7 +51,7 @@ class FaultyFleet : private ExchangeFleet {
   };
 
   void on_sent(const Packet& packet) override;
-  std::shared_ptr<const exchange::Message> on_air(const Packet& packet) override;
+  std::shared_ptr<const messages::Message> on_air(const Packet& packet) override;
   std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) override;
   void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
   void on_received(const AgentId& name, Robot& robot, const loop_closure::ReceivedCloud& received) override;

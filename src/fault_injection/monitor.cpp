@@ -44,7 +44,7 @@ void Monitor::on_sent(const Packet& packet) {
   mix(std::hash<AgentId>{}(packet.from));
   mix(packet.outgoing.message.index());
   mix(packet.wire_bytes);
-  if (packet.outgoing.reach == exchange::Reach::kLongRange) note_radio(packet);
+  if (packet.outgoing.reach == messages::Reach::kLongRange) note_radio(packet);
   note_told(packet);
 }
 
@@ -65,10 +65,10 @@ void Monitor::note_told(const Packet& packet) {
   const auto insert = [](store::SeqSet& set, const std::vector<SeqRange>& ranges) {
     for (const SeqRange& range : ranges) set.insert(range);
   };
-  if (const auto* digest = std::get_if<exchange::Digest>(&packet.outgoing.message)) {
+  if (const auto* digest = std::get_if<messages::Digest>(&packet.outgoing.message)) {
     insert(told.nodes, digest->nodes);
     insert(told.alignments, digest->alignments);
-  } else if (const auto* submaps = std::get_if<exchange::SubmapDigest>(&packet.outgoing.message)) {
+  } else if (const auto* submaps = std::get_if<messages::SubmapDigest>(&packet.outgoing.message)) {
     insert(told.submaps, submaps->submaps);
   } else if (const auto* node = std::get_if<graph::Node>(&packet.outgoing.message)) {
     told.nodes.insert(node->id.agent, node->id.seq);

@@ -1,6 +1,7 @@
 #include "candidate_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fleetmap::loop_closure {
 
@@ -88,22 +89,25 @@ std::vector<NodePair> CandidateSet::rivals(const NodePair& pair) const {
   return under_way && !only.known_to_peer ? nearby : std::vector<NodePair>{};
 }
 
-std::size_t CandidateSet::room() const {
-  const auto waiting = static_cast<std::size_t>(std::ranges::count_if(
+bool CandidateSet::retryable(const NodePair& pair, const ScheduledCandidate& candidate) const {
+  return candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts && !redundant(pair);
+}
+
+std::size_t CandidateSet::waiting() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
       candidates_, [](const auto& entry) { return entry.second.phase == Phase::kWaiting; }));
-  return config_.max_waiting > waiting ? config_.max_waiting - waiting : 0;
+}
+
+std::size_t CandidateSet::room() const {
+  return config_.max_waiting - std::min(config_.max_waiting, waiting());
 }
 
 void CandidateSet::crowd_out() {
-  std::size_t waiting = 0;
-  auto oldest = candidates_.end();
-  for (auto it = candidates_.begin(); it != candidates_.end(); ++it) {
-    if (it->second.phase != Phase::kWaiting) continue;
-    ++waiting;
-    if (oldest == candidates_.end() || it->second.found < oldest->second.found) oldest = it;
-  }
-  if (waiting <= config_.max_waiting) return;
-  candidates_.erase(oldest);
+  if (waiting() <= config_.max_waiting) return;
+  const auto waiting_by_age = [](const auto& entry) {
+    return std::pair(entry.second.phase != Phase::kWaiting, entry.second.found);
+  };
+  candidates_.erase(std::ranges::min_element(candidates_, {}, waiting_by_age));
   ++crowded_out_;
 }
 

@@ -25,11 +25,14 @@ struct ScheduledCandidate {
   int matches_sent = 0;
   Stamp next_match;
   bool known_to_peer = false;
+
+  /// Its cloud is requested or being registered.
+  bool under_way() const { return phase == Phase::kRequested || phase == Phase::kRegistering; }
 };
 
-/// The candidates with other robots, at most one at a place: a candidate is redundant if another one of the
-/// same two robots lies nearer than the spacing at both ends. One that nothing has been requested for gives
-/// way to a better rival at its place.
+/// The candidates with other robots, thinned by distance: a candidate is redundant if another one of the
+/// same two robots lies nearer than the spacing at both ends. A better candidate replaces one whose cloud
+/// was not requested yet.
 class CandidateSet {
  public:
   using Phase = ScheduledCandidate::Phase;
@@ -50,8 +53,8 @@ class CandidateSet {
     for (auto& [pair, candidate] : candidates_) visit(pair, candidate);
   }
 
-  /// Adds a candidate that is neither known nor redundant. It takes the place of a rival that lies farther
-  /// apart, or matches less if both are descriptor matches.
+  /// Adds a candidate that is neither known nor redundant. It replaces a rival that lies farther apart, or
+  /// has a lower score if both are descriptor matches.
   void offer(const LoopCandidate& candidate, Stamp now);
   /// Adds it in any case, unless a node is unknown. The oldest one waiting is dropped if too many wait.
   void add(const LoopCandidate& candidate, Stamp found, bool known_to_peer);
@@ -68,10 +71,12 @@ class CandidateSet {
   bool is_aligned(const AgentId& peer) const { return aligned_.contains(peer); }
 
   bool redundant(const NodePair& pair) const { return !too_near(pair, 1).empty(); }
-  /// The candidate without which the pair would not be redundant, if it may give way; one at most.
+  /// The only candidate that makes the pair redundant, if it may be replaced; at most one.
   std::vector<NodePair> rivals(const NodePair& pair) const;
   /// Candidates that may wait besides those that do.
   std::size_t room() const;
+  /// A failed candidate that may be tried again.
+  bool retryable(const NodePair& pair, const ScheduledCandidate& candidate) const;
 
   std::uint64_t redundant_count() const { return redundant_; }
   std::uint64_t crowded_out_count() const { return crowded_out_; }
@@ -83,6 +88,8 @@ class CandidateSet {
   double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
   /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.
   Stamp replace_rival(const LoopCandidate& candidate, Stamp now);
+  std::size_t waiting() const;
+  /// Drops the oldest waiting candidate if too many wait.
   void crowd_out();
 
   const LoopClosureConfig& config_;

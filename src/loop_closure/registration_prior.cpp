@@ -14,7 +14,7 @@ constexpr double kMinSigma = 0.1;        // m
 constexpr double kMinAngle = 0.01;       // rad
 constexpr double kTransformSigma = 1.5;  // m, added to that of an inter-frame transform
 
-/// Errors of the relative pose that two descriptors give: cells and yaws are tried in coarse steps, and the
+/// Errors of the relative pose of two descriptors: it is searched in coarse cells and yaw steps, and the
 /// best match may be a few cells off.
 constexpr double kMatchSigma = 3.0;        // m
 constexpr double kMatchHeightSigma = 0.7;  // m: the ground under both is near

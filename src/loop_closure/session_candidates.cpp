@@ -8,8 +8,8 @@
 namespace fleetmap::loop_closure {
 namespace {
 
-/// In rows that repeat one descriptor match may be one row off; of several that agree the graph rejects the
-/// wrong one. One registration that a G found is enough.
+/// Accepted registrations until a session counts as joined. Among repeated rows one descriptor match may be
+/// one row off; of several that agree the graph rejects the wrong one. By G one is enough.
 constexpr int kMinByDescriptor = 3;
 
 using Side = DescriptorCandidates::Side;

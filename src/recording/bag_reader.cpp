@@ -174,7 +174,7 @@ class BagReader : public CheckedReader {
   std::optional<Sample> decode(Kind kind, ByteView cdr, const std::string& topic) {
     switch (kind) {
       case Kind::kScan: {
-        auto decoded = wire::decode_scan(cdr);
+        auto decoded = ros_codec::decode_scan(cdr);
         if (!decoded) return undecodable(topic, decoded.error());
         if (!admit_points(*decoded, "a scan on " + topic)) return std::nullopt;
         return Sample(std::move(decoded->scan));
@@ -190,7 +190,7 @@ class BagReader : public CheckedReader {
 
   template <class T>
   std::optional<Sample> sample_of(ByteView cdr, const std::string& topic) {
-    auto decoded = wire::decode<T>(cdr);
+    auto decoded = ros_codec::decode<T>(cdr);
     if (!decoded) return undecodable(topic, decoded.error());
     return Sample(std::move(*decoded));
   }

@@ -85,7 +85,7 @@ bool CheckedReader::admit(const Sample& sample) {
   return true;
 }
 
-bool CheckedReader::admit_points(const wire::DecodedScan& decoded, const std::string& where) {
+bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const std::string& where) {
   if (decoded.scan.points.empty()) {
     skip(&Counters::empty_scans, where + " has no return");
     return false;

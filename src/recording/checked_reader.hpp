@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 
 namespace fleetmap::recording {
 
@@ -22,7 +22,7 @@ class CheckedReader : public Reader {
   /// out again, as a live sensor's would come.
   bool admit(const Sample& sample);
   /// False, counted, for a scan without a return; else its dropped points are counted.
-  bool admit_points(const wire::DecodedScan& decoded, const std::string& where);
+  bool admit_points(const ros_codec::DecodedScan& decoded, const std::string& where);
   /// Counts, and logs the first of each kind.
   void skip(std::uint64_t Counters::*reason, const std::string& what, std::uint64_t count = 1);
 

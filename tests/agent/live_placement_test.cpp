@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fleetmap/bus/local_bus.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::agent {
@@ -24,8 +24,8 @@ class LivePlacementTest : public ::testing::Test {
     ASSERT_TRUE(network);
     network_ = std::move(*network);
     bus_ = &network_->add_robot(kSelf);
-    subscription_ = bus_->subscribe(wire::topics::corrected_pose(), [this](const Bytes& cdr) {
-      heard_.push_back(wire::decode<GlobalPose>(cdr).value());
+    subscription_ = bus_->subscribe(fleet_codec::topics::corrected_pose(), [this](const Bytes& cdr) {
+      heard_.push_back(fleet_codec::decode<GlobalPose>(cdr).value());
     });
     config_.id = kSelf;
     config_.site_origin = origin_;

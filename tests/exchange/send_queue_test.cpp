@@ -10,6 +10,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::CloudRequest;
+using messages::Digest;
+using messages::Hold;
 using testing::agent;
 
 const AgentId kSelf = agent("r1");

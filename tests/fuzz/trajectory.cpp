@@ -2,12 +2,13 @@
 #include "fleetmap/eval/trajectory.hpp"
 
 #include "checks.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fleetmap;
   static const fuzz::Folder folder;
   const auto file = folder.write("truth.tum", ByteView(data, size));
-  const auto trajectory = eval::read_tum(file);
+  const auto trajectory = output::read_tum(file);
   if (!trajectory) {
     fuzz::require(trajectory.error().message.starts_with(file.string()), "the error does not name the file");
     return 0;

@@ -11,7 +11,7 @@
 #include "fleetmap/bus/local_bus.hpp"
 #include "fleetmap/config/field_config.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/planning/mission_config.hpp"
+#include "fleetmap/planning/mission/mission_config.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 

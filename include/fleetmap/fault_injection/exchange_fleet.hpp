@@ -22,7 +22,7 @@ namespace fleetmap::fault_injection {
 struct Packet {
   Stamp at;
   AgentId from;
-  exchange::Outgoing outgoing;
+  messages::Outgoing outgoing;
   std::size_t wire_bytes = 0;  ///< on the radio with overhead and copies, on the short range the payload
 };
 
@@ -74,12 +74,12 @@ class ExchangeFleet {
   void lose_store(const AgentId& name) const;
 
   /// Arrives `delay` from now, from `from` as far as the link can tell.
-  void deliver(const AgentId& to, exchange::Reach reach, std::shared_ptr<const exchange::Message> message,
+  void deliver(const AgentId& to, messages::Reach reach, std::shared_ptr<const messages::Message> message,
                Duration delay, std::optional<AgentId> from = std::nullopt);
 
   virtual void on_sent(const Packet& packet) = 0;
   /// What of the message is on the air; nothing: it is not sent.
-  virtual std::shared_ptr<const exchange::Message> on_air(const Packet& packet);
+  virtual std::shared_ptr<const messages::Message> on_air(const Packet& packet);
   /// After which delays copies of `packet` arrive at `to`; none: it is lost.
   virtual std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) = 0;
   virtual void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) = 0;
@@ -96,8 +96,8 @@ class ExchangeFleet {
     Stamp at;
     std::uint64_t order;
     AgentId to;
-    exchange::Reach reach;
-    std::shared_ptr<const exchange::Message> message;
+    messages::Reach reach;
+    std::shared_ptr<const messages::Message> message;
     std::optional<AgentId> from;
     bool operator>(const Flight& other) const {
       return std::tie(at, order) > std::tie(other.at, other.order);
@@ -106,7 +106,7 @@ class ExchangeFleet {
   std::filesystem::path file(const AgentId& name, const std::string& end) const {
     return folder_ / (name.str() + end);
   }
-  void send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot);
+  void send(const AgentId& from, const messages::Outgoing& outgoing, const Robot& robot);
 
   std::filesystem::path folder_;
   Duration tick_;

@@ -2,9 +2,12 @@
 
 namespace fleetmap::graph {
 
-/// Products of the small blocks that a sparse factorisation is made of, column by column in memory, of 3 or 6
-/// rows and columns. On processors that have them, with wider registers: the same operations in the same
-/// order, never fused, so the same bits.
+/// Products of the small dense blocks of a sparse factorisation, stored column by column, of 3 or 6 rows and
+/// columns. Processors with AVX2 use wider registers; these compute the same operations in the same order,
+/// never fused, so all robots get the same bits.
+///
+/// Written by hand because fixed-size products of Eigen, compiled for any x86-64, take XXX as long
+/// (bench_cholesky), and compiled for AVX2 they would not run on other processors.
 struct BlockKernels {
   /// A_ik -= L_ij L_kj^T.
   using Subtract = void (*)(double* a_ik, const double* l_ij, const double* l_kj);
@@ -21,7 +24,9 @@ struct BlockKernels {
   }
 };
 
-/// Those of this processor.
+/// The kernels for this processor.
 const BlockKernels& block_kernels();
+/// The kernels that any processor runs.
+const BlockKernels& plain_block_kernels();
 
 }  // namespace fleetmap::graph
