@@ -14,21 +14,21 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fault_injection/draws.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
 #include "fleetmap/fault_injection/synthetic_survey.hpp"
-#include "fleetmap/graph/place.hpp"
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "store/items.hpp"
 
 namespace {
 
 using namespace fleetmap;
-using exchange::Reach;
 using fault_injection::Draws;
 using fault_injection::Packet;
+using messages::Reach;
 
 constexpr Duration kTick = std::chrono::milliseconds(100);  // as an agent's FleetLink
 constexpr double kSpacing = 6.0;                            // m between nodes
@@ -106,12 +106,12 @@ class Endurance : private fault_injection::ExchangeFleet {
   double hours() const { return to_seconds(now() - begun_) / 3600.0; }
   double seconds_of_placement() const {
     const store::Store& store = *first().store;
-    const auto nodes = agent::nodes_of(store);
-    const auto alignments = agent::alignments_of(store);
+    const auto nodes = output::nodes_of(store);
+    const auto alignments = output::alignments_of(store);
     double seconds = 0.0;
     {
       const CpuTimer timer(seconds);
-      graph::place(nodes, alignments, site_, {});
+      graph::compute_placement(nodes, alignments, site_, {});
     }
     return seconds;
   }
@@ -127,7 +127,9 @@ class Endurance : private fault_injection::ExchangeFleet {
     exchange::ExchangeConfig config;
     for (std::size_t k = 0; k < robots; ++k)
       config.fleet.push_back(AgentId::parse("r" + std::to_string(k + 1)).value());
-    config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
+    config.payload_size = [](const messages::Message& message) {
+      return fleet_codec::encode(message).size();
+    };
     return config;
   }
 
@@ -155,7 +157,7 @@ class Endurance : private fault_injection::ExchangeFleet {
       node.descriptor = random_bytes(draws_, 160);
       node.submap_hash = content_hash(submap);
       node.submap_bytes = static_cast<std::uint32_t>(submap.size());
-      const auto put = robot(name).exchange->on_own_node(wire::quantised(node).value(), submap, now());
+      const auto put = robot(name).exchange->on_own_node(fleet_codec::quantised(node).value(), submap, now());
       if (!put || *put != store::Put::kAdded) throw std::runtime_error(to_string(id) + " is not stored");
     }
     ++made_;
@@ -176,7 +178,7 @@ class Endurance : private fault_injection::ExchangeFleet {
       mode.inlier_fraction = 0.8;
       mode.score = 0.7;
       mode.covariance = covariance(kOdometrySigma);
-      const auto put = robot.exchange->on_own_alignment(wire::quantised(alignment).value(), now());
+      const auto put = robot.exchange->on_own_alignment(fleet_codec::quantised(alignment).value(), now());
       if (!put || *put != store::Put::kAdded) robot.loop_closer->on_rejected(job.pair, now());
     }
   }
