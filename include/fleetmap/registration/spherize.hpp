@@ -5,6 +5,7 @@
 #include <span>
 
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/fit_config.hpp"
 #include "fleetmap/cloud/ground.hpp"
 #include "fleetmap/cloud/outliers.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
