@@ -8,46 +8,13 @@
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/local_network_config.hpp"
+#include "fleetmap/bus/radio_config.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::bus {
-
-/// One radio channel that all robots share: one datagram is in the air at a time.
-struct RadioConfig {
-  double rate_bit_s = 200e3;  ///< bit/s, > 0
-  Duration delay =
-      std::chrono::milliseconds(20);  ///< from the end of a transmission to the receiver's callback
-  double loss = 0.0;                  ///< of one datagram, in [0, 1)
-  double max_range = 0.0;             ///< m; 0 is unlimited
-  std::size_t queue_capacity = 256;   ///< messages waiting at one robot; the oldest gives way
-  std::vector<std::string> reliable_profiles =
-      {};  ///< lost datagrams of these are sent again, at the cost of air
-  WireOverhead overhead;
-};
-
-struct LocalNetworkConfig {
-  RadioConfig long_range;
-  RadioConfig short_range{.rate_bit_s = 15e6,
-                          .delay = std::chrono::milliseconds(2),
-                          .loss = 0.0,
-                          .max_range = 90.0,  // C_max
-                          .queue_capacity = 512,
-                          .reliable_profiles = {"control", "bulk"},
-                          .overhead = {}};
-  std::size_t onboard_queue_capacity =
-      1024;                ///< messages of one topic not yet delivered; the oldest gives way
-  std::uint64_t seed = 1;  ///< of loss
-  Stamp start{};
-  /// Virtual time that an item of offloaded work takes, by lane, whatever the machine needs for it.
-  Duration perception_time{};
-  Duration background_time{};
-  /// Threads for offloaded work, beside the one that runs the events. Has no influence on what comes out.
-  unsigned threads = 0;
-  /// Names the field and the rule that it breaks.
-  Status validate() const;
-};
 
 /// Metres in the ENU frame of the site.
 struct EnuPosition {
@@ -65,7 +32,7 @@ struct Blackout {
   std::optional<AgentId> agent;
 };
 
-/// What one topic of one robot cost on one radio.
+/// The cost of one topic of one robot on one radio.
 struct LinkUse {
   AgentId agent;
   Link link = Link::kLongRange;
@@ -78,12 +45,12 @@ struct LinkUse {
 };
 
 /// A fleet in one process in virtual time: an event queue, and a Bus per robot over simulated links. The same
-/// calls with the same seed give the same run, whatever the machine and the number of threads. Not
+/// calls with the same seed give the same run, on any machine and with any number of threads. Not
 /// thread-safe; events at one instant run in the order in which they were scheduled.
 ///
 /// Onboard messages arrive at the instant they are published. On a radio a message goes once to each robot
-/// that subscribes to its topic and is in reach; robots with something to send take turns. A robot without a
-/// known position is out of reach of every radio that has a max_range.
+/// that subscribes to its topic and is in reach; robots with waiting messages take turns. A robot without a
+/// position is out of reach of every radio that has a max_range.
 class LocalNetwork {
  public:
   static Result<std::unique_ptr<LocalNetwork>> create(const LocalNetworkConfig& config);

@@ -1,4 +1,4 @@
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 
 #include <gmock/gmock.h>
 

@@ -8,13 +8,13 @@
 
 namespace fleetmap::bus {
 
-/// Where Fast DDS keeps its segments.
+/// Folder of Fast DDS's segments.
 inline constexpr const char* kSharedMemory = "/dev/shm";
 
 /// Removes segments whose process was killed before it could: Fast DDS never does, and each is as large as
-/// the profile says. A segment is alive while its process holds the lock on the empty file beside it, which
-/// it makes a moment before: none that is younger than `being_made` is touched. Returns how many were
-/// removed.
+/// the profile sets. A segment is alive while its process holds the lock on the empty file beside it, which
+/// it makes a moment before: none that is younger than `being_made` is touched. Returns the number of removed
+/// segments.
 std::size_t remove_dead_segments(const std::filesystem::path& folder = kSharedMemory,
                                  std::chrono::seconds being_made = std::chrono::seconds(5));
 
