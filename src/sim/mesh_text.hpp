@@ -11,11 +11,6 @@
 
 namespace fleetmap::sim {
 
-/// Parsers of a file's whole content. Errors begin with ":line: " or ": byte n: ", to be put behind the
-/// file's name.
-Result<Mesh> parse_obj(std::string_view content);
-Result<Mesh> parse_ply(std::string_view content);
-
 inline tl::unexpected<Error> failure_at_line(std::size_t line, const std::string& what) {
   std::string where = ":";
   where += std::to_string(line);
@@ -27,7 +22,7 @@ inline tl::unexpected<Error> failure_at_byte(std::size_t byte, const std::string
   return failure(where.append(": ").append(what));
 }
 
-/// What a file holds, for a message: in quotes, at most 40 characters.
+/// Quotes a file's content for a message: at most 40 characters.
 inline std::string in_quotes(std::string_view text) {
   std::string result = "'";
   return result.append(text.substr(0, 40)).append("'");
