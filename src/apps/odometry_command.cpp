@@ -14,7 +14,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/recording/play_times.hpp"

@@ -9,7 +9,12 @@
 #include <string>
 
 #include "commands.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/mission_settings.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/eval/picture.hpp"
 #include "fleetmap/planning/geojson.hpp"
 #include "mission_setup.hpp"

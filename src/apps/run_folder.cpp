@@ -8,7 +8,7 @@
 
 #include "experiment/csv_line.hpp"
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/file_hash.hpp"
 #include "fleetmap/sim/ground_truth.hpp"

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
 #include "fleetmap/wire/sensors.hpp"

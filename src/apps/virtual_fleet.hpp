@@ -10,7 +10,7 @@
 #include "fleet_feed.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/results.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 

@@ -7,6 +7,9 @@
 #include "experiment/field_measures.hpp"
 #include "experiment/run_case.hpp"
 #include "fleetmap/config/field_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/input_fingerprint.hpp"
+#include "fleetmap/config/override.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {
