@@ -5,9 +5,8 @@
 
 namespace fleetmap::fault_injection {
 
-/// A SQLite file system (VFS) over the system's own that has no room left or is read-only when it is told so,
-/// and that syncs nothing: virtual time has no power cuts. One object a disk; it must outlive the stores on
-/// it.
+/// A SQLite file system (VFS) over the system's own that can be set full or read-only, and that syncs
+/// nothing, because virtual time has no power cuts. One object a disk; it must outlive the stores on it.
 class FaultyFileSystem {
  public:
   FaultyFileSystem();

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "draws.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/fault_injection/draws.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
@@ -16,9 +16,9 @@
 
 namespace fleetmap::fault_injection {
 
-/// What robots that drive ellipses beside each other would map, without sensors: nodes with odometry that
-/// drifts and GPS that errs, submaps of a few random points, and registrations that give the true relative
-/// pose with noise, two modes, or nothing.
+/// The items of robots that drive ellipses beside each other, without sensors: nodes with drifting odometry
+/// and GPS errors, submaps of a few random points, and registrations with the true relative pose and noise,
+/// with two modes, or without result.
 class SyntheticSurvey {
  public:
   SyntheticSurvey(std::uint64_t seed, std::size_t robots);
@@ -40,7 +40,7 @@ class SyntheticSurvey {
 
   /// The encoded cloud around a node, as its robot sends it.
   static Bytes cloud_around(const NodeId& id);
-  /// What registering the clouds of the pair gives its first robot; nothing when it is rejected.
+  /// The alignment by the pair's first robot; empty when it is rejected.
   std::optional<graph::Alignment> registration(const exchange::NodePair& pair, std::uint32_t seq);
   static Result<cloud::PointCloud> decode_submap(ByteView encoded);
 
