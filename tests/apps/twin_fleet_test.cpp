@@ -9,7 +9,7 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/agent/trajectory_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "small_twin.hpp"
