@@ -67,7 +67,7 @@ void try_seed(const Scenario& scenario, const RunConfig& config, bool shrinks, T
       outcome.violations.empty() ? std::string() : failure_report(scenario, outcome, config, shrinks);
   const std::lock_guard lock(totals.mutex);
   totals.longest = std::max(totals.longest, to_seconds(outcome.converged_after));
-  totals.most_bytes_per_second = std::max(totals.most_bytes_per_second, outcome.most_bytes_per_second);
+  totals.max_bytes_per_second = std::max(totals.max_bytes_per_second, outcome.max_bytes_per_second);
   totals.nodes += outcome.nodes;
   totals.packets += outcome.packets;
   if (failure.empty()) return;
@@ -102,7 +102,7 @@ int fuzz(const FuzzOptions& options) {
   std::cout << std::fixed << std::setprecision(1) << options.seeds << " seeds, " << totals.failed
             << " failed; " << totals.nodes << " nodes, " << totals.packets
             << " packets; the slowest converged after " << totals.longest << " s, the busiest second had "
-            << totals.most_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
+            << totals.max_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
   return totals.failed == 0 ? kDone : kFailed;
 }
 

@@ -5,7 +5,10 @@
 
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/sim/site_drawing.hpp"

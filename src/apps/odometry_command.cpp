@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/output/trajectory_file.hpp"

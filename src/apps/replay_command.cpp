@@ -5,7 +5,8 @@
 
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "live_bus.hpp"

@@ -9,7 +9,7 @@
 
 #include "fleet_feed.hpp"
 #include "fleetmap/agent/agent.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/results.hpp"

@@ -7,7 +7,8 @@
 
 #include "commands.hpp"
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "fleetmap/planning/site/geojson_writer.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh_file.hpp"

@@ -1,10 +1,10 @@
-// What of a robot's configuration must agree with that of the others.
+#include "fleetmap/config/fleet_agreement.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/output/map_recipe.hpp"
@@ -29,7 +29,7 @@ std::uint32_t hash_of(std::vector<AgentId> fleet) {
   return hash_of(names);
 }
 
-/// Of what output::keep_recipe() keeps, but for the voxel.
+/// Hash of the recipe that output::keep_recipe() keeps, except for the voxel.
 std::uint16_t hash_of_placement(const agent::AgentConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::max();
   const GeoPoint origin = config.site_origin.value_or(GeoPoint{kNone, kNone, kNone});

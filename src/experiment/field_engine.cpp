@@ -6,6 +6,9 @@
 #include "child_process.hpp"
 #include "field_measures.hpp"
 #include "fleetmap/config/field_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/input_fingerprint.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/experiment/run_case.hpp"
 
 namespace fleetmap::experiment {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "fleetmap/fault_injection/draws.hpp"
+#include "draws.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
 
 namespace fleetmap::fault_injection {
 
-/// Packets of a radio that nobody of the fleet owns, and lies of a robot that is one of the fleet.
+/// Packets of a sender outside the fleet, and false packets of a robot of the fleet.
 class Attacker {
  public:
   /// `signatures`: robots sign their items.
@@ -23,11 +23,11 @@ class Attacker {
     messages::Reach reach;
     std::shared_ptr<const messages::Message> message;
   };
-  /// Of nobody of the fleet: own messages and items, and recorded ones again.
+  /// A packet of a sender outside the fleet: with items of its own, or a recorded one.
   std::optional<Injected> stranger();
   /// In the name of a robot of the fleet: items with numbers of its, digests, damaged packets.
   std::optional<Injected> forged();
-  /// What the lying robot `liar` sends instead.
+  /// The packet that the lying robot `liar` sends instead.
   messages::Message lie(messages::Message message, const AgentId& liar);
 
  private:

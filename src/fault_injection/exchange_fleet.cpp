@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kDatabase = ".db";
 constexpr const char* kLog = ".db-wal";
 
-/// Of a file that is not there, none.
+/// Empty for a missing file.
 void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::filesystem::remove(to);
   if (std::filesystem::exists(from)) std::filesystem::copy_file(from, to);

@@ -5,7 +5,7 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr double kLeastDelay = 0.005, kMostDelay = 0.06;  // s, without faults
+constexpr double kMinDelay = 0.005, kMaxDelay = 0.06;  // s, without faults
 constexpr std::uint64_t kLinkStream = 5;
 
 bool names(const Fault& fault, std::size_t robot) { return std::ranges::count(fault.robots, robot) > 0; }
@@ -42,7 +42,7 @@ std::vector<Duration> LinkFaults::arrivals(std::size_t from, std::size_t to, mes
   }
   std::vector<Duration> delays;
   for (int k = 0; k < copies; ++k)
-    delays.push_back(from_seconds(draws.between(kLeastDelay, kMostDelay) + draws.between(0.0, more_delay)));
+    delays.push_back(from_seconds(draws.between(kMinDelay, kMaxDelay) + draws.between(0.0, more_delay)));
   return delays;
 }
 

@@ -4,13 +4,13 @@
 #include <tuple>
 #include <vector>
 
-#include "fleetmap/fault_injection/draws.hpp"
+#include "draws.hpp"
 #include "fleetmap/fault_injection/scenario.hpp"
 #include "fleetmap/messages/routing.hpp"
 
 namespace fleetmap::fault_injection {
 
-/// What the faults under way do to packets. Each link has random numbers of its own, so that to leave out a
+/// The effect of the active faults on packets. Each link has random numbers of its own, so that leaving out a
 /// fault changes little else.
 class LinkFaults {
  public:

@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/synthetic_survey.hpp"
+#include "synthetic_survey.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -142,7 +142,7 @@ void RegistrationWorker::count(const Registration& registration) {
 void RegistrationWorker::note_refused_job() {
   --jobs_;
   ++counters_.failed;
-  spdlog::warn("{}: {} jobs wait already; one was dropped", self_.str(), bus::Bus::kMostWork);
+  spdlog::warn("{}: {} jobs wait already; one was dropped", self_.str(), bus::Bus::kMaxWork);
 }
 
 void RegistrationWorker::make_cloud(const graph::Node& node, OnCloud done) {

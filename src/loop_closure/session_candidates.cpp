@@ -41,7 +41,7 @@ void SessionCandidates::on_accepted(const graph::Node& earlier, const graph::Nod
 }
 
 bool SessionCandidates::located(const graph::Node& node) const {
-  return place::tells_place(node.G, config_.max_sigma_m);
+  return place::has_known_position(node.G, config_.max_sigma_m);
 }
 
 std::optional<LoopCandidate> SessionCandidates::nearest(const graph::Node& node) const {

@@ -127,7 +127,7 @@ class BagReader : public CheckedReader {
   std::optional<Stamp> recorded() const override { return recorded_; }
 
  private:
-  /// One message further; empty when it gave no sample.
+  /// Advances by one message; empty when it yields no sample.
   Result<std::optional<Sample>> advance() {
     if (!split_) {
       if (next_file_ == files_.size()) {
@@ -240,7 +240,7 @@ Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wan
     if (!found) return tl::unexpected(found.error());
     topics.insert(found->begin(), found->end());
   }
-  auto kinds = choose_topics({topics.begin(), topics.end()}, wanted, path.string());
+  auto kinds = select_topics({topics.begin(), topics.end()}, wanted, path.string());
   if (!kinds) return tl::unexpected(kinds.error());
   return std::make_unique<BagReader>(path.string(), std::move(*files), std::move(*kinds));
 }

@@ -10,7 +10,7 @@
 
 namespace fleetmap::recording {
 
-/// What every reader does with a sample before giving it out, and how it says what it left out.
+/// Checks that every reader applies to a sample, and the log of what they leave out.
 class CheckedReader : public Reader {
  public:
   explicit CheckedReader(std::string source) : source_(std::move(source)) {}

@@ -42,7 +42,7 @@ Result<ros_codec::DecodedScan> read_bin(const Bytes& bytes, const std::string& f
   return out;
 }
 
-/// Where a PCD header says that things are.
+/// Positions of fields by a PCD header.
 struct PcdHeader {
   std::size_t points = 0;
   std::size_t step = 0;              ///< bytes of a point

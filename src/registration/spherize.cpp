@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fleetmap/cloud/encode_within.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::registration {

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/file_hash.hpp"
 #include "fleetmap/eval/csv_line.hpp"

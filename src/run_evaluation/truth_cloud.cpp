@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh.hpp"
 #include "fleetmap/sim/mesh_file.hpp"

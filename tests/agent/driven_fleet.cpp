@@ -4,7 +4,8 @@
 #include <stdexcept>
 #include <variant>
 
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
@@ -43,7 +44,7 @@ DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kO
     twin.vehicle.command_timeout = 0.0;
     twin.lidar.rate = options.lidar_rate;
     twin.gps.fitted = !options.guided;
-    twin.start_given = true;
+    twin.has_start = true;
     twin.start = lane.from;
     twin.start_yaw = std::atan2(along.y(), along.x());
     planning::RobotAbility ability;

@@ -7,7 +7,7 @@
 #include "apps/small_twin.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/messages/messages.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/agent/fleet_link.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"

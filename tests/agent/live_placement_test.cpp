@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "store/items.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "bus/dds_domains.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/trajectory_file.hpp"

@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "draws.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/fault_injection/draws.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
-#include "fleetmap/fault_injection/synthetic_survey.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "store/items.hpp"
+#include "synthetic_survey.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"

@@ -12,14 +12,14 @@
 #include <string>
 
 #include "bench/twin_drive.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace {
 
@@ -96,7 +96,7 @@ class Bag {
   template <typename Sample>
   void add(const bus::Topic& topic, const Sample& sample, Stamp due) {
     last_ = std::max(last_, due);
-    if (status_) status_ = writer_.write(topic.name, topic.type, last_, wire::encode(sample));
+    if (status_) status_ = writer_.write(topic.name, topic.type, last_, fleet_codec::encode(sample));
   }
   Status close() { return status_ ? writer_.close() : status_; }
 
@@ -118,7 +118,7 @@ Status export_drive(const Options& options, Files& files) {
   auto writer = recording::BagWriter::create(options.out / "bag");
   if (!writer) return tl::unexpected(writer.error());
   Bag bag(std::move(*writer));
-  std::vector<agent::StampedPose> truth;
+  std::vector<output::StampedPose> truth;
 
   const auto scene = sim::Scene::create((*world)->mesh());
   testing::TwinDrive twin(*world, *scene, testing::drive_robot(*lidar, seed), testing::first_lane_of(seed),
@@ -126,14 +126,14 @@ Status export_drive(const Options& options, Files& files) {
   testing::TwinDrive::Listener listener;
   listener.imu = [&](const sensor::Imu& imu) {
     files.add(imu);
-    bag.add(wire::topics::imu(), imu, imu.stamp);
+    bag.add(ros_codec::topics::imu(), imu, imu.stamp);
   };
   listener.wheel = [&](const sensor::Wheel& wheel) {
-    bag.add(wire::topics::wheel_odometry(), wheel, wheel.stamp);
+    bag.add(ros_codec::topics::wheel_odometry(), wheel, wheel.stamp);
   };
   listener.scan = [&](const sensor::Scan& scan, const Pose& T_enu_base) {
     truth.push_back({scan.stamp, T_enu_base});
-    bag.add(wire::topics::points(), scan, sensor::end_of(scan));
+    bag.add(ros_codec::topics::points(), scan, sensor::end_of(scan));
     files.add(scan);
   };
   if (!twin.run(listener)) return failure(options.source + ": the robot got stuck");

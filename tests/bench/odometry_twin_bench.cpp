@@ -12,7 +12,7 @@
 
 #include "bench/twin_drive.hpp"
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"

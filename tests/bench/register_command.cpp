@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "registration/encounter_worlds.hpp"
 #include "registration/made_world.hpp"

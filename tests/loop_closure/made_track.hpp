@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/store/store.hpp"
 #include "registration/made_world.hpp"

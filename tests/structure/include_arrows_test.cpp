@@ -49,7 +49,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
 /// Third-party headers that only the named places may include.
 const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<(fastdds|fastrtps)/", {"src/bus/dds"}},
-    {"^\"fleetmap/bus/dds_bus", {"src/bus/dds", "include/fleetmap/config", "src/config", "src/apps"}},
+    {"^\"fleetmap/bus/dds_bus\\.", {"src/bus/dds", "src/apps"}},
     {"^\"\\.\\./", {}},
     {"^<fastcdr/", {"include/fleetmap/bus/cdr.hpp", "src/bus/dds/hello.cpp"}},
     {"^[<\"]yaml-cpp/", {"src/config", "src/recording"}},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fleetmap/config/experiment_config.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::experiment {

@@ -73,19 +73,19 @@ class ExchangeFleet {
   void put_back_store(const AgentId& name, const std::string& copy) const;
   void lose_store(const AgentId& name) const;
 
-  /// Arrives `delay` from now, from `from` as far as the link can tell.
+  /// Delivers after `delay`, from `from` if the link can name the sender.
   void deliver(const AgentId& to, messages::Reach reach, std::shared_ptr<const messages::Message> message,
                Duration delay, std::optional<AgentId> from = std::nullopt);
 
   virtual void on_sent(const Packet& packet) = 0;
-  /// What of the message is on the air; nothing: it is not sent.
+  /// The message as it goes on the air; null: it is not sent.
   virtual std::shared_ptr<const messages::Message> on_air(const Packet& packet);
   /// After which delays copies of `packet` arrive at `to`; none: it is lost.
   virtual std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) = 0;
   virtual void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) = 0;
   virtual void on_received(const AgentId& name, Robot& robot,
                            const loop_closure::ReceivedCloud& received) = 0;
-  /// Passes on what the robot's exchange and loop closing have to tell.
+  /// Passes on the events of the robot's exchange and loop closing.
   void pass_on(const AgentId& name, Robot& robot);
 
   exchange::ExchangeConfig config_;              ///< of the robots that start from now on

@@ -4,6 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/fit_config.hpp"
+#include "fleetmap/cloud/ground.hpp"
+#include "fleetmap/cloud/outliers.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"

@@ -4,7 +4,7 @@
 
 namespace fleetmap::trust {
 
-/// What a signature of an item is for; a signature of one kind is none of another.
+/// The kind of item that is signed; a signature of one kind is invalid for another.
 enum class ItemKind : std::uint8_t { kNode = 1, kAlignment = 2 };
 
 /// The maker's signature of an item that travels through third robots: Ed25519 of "fleetmap item 1", fleet,
