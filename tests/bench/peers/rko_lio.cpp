@@ -10,6 +10,9 @@ using rko_lio::core::LIO;
 using rko_lio::core::Nsec;
 using rko_lio::core::Scalar;
 
+/// Recordings may begin at 0 s, where it takes times since the start of a sweep for absolute ones.
+constexpr Nsec kEpoch = std::chrono::seconds(1000);
+
 Sophus::SE3s to_sophus(const Eigen::Isometry3d& T) {
   return {Eigen::Quaternion<Scalar>(Eigen::Quaterniond(T.linear()).cast<Scalar>()),
           Eigen::Matrix<Scalar, 3, 1>(T.translation().cast<Scalar>())};
@@ -25,13 +28,14 @@ class RkoLio final : public Peer {
 
   bool wants_imu() const override { return imu_; }
   void add(const PeerImu& imu) override {
-    lio_.add_imu_measurement(T_base_imu_, {.time = Nsec(imu.stamp),
+    lio_.add_imu_measurement(T_base_imu_, {.time = kEpoch + Nsec(imu.stamp),
                                            .acceleration = imu.specific_force.cast<Scalar>(),
                                            .angular_velocity = imu.angular_velocity.cast<Scalar>()});
   }
   Eigen::Isometry3d add(const PeerScan& scan) override {
     const std::vector<double> times(scan.times.begin(), scan.times.end());
-    const auto stamps = rko_lio::core::process_timestamps(times, Nsec(scan.start), {.force_relative = true});
+    const auto stamps =
+        rko_lio::core::process_timestamps(times, kEpoch + Nsec(scan.start), {.force_relative = true});
     rko_lio::core::Vector3sVector points(scan.points.begin(), scan.points.end());
     try {
       lio_.register_scan(T_base_lidar_, std::move(points), stamps);

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # fleetmap and its peers on the same scans, one process at a time: prints "drive odometry | CPU and peak | errors".
 #   run.sh PROJECT_BUILD PEERS_BUILD OUT [ODOMETRY...]     SEEDS="1 2 3 4 5" LENGTH=60 DRIVES="uneven kitti farm_60 ..."
-#   USE="alone not_compensated imu wheels both": what fleetmap uses.
 # The trajectories stay in OUT; scans are kept, too (0.7 GB a twin drive of 60 m), so that it can be called again.
 set -euo pipefail
 build=$1 peers=$2 out=$3
@@ -77,15 +76,11 @@ for odometry in $odometries; do
     alone=(--set odometry.use_imu=false --set odometry.use_wheel=false)
     case $odometry in
       ours)
-        for use in ${USE:-alone not_compensated imu wheels both}; do
-          case $use in
-            alone) ours "$drive" fleetmap "${alone[@]}" ;;
-            not_compensated) ours "$drive" fleetmap_not_compensated "${alone[@]}" --set odometry.deskew=false ;;
-            imu) ours "$drive" fleetmap_imu --set odometry.use_wheel=false ;;
-            wheels) ours "$drive" fleetmap_wheels --set odometry.use_imu=false ;;
-            both) ours "$drive" fleetmap_both ;;
-          esac
-        done ;;
+        ours "$drive" fleetmap "${alone[@]}"
+        ours "$drive" fleetmap_not_compensated "${alone[@]}" --set odometry.deskew=false
+        ours "$drive" fleetmap_imu --set odometry.use_wheel=false
+        ours "$drive" fleetmap_wheels --set odometry.use_imu=false
+        ours "$drive" fleetmap_both ;;
       rko)
         peer "$drive" rko_lio peer_rko_lio
         peer "$drive" rko_lio_imu peer_rko_lio imu=1 ;;
