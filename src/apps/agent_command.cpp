@@ -119,7 +119,7 @@ int run(const AgentOptions& options) {
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  const auto results = output::write_results((*agent)->store(), (*agent)->config().results().results());
+  const auto results = output::write_results((*agent)->store(), (*agent)->config().results());
   if (!results) spdlog::warn("{}", results.error().message);
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
                                       radio_access(config->dds, **bus), (*bus)->stalls());

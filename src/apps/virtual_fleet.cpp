@@ -7,6 +7,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/planning/mission/mission_complete.hpp"
@@ -292,7 +293,7 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   result.directory = self.agent->config().directory;
   auto written = [&] {
     const CpuTimer timer(results_seconds_);
-    return output::write_results(self.agent->store(), self.agent->config().results().results(), maps_);
+    return output::write_results(self.agent->store(), self.agent->config().results(), maps_);
   }();
   if (written) {
     maps_.push_back(written->map);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "case_folder.hpp"
 #include "case_groups.hpp"
 #include "fleetmap/core/file_lock.hpp"
 
