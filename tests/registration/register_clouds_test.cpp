@@ -84,7 +84,7 @@ TEST(RegisterClouds, NothingIsRefinedOutOfThePrior) {
       register_clouds(pair.target, pair.source, config, Prior{pair.T_target_source}).T_target_source;
   constexpr double kSigma = 0.25;  // m
   std::size_t inside = 0, outside = 0;
-  for (int mm = -15; mm <= 15; ++mm) {
+  for (int mm = -30; mm <= 30; mm += 2) {
     Prior prior{found, kSigma, 0.05, 0.05};
     prior.T_target_source.pretranslate(Eigen::Vector3d(config.prior_sigmas * kSigma + 1e-3 * mm, 0.0, 0.0));
     const auto result = register_clouds(pair.target, pair.source, config, prior);
