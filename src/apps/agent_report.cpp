@@ -85,6 +85,15 @@ json localization_json(const localization::EkfCounters& c) {
           {"clock_restarts", c.restarts}};
 }
 
+/// Messages that the bus itself let go, by topic; empty when all went well.
+json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
+  json drops = json::object();
+  for (const bus::TopicStats& topic : stats) {
+    if (topic.dropped_messages > 0) drops[topic.topic] = topic.dropped_messages;
+  }
+  return drops;
+}
+
 }  // namespace
 
 json origin_json(const GeoPoint& origin) {

@@ -77,15 +77,6 @@ json topics_json(const std::vector<bus::TopicStats>& stats) {
   return rows;
 }
 
-/// Messages that the bus itself let go, by topic; empty when all went well.
-json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
-  json drops = json::object();
-  for (const bus::TopicStats& topic : stats) {
-    if (topic.dropped_messages > 0) drops[topic.topic] = topic.dropped_messages;
-  }
-  return drops;
-}
-
 json stalls_json(const std::vector<bus::StallCounters>& threads) {
   json rows = json::array();
   for (const bus::StallCounters& thread : threads) {
