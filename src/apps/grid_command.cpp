@@ -13,6 +13,7 @@
 #include "experiment/case_groups.hpp"
 #include "experiment/experiment.hpp"
 #include "experiment/progress_line.hpp"
+#include "fleetmap/config/experiment_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "options.hpp"
 #include "version.hpp"

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"

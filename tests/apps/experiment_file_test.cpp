@@ -5,6 +5,7 @@
 
 #include "apps/experiment_fixture.hpp"
 #include "experiment/run_case.hpp"
+#include "fleetmap/config/input_fingerprint.hpp"
 
 namespace fleetmap::apps::experiment {
 namespace {

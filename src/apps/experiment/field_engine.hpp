@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "experiment/case.hpp"
+#include "fleetmap/config/field_config.hpp"
 
 namespace fleetmap::apps::experiment {
 
