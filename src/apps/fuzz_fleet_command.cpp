@@ -57,7 +57,7 @@ struct Totals {
   std::mutex mutex;  ///< guards all below, and standard output
   std::size_t failed = 0;
   double longest = 0.0;  ///< s until convergence
-  double most_bytes_per_second = 0.0;
+  double max_bytes_per_second = 0.0;
   std::size_t nodes = 0, packets = 0;
 };
 

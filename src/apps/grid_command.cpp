@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/config/experiment_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/experiment/experiment.hpp"
 #include "fleetmap/experiment/grid.hpp"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/config/fleet_agreement.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "options.hpp"

@@ -45,13 +45,21 @@ double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log
   return too_big.log_voxel + std::clamp(along, 0.05, 0.95) * width;
 }
 
+double log_bytes(const FittedCloud& fitted) { return std::log(static_cast<double>(fitted.bytes.size())); }
+
+/// Adds the cloud that every receiver decodes.
+Result<FittedCloud> with_decoded(FittedCloud fitted, int encodings) {
+  auto decoded = decode(fitted.bytes);
+  if (!decoded) return failure(decoded.error().message);
+  fitted.decoded = std::move(*decoded);
+  fitted.encodings = encodings;
+  return fitted;
+}
+
 }  // namespace
 
 Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& config) {
   if (auto valid = config.validate(); !valid) return failure(valid.error().message);
-  const auto log_bytes = [](const FittedCloud& fitted) {
-    return std::log(static_cast<double>(fitted.bytes.size()));
-  };
   const double target = std::log(0.985 * static_cast<double>(config.max_bytes));
 
   int encodings = 0;
@@ -96,11 +104,7 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
     return failure("cloud encoding: even voxels of " + std::to_string(config.max_voxel_m) +
                    " m need more than " + std::to_string(config.max_bytes) + " bytes");
   }
-  auto decoded = decode(best->bytes);
-  if (!decoded) return failure(decoded.error().message);
-  best->decoded = std::move(*decoded);
-  best->encodings = encodings;
-  return std::move(*best);
+  return with_decoded(std::move(*best), encodings);
 }
 
 }  // namespace fleetmap::cloud

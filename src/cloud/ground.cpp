@@ -89,9 +89,8 @@ class Grid {
     }
   }
 
-  /// Robust plane through the lowest points of the cells around; nothing where they are too few, in a line,
-  /// too steep or too rough.
-  std::optional<Plane> fit(const Cell& cell, int reach) const {
+  /// The lowest points of the cells around, relative to the cell's centre.
+  std::vector<Eigen::Vector3d> lows_around(const Cell& cell, int reach) const {
     std::vector<Eigen::Vector3d> lows;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
@@ -101,6 +100,13 @@ class Grid {
         lows.emplace_back(low.x() - center(cell).x(), low.y() - center(cell).y(), low.z());
       }
     }
+    return lows;
+  }
+
+  /// Robust plane through the lowest points of the cells around; nothing where they are too few, in a line,
+  /// too steep or too rough.
+  std::optional<Plane> fit(const Cell& cell, int reach) const {
+    const std::vector<Eigen::Vector3d> lows = lows_around(cell, reach);
     if (lows.size() < 5) return std::nullopt;
     std::vector<double> heights;
     for (const auto& low : lows) heights.push_back(low.z());

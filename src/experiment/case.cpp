@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/input_fingerprint.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/edit_distance.hpp"
 

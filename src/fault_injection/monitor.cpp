@@ -55,7 +55,7 @@ void Monitor::note_radio(const Packet& packet) {
   }
   last_second_.emplace_back(packet.at, packet.wire_bytes);
   in_last_second_ += static_cast<double>(packet.wire_bytes);
-  most_bytes_per_second_ = std::max(most_bytes_per_second_, in_last_second_);
+  max_bytes_per_second_ = std::max(max_bytes_per_second_, in_last_second_);
   if (in_last_second_ > kRadio)
     note(Invariant::kBudget, {}, packet.at, std::to_string(std::lround(in_last_second_)) + " B in a second");
 }

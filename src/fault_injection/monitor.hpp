@@ -50,7 +50,7 @@ class Monitor {
   std::map<AgentId, Stamp> sent_;          ///< last packet, or start
   std::deque<std::pair<Stamp, double>> last_second_;
   double in_last_second_ = 0.0;
-  double most_bytes_per_second_ = 0.0;
+  double max_bytes_per_second_ = 0.0;
   std::uint64_t packets_ = 0;
   std::uint64_t fingerprint_ = 0xcbf29ce484222325u;
 };

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "experiment/experiment_fixture.hpp"
+#include "fleetmap/config/input_fingerprint.hpp"
+#include "fleetmap/experiment/run_case.hpp"
 
 namespace fleetmap::experiment {
 namespace {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 
+#include "fleetmap/config/field_config.hpp"
 #include "fleetmap/experiment/case.hpp"
 
 namespace fleetmap::experiment {
