@@ -12,6 +12,8 @@
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_files.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -45,6 +47,7 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   }
   Result<store::Store> store = store::Store::open(config.directory / "store.db", config.id, config.store);
   if (!store) return tl::unexpected(store.error());
+  output::remove_unfinished_maps(config.directory);
   Result<store::Sessions> sessions = store::Sessions::load(*store);
   if (!sessions) return tl::unexpected(sessions.error());
   const Result<std::uint16_t> session = sessions->begin(*store, config.draw_session);

@@ -10,6 +10,18 @@
 #include "fleetmap/output/placed_store.hpp"
 
 namespace fleetmap::agent {
+namespace {
+
+/// A solution costs in proportion to the nodes; so long after each, its share of the CPU stays what it is of
+/// a small fleet.
+constexpr Duration kPausePerNode = std::chrono::microseconds(500);
+constexpr std::size_t kFewNodes = 10'000;  ///< need no pause
+
+Duration pause_after(std::size_t nodes) {
+  return nodes < kFewNodes ? Duration::zero() : static_cast<int>(nodes) * kPausePerNode;
+}
+
+}  // namespace
 
 struct LivePlacement::Job {
   GeoPoint origin;
@@ -33,7 +45,7 @@ bool LivePlacement::due() const {
 }
 
 void LivePlacement::refresh(std::uint16_t session) {
-  if (under_way_ || !due()) return;
+  if (under_way_ || !due() || bus_.now() < paused_until_) return;
   const std::optional<GeoPoint> origin = output::site_origin(store_, config_.site_origin);
   if (!origin) return;
   items_ = store_.revision();
@@ -51,7 +63,10 @@ void LivePlacement::refresh(std::uint16_t session) {
     solution_ = job->solution;
     on_used_(job->used);
   });
-  if (taken) return;
+  if (taken) {
+    paused_until_ = bus_.now() + pause_after(job->nodes.size());
+    return;
+  }
   under_way_ = false;
   items_ = 0;  // no revision of a store that has an own node: the next refresh tries again
 }

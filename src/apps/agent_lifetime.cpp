@@ -43,7 +43,7 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
       spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
-                 agent.config().id.str(), planning::to_string(mission.state), mission.done, mission.rows,
+                 agent.config().id.str(), messages::to_string(mission.state), mission.done, mission.rows,
                  mission.mine);
     for (const auto& row : mission.abandoned) {
       spdlog::warn("{}: row {} is abandoned: {}", agent.config().id.str(), row.row,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/eval/picture.hpp"
+#include "fleetmap/eval/image.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
 
 namespace fleetmap::apps {

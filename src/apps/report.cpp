@@ -10,9 +10,6 @@
 #include "agent_report.hpp"
 #include "fleetmap/eval/html_page.hpp"
 #include "fleetmap/eval/plot.hpp"
-#include "fleetmap/graph/frame_name.hpp"
-#include "fleetmap/output/map_parts.hpp"
-#include "fleetmap/output/results.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::apps {

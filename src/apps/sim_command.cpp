@@ -11,6 +11,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 
 namespace fleetmap::apps {

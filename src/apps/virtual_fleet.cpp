@@ -7,6 +7,7 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/planning/mission/mission_complete.hpp"
@@ -238,7 +239,7 @@ void VirtualFleet::report_progress(Duration elapsed) const {
     const store::Store& store = member.agent->store();
     const agent::Navigator* navigator = member.agent->navigator();
     spdlog::info("{:.0f} s {}: {}{} nodes, {} alignments, {} submaps", to_seconds(elapsed), member.id.str(),
-                 navigator ? std::string(planning::to_string(navigator->status().state)) + ", " : "",
+                 navigator ? std::string(messages::to_string(navigator->status().state)) + ", " : "",
                  store.nodes().size(), store.alignments().size(), store.submap_set().size());
   }
 }

@@ -13,16 +13,19 @@ constexpr Duration kAnnounced = std::chrono::seconds(30);
 
 bool MissingSubmaps::complete(const store::Store& store, const Membership& members,
                               const NeighbourTable& neighbours, const std::set<AgentId>& without) const {
-  if (store.submap_set().includes(store.node_set())) return true;
   const auto is_lost = [&](const NodeId& id) {
     return without.contains(id.agent) && std::ranges::all_of(members.fleet(), [&](const AgentId& agent) {
              return agent == members.self() || without.contains(agent) || neighbours.lacks(agent, id);
            });
   };
-  return std::ranges::all_of(store.nodes(), [&](const auto& entry) {
-    return store.has_submap(entry.first) || is_lost(entry.first) ||
-           is_denied(entry.first, members, neighbours, without);
-  });
+  for (const SeqRange& lacking : store.node_set().minus(store.submap_set())) {
+    for (NodeId id{lacking.agent, lacking.first}; id.seq < lacking.end; ++id.seq) {
+      // A contested name has no node.
+      if (store.node(id) != nullptr && !is_lost(id) && !is_denied(id, members, neighbours, without))
+        return false;
+    }
+  }
+  return true;
 }
 
 bool MissingSubmaps::is_denied(const NodeId& node, const Membership& members,

@@ -1,4 +1,4 @@
-#include "fleetmap/experiment/case_groups.hpp"
+#include "case_groups.hpp"
 
 #include <map>
 

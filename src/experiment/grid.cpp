@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fleetmap/experiment/case_groups.hpp"
+#include "case_groups.hpp"
 
 namespace fleetmap::experiment {
 

@@ -7,8 +7,9 @@
 #include <optional>
 #include <thread>
 
+#include "case_folder.hpp"
+#include "case_groups.hpp"
 #include "fleetmap/core/file_lock.hpp"
-#include "fleetmap/experiment/case_groups.hpp"
 
 namespace fleetmap::experiment {
 namespace {

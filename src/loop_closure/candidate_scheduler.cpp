@@ -54,6 +54,7 @@ CandidateScheduler::~CandidateScheduler() = default;
 void CandidateScheduler::on_node(const graph::Node& node, Stamp now) {
   State& state = *state_;
   if (!state.nodes.add(node)) return;
+  state.candidates.on_node(node.id);
   state_->selection.information().add(node);
   for (const LoopCandidate& candidate : state.transforms.propose(node)) offer_by_transform(candidate, now);
   const bool located = state.nodes.located(node);
@@ -191,7 +192,7 @@ void CandidateScheduler::on_alignment(const graph::Alignment& alignment, Stamp) 
     ++stats_.ended_by_peer;
     withdrawn_.push_back(pair);
   }
-  candidate.phase = Phase::kDone;
+  state_->candidates.conclude(pair);
 }
 
 void CandidateScheduler::on_cloud(const NodeId& theirs, Bytes cloud) {

@@ -8,12 +8,29 @@ namespace fleetmap::loop_closure {
 using Origin = LoopCandidate::Origin;
 
 ScheduledCandidate* CandidateSet::find(const NodePair& pair) {
+  if (const auto found = candidates_.find(pair); found != candidates_.end()) return &found->second;
+  const auto done = done_.find(pair);
+  return done == done_.end() ? nullptr : &done->second;
+}
+
+const ScheduledCandidate& CandidateSet::held(const NodePair& pair) const {
   const auto found = candidates_.find(pair);
-  return found == candidates_.end() ? nullptr : &found->second;
+  return found == candidates_.end() ? done_.at(pair) : found->second;
+}
+
+void CandidateSet::conclude(const NodePair& pair) {
+  done_.insert(candidates_.extract(pair)).position->second.phase = Phase::kDone;
+}
+
+void CandidateSet::erase(const NodePair& pair) {
+  candidates_.erase(pair);
+  grid_.erase(pair);
 }
 
 ScheduledCandidate& CandidateSet::find_or_make(const NodePair& pair) {
+  if (const auto done = done_.find(pair); done != done_.end()) return done->second;
   ScheduledCandidate& candidate = candidates_[pair];
+  grid_.add(pair);
   candidate.candidate.target = pair.ours;
   candidate.candidate.source = pair.theirs;
   return candidate;
@@ -38,11 +55,12 @@ void CandidateSet::add(const LoopCandidate& candidate, Stamp found, bool known_t
   scheduled.next_match = found;
   scheduled.known_to_peer = known_to_peer;
   candidates_.emplace(candidate.pair(), scheduled);
+  grid_.add(candidate.pair());
   crowd_out();
 }
 
 void CandidateSet::drop_redundant(const NodePair& pair) {
-  candidates_.erase(pair);
+  erase(pair);
   ++redundant_;
 }
 
@@ -71,10 +89,10 @@ double CandidateSet::spacing(const ScheduledCandidate& other, const AgentId& pee
 std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t max) const {
   std::vector<NodePair> found;
   if (!nodes_.contains(pair)) return found;
-  for (const auto& [other, candidate] : candidates_) {
+  for (const NodePair& other : grid_.around(pair.ours)) {
     if (found.size() >= max) break;
     if (other == pair || other.theirs.agent != pair.theirs.agent) continue;
-    const double limit = spacing(candidate, pair.theirs.agent);
+    const double limit = spacing(held(other), pair.theirs.agent);
     if (nodes_.near(pair.ours, other.ours, limit) && nodes_.near(pair.theirs, other.theirs, limit))
       found.push_back(other);
   }
@@ -84,7 +102,7 @@ std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t m
 std::vector<NodePair> CandidateSet::rivals(const NodePair& pair) const {
   const std::vector<NodePair> nearby = too_near(pair, 2);
   if (nearby.size() != 1) return {};
-  const ScheduledCandidate& only = candidates_.at(nearby.front());
+  const ScheduledCandidate& only = held(nearby.front());
   const bool under_way = only.phase == Phase::kWaiting || only.phase == Phase::kRequested;
   return under_way && !only.known_to_peer ? nearby : std::vector<NodePair>{};
 }
@@ -107,7 +125,7 @@ void CandidateSet::crowd_out() {
   const auto waiting_by_age = [](const auto& entry) {
     return std::pair(entry.second.phase != Phase::kWaiting, entry.second.found);
   };
-  candidates_.erase(std::ranges::min_element(candidates_, {}, waiting_by_age));
+  erase(NodePair(std::ranges::min_element(candidates_, {}, waiting_by_age)->first));
   ++crowded_out_;
 }
 

@@ -20,8 +20,9 @@ constexpr std::size_t kEnoughPlanes = 600;
 constexpr std::size_t kLongestStride = 4;
 /// Distances as large as assumed that the a posteriori variance begins with: a few cannot be sure of it.
 constexpr double kAssumedDistances = 10.0;
-/// A direction is degenerate if its information is within this factor of what noisy normals feign ...
-constexpr double kSpuriousFactor = 6.0;
+/// A direction is degenerate if its information is within this factor of what noisy normals feign (over level
+/// ground the level directions have 2, 5 and 11 times that, at worst 35; among structure 180 and more) ...
+constexpr double kSpuriousFactor = 40.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
 constexpr double kLevel = 0.7;      // upward part of the normal of what lies level, at least

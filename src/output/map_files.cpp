@@ -135,4 +135,12 @@ void remove_parts(const std::filesystem::path& directory) {
   }
 }
 
+void remove_unfinished_maps(const std::filesystem::path& directory) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("map") && name.ends_with(".part")) std::filesystem::remove(entry.path(), error);
+  }
+}
+
 }  // namespace fleetmap::output

@@ -152,14 +152,16 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
-/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant.
+/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant. What would
+/// leave the prior stays as it was.
 void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
-            const DriftModels& drift_models, FoundMode& mode) {
+            const DriftModels& drift_models, const Window& window, double prior_sigmas, FoundMode& mode) {
   IcpConfig icp = fine;
   icp.sides = Sides::of_sensors;
   icp.iterations_per_stage = 12;
   const IcpResult refined = align(target.surfels, points, mode.T_level, icp, &drift_models);
   if (!refined.converged) return;
+  if (window.prior && !agrees(*window.prior, refined.T_target_source, prior_sigmas)) return;
   mode.icp = refined;
   mode.T_level = refined.T_target_source;
 }
@@ -191,7 +193,7 @@ std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const Prepa
   const MovingPoints& points = contenders.size() == 1 ? source.all : source.fine;
   std::vector<FoundMode> modes =
       aligned(target, source, points, contenders, fine, window, config, &drift_models);
-  for (FoundMode& mode : modes) refine(target, points, fine, drift_models, mode);
+  for (FoundMode& mode : modes) refine(target, points, fine, drift_models, window, config.prior_sigmas, mode);
   return modes;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fleetmap/output/placed_store.hpp"
+
 namespace fleetmap::run_evaluation {
 
 Result<HeldFleet> open_held(const std::filesystem::path& store_file) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fleetmap/cloud/file_io.hpp"
+#include "fleetmap/eval/metrics.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {

@@ -9,7 +9,10 @@
 #include <map>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
+#include "fleetmap/eval/colours.hpp"
 #include "fleetmap/eval/density.hpp"
+#include "fleetmap/eval/picture.hpp"
+#include "fleetmap/eval/png.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {

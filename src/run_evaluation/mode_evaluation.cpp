@@ -9,6 +9,7 @@
 #include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/store/sessions.hpp"
 #include "registration_replay.hpp"
 
 namespace fleetmap::run_evaluation {

@@ -1,6 +1,7 @@
 #include "overlap_evaluation.hpp"
 
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/eval/metrics.hpp"
 #include "fleetmap/eval/places_seen.hpp"
 
 namespace fleetmap::run_evaluation {

@@ -6,7 +6,7 @@
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/eval/alignment_errors.hpp"
-#include "fleetmap/eval/metrics.hpp"
+#include "fleetmap/eval/map_metrics_config.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 

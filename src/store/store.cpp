@@ -8,8 +8,10 @@
 
 #include "database.hpp"
 #include "fingerprint.hpp"
+#include "fingerprint_sums.hpp"
 #include "fleetmap/core/file_lock.hpp"
 #include "item_codec.hpp"
+#include "left_log.hpp"
 #include "row_hash.hpp"
 #include "salvage.hpp"
 #include "schema.hpp"
@@ -30,15 +32,6 @@ struct Contested {
                     Item>::node_type first;
   Item second;
 };
-
-std::uint32_t print_of(const std::map<NodeId, std::uint32_t>& prints, const SeqRange& range) {
-  std::uint32_t sum = 0;
-  for (auto it = prints.lower_bound({range.agent, range.first});
-       it != prints.end() && it->first.agent == range.agent && it->first.seq < range.end; ++it) {
-    sum += it->second;
-  }
-  return sum;
-}
 
 NodeId name_of(const AlignmentId& id) { return {id.computed_by, id.seq}; }
 
@@ -115,8 +108,8 @@ struct Store::State {
   std::map<AlignmentId, graph::Alignment> alignments;
   std::map<NodeId, Contested<graph::Node>> contested_nodes;
   std::map<AlignmentId, Contested<graph::Alignment>> contested_alignments;
-  std::map<NodeId, std::uint32_t> node_prints;
-  std::map<NodeId, std::uint32_t> alignment_prints;  ///< by (computed_by, seq)
+  FingerprintSums node_prints;
+  FingerprintSums alignment_prints;  ///< by (computed_by, seq)
   std::vector<std::string> damage;
   SeqSet node_set;
   SeqSet alignment_set;
@@ -307,7 +300,7 @@ Status Store::State::load_items() {
       return false;
     node_set.insert(node->id.agent, node->id.seq);
     if (node->submap_bytes == 0) submap_set.insert(node->id.agent, node->id.seq);
-    node_prints[node->id] = fingerprint(*node);
+    node_prints.set(node->id, fingerprint(*node));
     node->signature = by;
     nodes.emplace(node->id, *node);
     return true;
@@ -320,7 +313,7 @@ Status Store::State::load_items() {
       return false;
     const AlignmentId id{alignment->computed_by, alignment->seq};
     alignment_set.insert(id.computed_by, id.seq);
-    alignment_prints[name_of(id)] = fingerprint(*alignment);
+    alignment_prints.set(name_of(id), fingerprint(*alignment));
     alignment->signature = by;
     alignments.emplace(id, *alignment);
     return true;
@@ -352,7 +345,7 @@ Status Store::State::load_contested() {
 
 void Store::State::contest(const graph::Node& second) {
   contested_nodes.emplace(second.id, Contested<graph::Node>{nodes.extract(second.id), second});
-  node_prints[second.id] = fingerprint_of_contested(second.id);
+  node_prints.set(second.id, fingerprint_of_contested(second.id));
   submap_set.erase(second.id.agent, second.id.seq);
   partials.erase(second.id);
 }
@@ -360,7 +353,7 @@ void Store::State::contest(const graph::Node& second) {
 void Store::State::contest(const graph::Alignment& second) {
   const AlignmentId id{second.computed_by, second.seq};
   contested_alignments.emplace(id, Contested<graph::Alignment>{alignments.extract(id), second});
-  alignment_prints[name_of(id)] = fingerprint_of_contested(name_of(id));
+  alignment_prints.set(name_of(id), fingerprint_of_contested(name_of(id)));
 }
 
 Status Store::State::load_submaps() {
@@ -416,7 +409,7 @@ const graph::Node* Store::State::node_of_row(const Statement& row) const {
 }
 
 Status Store::State::load() {
-  for (auto* names : {&node_prints, &alignment_prints}) names->clear();
+  for (auto* names : {&node_prints, &alignment_prints}) *names = {};
   for (auto* set : {&node_set, &alignment_set, &submap_set}) *set = {};
   nodes.clear();
   alignments.clear();
@@ -455,6 +448,8 @@ Result<Store> Store::open(const std::filesystem::path& path, const AgentId& self
   if (!*lock) return failure(path.string() + ": another process is writing this store; stop it first");
   state->lock = std::move(**lock);
   if (auto status = finish_salvage(path); !status) return tl::unexpected(status.error());
+  if (auto status = write_left_log_again(path, config.file_system); !status)
+    return tl::unexpected(status.error());
   const auto damage = find_damage(path, config.file_system);
   if (!damage) return tl::unexpected(damage.error());
   if (*damage) {
@@ -530,7 +525,7 @@ Result<Put> Store::insert_node(const graph::Node& node, const ByteView* submap) 
   const Status inserted = s.commit(node.id.agent == s.self, insert);
   if (!inserted) return tl::unexpected(inserted.error());
   s.nodes.emplace(node.id, node);
-  s.node_prints[node.id] = fingerprint(node);
+  s.node_prints.set(node.id, fingerprint(node));
   s.node_set.insert(node.id.agent, node.id.seq);
   if (submap || node.submap_bytes == 0) s.submap_set.insert(node.id.agent, node.id.seq);
   return s.count(Put::kAdded);
@@ -584,7 +579,7 @@ Result<Put> Store::put_alignment(const graph::Alignment& alignment) {
   });
   if (!inserted) return tl::unexpected(inserted.error());
   s.alignments.emplace(id, alignment);
-  s.alignment_prints[name_of(id)] = fingerprint(alignment);
+  s.alignment_prints.set(name_of(id), fingerprint(alignment));
   s.alignment_set.insert(id.computed_by, id.seq);
   return s.count(Put::kAdded);
 }
@@ -802,9 +797,9 @@ Result<Bytes> Store::contested_submap(const NodeId& id) const {
   return Bytes(bytes.begin(), bytes.end());
 }
 
-std::uint32_t Store::node_print(const SeqRange& range) const { return print_of(state_->node_prints, range); }
+std::uint32_t Store::node_print(const SeqRange& range) const { return state_->node_prints.of(range); }
 std::uint32_t Store::alignment_print(const SeqRange& range) const {
-  return print_of(state_->alignment_prints, range);
+  return state_->alignment_prints.of(range);
 }
 
 std::uint64_t Store::revision() const {

@@ -8,6 +8,7 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::testing {
@@ -132,17 +133,17 @@ void DrivenFleet::sense(Robot& robot) {
           sample);
     }
     if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
-      robot.bus->publish(ros_codec::topics::imu(), fleet_codec::encode(*imu));
+      robot.bus->publish(ros_codec::topics::imu(), ros_codec::encode(*imu));
     } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
-      if (robot.fixes) robot.bus->publish(ros_codec::topics::fix(), fleet_codec::encode(*fix));
+      if (robot.fixes) robot.bus->publish(ros_codec::topics::fix(), ros_codec::encode(*fix));
     } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) {
-      if (robot.wheel) robot.bus->publish(ros_codec::topics::wheel_odometry(), fleet_codec::encode(*wheel));
+      if (robot.wheel) robot.bus->publish(ros_codec::topics::wheel_odometry(), ros_codec::encode(*wheel));
     } else if (robot.scans) {
       sensor::Scan scan = sim::cast_scan(*scene_, robot.twin->config().lidar, std::get<sim::ScanJob>(sample));
       if (!robot.points) scan.points.resize(10);
       scan.stamp += robot.clock + robot.lidar_clock;
       robot.last_scan = now();
-      robot.bus->publish(ros_codec::topics::points(), fleet_codec::encode(scan));
+      robot.bus->publish(ros_codec::topics::points(), ros_codec::encode(scan));
     }
   }
 }

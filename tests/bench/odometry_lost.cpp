@@ -113,7 +113,7 @@ Status record(SpoiltDrive& drive, double seconds, const std::filesystem::path& b
   for (std::uint64_t k = 0; static_cast<double>(k) < 10.0 * seconds; ++k) {
     const sensor::Scan scan = drive.scan(k);
     const Status written = bag->write(topic.name, topic.type, scan.stamp + std::chrono::milliseconds(100),
-                                      fleet_codec::encode(scan));
+                                      ros_codec::encode(scan));
     if (!written) return written;
   }
   return bag->close();

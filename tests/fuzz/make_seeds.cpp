@@ -13,6 +13,7 @@
 #include "fixed_keys.hpp"
 #include "fleet_codec/random_messages.hpp"
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -85,9 +86,9 @@ void fleet_messages(const fs::path& corpus) {
 
 void ros_messages(const fs::path& corpus) {
   const Seeds seeds(corpus, "ros_messages");
-  seeds.add("point_cloud2", 0, fleet_codec::encode(small_scan()));
-  seeds.add("imu", 1, fleet_codec::encode(small_imu()));
-  seeds.add("fix", 2, fleet_codec::encode(small_fix()));
+  seeds.add("point_cloud2", 0, ros_codec::encode(small_scan()));
+  seeds.add("imu", 1, ros_codec::encode(small_imu()));
+  seeds.add("fix", 2, ros_codec::encode(small_fix()));
   seeds.add("wheel", 3, ros_codec::encode(sensor::Wheel{kNow, 1.0, 0.1}));
   seeds.add("battery", 4, ros_codec::encode(sensor::Battery{}));
   seeds.add("odometry", 5, ros_codec::encode(ros_codec::OdometryMsg{.stamp = kNow}));
@@ -186,9 +187,9 @@ void bag(const fs::path& corpus) {
     const auto put = [&](const bus::Topic& topic, const Bytes& cdr) {
       require(bag.write(topic.name, topic.type, kNow, cdr).has_value(), "the bag cannot be written");
     };
-    put(ros_codec::topics::points(), fleet_codec::encode(small_scan()));
-    put(ros_codec::topics::imu(), fleet_codec::encode(small_imu()));
-    put(ros_codec::topics::fix(), fleet_codec::encode(small_fix()));
+    put(ros_codec::topics::points(), ros_codec::encode(small_scan()));
+    put(ros_codec::topics::imu(), ros_codec::encode(small_imu()));
+    put(ros_codec::topics::fix(), ros_codec::encode(small_fix()));
     put(ros_codec::topics::wheel_odometry(), ros_codec::encode(sensor::Wheel{kNow, 1.0, 0.1}));
   }
   for (const auto& entry : fs::directory_iterator(folder.path() / "drive")) {

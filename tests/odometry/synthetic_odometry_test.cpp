@@ -176,6 +176,7 @@ struct Part {
 };
 
 bool low(const sensor::ScanPoint& p) { return p.position.z() < -0.3f; }
+bool ground(const sensor::ScanPoint& p) { return p.position.z() < -0.7f; }
 bool near(const sensor::ScanPoint& p) { return p.position.norm() < 5.0f; }
 bool any(const sensor::ScanPoint&) { return true; }
 
@@ -195,6 +196,20 @@ TEST(SyntheticOdometry, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
     expect_stated_as_it_errs(drive_with(testing::panel_world(), aisle, part.keep, false), part, "LiDAR");
     expect_stated_as_it_errs(drive_with(testing::panel_world(), aisle, part.keep, true), part, "all");
   }
+}
+
+/// The level ground shows neither way nor heading: normals of noisy points feign both. LiDAR alone may be
+/// anywhere, which is stated; gyro and wheels carry it.
+TEST(SyntheticOdometry, GroundAloneHoldsNeitherWayNorHeading) {
+  const Part part{"level ground", ground, 120.0};
+  const Stated alone = drive_with(testing::yard_world(), kErrands, part.keep, false);
+  EXPECT_GT(alone.blind, 390);
+  EXPECT_GT(alone.sigma, 20.0);
+  expect_stated_as_it_errs(alone, part, "LiDAR");
+  const Stated with_all = drive_with(testing::yard_world(), kErrands, part.keep, true);
+  EXPECT_LT(with_all.error, 0.75);
+  EXPECT_LT(with_all.error, 3.0 * with_all.sigma);
+  EXPECT_LT(with_all.sigma, 2.0);
 }
 
 /// Where nine of ten scans miss a direction, the error is metres, and stated so.

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "bag_samples.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {

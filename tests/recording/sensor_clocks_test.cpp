@@ -3,6 +3,7 @@
 
 #include "bag_samples.hpp"
 #include "fleetmap/recording/play_times.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "support/temporary_folder.hpp"
 

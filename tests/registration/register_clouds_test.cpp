@@ -76,6 +76,27 @@ TEST(RegisterClouds, NothingOutsideThePriorIsReturned) {
   for (const Mode& mode : result.modes) EXPECT_TRUE(agrees(wrong, mode.T_target_source, 4.0));
 }
 
+/// The last alignment moves a pose by millimetres, and may carry it over the prior's edge.
+TEST(RegisterClouds, NothingIsRefinedOutOfThePrior) {
+  const RegistrationConfig config;
+  const Pair pair = pair_in(MadeWorld(3), 6.0, 0.3, 3);
+  const Pose found =
+      register_clouds(pair.target, pair.source, config, Prior{pair.T_target_source}).T_target_source;
+  constexpr double kSigma = 0.25;  // m
+  std::size_t inside = 0, outside = 0;
+  for (int mm = -15; mm <= 15; ++mm) {
+    Prior prior{found, kSigma, 0.05, 0.05};
+    prior.T_target_source.pretranslate(Eigen::Vector3d(config.prior_sigmas * kSigma + 1e-3 * mm, 0.0, 0.0));
+    const auto result = register_clouds(pair.target, pair.source, config, prior);
+    for (const Mode& mode : result.modes) {
+      EXPECT_TRUE(agrees(prior, mode.T_target_source, config.prior_sigmas + 1e-6)) << mm;
+    }
+    ++(result.modes.empty() ? outside : inside);
+  }
+  EXPECT_GT(inside, 5u);
+  EXPECT_GT(outside, 5u);
+}
+
 TEST(RegisterClouds, SameInputSameBits) {
   const Pair pair = pair_in(MadeWorld(5), 9.0, 1.0, 5);
   const auto a = register_clouds(pair.target, pair.source, {});

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <functional>
+#include <random>
 
 #include "store/items.hpp"
 
@@ -393,6 +394,31 @@ TEST(Store, a_name_with_two_contents_ends_the_same_whatever_came_first) {
     prints.push_back(store.node_print(all) + store.alignment_print(all));
   }
   EXPECT_EQ(prints[0], prints[1]);
+}
+
+TEST(Store, the_fingerprint_of_a_range_is_the_sum_of_those_of_its_names) {
+  const ScratchFolder folder;
+  StoreConfig config;
+  config.power_safe = false;
+  auto store = Store::open(folder / "a.db", kSelf, config).value();
+  constexpr std::uint32_t kNames = 1200;
+  std::mt19937 random(1);
+  for (std::uint32_t seq = 0; seq < kNames; ++seq) {
+    if (random() % 4 == 0) continue;
+    ASSERT_EQ(store.put_node(make_node(kPeer, seq, {})).value(), Put::kAdded);
+    if (random() % 16 != 0) continue;
+    ASSERT_EQ(store.put_node(make_node(kPeer, seq, {}, 9.0)).value(), Put::kConflict);
+  }
+  for (int k = 0; k < 500; ++k) {
+    const auto a = static_cast<std::uint32_t>(random() % kNames),
+               b = static_cast<std::uint32_t>(random() % kNames);
+    const SeqRange range{kPeer, std::min(a, b), std::max(a, b)};
+    std::uint32_t sum = 0;
+    for (std::uint32_t seq = range.first; seq < range.end; ++seq)
+      sum += store.node_print({kPeer, seq, seq + 1});
+    EXPECT_EQ(store.node_print(range), sum) << range.first << " to " << range.end;
+  }
+  EXPECT_NE(store.node_print({kPeer, 0, kNames}), 0u);
 }
 
 TEST(Store, keeps_the_submap_of_an_own_node_whose_name_is_contested) {

@@ -139,8 +139,8 @@ class Agent {
   std::uint16_t session_;
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
-  std::optional<output::TrajectoryFile>
-      odometry_file_;  ///< none: it could not be begun, and holds no other frame
+  /// None: it could not be begun, and holds no other frame.
+  std::optional<output::TrajectoryFile> odometry_file_;
   output::GlobalTrackFile global_file_;
   double odometry_seconds_ = 0.0;  ///< CPU
   RegistrationRecorder registrations_;

@@ -48,6 +48,7 @@ class LivePlacement {
   OnUsed on_used_;
   std::uint64_t items_ = 0;  ///< the store's revision at the last solution
   bool under_way_ = false;
+  Stamp paused_until_;
   double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;
 };

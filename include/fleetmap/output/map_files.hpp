@@ -50,5 +50,7 @@ Result<std::size_t> write_part(store::Store& store, const MapPart& part, const s
                                const std::filesystem::path& directory);
 /// Removes the parts of an earlier run: what nobody could place then may be on the map now.
 void remove_parts(const std::filesystem::path& directory);
+/// Removes what a program left that was killed while it merged a map: up to gigabytes that nobody reads.
+void remove_unfinished_maps(const std::filesystem::path& directory);
 
 }  // namespace fleetmap::output

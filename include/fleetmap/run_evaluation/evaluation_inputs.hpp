@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fleetmap/cloud/point_cloud.hpp"
-#include "fleetmap/eval/metrics.hpp"
+#include "fleetmap/eval/map_metrics_config.hpp"
 #include "fleetmap/run_evaluation/modes.hpp"
 
 namespace fleetmap::run_evaluation {

@@ -8,7 +8,6 @@
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/eval/picture.hpp"
 #include "fleetmap/store/map_merge.hpp"
 
 namespace fleetmap::run_evaluation {
