@@ -213,8 +213,8 @@ void measure_kernels() {
 int main() {
   std::printf("| variables | alignments | solver | analysis, ms | factorisation | solve | covariances |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
-  measure(5, 200, 5);
-  measure(5, 2'000, 5);
-  measure(10, 4'000, 5);
+  measure(5, 270, 5);
+  measure(5, 2'400, 5);
+  measure(10, 4'750, 5);
   measure_kernels();
 }

@@ -58,7 +58,7 @@ TEST_F(ItemExchangeTest, ItemsOfMembersAreStoredOnceWhoeverHandsThemOver) {
   const graph::Node node = make_node(kPeer, 0, random_bytes(100, 1));
   items_.receive(node, {Reach::kShortRange, kStranger}, kStart);
   items_.receive(node, {}, kStart);
-  items_.receive(make_alignment(node.id, node.id, kPeer, 0), {}, kStart);
+  items_.receive(make_alignment({kSelf, 0}, node.id, kPeer, 0), {}, kStart);
   EXPECT_EQ(count<NodeAdded>(), 1u);
   EXPECT_EQ(count<AlignmentAdded>(), 1u);
   EXPECT_EQ(closer_.nodes.size(), 1u);

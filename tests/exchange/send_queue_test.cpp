@@ -5,6 +5,7 @@
 #include <deque>
 #include <random>
 
+#include "cloud_transfer.hpp"
 #include "exchange/sim_fleet.hpp"
 
 namespace fleetmap::exchange {

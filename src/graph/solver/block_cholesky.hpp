@@ -15,6 +15,11 @@ namespace fleetmap::graph {
 
 /// Cholesky factorisation A = L L^T of a sparse symmetric positive definite matrix made of small dense
 /// blocks: variables of 6 or 3 numbers. Same input, same bits.
+///
+/// Written by hand because the covariances of all aligned pairs need the blocks of A^-1 on the pattern of L,
+/// which neither CHOLMOD nor Eigen's SimplicialLLT computes. With 20,000 variables and 8,500 alignments these
+/// take 0.11 s, and 6 to 25 minutes by solves with those libraries; analysis, factorisation and one solve
+/// take 110 ms, with CHOLMOD 213 ms and with SimplicialLLT 288 ms (bench_cholesky).
 class BlockCholesky {
  public:
   /// L^-1 H of six columns: its nonzero blocks by column of L in ascending order. Blocks of variables of 3

@@ -6,8 +6,8 @@ namespace fleetmap::graph {
 /// columns. Processors with AVX2 use wider registers; these compute the same operations in the same order,
 /// never fused, so all robots get the same bits.
 ///
-/// Written by hand because fixed-size products of Eigen, compiled for any x86-64, take XXX as long
-/// (bench_cholesky), and compiled for AVX2 they would not run on other processors.
+/// Written by hand because Eigen uses the registers of the compiler's target, which is any x86-64: a product
+/// of two 6 x 6 blocks takes 15.6 ns with AVX2, 20.4 ns without, and 18.6 ns with Eigen (bench_cholesky).
 struct BlockKernels {
   /// A_ik -= L_ij L_kj^T.
   using Subtract = void (*)(double* a_ik, const double* l_ij, const double* l_kj);
