@@ -10,7 +10,6 @@
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_agreement.hpp"
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/config/override.hpp"
 #include "fleetmap/config/robot_config.hpp"

@@ -7,11 +7,9 @@
 
 #include "commands.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/experiment_file.hpp"
 #include "fleetmap/config/file_kind.hpp"
 #include "fleetmap/config/fleet_agreement.hpp"
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/config/override.hpp"
 #include "fleetmap/config/robot_file.hpp"

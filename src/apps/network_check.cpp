@@ -13,6 +13,7 @@
 
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_agreement.hpp"
+#include "fleetmap/config/robot_config.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 

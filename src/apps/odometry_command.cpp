@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"

@@ -10,7 +10,6 @@
 #include "commands.hpp"
 #include "drawn_site.hpp"
 #include "fleetmap/config/file_kind.hpp"
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/config/mission_settings.hpp"
 #include "fleetmap/config/override.hpp"

@@ -6,7 +6,10 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "options.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"

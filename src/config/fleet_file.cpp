@@ -22,8 +22,10 @@ namespace {
 
 /// "file:line: key", for what is found wrong only when worlds are built and missions planned.
 std::string place_of(const Document& document, const YAML::Mark& mark, const std::string& key) {
-  const std::string line = mark.is_null() ? "" : ":" + std::to_string(mark.line + 1);
-  return document.name() + line + ": " + key;
+  // GCC 12 warns of ":" + std::to_string() where it inlines both.
+  std::string place = document.name();
+  if (!mark.is_null()) place.append(":").append(std::to_string(mark.line + 1));
+  return place.append(": ").append(key);
 }
 
 /// One entry of `agents`: `entry` is `own` laid on the defaults.

@@ -7,8 +7,10 @@
 #include <tuple>
 #include <utility>
 
+#include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/config/file_kind.hpp"
 #include "fleetmap/config/input_fingerprint.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/edit_distance.hpp"
 

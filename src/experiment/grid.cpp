@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "case_groups.hpp"
+#include "fleetmap/config/experiment_file.hpp"
 
 namespace fleetmap::experiment {
 

@@ -29,7 +29,7 @@ std::string to_string(const Fault& fault) {
   if (fault.value != 0.0) out << ' ' << fault.value;
   for (std::size_t k = 0; k < fault.robots.size(); ++k)
     out << (k == 0 ? " of r" : ", r") << fault.robots[k] + 1;
-  if (is_of_links(fault.kind) && !(fault.radio && fault.short_range))
+  if (impairs_links(fault.kind) && !(fault.radio && fault.short_range))
     out << (fault.radio ? ", radio" : ", short range");
   return out.str();
 }

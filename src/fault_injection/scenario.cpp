@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::uint64_t kScenarioStream = 1;
 
-bool is_of_links(FaultKind kind) { return kind <= FaultKind::kPartition; }
-
 /// `count` of the robots, in random order.
 std::vector<std::size_t> pick(Draws& draws, std::size_t robots, std::size_t count) {
   std::vector<std::size_t> all(robots);
@@ -75,7 +73,7 @@ Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config) {
     fault.length = from_seconds(draws.between(1.0, 0.5 * mapping));
     fault.robots = pick(draws, scenario.robots, concerned(draws, fault.kind, scenario.robots));
     fault.value = draw_value(draws, fault.kind);
-    if (is_of_links(fault.kind)) {
+    if (impairs_links(fault.kind)) {
       const double link = draws.uniform();
       fault.radio = link < 0.7;
       fault.short_range = link < 0.4 || link >= 0.7;

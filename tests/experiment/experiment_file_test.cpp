@@ -3,6 +3,7 @@
 
 #include "experiment/experiment_fixture.hpp"
 #include "fleetmap/config/input_fingerprint.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/experiment/run_case.hpp"
 
 namespace fleetmap::experiment {

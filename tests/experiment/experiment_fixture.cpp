@@ -5,6 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "fleetmap/config/experiment_file.hpp"
+
 namespace fleetmap::experiment {
 
 std::string text_of(const std::filesystem::path& file) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fleetmap/config/experiment_config.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/experiment/case.hpp"
 
 namespace fleetmap::experiment {

@@ -31,6 +31,8 @@ enum class FaultKind : std::uint8_t {
 inline constexpr std::size_t kFaultKinds = 13;
 
 const char* to_string(FaultKind kind);
+/// Faults of links name the link that they impair: radio, short range or both.
+constexpr bool impairs_links(FaultKind kind) { return kind <= FaultKind::kPartition; }
 
 /// Parses names separated by commas, or "all".
 Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/fit_config.hpp"
 #include "fleetmap/cloud/ground.hpp"
 #include "fleetmap/cloud/outliers.hpp"
 #include "fleetmap/core/result.hpp"
