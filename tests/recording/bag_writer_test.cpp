@@ -9,6 +9,8 @@
 #include <iterator>
 
 #include "bag_samples.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -61,7 +63,7 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
     ASSERT_TRUE(bag);
     put(*bag, ros_codec::topics::imu(), kStart, ros_codec::encode(imu_at(kStart)));
     put(*bag, ros_codec::topics::imu(), kStart + 5, ros_codec::encode(imu_at(kStart + 5)));
-    put(*bag, fleet_codec::topics::global_pose(), kStart + 9, ros_codec::encode(GlobalPose{}));
+    put(*bag, fleet_codec::topics::global_pose(), kStart + 9, fleet_codec::encode(GlobalPose{}));
   }
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(dir)) files.push_back(entry.path().filename());

@@ -123,7 +123,7 @@ TEST_F(ExecutiveStateTest, ALowBatteryBringsItHome) {
 TEST_F(ExecutiveStateTest, TheReportHoldsWhatItClaims) {
   set_out();
   state_.update_report(input(3.0));
-  EXPECT_EQ(state_.report.agent, plan_->fleet[0].id);
+  EXPECT_EQ(state_.report.from, plan_->fleet[0].id);
   EXPECT_EQ(state_.report.stamp, at(3.0));
   EXPECT_EQ(state_.report.current, *state_.claims.current());
   EXPECT_EQ(state_.report.claimed.count(), plan_->division.routes[0].visits.size());

@@ -34,7 +34,7 @@ class MissionBoardTest : public ::testing::Test {
   }
   MissionReport report(std::size_t robot, double stamp) const {
     MissionReport report;
-    report.agent = plan_->fleet[robot].id;
+    report.from = plan_->fleet[robot].id;
     report.stamp = at(stamp);
     report.position = plan_->fleet[robot].start.position;
     report.done = report.claimed = report.failed = RowSet(rows());
@@ -71,7 +71,7 @@ TEST_F(MissionBoardTest, ReportsThatAreOwnUnknownOldOrBrokenAreIgnored) {
   broken.position.x() = std::nan("");
   MissionReport own = report(1, 1.0);
   MissionReport unknown = report(0, 1.0);
-  unknown.agent = testing::name(9);
+  unknown.from = testing::name(9);
   for (MissionReport* one : {&broken, &own, &unknown}) {
     for (std::size_t row = 0; row < rows(); ++row) one->done.set(row);
     board_.hear(*one, at(1.0));
