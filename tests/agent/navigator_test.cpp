@@ -178,7 +178,7 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
   ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
+  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
 
   stand(at({30.0, 30.0}, 0.0), 1);
   bus_->publish(fleet_codec::topics::guide_pose(), Bytes(7, 0xff));
@@ -197,9 +197,9 @@ TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
     stand(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
   ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().east, 1.0, 0.01);
+  EXPECT_NEAR(told_.back().position.x(), 1.0, 0.01);
   stand(at({9.0, 4.0}, 0.0), 8);
-  EXPECT_NEAR(told_.back().east, 9.0, 0.01) << "alone again, it goes by its own G";
+  EXPECT_NEAR(told_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
@@ -227,9 +227,9 @@ TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
   ASSERT_GE(told_.size(), 3u);
   EXPECT_LE(told_.size(), 4u);
   EXPECT_EQ(told_.back().from, self_);
-  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
-  EXPECT_EQ(told_.back().claimed.size(), 1u);
-  EXPECT_NE(told_.back().claimed[0], 0) << "it claims its row";
+  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
+  EXPECT_EQ(told_.back().claimed.bytes().size(), 1u);
+  EXPECT_TRUE(told_.back().claimed.has(0)) << "it claims its row";
 }
 
 TEST_F(NavigatorTest, HearsOfItsBattery) {

@@ -14,6 +14,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const auto& pose : *trajectory)
-    fuzz::require(pose.T_enu_base.matrix().allFinite(), "a pose is not finite");
+    fuzz::require(pose.T_w_base.matrix().allFinite(), "a pose is not finite");
   return 0;
 }

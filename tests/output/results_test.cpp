@@ -9,6 +9,9 @@
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "graph/simulated_fleet.hpp"
 #include "support/temporary_folder.hpp"
@@ -165,7 +168,7 @@ TEST_F(ResultsTest, AMapOfTheSameSetIsCopiedAndOneOfAnotherSetIsMade) {
   for (int k = 0; k < 3; ++k) add_node(store, 3.0 * k);
   ASSERT_TRUE(GlobalTrackFile::append_to(folder_.path() / "global_track.csv"));
   ResultsConfig first = config();
-  first.site_origin = origin_;
+  first.recipe.site_origin = origin_;
   const auto made = write_results(store, first);
   ASSERT_TRUE(made) << made.error().message;
   ResultsConfig second = first;
