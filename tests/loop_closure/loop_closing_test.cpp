@@ -79,9 +79,7 @@ TEST_F(LoopClosingTest, AReturnToTheOwnPathBecomesAnAlignmentThatCorrectsTheOdom
 class LoopClosingWithAPeer : public LoopClosingTest {
  protected:
   LoopClosingWithAPeer() {
-    ours_.G = located_at(T_world_ours_);
-    theirs_ = peer_.add(0, T_world_theirs_);
-    theirs_.G = located_at(T_world_theirs_);
+    theirs_ = peer_.add(0, T_world_theirs_, Eigen::Vector3d::Zero(), located_at(T_world_theirs_));
     EXPECT_TRUE(track_.store().put_node(theirs_));
   }
   /// The cloud around the peer's node, as the peer makes it.
@@ -111,7 +109,7 @@ class LoopClosingWithAPeer : public LoopClosingTest {
 
   Pose T_world_ours_ = pose(0.0, 0.0, 0.2), T_world_theirs_ = pose(5.0, 2.0, 1.0);
   testing::MadeTrack peer_{kB};
-  graph::Node ours_ = track_.add(0, T_world_ours_);
+  graph::Node ours_ = track_.add(0, T_world_ours_, Eigen::Vector3d::Zero(), located_at(T_world_ours_));
   graph::Node theirs_;
   LoopClosing closing_{config(), track_.bus(), track_.store(), outputs()};
 };

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "fleetmap/bus/local_network.hpp"
@@ -31,10 +32,12 @@ class MadeTrack {
     node.up_in_base = T_world_base.linear().transpose() * Eigen::Vector3d::UnitZ();
     return node;
   }
-  /// The same, stored with a scan.
+  /// The same, stored with a scan and, if the robot has GPS, with `G`.
   graph::Node add(std::uint32_t seq, const Pose& T_world_base,
-                  const Eigen::Vector3d& error = Eigen::Vector3d::Zero()) {
+                  const Eigen::Vector3d& error = Eigen::Vector3d::Zero(),
+                  const std::optional<GlobalPose>& G = std::nullopt) {
     graph::Node made = node(self_, seq, T_world_base, error);
+    made.G = G;
     const Bytes encoded = cloud::encode(world_.scan(T_world_base, 15'000, 0.02, seq + 1), {}).value();
     made.submap_hash = content_hash(encoded);
     made.submap_bytes = static_cast<std::uint32_t>(encoded.size());

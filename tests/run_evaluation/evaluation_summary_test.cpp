@@ -59,9 +59,9 @@ TEST(EvaluationSummary, AnythingMeasured) {
   EXPECT_FALSE(measured_anything(evaluation));
   evaluation["agents"]["r1"] = json::object();
   EXPECT_FALSE(measured_anything(evaluation));
-  for (const auto& [key, value] : json{{"map", json::object()}, {"fleet", json::object()}}.items()) {
+  for (const char* key : {"map", "fleet"}) {
     json other = evaluation;
-    other[key] = value;
+    other[key] = json::object();
     EXPECT_TRUE(measured_anything(other)) << key;
   }
   json pairs = evaluation;
