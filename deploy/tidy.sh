@@ -8,13 +8,14 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 git_() { git -c safe.directory='*' "$@"; }
+peers=':!tests/bench/peers'  # need sources that are not here
 most=999999
 case "${1:-}" in
   "") most=${TIDY_FILES:-24}
-      files=$(git_ log -n 60 --format= --name-only -- '*.cpp') ;;
-  all) files=$(git_ ls-files 'src/*.cpp' 'tests/*.cpp') ;;
+      files=$(git_ log -n 60 --format= --name-only -- '*.cpp' "$peers") ;;
+  all) files=$(git_ ls-files 'src/*.cpp' 'tests/*.cpp' "$peers") ;;
   *.cpp) files=$(printf '%s\n' "$@") ;;
-  *) files=$(git_ diff --name-only "$1" -- '*.cpp') ;;
+  *) files=$(git_ diff --name-only "$1" -- '*.cpp' "$peers") ;;
 esac
 # Sources before tests: these take three times as long and hold less.
 present=$(awk 'NF && !seen[$0]++' <<<"$files" | while read -r file; do [ ! -f "$file" ] || echo "$file"; done)

@@ -15,7 +15,7 @@ Status AgentConfig::validate() const {
   if (site_origin && !is_valid(*site_origin)) return failure("site.origin is not on Earth");
   if (perception.waiting_scans == 0) return failure("odometry.waiting_scans must be at least 1");
   exchange::ExchangeConfig complete_exchange = exchange;
-  complete_exchange.payload_size = [](const exchange::Message&) { return std::size_t{0}; };
+  complete_exchange.payload_size = [](const messages::Message&) { return std::size_t{0}; };
   for (const Status& status :
        {of("lidar", perception.lidar.validate()), of("odometry", perception.odometry.validate()),
         of("localization", perception.localization.validate()), of("nodes", nodes.validate()),

@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -14,25 +14,25 @@ namespace {
 constexpr Duration kTickPeriod = std::chrono::milliseconds(20);
 
 /// Digests, status messages and orders go on for ever; everything else moves items.
-bool moves_items(const exchange::Message& message) {
-  return !std::holds_alternative<exchange::Digest>(message) &&
-         !std::holds_alternative<exchange::Hold>(message) &&
-         !std::holds_alternative<exchange::AgentStatus>(message) &&
-         !std::holds_alternative<exchange::SubmapDigest>(message);
+bool moves_items(const messages::Message& message) {
+  return !std::holds_alternative<messages::Digest>(message) &&
+         !std::holds_alternative<messages::Hold>(message) &&
+         !std::holds_alternative<messages::AgentStatus>(message) &&
+         !std::holds_alternative<messages::SubmapDigest>(message);
 }
 
 /// Someone still fills its map.
-bool moves_submaps(const exchange::Message& message) {
-  return std::holds_alternative<exchange::SubmapRequest>(message) ||
-         std::holds_alternative<exchange::SubmapChunk>(message);
+bool moves_submaps(const messages::Message& message) {
+  return std::holds_alternative<messages::SubmapRequest>(message) ||
+         std::holds_alternative<messages::SubmapChunk>(message);
 }
 
 /// Whom we ask may be gone: to ask again and again moves nothing.
-bool asks(const exchange::Message& message) {
-  return std::holds_alternative<exchange::CloudRequest>(message) ||
-         std::holds_alternative<exchange::ProximityMatch>(message) ||
-         std::holds_alternative<exchange::ItemRequest>(message) ||
-         std::holds_alternative<exchange::SubmapRequest>(message);
+bool asks(const messages::Message& message) {
+  return std::holds_alternative<messages::CloudRequest>(message) ||
+         std::holds_alternative<messages::ProximityMatch>(message) ||
+         std::holds_alternative<messages::ItemRequest>(message) ||
+         std::holds_alternative<messages::SubmapRequest>(message);
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ FleetLink::FleetLink(const AgentId& self, bus::Bus& bus, exchange::Exchange& exc
                      std::function<void()> on_events)
     : bus_(bus), exchange_(exchange), on_events_(std::move(on_events)) {
   counters_.last_useful = counters_.last_submap = bus.now();
-  for (const bus::Topic& topic : wire::inbox_topics(self)) {
+  for (const bus::Topic& topic : fleet_codec::inbox_topics(self)) {
     handles_.push_back(bus_.subscribe(topic, [this, topic](const Bytes& cdr) { receive(topic, cdr); }));
   }
   handles_.push_back(bus_.every(kTickPeriod, {"exchange", [this] { tick(); }}));
@@ -52,18 +52,18 @@ void FleetLink::tick() {
   if (discovery_bytes > discovery_bytes_)
     exchange_.on_discovery(discovery_bytes - discovery_bytes_, bus_.now());
   discovery_bytes_ = discovery_bytes;
-  for (const exchange::Outgoing& outgoing : exchange_.tick(bus_.now())) {
+  for (const messages::Outgoing& outgoing : exchange_.tick(bus_.now())) {
     if (!asks(outgoing.message)) {
       if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
       if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
     }
-    bus_.publish(wire::topic_of(outgoing), wire::encode(outgoing.message));
+    bus_.publish(fleet_codec::topic_of(outgoing), fleet_codec::encode(outgoing.message));
   }
   on_events_();
 }
 
 void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
-  const Result<exchange::Message> message = wire::decode_message(topic, cdr);
+  const Result<messages::Message> message = fleet_codec::decode_message(topic, cdr);
   if (!message) {
     ++counters_.refused_messages;
     if (++warned_[topic.name] == 1)
@@ -72,7 +72,7 @@ void FleetLink::receive(const bus::Topic& topic, const Bytes& cdr) {
   }
   if (moves_items(*message)) counters_.last_useful = bus_.now();
   if (moves_submaps(*message)) counters_.last_submap = bus_.now();
-  exchange_.on_message(*message, wire::reach_of(topic.link), bus_.now(), bus_.sender());
+  exchange_.on_message(*message, fleet_codec::reach_of(topic.link), bus_.now(), bus_.sender());
   on_events_();
 }
 

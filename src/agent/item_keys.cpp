@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/trust/credentials.hpp"
-#include "fleetmap/wire/messages.hpp"
 
 namespace fleetmap::agent {
 
@@ -20,20 +20,20 @@ Bytes ItemKeys::fleet() const {
 
 Signature ItemKeys::sign(const graph::Node& node) const {
   return trust::sign_item(credentials_->key, credentials_->authority.fleet, ItemKind::kNode,
-                          wire::signed_bytes(node));
+                          fleet_codec::signed_bytes(node));
 }
 
 Signature ItemKeys::sign(const graph::Alignment& alignment) const {
   return trust::sign_item(credentials_->key, credentials_->authority.fleet, ItemKind::kAlignment,
-                          wire::signed_bytes(alignment));
+                          fleet_codec::signed_bytes(alignment));
 }
 
 ItemProof ItemKeys::verify(const graph::Node& node) const {
-  return verify(node.id.agent, ItemKind::kNode, wire::signed_bytes(node), node.signature);
+  return verify(node.id.agent, ItemKind::kNode, fleet_codec::signed_bytes(node), node.signature);
 }
 
 ItemProof ItemKeys::verify(const graph::Alignment& alignment) const {
-  return verify(alignment.computed_by, ItemKind::kAlignment, wire::signed_bytes(alignment),
+  return verify(alignment.computed_by, ItemKind::kAlignment, fleet_codec::signed_bytes(alignment),
                 alignment.signature);
 }
 

@@ -3,13 +3,25 @@
 #include <algorithm>
 #include <utility>
 
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/output/placed_store.hpp"
 
 namespace fleetmap::agent {
+namespace {
+
+/// A solution costs in proportion to the nodes; so long after each, its share of the CPU stays what it is of
+/// a small fleet.
+constexpr Duration kPausePerNode = std::chrono::microseconds(500);
+constexpr std::size_t kFewNodes = 10'000;  ///< need no pause
+
+Duration pause_after(std::size_t nodes) {
+  return nodes < kFewNodes ? Duration::zero() : static_cast<int>(nodes) * kPausePerNode;
+}
+
+}  // namespace
 
 struct LivePlacement::Job {
   GeoPoint origin;
@@ -33,8 +45,8 @@ bool LivePlacement::due() const {
 }
 
 void LivePlacement::refresh(std::uint16_t session) {
-  if (under_way_ || !due()) return;
-  const std::optional<GeoPoint> origin = site_origin(store_, config_.site_origin);
+  if (under_way_ || !due() || bus_.now() < paused_until_) return;
+  const std::optional<GeoPoint> origin = output::site_origin(store_, config_.site_origin);
   if (!origin) return;
   items_ = store_.revision();
   auto job = std::make_shared<Job>();
@@ -42,8 +54,8 @@ void LivePlacement::refresh(std::uint16_t session) {
   job->config = config_.placement;
   if (const std::uint32_t next = store_.next_node_seq(session); next != first_seq(session))
     job->newest = NodeId{config_.id, next - 1};
-  job->nodes = nodes_of(store_);
-  job->alignments = alignments_of(store_);
+  job->nodes = output::nodes_of(store_);
+  job->alignments = output::alignments_of(store_);
   under_way_ = true;
   const bool taken = bus_.offload(bus::Lane::kBackground, {"placement", [job] { solve(*job); }}, [this, job] {
     under_way_ = false;
@@ -51,7 +63,10 @@ void LivePlacement::refresh(std::uint16_t session) {
     solution_ = job->solution;
     on_used_(job->used);
   });
-  if (taken) return;
+  if (taken) {
+    paused_until_ = bus_.now() + pause_after(job->nodes.size());
+    return;
+  }
   under_way_ = false;
   items_ = 0;  // no revision of a store that has an own node: the next refresh tries again
 }
@@ -60,7 +75,7 @@ void LivePlacement::solve(Job& job) {
   const CpuTimer timer(job.cpu_seconds);
   const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
   graph::Placement placement =
-      graph::place(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
+      graph::compute_placement(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
   job.used = std::move(placement.used);
   const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {
@@ -78,7 +93,7 @@ void LivePlacement::solve(Job& job) {
   }
 }
 
-void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odometry) {
+void LivePlacement::publish(const graph::FrameId& frame, const output::StampedPose& odometry) {
   if (!solution_ || solution_->frame != frame) return;
   const LocalFrame site(solution_->origin);
   const Pose T_enu_base = solution_->T_enu_odom * odometry.T_w_base;
@@ -88,7 +103,7 @@ void LivePlacement::publish(const graph::FrameId& frame, const StampedPose& odom
   pose.q_enu_base =
       Eigen::Quaterniond(Eigen::Matrix3d(site.R_enu_local(pose.position).transpose() * T_enu_base.linear()));
   pose.covariance = solution_->covariance;
-  bus_.publish(wire::topics::corrected_pose(), wire::encode(pose));
+  bus_.publish(fleet_codec::topics::corrected_pose(), fleet_codec::encode(pose));
 }
 
 }  // namespace fleetmap::agent

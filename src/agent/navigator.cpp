@@ -6,43 +6,17 @@
 #include <cmath>
 #include <utility>
 
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/place/proximity_search.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
 /// Who leads a robot and falls silent no longer does: it is on its own G again, or stands.
 constexpr Duration kGuidePatience = std::chrono::seconds(1);
-
-exchange::MissionReport to_wire(const planning::MissionReport& report) {
-  return {report.agent,
-          report.stamp,
-          static_cast<std::uint8_t>(report.state),
-          static_cast<float>(report.position.x()),
-          static_cast<float>(report.position.y()),
-          static_cast<float>(std::clamp(report.battery, 0.0, 1.0)),
-          report.current,
-          report.done.bytes(),
-          report.claimed.bytes(),
-          report.failed.bytes()};
-}
-
-planning::MissionReport from_wire(const exchange::MissionReport& report, std::size_t rows) {
-  planning::MissionReport out;
-  out.agent = report.from;
-  out.stamp = report.stamp;
-  out.state = static_cast<planning::MissionState>(report.state);
-  out.position = {static_cast<double>(report.east), static_cast<double>(report.north)};
-  out.battery = static_cast<double>(report.battery);
-  out.current = report.current;
-  out.done = planning::RowSet(rows, report.done);
-  out.claimed = planning::RowSet(rows, report.claimed);
-  out.failed = planning::RowSet(rows, report.failed);
-  return out;
-}
 
 }  // namespace
 
@@ -86,12 +60,12 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
       coverage_(executive_.plan().mission),
       follower_(config.follower),
       guard_(config.guard) {
-  bus_.advertise(wire::topics::cmd_vel());
-  handles_.push_back(bus_.subscribe(wire::topics::battery(), [this](const Bytes& cdr) {
-    if (const auto battery = wire::decode<sensor::Battery>(cdr)) battery_ = battery->share;
+  bus_.advertise(ros_codec::topics::cmd_vel());
+  handles_.push_back(bus_.subscribe(ros_codec::topics::battery(), [this](const Bytes& cdr) {
+    if (const auto battery = ros_codec::decode<sensor::Battery>(cdr)) battery_ = battery->share;
   }));
-  handles_.push_back(bus_.subscribe(wire::topics::guide_pose(), [this](const Bytes& cdr) {
-    const auto told = wire::decode<GlobalPose>(cdr);
+  handles_.push_back(bus_.subscribe(fleet_codec::topics::guide_pose(), [this](const Bytes& cdr) {
+    const auto told = fleet_codec::decode<GlobalPose>(cdr);
     const auto pose = told ? pose_of(*told) : std::nullopt;
     if (!pose) return;
     guide_ = pose;
@@ -123,8 +97,8 @@ void Navigator::drive(const planning::Command& command) {
   const auto reason = guard_.check(bus_.now());
   note(reason);
   const planning::Command passed = reason ? planning::Command{} : command;
-  bus_.publish(wire::topics::cmd_vel(),
-               wire::encode(wire::VelocityCommand{passed.forward_speed, passed.yaw_rate}));
+  bus_.publish(ros_codec::topics::cmd_vel(),
+               ros_codec::encode(ros_codec::VelocityCommand{passed.forward_speed, passed.yaw_rate}));
 }
 
 void Navigator::note(const std::optional<StandReason>& reason) {
@@ -171,9 +145,7 @@ void Navigator::on_perceived(const Perceived& perceived) {
                          bus_.now()));
 }
 
-void Navigator::on_report(const exchange::MissionReport& report) {
-  executive_.on_report(from_wire(report, executive_.status().rows), bus_.now());
-}
+void Navigator::on_report(const messages::MissionReport& report) { executive_.on_report(report, bus_.now()); }
 
 void Navigator::on_node(const graph::Node& node) {
   if (node.G) coverage_.add(site_.to_enu(node.G->position).head<2>());
@@ -198,7 +170,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   action_ = std::move(next);
   if (next_report_ && input.now < *next_report_) return;
   next_report_ = input.now + config_.report_period;
-  tell_(to_wire(executive_.report()));
+  tell_(executive_.report());
 }
 
 bool Navigator::all_rows_driven() const {
@@ -213,7 +185,7 @@ bool Navigator::stuck(Stamp now) const {
   return blind || follower_.stuck(now);
 }
 
-void Navigator::obey(const exchange::HoldOrder& order) {
+void Navigator::obey(const messages::HoldOrder& order) {
   if (order.hold == guard_.held()) return;
   guard_.set_held(order.hold);
   spdlog::warn("{}: {} by order of {}", self_.str(), order.hold ? "held" : "let go", order.issuer.str());

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -26,10 +28,10 @@ void keep(std::vector<T>& samples, const T& sample) {
 }  // namespace
 
 SensorTopics::SensorTopics()
-    : points(wire::topics::points().name),
-      imu(wire::topics::imu().name),
-      fix(wire::topics::fix().name),
-      wheel(wire::topics::wheel_odometry().name) {}
+    : points(ros_codec::topics::points().name),
+      imu(ros_codec::topics::imu().name),
+      fix(ros_codec::topics::fix().name),
+      wheel(ros_codec::topics::wheel_odometry().name) {}
 
 Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
                        std::function<void()> on_scan)
@@ -42,8 +44,8 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
       scans_(config.waiting_scans),
       last_heard_(bus.now()),
       last_scan_(last_heard_) {
-  bus_.advertise(wire::topics::odometry());
-  bus_.advertise(wire::topics::global_pose());
+  bus_.advertise(ros_codec::topics::odometry());
+  bus_.advertise(fleet_codec::topics::global_pose());
   subscribe();
 }
 
@@ -53,16 +55,16 @@ void Perception::subscribe() {
     return topic;
   };
   const SensorTopics& names = config_.topics;
-  subscriptions_.push_back(bus_.subscribe(named(wire::topics::points(), names.points),
+  subscriptions_.push_back(bus_.subscribe(named(ros_codec::topics::points(), names.points),
                                           [this](const Bytes& cdr) { on_scan(cdr); }));
-  on_sample<sensor::Imu>(named(wire::topics::imu(), names.imu), sensor::Source::kImu, counters_.imu,
+  on_sample<sensor::Imu>(named(ros_codec::topics::imu(), names.imu), sensor::Source::kImu, counters_.imu,
                          [this](const sensor::Imu& imu) {
                            ekf_.add(imu);
                            if (config_.odometry_uses_imu) keep(imu_since_scan_, imu);
                          });
-  on_sample<sensor::Fix>(named(wire::topics::fix(), names.fix), sensor::Source::kGps, counters_.fixes,
+  on_sample<sensor::Fix>(named(ros_codec::topics::fix(), names.fix), sensor::Source::kGps, counters_.fixes,
                          [this](const sensor::Fix& fix) { ekf_.add(fix); });
-  on_sample<sensor::Wheel>(named(wire::topics::wheel_odometry(), names.wheel), sensor::Source::kWheel,
+  on_sample<sensor::Wheel>(named(ros_codec::topics::wheel_odometry(), names.wheel), sensor::Source::kWheel,
                            counters_.wheel, [this](const sensor::Wheel& wheel) {
                              ekf_.add(wheel);
                              if (config_.odometry_uses_wheel) keep(wheel_since_scan_, wheel);
@@ -80,7 +82,7 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
   subscriptions_.push_back(
       bus_.subscribe(topic, [this, source, &count, use, name = topic.name](const Bytes& cdr) {
         last_heard_ = bus_.now();
-        Result<T> sample = wire::decode<T>(cdr);
+        Result<T> sample = ros_codec::decode<T>(cdr);
         if (!sample) {
           ++counters_.refused_messages;
           return warn(name + ": message refused", sample.error().message);
@@ -102,7 +104,7 @@ void Perception::on_scan(const Bytes& cdr) {
   last_heard_ = last_scan_ = bus_.now();
   ++counters_.scans;
   // One without a stamp is refused when it is decoded.
-  if (const auto stamp = wire::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
+  if (const auto stamp = ros_codec::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
   if (clock_offsets_.unclear(sensor::Source::kLidar)) return void(++counters_.unclear_stamps);
   if (on_scan_) on_scan_();
   scans_.push({last_scan_, cdr});
@@ -128,7 +130,7 @@ void Perception::start_next() {
                       const double start = thread_cpu_seconds();
                       for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
                       for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
-                      Result<wire::DecodedScan> decoded = wire::decode_scan(job->scan);
+                      Result<ros_codec::DecodedScan> decoded = ros_codec::decode_scan(job->scan);
                       if (decoded) decoded->scan.stamp += job->clock_correction;
                       job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
                       job->cpu_seconds = thread_cpu_seconds() - start;
@@ -146,8 +148,8 @@ void Perception::finish(Job& job) {
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);
-    bus_.publish(wire::topics::odometry(),
-                 wire::encode(wire::OdometryMsg{update.stamp, update.T_odom_base, update.covariance}));
+    bus_.publish(ros_codec::topics::odometry(), ros_codec::encode(ros_codec::OdometryMsg{
+                                                    update.stamp, update.T_odom_base, update.covariance}));
     const localization::Filter& filter = ekf_.newest();
     const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(update.T_odom_base.linear());
     Perceived perceived{std::move(*job.update),
@@ -156,7 +158,7 @@ void Perception::finish(Job& job) {
                         filter.attitude_set,
                         job.cpu_seconds,
                         job.heard};
-    if (perceived.G) bus_.publish(wire::topics::global_pose(), wire::encode(*perceived.G));
+    if (perceived.G) bus_.publish(fleet_codec::topics::global_pose(), fleet_codec::encode(*perceived.G));
     on_perceived_(std::move(perceived));
   } else {
     ++counters_.refused_scans;

@@ -6,8 +6,8 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -21,7 +21,7 @@ std::int64_t steady_ns() { return Duration(std::chrono::steady_clock::now().time
 
 DriveWatchdog::DriveWatchdog(bus::DdsBus& bus, const std::atomic<bool>& stop)
     : bus_(bus), stop_(stop), last_beat_(steady_ns()) {
-  bus_.advertise(wire::topics::cmd_vel());
+  bus_.advertise(ros_codec::topics::cmd_vel());
   beat_ = bus_.every(kPeriod, {"drive watchdog", [this] { last_beat_ = steady_ns(); }});
   thread_ = std::jthread([this](const std::stop_token& end) { run(end); });
 }
@@ -29,7 +29,7 @@ DriveWatchdog::DriveWatchdog(bus::DdsBus& bus, const std::atomic<bool>& stop)
 bool DriveWatchdog::stalled() const { return steady_ns() - last_beat_ > kPatience.count(); }
 
 void DriveWatchdog::run(const std::stop_token& end) {
-  const Bytes zero = wire::encode(wire::VelocityCommand{});
+  const Bytes zero = ros_codec::encode(ros_codec::VelocityCommand{});
   std::mutex mutex;
   std::condition_variable_any ended;
   std::unique_lock lock(mutex);
@@ -41,7 +41,7 @@ void DriveWatchdog::run(const std::stop_token& end) {
       spdlog::warn("the robot stands still: the program was busy for more than {:.1f} s",
                    to_seconds(kPatience));
     was_stalled = is_stalled;
-    if (is_stalled || ending) bus_.publish(wire::topics::cmd_vel(), zero);
+    if (is_stalled || ending) bus_.publish(ros_codec::topics::cmd_vel(), zero);
   }
 }
 

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "experiment/run_case.hpp"
+#include "fleetmap/experiment/run_case.hpp"
 #include "grid_command.hpp"
 #include "options.hpp"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"

@@ -7,7 +7,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,8 +14,8 @@
 #include "commands.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/core/thread_pool.hpp"
+#include "fleetmap/fault_injection/failure_report.hpp"
 #include "fleetmap/fault_injection/fleet_run.hpp"
-#include "fleetmap/fault_injection/shrink.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -40,45 +39,6 @@ struct FuzzOptions {
   bool signatures = false;
 };
 
-/// The seed's scenario with these of its faults alone.
-Scenario with_faults(Scenario scenario, const std::vector<std::size_t>& kept) {
-  std::vector<Fault> faults;
-  for (const std::size_t k : kept) faults.push_back(scenario.faults.at(k));
-  scenario.faults = std::move(faults);
-  return scenario;
-}
-
-std::string faults_of(const Scenario& scenario, const std::vector<std::size_t>& kept) {
-  std::ostringstream out;
-  for (const std::size_t k : kept) out << "  fault " << k << ' ' << to_string(scenario.faults[k]) << '\n';
-  return out.str();
-}
-
-bool violates(const Outcome& outcome, Invariant invariant) {
-  return std::ranges::any_of(outcome.violations,
-                             [&](const Violation& violation) { return violation.invariant == invariant; });
-}
-
-/// What failed, and the fewest faults with which it does.
-std::string failure_of(const Scenario& scenario, const Outcome& outcome, const RunConfig& config,
-                       bool shrinks) {
-  std::ostringstream out;
-  out << "seed " << scenario.seed << ", " << scenario.robots << " robots:\n";
-  for (const Violation& violation : outcome.violations) out << "  violates " << to_string(violation) << '\n';
-  if (!shrinks) return out.str();
-  const Invariant invariant = outcome.violations.front().invariant;
-  const auto kept = shrink(scenario.faults.size(), [&](const std::vector<std::size_t>& subset) {
-    return violates(run(with_faults(scenario, subset), config), invariant);
-  });
-  out << "  " << to_string(invariant) << " fails with " << kept.size() << " of " << scenario.faults.size()
-      << " faults:\n"
-      << faults_of(scenario, kept) << "  fleetmap fuzz-fleet --replay " << scenario.seed;
-  for (std::size_t k = 0; k < kept.size(); ++k) out << (k == 0 ? " --keep " : ",") << kept[k];
-  if (config.signatures) out << " --signatures";
-  out << '\n';
-  return out.str();
-}
-
 int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig config) {
   const Scenario chosen = options.keep.empty() ? scenario : with_faults(scenario, options.keep);
   config.trace = true;
@@ -97,17 +57,17 @@ struct Totals {
   std::mutex mutex;  ///< guards all below, and standard output
   std::size_t failed = 0;
   double longest = 0.0;  ///< s until convergence
-  double most_bytes_per_second = 0.0;
+  double max_bytes_per_second = 0.0;
   std::size_t nodes = 0, packets = 0;
 };
 
 void try_seed(const Scenario& scenario, const RunConfig& config, bool shrinks, Totals& totals) {
   const Outcome outcome = run(scenario, config);
   const std::string failure =
-      outcome.violations.empty() ? std::string() : failure_of(scenario, outcome, config, shrinks);
+      outcome.violations.empty() ? std::string() : failure_report(scenario, outcome, config, shrinks);
   const std::lock_guard lock(totals.mutex);
   totals.longest = std::max(totals.longest, to_seconds(outcome.converged_after));
-  totals.most_bytes_per_second = std::max(totals.most_bytes_per_second, outcome.most_bytes_per_second);
+  totals.max_bytes_per_second = std::max(totals.max_bytes_per_second, outcome.max_bytes_per_second);
   totals.nodes += outcome.nodes;
   totals.packets += outcome.packets;
   if (failure.empty()) return;
@@ -142,7 +102,7 @@ int fuzz(const FuzzOptions& options) {
   std::cout << std::fixed << std::setprecision(1) << options.seeds << " seeds, " << totals.failed
             << " failed; " << totals.nodes << " nodes, " << totals.packets
             << " packets; the slowest converged after " << totals.longest << " s, the busiest second had "
-            << totals.most_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
+            << totals.max_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
   return totals.failed == 0 ? kDone : kFailed;
 }
 

@@ -10,10 +10,11 @@
 #include <thread>
 
 #include "commands.hpp"
-#include "experiment/case_groups.hpp"
-#include "experiment/experiment.hpp"
-#include "experiment/progress_line.hpp"
+#include "fleetmap/config/experiment_file.hpp"
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/experiment/experiment.hpp"
+#include "fleetmap/experiment/grid.hpp"
+#include "fleetmap/experiment/progress_line.hpp"
 #include "options.hpp"
 #include "version.hpp"
 
@@ -26,27 +27,6 @@ std::string this_program() {
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   const ContentHash hash = content_hash({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
   return std::string(kVersion) + " " + to_hex(hash).substr(0, 16);
-}
-
-/// A line a case; those whose run an earlier line has are marked.
-int list_cases(const std::vector<experiment::Case>& cases) {
-  const auto groups = experiment::grouped(cases);
-  if (!groups) return report(groups.error(), kBadConfiguration);
-  std::vector<std::size_t> first(cases.size());
-  for (const experiment::CaseGroup& group : *groups)
-    for (const std::size_t k : group.cases) first[k] = group.cases.front();
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    std::cout << cases[k].name;
-    if (first[k] != k) {
-      std::cout << ": same run as " << cases[first[k]].name << '\n';
-      continue;
-    }
-    std::cout << ": " << cases[k].agents << " robots";
-    for (const config::Override& entry : cases[k].overrides)
-      std::cout << " --set " << entry.key << '=' << entry.value;
-    std::cout << '\n';
-  }
-  return kDone;
 }
 
 int run_single(const std::vector<experiment::Case>& cases, const std::string& name,
@@ -66,26 +46,23 @@ int run_single(const std::vector<experiment::Case>& cases, const std::string& na
 }  // namespace
 
 int run_grid(const GridOptions& options, const MakeEngine& make_engine) {
-  auto config = config::load_experiment(options.config, options.quick);
-  if (!config) return report(config.error(), kBadConfiguration);
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  for (config::Study& study : config->studies)
-    study.overrides.insert(study.overrides.end(), overrides->begin(), overrides->end());
-  const std::vector<experiment::Case> cases = experiment::all_cases(*config);
-  // What cannot be read with a point's keys is found before hours are spent on the others.
-  if (const Status valid = experiment::check_cases(cases); !valid)
-    return report(valid.error(), kBadConfiguration);
-  if (options.list) return list_cases(cases);
+  const auto grid = experiment::load_grid(options.config, options.quick, *overrides);
+  if (!grid) return report(grid.error(), kBadConfiguration);
+  if (options.list) {
+    const Status listed = experiment::list_cases(grid->cases, std::cout);
+    return listed ? kDone : report(listed.error(), kBadConfiguration);
+  }
 
   const std::atomic<bool>& stop = stop_on_signals();
   const experiment::Engine engine = make_engine(stop);
   const experiment::RunnerConfig runner{options.out, options.jobs, options.keep, this_program(),
                                         options.any_build};
-  if (!options.one_case.empty()) return run_single(cases, options.one_case, engine, runner, stop);
-  const auto result = options.report ? experiment::report_experiment(*config, runner, std::cout)
-                                     : experiment::run_experiment(*config, engine, runner, stop, std::cout,
-                                                                  ::isatty(STDOUT_FILENO) != 0);
+  if (!options.one_case.empty()) return run_single(grid->cases, options.one_case, engine, runner, stop);
+  const auto result = options.report ? experiment::report_experiment(grid->config, runner, std::cout)
+                                     : experiment::run_experiment(grid->config, engine, runner, stop,
+                                                                  std::cout, ::isatty(STDOUT_FILENO) != 0);
   if (!result) return report(result.error(), kFailed);
   if (!result->outcome.complete()) {
     std::cout << "incomplete: " << result->outcome.missing.size() << " runs are still to be made"

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "experiment/case.hpp"
+#include "fleetmap/experiment/case.hpp"
 
 namespace fleetmap::apps {
 

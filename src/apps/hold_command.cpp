@@ -1,31 +1,26 @@
 // `fleetmap hold` and `fleetmap resume`: an operator's order to one robot or to all, over the long range.
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/exchange/hold_orders.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
+#include "order_in_force.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-using exchange::Hold;
-using exchange::HoldOrder;
-
-constexpr Duration kLook = std::chrono::milliseconds(50);
-constexpr Duration kRepeat = std::chrono::seconds(1);
-/// Times that the order is given anew because a later one is in force: by a clock ahead of this one, not by
-/// another operator who insists.
-constexpr int kMostRenewals = 3;
+using messages::Hold;
+using messages::HoldOrder;
 
 struct HoldOptions {
   std::string config;
@@ -66,57 +61,6 @@ Result<Fleet> fleet_of(const HoldOptions& options, const std::vector<config::Ove
   if (!radio.peers.empty()) radio.peers.push_back(radio.address.empty() ? "127.0.0.1" : radio.address);
   return fleet;
 }
-
-/// One order on its way, and which robots confirmed it.
-class OrderInForce {
- public:
-  OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const HoldOrder& order)
-      : bus_(bus), addressed_(std::move(addressed)), order_(order) {
-    heard_ = bus_.subscribe(wire::topics::hold(), [this](const Bytes& cdr) {
-      if (const auto hold = wire::decode<Hold>(cdr)) on_hold(*hold);
-    });
-    bus_.advertise(wire::topics::hold());
-    timer_ = bus_.every(kLook, [this] { look(); });
-  }
-
-  bool confirmed_by_all() const { return confirmed_.size() == addressed_.size(); }
-  const std::map<AgentId, Hold::Driving>& confirmed() const { return confirmed_; }
-
- private:
-  void send() {
-    next_ = bus_.now() + kRepeat;
-    bus_.publish(wire::topics::hold(), wire::encode(Hold{order_.issuer, Hold::Driving::kNoRobot, {order_}}));
-  }
-  /// Sends when another robot was found, and again from time to time.
-  void look() {
-    const std::size_t readers = bus_.matches(wire::topics::hold()).readers;
-    if (readers > readers_ || (!confirmed_by_all() && bus_.now() >= next_)) send();
-    readers_ = readers;
-  }
-  void on_hold(const Hold& hold) {
-    if (std::ranges::find(addressed_, hold.from) == addressed_.end()) return;
-    const auto in_force = exchange::order_for(hold.from, hold.orders);
-    if (!in_force || exchange::replaces(order_, *in_force)) return;  // it has not heard
-    if (*in_force == order_) {
-      confirmed_[hold.from] = hold.driving;
-    } else if (renewals_ < kMostRenewals) {
-      ++renewals_;
-      order_.stamp = exchange::later_than(hold.orders, bus_.now());
-      confirmed_.clear();
-      send();
-    }
-  }
-
-  bus::DdsBus& bus_;
-  std::vector<AgentId> addressed_;
-  HoldOrder order_;
-  std::map<AgentId, Hold::Driving> confirmed_;
-  std::size_t readers_ = 0;
-  Stamp next_{};
-  int renewals_ = 0;
-  bus::Handle heard_;
-  bus::Handle timer_;
-};
 
 const char* what_it_does(Hold::Driving driving) {
   switch (driving) {

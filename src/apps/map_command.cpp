@@ -1,19 +1,25 @@
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/agent/results.hpp"
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/results.hpp"
+#include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "fleetmap/store/thinned_map.hpp"
-#include "map_pictures.hpp"
 #include "options.hpp"
 #include "store_summary.hpp"
+#include "stored_map.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -31,46 +37,6 @@ std::optional<GeoPoint> configured_origin(const MapOptions& options) {
   return geo_point_from_degrees(options.origin_deg[0], options.origin_deg[1], options.origin_deg[2]);
 }
 
-struct OpenedMap {
-  store::Store store;
-  agent::MapRecipe recipe;
-  graph::Placement placement;
-};
-
-/// A file that SQLite would call damaged, or a disk error, is most often another one than was meant.
-Status check_store(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    return failure(file.string() + ": is a folder; give the store.db of a robot in it");
-  if (!std::filesystem::exists(file, error)) return failure(file.string() + ": no such file");
-  constexpr std::string_view kStart = "SQLite format 3";
-  std::string start(kStart.size(), ' ');
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return failure(file.string() + ": cannot be read; check its permissions");
-  if (!in.read(start.data(), static_cast<std::streamsize>(start.size())) || start != kStart)
-    return failure(file.string() + ": is no store; give the store.db of a robot");
-  return {};
-}
-
-Result<OpenedMap> open_map(const MapOptions& options) {
-  if (const Status meant = check_store(options.store); !meant) return tl::unexpected(meant.error());
-  auto store = store::Store::open_read_only(options.store);
-  if (!store) return tl::unexpected(store.error());
-  const std::optional<agent::MapRecipe> kept = agent::map_recipe(*store);
-  agent::MapRecipe recipe = kept.value_or(agent::MapRecipe{});
-  std::optional<GeoPoint> origin = configured_origin(options);
-  if (!origin && kept) origin = kept->origin;
-  origin = agent::site_origin(*store, origin);
-  if (!origin || store->nodes().empty())
-    return failure(options.store + ": holds no node, so there is no map");
-  if (!is_valid(*origin))
-    return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
-  recipe.origin = *origin;
-  if (options.voxel) recipe.merge.voxel_m = *options.voxel;
-  auto placement = agent::place(*store, *origin, recipe.placement);
-  return OpenedMap{std::move(*store), recipe, std::move(placement)};
-}
-
 /// A summary that scripts compare: it needs no placement, so that an empty store has one, too.
 int info_json(const MapOptions& options) {
   if (const Status meant = check_store(options.store); !meant) return report(meant.error(), kFailed);
@@ -82,7 +48,7 @@ int info_json(const MapOptions& options) {
 
 int info(const MapOptions& options) {
   if (options.json) return info_json(options);
-  const auto map = open_map(options);
+  const auto map = open_map(options.store, configured_origin(options), options.voxel);
   if (!map) return report(map.error(), kFailed);
   constexpr double kDegree = std::numbers::pi / 180.0;
   std::cout << "store of " << map->store.self().str() << '\n'
@@ -93,28 +59,18 @@ int info(const MapOptions& options) {
             << map->recipe.origin.longitude / kDegree << " deg, " << map->recipe.origin.altitude << " m\n";
   for (const auto& component : map->placement.components) {
     std::cout << "aligned together:";
-    for (const graph::FrameId& frame : component) std::cout << ' ' << agent::to_string(frame);
+    for (const graph::FrameId& frame : component) std::cout << ' ' << graph::to_string(frame);
     std::cout << '\n';
   }
   return kDone;
 }
 
-/// Of the nodes that map.ply shows.
-std::map<NodeId, Pose> shown_poses(const OpenedMap& map) {
-  return agent::map_parts(agent::nodes_of(map.store), map.placement).main.T_map_node;
-}
-
-void name_unreadable(const store::MapOutline& outline) {
-  for (const NodeId& id : outline.unreadable)
-    std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
-}
-
 int export_map(const MapOptions& options) {
-  auto map = open_map(options);
+  auto map = open_map(options.store, configured_origin(options), options.voxel);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
   const std::array files{std::filesystem::path(options.out)};
-  const auto written = agent::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
+  const auto written = output::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
   if (!written) return report(written.error(), kFailed);
   name_unreadable(written->outline);
   std::cout << options.out << ": " << written->points << " points from " << written->outline.submaps
@@ -122,41 +78,14 @@ int export_map(const MapOptions& options) {
   return kDone;
 }
 
-/// The pictures, in memory for a map that is thinned to what can be drawn: its tiles come once for their
-/// points and once to be counted around these.
-Result<std::vector<MapPicture>> pictures_of(OpenedMap& map) {
-  constexpr double kDensityRadius = 1.0;  // m
-  auto merge = agent::tiled_map(map.store, shown_poses(map), map.recipe.merge);
-  if (!merge) return tl::unexpected(merge.error());
-  store::ThinnedMap thinned(map.recipe.merge.voxel_m, kMostDrawn);
-  const auto thin = [&](const store::MapTile& tile) -> Status {
-    thinned.add(tile);
-    return {};
-  };
-  if (const Status done = merge->stream(thin); !done) return tl::unexpected(done.error());
-  name_unreadable(merge->outline());
-  const store::MergedMap shown = thinned.map(merge->outline());
-  auto pictures = pictures_by_robot(shown);
-  if (!pictures) return pictures;
-  std::vector<std::uint32_t> counts(shown.cloud.size());
-  const auto count = [&](const store::MapTile& tile) -> Status {
-    add_density(shown.cloud, tile.cloud, kDensityRadius, counts);
-    return {};
-  };
-  if (const Status done = merge->stream(count); !done) return tl::unexpected(done.error());
-  auto density = picture_of_density(shown.cloud, counts, kDensityRadius);
-  if (density) pictures->push_back(std::move(*density));
-  return pictures;
-}
-
 int draw_map(const MapOptions& options) {
-  auto map = open_map(options);
+  auto map = open_map(options.store, configured_origin(options), options.voxel);
   if (!map) return report(map.error(), kFailed);
   if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
   const auto pictures = pictures_of(*map);
   if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
-  for (const MapPicture& picture : *pictures) {
-    if (const Status written = write_picture(options.out, picture); !written)
+  for (const run_evaluation::MapPicture& picture : *pictures) {
+    if (const Status written = run_evaluation::write_picture(options.out, picture); !written)
       return report(written.error(), kFailed);
     std::cout << (std::filesystem::path(options.out) / picture.file).string() << '\n';
   }

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/row_selection.hpp"
 
 namespace fleetmap::apps {
 namespace {

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/sim/site_drawing.hpp"
 
 namespace fleetmap::apps {

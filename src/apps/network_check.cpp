@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/config/fleet_agreement.hpp"
+#include "fleetmap/config/robot_config.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::apps {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/override.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::apps {

@@ -1,7 +1,6 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -9,12 +8,22 @@
 #include <string>
 
 #include "commands.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "drawn_site.hpp"
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/mission_settings.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
+#include "fleetmap/eval/colours.hpp"
 #include "fleetmap/eval/picture.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/eval/png.hpp"
+#include "fleetmap/planning/mission/plan_geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "mission_setup.hpp"
 #include "options.hpp"
 #include "plan_picture.hpp"
+#include "plan_summary.hpp"
 #include "twin_setup.hpp"
 
 namespace fleetmap::apps {
@@ -37,16 +46,11 @@ struct FleetToPlan {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// An agent's file may be planned with before it has the origin of ENU: then at the drawing's first position.
 Result<config::RobotConfig> robot_of(const PlanOptions& options, std::vector<config::Override> overrides) {
   auto robot = config::load_robot(options.config, overrides);
   if (robot) return robot;
-  const std::optional<GeoPoint> first = planning::first_position(text_of(options.site));
+  const std::optional<GeoPoint> first = first_position_of(options.site);
   const GeoPoint origin = first.value_or(kSomewhere);
   std::ostringstream numbers;
   numbers << std::fixed << std::setprecision(7) << '[' << origin.latitude / kDegree << ", "
@@ -90,57 +94,7 @@ Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Ove
   return FleetToPlan{robot->mission->settings, robot->mission->fleet, robot->agent.site_origin};
 }
 
-/// The drawing, the frame of its file, and the ENU frame that it is planned in.
-struct Site {
-  planning::Mission mission;
-  planning::FileFrame frame = planning::FileFrame::kWgs84;
-  LocalFrame enu{kSomewhere};
-};
-
-Result<Site> read_site(const std::string& file, const std::optional<GeoPoint>& origin) {
-  const std::optional<GeoPoint> first = planning::first_position(text_of(file));
-  Site site;
-  site.frame = first ? planning::FileFrame::kWgs84 : planning::FileFrame::kEnu;
-  site.enu = LocalFrame(origin.value_or(first.value_or(kSomewhere)));
-  auto mission = planning::read_geojson(file, site.enu);
-  if (!mission) return tl::unexpected(mission.error());
-  site.mission = std::move(*mission);
-  return site;
-}
-
-std::string place_text(const Eigen::Vector2d& p, const Site& site) {
-  const bool enu = site.frame == planning::FileFrame::kEnu;
-  const GeoPoint geo = site.enu.to_geo({p.x(), p.y(), 0.0});
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(enu ? 1 : 6) << (enu ? p.x() : geo.latitude / kDegree) << ", "
-       << (enu ? p.y() : geo.longitude / kDegree)
-       << (enu ? " m (east, north)" : " deg (latitude, longitude)");
-  return text.str();
-}
-
-void print(const planning::FleetPlan& plan, const Site& site) {
-  std::cout << std::fixed << std::setprecision(0);
-  for (const planning::RobotRoute& route : plan.division.routes) {
-    std::cout << route.agent.str() << ": " << route.visits.size() << " rows, " << route.length << " m, "
-              << route.time << " s:";
-    for (const planning::RowVisit& visit : route.visits)
-      std::cout << ' ' << visit.row << (visit.reversed ? " (from its end)" : "");
-    std::cout << '\n';
-  }
-  if (!plan.division.left_out.empty()) {
-    std::cout << "left out, since no battery reaches them:";
-    for (const planning::RowId row : plan.division.left_out) std::cout << ' ' << row;
-    std::cout << '\n';
-  }
-  if (plan.meeting) {
-    std::cout << "all meet at " << place_text(plan.meeting->place, site) << " after " << plan.meeting->latest
-              << " s; all maps are exchanged after " << plan.completion << " s\n";
-  } else {
-    std::cout << "all rows are driven after " << plan.completion << " s\n";
-  }
-}
-
-Status write(const planning::FleetPlan& plan, const Site& site, const std::filesystem::path& out) {
+Status write(const planning::FleetPlan& plan, const DrawnSite& site, const std::filesystem::path& out) {
   std::vector<std::string> colours;
   for (std::size_t k = 0; k < plan.fleet.size(); ++k) colours.push_back(eval::hex(eval::robot_colour(k)));
   std::ofstream file(out, std::ios::binary);
@@ -173,7 +127,7 @@ int run(const PlanOptions& options) {
   if (!site) return report(site.error(), kBadConfiguration);
   const auto plan = plan_on(site->mission, std::move(fleet->robots), fleet->settings);
   if (!plan) return report({options.site + ": " + plan.error().message}, kBadConfiguration);
-  print(**plan, *site);
+  print_plan(std::cout, **plan, *site);
   if (options.out.empty()) return kDone;
   if (const Status written = write(**plan, *site, options.out); !written)
     return report(written.error(), kFailed);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "fleetmap/eval/picture.hpp"
+
 namespace fleetmap::apps {
 namespace {
 

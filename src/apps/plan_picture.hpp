@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/eval/picture.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/eval/image.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 
 namespace fleetmap::apps {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fleet_feed.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "sample_player.hpp"
 

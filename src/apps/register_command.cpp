@@ -10,7 +10,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "options.hpp"
 

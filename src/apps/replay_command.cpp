@@ -1,17 +1,17 @@
-#include <spdlog/spdlog.h>
-
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
+#include "recording_player.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -26,62 +26,6 @@ struct ReplayOptions {
   double rate = 1.0;
   double wait_for_reader = 30.0;
   std::vector<std::string> set;
-};
-
-/// Plays samples at the times they were taken at, from timers of the bus's own thread.
-class Player {
- public:
-  Player(recording::Reader& reader, const recording::LogClock& log_clock, bus::DdsBus& bus,
-         const agent::SensorTopics& names, double rate)
-      : reader_(reader), bus_(bus), names_(names), rate_(rate), times_(log_clock) {
-    for (const bus::Topic& topic : sensor_topics(names_)) bus_.advertise(topic);
-  }
-  Status start() {
-    if (const Status read = advance(); !read) return read;
-    if (!next_) return failure("the recording holds no sensor sample");
-    first_stamp_ = due_;
-    started_ = std::chrono::steady_clock::now();
-    timer_ = bus_.every(std::chrono::milliseconds(2), [this] { play_due(); });
-    return {};
-  }
-  bool done() const { return !next_; }
-  std::uint64_t played() const { return played_; }
-  const std::string& error() const { return error_; }
-
- private:
-  Status advance() {
-    auto sample = reader_.next();
-    if (!sample) return tl::unexpected(sample.error());
-    next_ = std::move(*sample);
-    if (next_) due_ = times_.of(*next_, reader_.recorded());
-    return {};
-  }
-  void play_due() {
-    const auto elapsed = std::chrono::steady_clock::now() - started_;
-    while (next_ &&
-           to_seconds(due_ - first_stamp_) <= rate_ * std::chrono::duration<double>(elapsed).count()) {
-      const EncodedSample encoded = encode(*next_, names_);
-      bus_.publish(encoded.topic, encoded.cdr);
-      ++played_;
-      if (const Status read = advance(); !read) {
-        error_ = read.error().message;
-        next_.reset();
-      }
-    }
-  }
-
-  recording::Reader& reader_;
-  bus::DdsBus& bus_;
-  agent::SensorTopics names_;
-  double rate_;
-  std::optional<recording::Sample> next_;
-  recording::PlayTimes times_;
-  Stamp due_;  ///< of `next_`
-  Stamp first_stamp_;
-  std::chrono::steady_clock::time_point started_;
-  std::uint64_t played_ = 0;
-  std::string error_;
-  bus::Handle timer_;
 };
 
 Result<config::RobotConfig> replay_config(const ReplayOptions& options) {
@@ -123,7 +67,7 @@ int run(const ReplayOptions& options) {
   const agent::SensorTopics& names = robot->agent.perception.topics;
   const auto log_clock = recording::find_log_clock(path, reader_config);
   if (!log_clock) return report(log_clock.error(), kFailed);
-  Player player(**reader, *log_clock, **bus, names, options.rate);
+  RecordingPlayer player(**reader, *log_clock, **bus, names, options.rate);
   const auto matched = [&] {
     return stop || std::ranges::all_of(sensor_topics(names), [&](const bus::Topic& topic) {
              return (*bus)->matches(topic).readers > 0;

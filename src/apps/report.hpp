@@ -1,27 +1,16 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "fleetmap/agent/agent.hpp"
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/bus/stall_detector.hpp"
+#include "fleetmap/output/results.hpp"
 #include "run_profile.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
-
-/// Minimum, mean, median, 99th percentile and maximum, and their number.
-struct Distribution {
-  std::size_t count = 0;
-  double min = 0.0, mean = 0.0, p50 = 0.0, p99 = 0.0, max = 0.0;
-};
-Distribution distribution(std::vector<double> values);
-
-/// What one agent saw, made, sent and refused.
-nlohmann::json agent_report(const agent::Agent& agent, const agent::Results* results);
 
 /// A sentence for the last lines of a run; empty if every scan fitted the local map.
 std::string lost_ways(const odometry::LoamCounters& odometry);
@@ -35,7 +24,7 @@ struct RadioAccess {
 };
 /// The same of one agent alone; `stalls` of its bus's threads.
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const agent::Results* results, const RadioAccess& access,
+                    const output::Results* results, const RadioAccess& access,
                     const std::vector<bus::StallCounters>& stalls);
 
 }  // namespace fleetmap::apps

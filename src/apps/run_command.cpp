@@ -3,14 +3,19 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
 #include <thread>
 
 #include "commands.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
 #include "report.hpp"
+#include "run_summary.hpp"
 #include "twin_feed.hpp"
 #include "twin_results.hpp"
 #include "twin_setup.hpp"
@@ -71,60 +76,6 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
   return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
 }
 
-void print_summary(const FleetOutcome& outcome, const std::filesystem::path& out) {
-  for (const auto& entry : outcome.agents) {
-    const std::string id = entry.id.str();
-    if (!entry.agent) std::cout << id << ": switched off; what its store held:\n";
-    if (!entry.results) {
-      std::cout << id << ": no map: " << (entry.problem.empty() ? "it made no node" : entry.problem) << '\n';
-      continue;
-    }
-    std::cout << id << ": " << (out / id / "map.ply").string() << "  " << entry.results->map.points
-              << " points from " << entry.results->map.submaps << " submaps, hash "
-              << entry.results->map.hash.substr(0, 12) << '\n';
-    if (!entry.problem.empty()) std::cout << "    " << entry.problem << '\n';
-    if (entry.agent) {
-      if (const std::string lost = lost_ways(entry.agent->perception().odometry_counters()); !lost.empty())
-        std::cout << "    " << lost << '\n';
-    }
-    for (const graph::Alignment& used : entry.results->placement.used) {
-      std::cout << "    joined by " << to_string(used.i) << " - " << to_string(used.j) << ", E "
-                << used.best().rmse << " m\n";
-    }
-  }
-  for (const auto& entry : outcome.agents) {
-    if (!entry.results) continue;
-    for (const auto& [agent, credit] : entry.results->placement.credits) {
-      if (credit.quarantined)
-        std::cout << agent.str() << " is in quarantine: " << credit.outlier_sets
-                  << " alignments that it computed are false, and none of its is used\n";
-    }
-    break;
-  }
-  std::set<std::string> maps;  // of those who are there at the end
-  for (const auto& entry : outcome.agents) {
-    if (entry.agent) maps.insert(entry.results ? entry.results->map.hash : "none of " + entry.id.str());
-  }
-  std::cout << (maps.size() <= 1 ? "all robots hold the same map\n"
-                                 : "the robots' maps differ: see report.json\n");
-  if (!outcome.settled) {
-    std::cout << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
-                 "report.json\n";
-  }
-  if (outcome.completion) {
-    for (const Completion::Abandoned& row : outcome.completion->abandoned) {
-      std::cout << "row " << row.row << " was given up by " << row.agent.str() << ": "
-                << (row.why.empty() ? "no robot was left to drive it" : row.why) << '\n';
-    }
-    if (outcome.completion->completed) {
-      std::cout << "mission completed after " << *outcome.completion->completed << " s\n";
-    } else {
-      std::cout << "mission not completed: " << outcome.completion->why_not << '\n';
-    }
-  }
-  std::cout << "report: " << (out / "report.html").string() << '\n';
-}
-
 int run(const RunOptions& options) {
   if (options.config.empty() == options.recordings.empty()) {
     return report({"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"},
@@ -161,7 +112,7 @@ int run(const RunOptions& options) {
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
-  std::vector<std::vector<agent::StampedPose>> truths;
+  std::vector<output::Trajectory> truths;
   for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
     truths.push_back(twin->truth(k));
     const Status written = write_truth(outcome->agents[k].directory, truths.back());
@@ -173,7 +124,7 @@ int run(const RunOptions& options) {
   const RunProfile profile = profile_of(*outcome, cpu_before, process_cpu_seconds(), wall.count());
   if (const Status written = write_report(options.out, *outcome, profile); !written)
     return report(written.error(), kFailed);
-  print_summary(*outcome, options.out);
+  print_summary(std::cout, *outcome, options.out);
   std::cout << summary_of(profile) << '\n';
   const bool whole = std::ranges::all_of(outcome->agents, [](const auto& entry) {
     return (entry.results || !entry.agent) && entry.problem.empty();

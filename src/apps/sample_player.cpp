@@ -1,13 +1,13 @@
 #include "sample_player.hpp"
 
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::apps {
 
 std::vector<bus::Topic> sensor_topics(const agent::SensorTopics& names) {
-  std::vector<bus::Topic> topics{wire::topics::points(), wire::topics::imu(), wire::topics::fix(),
-                                 wire::topics::wheel_odometry()};
+  std::vector<bus::Topic> topics{ros_codec::topics::points(), ros_codec::topics::imu(),
+                                 ros_codec::topics::fix(), ros_codec::topics::wheel_odometry()};
   topics[0].name = names.points;
   topics[1].name = names.imu;
   topics[2].name = names.fix;
@@ -18,7 +18,7 @@ std::vector<bus::Topic> sensor_topics(const agent::SensorTopics& names) {
 EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics& names) {
   // The order of the variant is that of sensor_topics().
   return {sensor_topics(names)[sample.index()],
-          std::visit([](const auto& s) { return wire::encode(s); }, sample)};
+          std::visit([](const auto& s) { return ros_codec::encode(s); }, sample)};
 }
 
 }  // namespace fleetmap::apps

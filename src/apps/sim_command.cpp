@@ -1,144 +1,37 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "live_bus.hpp"
+#include "live_robot.hpp"
 #include "options.hpp"
-#include "sample_player.hpp"
 #include "twin_results.hpp"
 #include "twin_setup.hpp"
-#include "twin_truth.hpp"
 
 namespace fleetmap::apps {
 namespace {
-
-constexpr Duration kTick = std::chrono::milliseconds(20);
-constexpr Duration kBatteryPeriod = std::chrono::seconds(1);
-constexpr Duration kTooLate = std::chrono::milliseconds(500);
 
 struct SimOptions {
   std::string config;
   std::string out;
   double duration = 0.0;
   std::vector<std::string> set;
-};
-
-/// One robot of the twin on its own onboard domain, in real time, with a thread of its own.
-class LiveRobot {
- public:
-  static Result<std::unique_ptr<LiveRobot>> create(const config::FleetConfig::Member& member,
-                                                   const TwinSetup& setup,
-                                                   std::shared_ptr<const sim::Scene> scene) {
-    bus::DdsBusConfig dds = member.dds;
-    // It stands for sensors and chassis: the radios are the agent's.
-    dds.long_range.enabled = false;
-    dds.short_range.enabled = false;
-    auto bus = join_dds(dds);
-    if (!bus) return tl::unexpected(bus.error());
-    auto twin = sim::RobotTwin::create(setup.world, setup.origin, member.robot, (*bus)->now());
-    if (!twin) return failure("agent " + member.agent.id.str() + ": " + twin.error().message);
-    return std::unique_ptr<LiveRobot>(
-        new LiveRobot(member, setup.origin, std::move(*bus), std::move(*twin), std::move(scene)));
-  }
-  ~LiveRobot() { stop(); }
-
-  void start() {
-    thread_ = std::thread([this] { bus_->run_until(stop_); });
-  }
-  void stop() {
-    stop_ = true;
-    if (thread_.joinable()) thread_.join();
-    bus_->finish_work();
-  }
-  const std::string& name() const { return name_; }
-  const std::vector<agent::StampedPose>& truth() const { return truth_.poses(); }
-  double odometer() const { return twin_.odometer(); }
-
- private:
-  LiveRobot(const config::FleetConfig::Member& member, const GeoPoint& origin,
-            std::unique_ptr<bus::DdsBus> bus, sim::RobotTwin twin, std::shared_ptr<const sim::Scene> scene)
-      : name_(member.agent.id.str()),
-        names_(member.agent.perception.topics),
-        site_(origin),
-        bus_(std::move(bus)),
-        twin_(std::move(twin)),
-        scene_(std::move(scene)) {
-    for (const bus::Topic& topic : sensor_topics(names_)) bus_->advertise(topic);
-    bus_->advertise(wire::topics::battery());
-    handles_.push_back(bus_->subscribe(wire::topics::cmd_vel(), [this](const Bytes& cdr) {
-      if (const auto command = wire::decode<wire::VelocityCommand>(cdr))
-        twin_.command(command->forward_speed, command->yaw_rate);
-    }));
-    if (twin_.config().guided) lead();
-    handles_.push_back(bus_->every(kTick, {"twin", [this] { tick(); }}));
-    handles_.push_back(bus_->every(kBatteryPeriod, [this] {
-      bus_->publish(wire::topics::battery(),
-                    wire::encode(sensor::Battery{bus_->now(), battery_share(twin_)}));
-    }));
-  }
-
-  /// Tells the robot where it is.
-  void lead() {
-    bus_->advertise(wire::topics::guide_pose());
-    handles_.push_back(bus_->every(kGuidePeriod, [this] {
-      bus_->publish(wire::topics::guide_pose(), wire::encode(true_pose(twin_, site_)));
-    }));
-  }
-
-  void publish(const recording::Sample& sample) {
-    const EncodedSample encoded = encode(sample, names_);
-    bus_->publish(encoded.topic, encoded.cdr);
-  }
-
-  void tick() {
-    const Stamp now = bus_->now();
-    if (now - twin_.now() > kTooLate && !std::exchange(late_, true)) {
-      spdlog::warn("{}: the twin cannot keep real time on this machine; use fewer robots or lidar_rate 5",
-                   name_);
-    }
-    for (sim::TwinSample& sample : twin_.advance(now)) {
-      std::visit(
-          [this](auto& s) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(s)>, sim::ScanJob>) {
-              cast(std::move(s));
-            } else {
-              publish(s);
-            }
-          },
-          sample);
-    }
-    truth_.follow(twin_);
-  }
-
-  void cast(sim::ScanJob job) {
-    auto scan = std::make_shared<sensor::Scan>();
-    bus_->offload(
-        bus::Lane::kPerception,
-        [this, scan, job = std::move(job)] { *scan = sim::cast_scan(*scene_, twin_.config().lidar, job); },
-        [this, scan] { publish(*scan); });
-  }
-
-  std::string name_;
-  agent::SensorTopics names_;
-  LocalFrame site_;
-  std::unique_ptr<bus::DdsBus> bus_;
-  sim::RobotTwin twin_;
-  std::shared_ptr<const sim::Scene> scene_;
-  TruthTrack truth_;
-  bool late_ = false;
-  std::vector<bus::Handle> handles_;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
 };
 
 int run(const SimOptions& options) {

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -35,13 +35,13 @@ nlohmann::json summary_of(const store::Store& store) {
     all.submaps += whole;
     submap_bytes += whole ? node.submap_bytes : 0u;
     robot.submaps += whole;
-    add(wire::encode(node));
+    add(fleet_codec::encode(node));
     items.push_back(whole);
   }
   for (const auto& [id, alignment] : store.alignments()) {
     ++all.alignments;
     ++robots[id.computed_by.str()].alignments;
-    add(wire::encode(alignment));
+    add(fleet_codec::encode(alignment));
   }
   for (const NodeId& id : store.partial_submaps()) {
     const std::uint64_t missing = store.missing_chunks(id).size() * std::uint64_t{store::Store::kChunkBytes};

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "experiment/field_engine.hpp"
+#include "fleetmap/experiment/field_engine.hpp"
 #include "grid_command.hpp"
 #include "options.hpp"
 

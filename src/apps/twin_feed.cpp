@@ -107,7 +107,7 @@ void TwinFeed::sense(std::size_t member) {
   robot.truth.follow(robot.twin);
   if (!robot.on) return;
   const sim::ScanJob job = robot.twin.scan_under_way();
-  cast(member, job, sim::firings_known(robot.twin.config().lidar, job));
+  cast(member, job, sim::firings_ready(robot.twin.config().lidar, job));
 }
 
 void TwinFeed::cast(std::size_t member, const sim::ScanJob& job, std::size_t end) {

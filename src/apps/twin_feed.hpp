@@ -10,6 +10,7 @@
 
 #include "fleet_feed.hpp"
 #include "fleetmap/core/thread_pool.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
 #include "fleetmap/sim/world.hpp"
@@ -41,9 +42,7 @@ class TwinFeed final : public FleetFeed {
   std::optional<double> battery(std::size_t member) const override;
 
   /// Where the member really was, at every 0.1 s, base_link in ENU.
-  const std::vector<agent::StampedPose>& truth(std::size_t member) const {
-    return robots_[member].truth.poses();
-  }
+  const output::Trajectory& truth(std::size_t member) const { return robots_[member].truth.poses(); }
   const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
 
  private:

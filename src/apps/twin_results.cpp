@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/geojson_writer.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 
 namespace fleetmap::apps {
@@ -17,11 +19,11 @@ constexpr std::uint64_t kSeed = 1;
 
 }  // namespace
 
-Status write_truth(const std::filesystem::path& directory, const std::vector<agent::StampedPose>& truth) {
+Status write_truth(const std::filesystem::path& directory, const output::Trajectory& truth) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) return failure(directory.string() + ": cannot be made: " + error.message());
-  return agent::write_trajectory(directory / "truth.tum", truth);
+  return output::write_tum(directory / "truth.tum", truth);
 }
 
 Status write_truth_cloud(const std::filesystem::path& out, const sim::World& world) {
@@ -34,7 +36,7 @@ Status write_site(const std::filesystem::path& out, const TwinSetup& setup) {
 }
 
 std::optional<double> share_of_lanes_driven(const sim::World& world, int every,
-                                            const std::vector<std::vector<agent::StampedPose>>& truths) {
+                                            const std::vector<output::Trajectory>& truths) {
   constexpr double kStep = 0.5;   // m along a lane
   constexpr double kReach = 5.0;  // m beside it
   const std::vector<sim::Aisle>& lanes = world.aisles();
@@ -42,7 +44,7 @@ std::optional<double> share_of_lanes_driven(const sim::World& world, int every,
   for (const sim::Aisle& lane : lanes)
     driven.emplace_back(static_cast<std::size_t>(std::ceil((lane.to - lane.from).norm() / kStep)), false);
   for (const auto& truth : truths) {
-    for (const agent::StampedPose& pose : truth) {
+    for (const output::StampedPose& pose : truth) {
       double nearest = kReach;
       std::optional<std::pair<std::size_t, std::size_t>> piece;  // of a lane
       for (std::size_t k = 0; k < lanes.size(); ++k) {

@@ -6,8 +6,10 @@
 #include <numbers>
 
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/config/world_config.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/twin_config.hpp"
+#include "fleetmap/config/world_file.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "fleetmap/sim/parked_things.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "mission_setup.hpp"
@@ -46,7 +48,7 @@ Result<planning::Mission> drawn_site(const config::FleetConfig& config, const si
   sim::SiteDrawing drawing = world.drawing();
   std::vector<AgentId> marked;
   for (const auto& member : config.members) {
-    if (!member.robot.start_given) continue;
+    if (!member.robot.has_start) continue;
     drawing.marks.push_back(member.robot.start);
     marked.push_back(member.agent.id);
   }
@@ -82,8 +84,8 @@ Status choose_starts(config::FleetConfig& config, const sim::World& world, const
   std::vector<Eigen::Vector2d> taken;
   std::size_t open = 0;
   for (const auto& member : config.members) {
-    if (member.robot.start_given) taken.push_back(member.robot.start);
-    open += !member.robot.start_given;
+    if (member.robot.has_start) taken.push_back(member.robot.start);
+    open += !member.robot.has_start;
   }
   const planning::Polyline& first = site.rows.front().waypoints;
   const Eigen::Vector2d ahead = first.back() - first.front();
@@ -97,8 +99,8 @@ Status choose_starts(config::FleetConfig& config, const sim::World& world, const
   }
   auto place = places.begin();
   for (auto& member : config.members) {
-    if (member.robot.start_given) continue;
-    member.robot.start_given = true;
+    if (member.robot.has_start) continue;
+    member.robot.has_start = true;
     member.robot.start = *place++;
     member.robot.start_yaw = std::atan2(ahead.y(), ahead.x());
   }

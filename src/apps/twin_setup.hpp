@@ -5,8 +5,8 @@
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
-#include "fleetmap/planning/mission.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/planning/site/mission.hpp"
 #include "fleetmap/sim/world.hpp"
 
 namespace fleetmap::apps {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 
 namespace fleetmap::apps {
@@ -13,10 +13,10 @@ class TruthTrack {
  public:
   /// After every step of the twin.
   void follow(const sim::RobotTwin& twin);
-  const std::vector<agent::StampedPose>& poses() const { return poses_; }
+  const output::Trajectory& poses() const { return poses_; }
 
  private:
-  std::vector<agent::StampedPose> poses_;
+  output::Trajectory poses_;
 };
 
 /// How often who leads a robot is told where it is.

@@ -7,9 +7,12 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/planning/mission_complete.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/output/results.hpp"
+#include "fleetmap/planning/mission/mission_complete.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"
 #include "twin_truth.hpp"
 
@@ -82,14 +85,14 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
 
 void VirtualFleet::connect_base(std::size_t member) {
   Member& self = members_[member];
-  self.base.push_back(self.bus->subscribe(wire::topics::cmd_vel(), [this, member](const Bytes& cdr) {
-    const auto command = wire::decode<wire::VelocityCommand>(cdr);
+  self.base.push_back(self.bus->subscribe(ros_codec::topics::cmd_vel(), [this, member](const Bytes& cdr) {
+    const auto command = ros_codec::decode<ros_codec::VelocityCommand>(cdr);
     if (command) feed_->command(member, command->forward_speed, command->yaw_rate);
   }));
   if (!feed_->guide(member)) return;
   self.base.push_back(self.bus->every(kGuidePeriod, [this, member] {
     const auto pose = feed_->guide(member);
-    if (pose) members_[member].bus->publish(wire::topics::guide_pose(), wire::encode(*pose));
+    if (pose) members_[member].bus->publish(fleet_codec::topics::guide_pose(), fleet_codec::encode(*pose));
   }));
 }
 
@@ -175,8 +178,8 @@ void VirtualFleet::update_states() {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const AgentId& id = members_[k].id;
     if (const auto share = feed_->battery(k); share && members_[k].bus != nullptr) {
-      members_[k].bus->publish(wire::topics::battery(),
-                               wire::encode(sensor::Battery{network_->now(), *share}));
+      members_[k].bus->publish(ros_codec::topics::battery(),
+                               ros_codec::encode(sensor::Battery{network_->now(), *share}));
     }
     if (const auto position = position_of(k)) {
       members_[k].position = *position;
@@ -236,7 +239,7 @@ void VirtualFleet::report_progress(Duration elapsed) const {
     const store::Store& store = member.agent->store();
     const agent::Navigator* navigator = member.agent->navigator();
     spdlog::info("{:.0f} s {}: {}{} nodes, {} alignments, {} submaps", to_seconds(elapsed), member.id.str(),
-                 navigator ? std::string(planning::to_string(navigator->status().state)) + ", " : "",
+                 navigator ? std::string(messages::to_string(navigator->status().state)) + ", " : "",
                  store.nodes().size(), store.alignments().size(), store.submap_set().size());
   }
 }
@@ -290,7 +293,7 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   result.directory = self.agent->config().directory;
   auto written = [&] {
     const CpuTimer timer(results_seconds_);
-    return agent::write_results(self.agent->store(), self.agent->config(), maps_);
+    return output::write_results(self.agent->store(), self.agent->config().results(), maps_);
   }();
   if (written) {
     maps_.push_back(written->map);

@@ -9,9 +9,10 @@
 
 #include "fleet_feed.hpp"
 #include "fleetmap/agent/agent.hpp"
-#include "fleetmap/agent/results.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
 
 namespace fleetmap::apps {
@@ -38,7 +39,7 @@ struct FleetOutcome {
     std::filesystem::path directory;
     std::unique_ptr<agent::Agent> agent;  ///< null: it was switched off to the end, `store` is what it left
     std::optional<store::Store> store;
-    std::optional<agent::Results> results;
+    std::optional<output::Results> results;
     recording::Counters recording;
     std::string problem;  ///< why there are no results, or why they are not of the whole recording
   };
@@ -117,8 +118,8 @@ class VirtualFleet {
   std::unique_ptr<bus::LocalNetwork> network_;
   std::vector<Member> members_;
   std::optional<Completion> completion_;
-  std::vector<agent::MapFiles> maps_;  ///< written so far
-  double results_seconds_ = 0.0;       ///< CPU
+  std::vector<output::MapFiles> maps_;  ///< written so far
+  double results_seconds_ = 0.0;        ///< CPU
   bool mission_ended_ = false;
   std::string error_;
 };

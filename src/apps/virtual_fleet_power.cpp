@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/output/results.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
@@ -65,7 +66,7 @@ FleetOutcome::AgentOutcome VirtualFleet::results_of_store(std::size_t member) {
   }
   result.store.emplace(std::move(*store));
   const CpuTimer timer(results_seconds_);
-  auto written = agent::write_results(*result.store, config, maps_);
+  auto written = output::write_results(*result.store, config.results(), maps_);
   if (written) {
     maps_.push_back(written->map);
     result.results = std::move(*written);

@@ -7,8 +7,9 @@
 
 #include "commands.hpp"
 #include "fleetmap/cloud/file_io.hpp"
-#include "fleetmap/config/world_config.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/config/world_file.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
+#include "fleetmap/planning/site/geojson_writer.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
 #include "mission_setup.hpp"

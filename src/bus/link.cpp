@@ -1,4 +1,4 @@
-#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/link.hpp"
 
 namespace fleetmap::bus {
 

@@ -110,7 +110,7 @@ void LocalRobot::schedule(EventQueue& events, const std::shared_ptr<Timer>& time
 bool LocalRobot::offload(Lane lane, Work work, std::function<void()> done) {
   const auto index = static_cast<std::size_t>(lane);
   LaneState& state = state_->lanes[index];
-  if (state.waiting.size() >= kMostWork) return false;
+  if (state.waiting.size() >= kMaxWork) return false;
   state.waiting.push_back({std::move(work.run), std::move(done)});
   if (state.busy) return true;
   state.busy = true;

@@ -12,7 +12,7 @@
 
 #include "event_queue.hpp"
 #include "fleetmap/bus/bus.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/thread_pool.hpp"
 
@@ -50,7 +50,7 @@ class LocalRobot final : public Bus {
     TopicStats stats;
     std::vector<std::shared_ptr<Subscriber>> subscribers;
     std::size_t pending = 0;  ///< onboard deliveries scheduled
-    std::size_t skip = 0;     ///< of those, the oldest that gave way
+    std::size_t skip = 0;     ///< the number of them, the oldest, that were dropped
   };
   struct Timer {
     Duration period;
@@ -68,7 +68,7 @@ class LocalRobot final : public Bus {
     std::future<void> under_way;
     std::uint64_t round = 0;  ///< counts finish_work(): what began before one is not followed up
   };
-  /// What handles and events may outlive the robot with.
+  /// State with which handles and events may outlive the robot.
   struct State {
     std::array<LaneState, 2> lanes;
     std::map<std::pair<Link, std::string>, TopicState> topics;

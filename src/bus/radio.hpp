@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "event_queue.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 
 namespace fleetmap::bus {
 

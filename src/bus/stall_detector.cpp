@@ -70,8 +70,8 @@ std::string StallDetector::summary(SteadyTime now) const {
 }
 
 void StallDetector::note_pause(SteadyTime now, const ThreadActivity& seen) {
-  if (last_look_ && now - *last_look_ > kLongestBetweenLooks) pauses_.push_back({*last_look_, now});
-  last_look_ = now;
+  if (last_check_ && now - *last_check_ > kMaxCheckInterval) pauses_.push_back({*last_check_, now});
+  last_check_ = now;
   SteadyTime oldest = seen.under_way ? seen.under_way->begun : now;
   for (const EndedWork& ended : seen.ended) oldest = std::min(oldest, ended.work.begun);
   std::erase_if(pauses_, [oldest](const Pause& pause) { return pause.ended <= oldest; });

@@ -1,5 +1,7 @@
 #include "fleetmap/cloud/cloud_writer.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -75,7 +77,8 @@ Status CloudWriter::finish() {
   if (std::ferror(out_.get()) != 0) return failed(EIO);
   if (std::fseek(out_.get(), 0, SEEK_SET) != 0) return failed(errno);
   if (const Status written = write_header(); !written) return written;
-  if (std::fflush(out_.get()) != 0) return failed(errno);
+  // After a power cut the new name must not stand for a file without its points.
+  if (std::fflush(out_.get()) != 0 || fsync(fileno(out_.get())) != 0) return failed(errno);
   std::error_code error;
   std::filesystem::rename(part(), file_, error);
   if (error) return failed(error.value());

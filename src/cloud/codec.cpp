@@ -71,7 +71,7 @@ struct Reader {
   }
 };
 
-/// What Draco 2.3 writes before the body of a cloud with one u32 x 3 attribute (and one u8 x 1).
+/// The bytes that Draco 2.3 writes before the body of a cloud with one u32 x 3 attribute (and one u8 x 1).
 Bytes draco_header(std::uint32_t count, bool intensities, std::uint32_t bits) {
   Bytes header;
   header.reserve(64);
@@ -240,13 +240,6 @@ Result<PointCloud> cloud_from(const draco::PointCloud& points, const Header& hea
 }
 
 }  // namespace
-
-Status CodecConfig::validate() const {
-  if (!std::isfinite(resolution_m) || resolution_m < 1e-6) {
-    return failure("codec resolution_m must be at least 0.000001 m");
-  }
-  return {};
-}
 
 Result<Bytes> encode(const PointCloud& cloud, const CodecConfig& config) {
   if (auto valid = config.validate(); !valid) return failure(valid.error().message);

@@ -1,3 +1,5 @@
+#include "fleetmap/cloud/encode_within.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -34,8 +36,8 @@ Result<FittedCloud> encode_at(const PointCloud& cloud, double voxel_m, const Fit
   return encode_thinned(voxel_downsample(cloud, static_cast<float>(voxel_m)), voxel_m, config);
 }
 
-/// Where a straight line through the two trials (bytes are close to a power of the voxel's edge) meets the
-/// target, kept well inside the bracket so that the bracket always shrinks.
+/// Extrapolates through the two trials (bytes are close to a power of the voxel's edge) to the target, kept
+/// well inside the bracket so that the bracket always shrinks.
 double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log_bytes) {
   const double width = fits.log_voxel - too_big.log_voxel;
   const double drop = too_big.log_bytes - fits.log_bytes;
@@ -43,27 +45,21 @@ double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log
   return too_big.log_voxel + std::clamp(along, 0.05, 0.95) * width;
 }
 
-}  // namespace
+double log_bytes(const FittedCloud& fitted) { return std::log(static_cast<double>(fitted.bytes.size())); }
 
-Status FitConfig::validate() const {
-  if (max_bytes < 64) return failure("max_bytes must be at least 64");
-  if (!std::isfinite(min_voxel_m) || min_voxel_m < 1e-4f)
-    return failure("min_voxel_m must be at least 0.0001 m");
-  if (!std::isfinite(max_voxel_m) || max_voxel_m < min_voxel_m) {
-    return failure("max_voxel_m must be at least min_voxel_m");
-  }
-  if (!(voxel_over_resolution >= 1.0 && voxel_over_resolution <= 100.0)) {
-    return failure("voxel_over_resolution must be in [1, 100]");
-  }
-  if (max_encodings < 3) return failure("max_encodings must be at least 3");
-  return {};
+/// Adds the cloud that every receiver decodes.
+Result<FittedCloud> with_decoded(FittedCloud fitted, int encodings) {
+  auto decoded = decode(fitted.bytes);
+  if (!decoded) return failure(decoded.error().message);
+  fitted.decoded = std::move(*decoded);
+  fitted.encodings = encodings;
+  return fitted;
 }
+
+}  // namespace
 
 Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& config) {
   if (auto valid = config.validate(); !valid) return failure(valid.error().message);
-  const auto log_bytes = [](const FittedCloud& fitted) {
-    return std::log(static_cast<double>(fitted.bytes.size()));
-  };
   const double target = std::log(0.985 * static_cast<double>(config.max_bytes));
 
   int encodings = 0;
@@ -108,11 +104,7 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
     return failure("cloud encoding: even voxels of " + std::to_string(config.max_voxel_m) +
                    " m need more than " + std::to_string(config.max_bytes) + " bytes");
   }
-  auto decoded = decode(best->bytes);
-  if (!decoded) return failure(decoded.error().message);
-  best->decoded = std::move(*decoded);
-  best->encodings = encodings;
-  return std::move(*best);
+  return with_decoded(std::move(*best), encodings);
 }
 
 }  // namespace fleetmap::cloud

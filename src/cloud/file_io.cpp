@@ -88,7 +88,7 @@ Result<Wanted> wanted_fields(const PointFileLayout& layout) {
   return wanted;
 }
 
-/// `get(point, field)` gives a number. Column order (compressed PCD) or row order is its business.
+/// `get(point, field)` returns a number and handles column order (compressed PCD) or row order.
 template <class Get>
 PointCloud gather(const PointFileLayout& layout, const Wanted& wanted, Get get) {
   PointCloud cloud;
@@ -116,7 +116,7 @@ Result<PointCloud> from_ascii(const std::string& file, const PointFileLayout& la
                 [&](std::size_t i, const Field& field) { return numbers[i * layout.stride + field.offset]; });
 }
 
-/// LZF as in compressed PCD files: fills exactly `size` bytes, or gives nothing.
+/// LZF as in compressed PCD files: fills exactly `size` bytes, or fails.
 std::optional<std::string> lzf_decompressed(std::string_view in, std::size_t size) {
   std::string out;
   std::size_t at = 0;

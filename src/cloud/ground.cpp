@@ -12,8 +12,8 @@ namespace fleetmap::cloud {
 namespace {
 
 constexpr int kNone = -1;
-constexpr int kContactCells = 4;        // how far a surface looks for others below it
-constexpr double kElevatedShare = 0.3;  // of its cells that stand above another surface
+constexpr int kContactCells = 4;        // reach of the search for other surfaces below a surface
+constexpr double kElevatedShare = 0.3;  // of its cells that lie above another surface
 constexpr std::size_t kMinSurfaceCells = 5;
 constexpr float kMaxCoordinate = 1e6f;  // m; further points cannot be told apart from noise anyway
 
@@ -37,7 +37,7 @@ class Grid {
     for (const auto& p : levelled) add(p.cast<double>());
     fit_planes();
     const std::size_t surfaces = join_surfaces();
-    choose_ground(surfaces);
+    select_ground(surfaces);
     nearest_ground_.reserve(cells_.size());
     for (const Cell& cell : cells_) nearest_ground_.push_back(ground_near(cell.x, cell.y));
   }
@@ -89,9 +89,8 @@ class Grid {
     }
   }
 
-  /// Robust plane through the lowest points of the cells around; nothing where they are too few, in a line,
-  /// too steep or too rough.
-  std::optional<Plane> fit(const Cell& cell, int reach) const {
+  /// The lowest points of the cells around, relative to the cell's centre.
+  std::vector<Eigen::Vector3d> lows_around(const Cell& cell, int reach) const {
     std::vector<Eigen::Vector3d> lows;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
@@ -101,6 +100,13 @@ class Grid {
         lows.emplace_back(low.x() - center(cell).x(), low.y() - center(cell).y(), low.z());
       }
     }
+    return lows;
+  }
+
+  /// Robust plane through the lowest points of the cells around; nothing where they are too few, in a line,
+  /// too steep or too rough.
+  std::optional<Plane> fit(const Cell& cell, int reach) const {
+    const std::vector<Eigen::Vector3d> lows = lows_around(cell, reach);
     if (lows.size() < 5) return std::nullopt;
     std::vector<double> heights;
     for (const auto& low : lows) heights.push_back(low.z());
@@ -196,7 +202,7 @@ class Grid {
     return above;
   }
 
-  void choose_ground(std::size_t surfaces) {
+  void select_ground(std::size_t surfaces) {
     std::vector<std::size_t> sizes(surfaces, 0);
     std::vector<std::size_t> elevated(surfaces, 0);
     for (const Cell& cell : cells_) {
@@ -241,18 +247,6 @@ class Grid {
 };
 
 }  // namespace
-
-Status GroundConfig::validate() const {
-  if (!up.allFinite() || !(up.norm() > 1e-6f)) return failure("up must be a finite vector other than zero");
-  if (!(cell_m >= 0.05f && cell_m <= 100.0f)) return failure("cell_m must be in [0.05, 100] m");
-  if (!(thickness_m > 0.0f)) return failure("thickness_m must be positive");
-  if (!(step_m > 0.0f)) return failure("step_m must be positive");
-  if (!(max_slope_rad > 0.0f && max_slope_rad < 1.5f))
-    return failure("max_slope_rad must be in (0, 1.5) rad");
-  if (!(max_bend_rad >= 0.0f && max_bend_rad < 1.5f)) return failure("max_bend_rad must be in [0, 1.5) rad");
-  if (!(min_area_m2 >= 0.0f)) return failure("min_area_m2 must not be negative");
-  return {};
-}
 
 GroundSplit split_ground(const PointCloud& cloud, const GroundConfig& config) {
   const Eigen::Matrix3f R_level_cloud = levelling(config.up.cast<double>()).cast<float>();

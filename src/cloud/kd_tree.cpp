@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLeafSize = 8;
 
-/// What nanoflann asks of a data set.
+/// nanoflann's interface to a data set.
 struct Points {
   std::vector<Eigen::Vector3f> xyz;
   std::size_t kdtree_get_point_count() const { return xyz.size(); }
@@ -36,7 +36,7 @@ class NearestIn {
   bool full() const { return count_ == out_.size(); }
   float worstDist() const { return worst_; }
   bool addPoint(float squared_distance, std::uint32_t index) {
-    if (!(squared_distance < worst_)) return true;  // nanoflann asks for worstDist() only once a leaf
+    if (!(squared_distance < worst_)) return true;  // nanoflann checks worstDist() only once a leaf
     std::size_t at = count_ < out_.size() ? count_++ : count_ - 1;
     for (; at > 0 && out_[at - 1].squared_distance > squared_distance; --at) out_[at] = out_[at - 1];
     out_[at] = {index, squared_distance};

@@ -10,7 +10,7 @@
 namespace fleetmap::cloud {
 namespace {
 
-constexpr std::size_t kMaxNeighbors = 64;
+constexpr std::size_t kMaxNeighbors = NormalConfig::kMaxNeighbors;
 
 /// Covariance of the neighbours about their mean, relative to `origin` so that floats far from zero do no
 /// harm.
@@ -28,14 +28,6 @@ Eigen::Matrix3d covariance_of(const PointCloud& cloud, std::span<const Neighbor>
 }
 
 }  // namespace
-
-Status NormalConfig::validate() const {
-  if (neighbors < 3 || neighbors > kMaxNeighbors) return failure("neighbors must be in [3, 64]");
-  if (min_neighbors < 3 || min_neighbors > neighbors)
-    return failure("min_neighbors must be in [3, neighbors]");
-  if (!(max_radius_m > 0.0f)) return failure("max_radius_m must be positive");
-  return {};
-}
 
 Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const NormalConfig& config,
                          const std::vector<std::size_t>& indices) {

@@ -12,7 +12,7 @@
 namespace fleetmap::cloud {
 namespace {
 
-constexpr std::size_t kMaxNeighbors = 63;
+constexpr std::size_t kMaxNeighbors = OutlierConfig::kMaxNeighbors;
 // Against rounding in bounds of distances.
 constexpr float kSlack = 1.001f;
 constexpr float kSlackM = 1e-3f;
@@ -23,7 +23,7 @@ std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbor
   std::array<Neighbor, kMaxNeighbors + 1> buffer;
   const std::span<Neighbor> wanted(buffer.data(), std::min(neighbors, kMaxNeighbors) + 1);
   std::vector<double> means(cloud.size(), -1.0);
-  // What surrounded the point before surrounds this one too, so a little farther there is no need to look.
+  // Neighbours of the previous point bound the search around this one.
   std::optional<Eigen::Vector3f> last;
   float last_reach = 0.0f;
   for (const std::uint32_t i : tree.order()) {
@@ -42,12 +42,6 @@ std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbor
 }
 
 }  // namespace
-
-Status OutlierConfig::validate() const {
-  if (neighbors < 1 || neighbors > kMaxNeighbors) return failure("neighbors must be in [1, 63]");
-  if (!(sigmas >= 0.0)) return failure("sigmas must not be negative");
-  return {};
-}
 
 OutlierSplit split_outliers(const PointCloud& cloud, const OutlierConfig& config) {
   const std::vector<double> means = mean_distances(cloud, config.neighbors);

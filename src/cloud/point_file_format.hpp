@@ -14,7 +14,7 @@ enum class PointFileFormat { ply, pcd };
 Result<PointFileFormat> format_of(const std::filesystem::path& file);
 
 /// Header of a binary file of float32 x y z, and intensity. A comment pads it, so that its length does not
-/// depend on `points`: whoever streams writes it again once the points are counted.
+/// depend on `points`: a stream writes it again once the points are counted.
 std::string header_of(PointFileFormat format, std::size_t points, bool with_intensities);
 
 }  // namespace fleetmap::cloud

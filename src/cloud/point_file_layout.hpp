@@ -12,7 +12,7 @@ namespace fleetmap::cloud {
 enum class NumberType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 std::size_t size_of(NumberType type);
 
-/// Where the numbers of a PLY or PCD file are, as its header says.
+/// Positions of the numbers in a PLY or PCD file, by its header.
 struct PointFileLayout {
   enum class Encoding { ascii, little_endian, big_endian, compressed };
   struct Field {

@@ -1,43 +1,17 @@
+#include "fleetmap/config/experiment_file.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "fleetmap/config/experiment_config.hpp"
+#include "study_axes.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {
 namespace {
 
-constexpr const char* kAgentsAxis = "agents";
-constexpr std::uint32_t kMostSeeds = 10'000;
-
-bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= 60 && std::ranges::all_of(text, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-}
-
-std::optional<double> number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-void read_overrides(Section& section, const std::string& key, std::vector<Override>& overrides) {
-  std::vector<std::string> texts;
-  section.read(key, texts);
-  for (const std::string& text : texts) {
-    if (auto parsed = parse_override(text)) {
-      parsed->at = section.place(key);
-      overrides.push_back(std::move(*parsed));
-    } else {
-      section.problem(key, parsed.error().message);
-    }
-  }
-}
+constexpr std::uint32_t kMaxSeeds = 10'000;
 
 std::vector<MetricSpec> read_metrics(Section& top) {
   std::vector<MetricSpec> metrics;
@@ -65,70 +39,6 @@ std::vector<MetricSpec> read_metrics(Section& top) {
     metrics.push_back(std::move(metric));
   }
   return metrics;
-}
-
-/// `points`: each a label and the keys it sets.
-void read_points(Section& section, Axis& axis) {
-  for (Section& point : section.list("points")) {
-    AxisValue value;
-    point.read("label", value.label);
-    if (value.label.empty()) point.problem("label", "expected a name or a number for this point");
-    read_overrides(point, "set", value.overrides);
-    point.finish();
-    axis.values.push_back(std::move(value));
-  }
-}
-
-/// `values`: each is given to every one of `keys`; of the axis "agents" it is the number of robots.
-void read_values(Section& section, Axis& axis) {
-  std::vector<std::string> texts, keys;
-  section.read("values", texts);
-  section.read("keys", keys);
-  const bool counts_agents = axis.name == kAgentsAxis;
-  if (!texts.empty() && counts_agents != keys.empty()) {
-    section.problem("keys", counts_agents
-                                ? "the axis 'agents' sets the number of robots, not a key"
-                                : "expected the fleet's keys that get the values, e.g. [robot.lidar_rate]");
-  }
-  for (const std::string& text : texts) {
-    AxisValue value;
-    value.label = text;
-    for (const std::string& key : keys) value.overrides.push_back({key, text, section.place("keys")});
-    if (counts_agents) {
-      const auto count = number(text);
-      if (!count || *count < 1.0 || *count > 1000.0 ||
-          *count != static_cast<double>(static_cast<int>(*count)))
-        section.problem("values", "'" + text + "' is not a number of robots");
-      value.agents = static_cast<std::size_t>(count.value_or(1.0));
-    }
-    axis.values.push_back(std::move(value));
-  }
-}
-
-Axis read_axis(Section& section) {
-  Axis axis;
-  section.read("name", axis.name);
-  section.read("unit", axis.unit);
-  section.read("title", axis.title);
-  if (!is_name(axis.name)) section.problem("name", "expected a name of letters, digits, '_' and '-'");
-  if (section.has("values") == section.has("points"))
-    section.problem("values", "expected either values: [...] with keys: [...], or points: [{label, set}]");
-  read_points(section, axis);
-  read_values(section, axis);
-  section.finish();
-  std::set<std::string> labels;
-  bool numbers = true;
-  for (const AxisValue& value : axis.values) {
-    if (!labels.insert(value.label).second)
-      section.problem("values", "'" + value.label + "' is listed twice");
-    numbers = numbers && number(value.label).has_value();
-  }
-  for (std::size_t k = 0; k < axis.values.size(); ++k)
-    axis.values[k].position = numbers ? number(axis.values[k].label).value() : static_cast<double>(k);
-  if (!std::ranges::is_sorted(axis.values, {}, &AxisValue::position)) {
-    std::ranges::stable_sort(axis.values, {}, &AxisValue::position);
-  }
-  return axis;
 }
 
 std::optional<Shape> shape_named(const std::string& name) {
@@ -182,8 +92,8 @@ void read_seeds(Section& section, std::vector<std::uint64_t>& seeds) {
   if (!section.has("seeds")) return;
   std::uint32_t count = 1;
   section.read("seeds", count);
-  if (count < 1 || count > kMostSeeds) {
-    section.problem("seeds", "expected how many runs of each point, 1 to " + std::to_string(kMostSeeds));
+  if (count < 1 || count > kMaxSeeds) {
+    section.problem("seeds", "expected how many runs of each point, 1 to " + std::to_string(kMaxSeeds));
     count = 1;
   }
   seeds = seeds_up_to(count);
@@ -276,7 +186,7 @@ Study read_study(Section& section, const std::vector<MetricSpec>& metrics) {
   return study;
 }
 
-/// 0: the file says nothing of agents, or cannot be read.
+/// 0: the file lists no agents, or cannot be read.
 std::size_t agents_of(const std::filesystem::path& base) {
   const auto document = Document::load(base);
   if (!document) return 0;
@@ -300,27 +210,6 @@ std::size_t read_base(Section& section, std::filesystem::path& base) {
 }
 
 }  // namespace
-
-const char* to_string(Shape shape) {
-  switch (shape) {
-    case Shape::kFalls:
-      return "falls";
-    case Shape::kRises:
-      return "rises";
-    case Shape::kFallsLessThanLinearly:
-      return "falls_less_than_linearly";
-    case Shape::kDoesNotRise:
-      return "does_not_rise";
-    case Shape::kDoesNotFall:
-      return "does_not_fall";
-  }
-  return "";
-}
-
-const MetricSpec* ExperimentConfig::metric(const std::string& name) const {
-  const auto found = std::ranges::find(metrics, name, &MetricSpec::name);
-  return found == metrics.end() ? nullptr : &*found;
-}
 
 Result<ExperimentConfig> load_experiment(const std::filesystem::path& file, bool quick) {
   Result<Document> document = Document::load(file);

@@ -1,12 +1,13 @@
-// What of a robot's configuration must agree with that of the others.
+#include "fleetmap/config/fleet_agreement.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/bytes.hpp"
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/output/map_recipe.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -28,7 +29,7 @@ std::uint32_t hash_of(std::vector<AgentId> fleet) {
   return hash_of(names);
 }
 
-/// Of what agent::keep_recipe() keeps, but for the voxel.
+/// Hash of the recipe that output::keep_recipe() keeps, except for the voxel.
 std::uint16_t hash_of_placement(const agent::AgentConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::max();
   const GeoPoint origin = config.site_origin.value_or(GeoPoint{kNone, kNone, kNone});
@@ -55,7 +56,7 @@ bool on_this_machine(const std::string& peer, const bus::DdsLinkConfig& link) {
 }  // namespace
 
 bus::FleetSettings fleet_settings(const agent::AgentConfig& config) {
-  return {.wire_schema = wire::kSchemaVersion,
+  return {.wire_schema = fleet_codec::kSchemaVersion,
           .fleet = hash_of(config.exchange.fleet),
           .submap_voxel = tenths_of_mm(config.submap.voxel),
           .map_voxel = tenths_of_mm(config.map.voxel_m),

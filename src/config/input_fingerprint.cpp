@@ -1,9 +1,10 @@
+#include "fleetmap/config/input_fingerprint.hpp"
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <set>
 
-#include "fleetmap/config/experiment_config.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "yaml_section.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargest = 64U << 20U;  ///< bytes of a file that is read whole
-constexpr std::size_t kMostFiles = 10'000;
+constexpr std::size_t kMaxFiles = 10'000;
 
 std::string hash_of(const std::string& text) {
   return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
@@ -31,7 +32,7 @@ class Inputs {
   void add_file(const fs::path& file) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
-    if (error || !seen_.insert(file.string()).second || seen_.size() > kMostFiles) return;
+    if (error || !seen_.insert(file.string()).second || seen_.size() > kMaxFiles) return;
     if (size > kLargest) return add_stamp(file);
     std::ifstream in(file, std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(in), {}};
@@ -55,7 +56,7 @@ class Inputs {
     for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end;
          entry.increment(error)) {
       if (entry->is_regular_file(error)) files.push_back(entry->path());
-      if (files.size() > kMostFiles) break;
+      if (files.size() > kMaxFiles) break;
     }
     std::ranges::sort(files);
     for (const fs::path& file : files) add_stamp(file);

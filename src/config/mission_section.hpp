@@ -1,8 +1,9 @@
 #pragma once
 
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/config/twin_config.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/planning/mission_config.hpp"
+#include "fleetmap/planning/mission/mission_config.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {

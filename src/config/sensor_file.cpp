@@ -55,7 +55,7 @@ void read_pattern(Section& top, const YAML::Node& root, sim::LidarSpec& spec) {
   }
 }
 
-/// Reports what validate() said at the key that it speaks of.
+/// Reports a problem of validate() at the key that it names.
 void note(Section& top, const Status& status) {
   if (status) return;
   const std::string& message = status.error().message;
@@ -90,7 +90,7 @@ Result<sim::LidarSpec> load_lidar_spec(const std::filesystem::path& file) {
   top.read("dropout", spec.dropout);
   top.read_degrees("glass_grazing_deg", spec.glass_grazing);
   top.finish();
-  // What cannot be read cannot be judged.
+  // Values that could not be read cannot be checked.
   if (const Status readable = document->status(); !readable) return tl::unexpected(readable.error());
   note(top, spec.validate());
   if (const Status valid = document->status(); !valid) return tl::unexpected(valid.error());

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fleetmap/config/sensor_file.hpp"
+#include "mission_section.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -139,7 +140,7 @@ void read_switched_off(Section& robot, std::vector<SwitchedOff>& times) {
   }
 }
 
-/// Robots err differently though nobody sets their seeds (FNV-1a of the name).
+/// Robots err differently without configured seeds (FNV-1a of the name).
 std::uint64_t seed_of(Section& agent) {
   std::string id;
   agent.read("id", id);
@@ -148,7 +149,7 @@ std::uint64_t seed_of(Section& agent) {
   return seed;
 }
 
-/// Of the agent's own sections; what else stands there is checked by who reads them.
+/// Reads keys of the agent's own sections; their readers check the other keys.
 void read_mounts(Section& agent, sim::RobotTwinConfig& config) {
   agent.section("lidar").read_mount(config.T_base_lidar);
   agent.section("imu").read_mount(config.T_base_imu);
@@ -163,7 +164,7 @@ void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config,
   Section robot = agent_section.section("robot");
   read_twin_lidar(robot, config.lidar);
   if (const auto start = robot.numbers("start", 3)) {
-    config.start_given = true;
+    config.has_start = true;
     config.start = {(*start)[0], (*start)[1]};
     config.start_yaw = (*start)[2] * std::numbers::pi / 180.0;
   }
@@ -179,6 +180,41 @@ void read_robot_twin(Section& agent_section, sim::RobotTwinConfig& config,
   read_switched_off(robot, switched_off);
   robot.finish();
   robot.check(config.lidar.validate());
+}
+
+std::optional<TwinConfig> read_twin(Section& top) {
+  if (!top.has("world")) {
+    for (const char* key : {"mission", "max_time"}) {
+      if (top.has(key)) top.problem(key, "of a fleet is for the twin, which needs world: {file: WORLD.yaml}");
+    }
+    return std::nullopt;
+  }
+  TwinConfig twin;
+  Section world = top.section("world");
+  world.read_path("file", twin.world);
+  if (twin.world.empty()) {
+    world.problem("file", "expected the world's file, e.g. ../worlds/farm_200.yaml");
+  } else if (const auto reason = unreadable(twin.world)) {
+    world.problem("file", twin.world.string() + ": " + *reason + "; expected the world's file");
+  }
+  if (world.has("seed")) {
+    std::uint64_t seed = 0;
+    world.read("seed", seed);
+    twin.seed = seed;
+  }
+  world.finish();
+  read_mission(top, twin);
+  top.read("max_time", twin.max_time);
+  if (!(twin.max_time > 0.0)) top.problem("max_time", "expected seconds > 0");
+  return twin;
+}
+
+void suit_estimator(FleetConfig::Member& member, Section lidar) {
+  agent::PerceptionConfig& perception = member.agent.perception;
+  if (!lidar.has("model")) {
+    if (const auto model = odometry::lidar_model(member.robot.lidar.model)) perception.lidar = *model;
+  }
+  if (!lidar.has("scan_period")) perception.lidar.scan_period = 1.0 / member.robot.lidar.rate;
 }
 
 }  // namespace fleetmap::config

@@ -1,6 +1,7 @@
+#include "fleetmap/config/world_file.hpp"
+
 #include <string>
 
-#include "fleetmap/config/world_config.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {

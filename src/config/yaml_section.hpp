@@ -3,60 +3,25 @@
 #include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "yaml_document.hpp"
 
 namespace fleetmap::config {
 
-/// A YAML document with overrides applied, and everything found wrong with it.
-class Document {
- public:
-  static Result<Document> load(const std::filesystem::path& file);
-  /// A document that is not a file; problems are reported under `name`.
-  static Document from(YAML::Node root, std::string name);
-
-  const YAML::Node& root() const { return root_; }
-  const std::string& name() const { return name_; }
-  /// Folder that relative paths of the document are relative to.
-  std::filesystem::path folder() const;
-
-  /// Sets a key as if the file said so; problems with it are reported as "--set key".
-  Status apply(const std::vector<Override>& overrides);
-
-  /// What stands in `node` reaches every element of `list` (an agent of agents): problems with it are
-  /// reported once, under `path` instead of each element's.
-  void share(const YAML::Node& node, const std::string& list, const std::string& path);
-
-  void problem(const std::string& path, const YAML::Mark& mark, const std::string& what);
-  /// All problems, one a line: "file:line: key: what is wrong, what was expected".
-  Status status() const;
-
- private:
-  /// Where problems at `mark`, found while reading `path`, are to be mended.
-  std::string origin_of(const std::string& path, const YAML::Mark& mark) const;
-
-  YAML::Node root_;
-  std::string name_;
-  std::map<std::string, std::string> overridden_;  ///< and what says so: --set, or a line of an experiment
-  std::map<int, std::pair<std::string, std::string>>
-      shared_;  ///< by position: the list, and the path instead
-  std::vector<std::string> problems_;
-};
-
-/// Reads one map of a document into a struct. Keys that nobody asked for are problems, with the nearest known
+/// Reads one map of a document into a struct. Keys that no call reads are problems, with the nearest known
 /// key.
 class Section {
  public:
-  /// `mark` is where the map stands if it was put together from several.
+  /// `mark` is the position of a map that was merged from several.
   Section(Document& document, YAML::Node node, std::string path,
           const YAML::Mark& mark = YAML::Mark::null_mark());
 
@@ -92,14 +57,14 @@ class Section {
   /// "file:line: key", for what is found wrong with it only later.
   std::string place(const std::string& key) const;
   void problem(const std::string& key, const std::string& what);
-  /// Keys that others may ask for.
+  /// Allows keys that other sections read.
   void allow(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }
-  const std::set<std::string>& asked_for() const { return known_; }
-  /// Notes every key that was not asked for. Call once, after the last read.
+  const std::set<std::string>& known_keys() const { return known_; }
+  /// Notes every key that was not read. Call once, after the last read.
   void finish();
-  /// Passes on what a component's validate() said, at the key that it speaks of if that stands here.
+  /// Reports an error of a component's validate(), at the key that it names if this map has it.
   void check(const Status& status);
-  /// The message of validate() speaks of a key that stands here.
+  /// True if a message of validate() names a key of this map.
   bool names(const std::string& message) const { return key_named_in(message).has_value(); }
 
  private:
@@ -117,11 +82,5 @@ class Section {
   YAML::Mark mark_;
   std::set<std::string> known_;
 };
-
-/// Why `file` cannot be read as one ("no such file", "a folder", ...); nothing if it can.
-std::optional<std::string> unreadable(const std::filesystem::path& file);
-
-/// `over` laid on `under`: maps merge key by key, everything else is replaced.
-YAML::Node merged(const YAML::Node& under, const YAML::Node& over);
 
 }  // namespace fleetmap::config

@@ -1,9 +1,9 @@
+#include "fleetmap/eval/colours.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-
-#include "fleetmap/eval/picture.hpp"
 
 namespace fleetmap::eval {
 namespace {

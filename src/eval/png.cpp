@@ -1,8 +1,8 @@
+#include "fleetmap/eval/png.hpp"
+
 #include <png.h>
 
 #include <fstream>
-
-#include "fleetmap/eval/picture.hpp"
 
 namespace fleetmap::eval {
 

@@ -18,7 +18,7 @@ struct Match {
 std::vector<Match> matches_of(const Trajectory& estimate, const Trajectory& truth) {
   std::vector<Match> matches;
   for (const StampedPose& pose : estimate) {
-    if (const auto at = pose_at(truth, pose.stamp)) matches.push_back({pose.T_enu_base, *at});
+    if (const auto at = pose_at(truth, pose.stamp)) matches.push_back({pose.T_w_base, *at});
   }
   return matches;
 }
@@ -88,13 +88,12 @@ std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp) {
   const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
                                       [](const StampedPose& pose, Stamp t) { return pose.stamp < t; });
   if (after == trajectory.end()) return std::nullopt;
-  if (after->stamp == stamp) return after->T_enu_base;
+  if (after->stamp == stamp) return after->T_w_base;
   if (after == trajectory.begin()) return std::nullopt;
   const auto before = after - 1;
   const Duration gap = after->stamp - before->stamp;
   if (gap > kLongestGap) return std::nullopt;
-  return interpolate(before->T_enu_base, after->T_enu_base,
-                     to_seconds(stamp - before->stamp) / to_seconds(gap));
+  return interpolate(before->T_w_base, after->T_w_base, to_seconds(stamp - before->stamp) / to_seconds(gap));
 }
 
 Result<TrajectoryErrors> compare(const Trajectory& estimate, const Trajectory& truth, double rpe_length) {
@@ -147,7 +146,7 @@ Result<InterRobotError> compare_pairwise(const Trajectory& a, const Trajectory& 
     const auto true_a = pose_at(truth_a, pose.stamp);
     const auto true_b = pose_at(truth_b, pose.stamp);
     if (!other || !true_a || !true_b) continue;
-    const Pose T_a_b = pose.T_enu_base.inverse() * *other;
+    const Pose T_a_b = pose.T_w_base.inverse() * *other;
     const Pose error = (true_a->inverse() * *true_b).inverse() * T_a_b;
     translation += error.translation().squaredNorm();
     rotation += so3_log(error.linear()).squaredNorm();

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/budget_shares.hpp"
+#include "budget_shares.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,23 +7,23 @@ namespace fleetmap::exchange {
 namespace {
 
 constexpr std::size_t kMaxLoans = 4;  // in one status
-/// Of a lender's part: kept in any case, since a borrower goes on for a while when the lender has need again.
+/// Share of its own part that a lender always keeps, since a borrower stops only after a delay.
 constexpr double kKept = 0.4;
 /// A lender keeps so much more than it used of late.
 constexpr double kMargin = 1.5;
 /// s of a part: a backlog below the first is none, above the second others may help.
-constexpr double kLittle = 1.0, kMuch = 2.0;
+constexpr double kSmallBacklog = 1.0, kLargeBacklog = 2.0;
 /// Status periods: one lost status ends no loan.
 constexpr double kLoanPeriods = 2.5;
 /// A status may wait in the lender's queue for so long, or for one more period.
-constexpr Duration kMostDelay = std::chrono::seconds(10);
-/// Where statuses come more seldom than this (more than eight robots without multicast), a lender would have
-/// to wait for a minute and more until it has its part again: ten robots that all had need got 0.8 of the
+constexpr Duration kMaxDelay = std::chrono::seconds(10);
+/// Longest status period with loans. With longer ones (more than eight robots without multicast) a lender
+/// would wait for a minute and more until its part is free again: ten busy robots then got 0.8 of the
 /// budget.
-constexpr Duration kMostPeriod = std::chrono::seconds(15);
+constexpr Duration kMaxPeriod = std::chrono::seconds(15);
 /// Silence after which a robot's part goes to the others, at least and in status periods.
-constexpr Duration kGone = std::chrono::seconds(60);
-constexpr double kGonePeriods = 3.0;
+constexpr Duration kPeerTimeout = std::chrono::seconds(60);
+constexpr double kPeerTimeoutPeriods = 3.0;
 
 Duration times(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
@@ -46,7 +46,7 @@ void BudgetShares::on_status(const AgentStatus& status, Stamp now) {
   if (known == peers_.end()) return;
   Peer& peer = known->second;
   peer.backlog = status.backlog_bytes;
-  peer.told = now;
+  peer.status_received = now;
   peer.loan = {};
   for (const Loan& loan : status.loans) {
     if (loan.borrower != self_) continue;
@@ -58,7 +58,7 @@ void BudgetShares::on_status(const AgentStatus& status, Stamp now) {
 std::set<AgentId> BudgetShares::present(Stamp now) const {
   std::set<AgentId> present;
   for (const auto& [agent, peer] : peers_) {
-    if (now - peer.heard < std::max(kGone, times(period_, kGonePeriods))) present.insert(agent);
+    if (now - peer.heard < std::max(kPeerTimeout, times(period_, kPeerTimeoutPeriods))) present.insert(agent);
   }
   return present;
 }
@@ -66,18 +66,18 @@ std::set<AgentId> BudgetShares::present(Stamp now) const {
 double BudgetShares::part(Stamp now) const { return budget_ / static_cast<double>(present(now).size() + 1); }
 
 bool BudgetShares::has_room(std::size_t backlog, Stamp now) const {
-  const double little = kLittle * part(now);
-  return static_cast<double>(backlog) <= little &&
+  const double small = kSmallBacklog * part(now);
+  return static_cast<double>(backlog) <= small &&
          std::ranges::all_of(present(now), [&](const AgentId& agent) {
-           return static_cast<double>(peers_.at(agent).backlog) <= little;
+           return static_cast<double>(peers_.at(agent).backlog) <= small;
          });
 }
 
 std::map<AgentId, double> BudgetShares::lent(Stamp now) const {
   std::map<AgentId, double> lent;
-  for (const Given& given : given_) {
-    if (now >= given.until) continue;
-    for (const Loan& loan : given.loans) {
+  for (const Grant& grant : grants_) {
+    if (now >= grant.until) continue;
+    for (const Loan& loan : grant.loans) {
       double& most = lent[loan.borrower];
       most = std::max<double>(most, loan.bytes_per_second);
     }
@@ -89,7 +89,7 @@ double BudgetShares::rate(Stamp now) const {
   const double own = part(now);
   double rate = own;
   for (const auto& [borrower, bytes_per_second] : lent(now)) rate -= bytes_per_second;
-  // A robot that came back makes all parts smaller than they were when loans were given.
+  // When a robot returns, all parts become smaller than they were when the loans were granted.
   rate = std::max(rate, 0.1 * own);
   for (const auto& [agent, peer] : peers_) {
     if (now < peer.loan.until) rate += std::min(peer.loan.bytes_per_second, own);
@@ -98,14 +98,14 @@ double BudgetShares::rate(Stamp now) const {
 }
 
 std::vector<Loan> BudgetShares::lend(std::size_t backlog, std::size_t sent, Stamp now) {
-  std::erase_if(given_, [now](const Given& given) { return now >= given.until; });
+  std::erase_if(grants_, [now](const Grant& grant) { return now >= grant.until; });
   const double own = part(now);
-  if (period_ > kMostPeriod || static_cast<double>(backlog) > kLittle * own) return {};
+  if (period_ > kMaxPeriod || static_cast<double>(backlog) > kSmallBacklog * own) return {};
   std::vector<std::pair<double, AgentId>> needy;
   for (const AgentId& agent : present(now)) {
     const Peer& peer = peers_.at(agent);
     const auto waiting = static_cast<double>(peer.backlog);
-    if (waiting > kMuch * own && now - peer.told < times(period_, kLoanPeriods))
+    if (waiting > kLargeBacklog * own && now - peer.status_received < times(period_, kLoanPeriods))
       needy.emplace_back(waiting, agent);
   }
   std::ranges::sort(needy, std::greater<>());
@@ -114,7 +114,7 @@ std::vector<Loan> BudgetShares::lend(std::size_t backlog, std::size_t sent, Stam
   double all_waiting = 0.0;
   for (const auto& [waiting, agent] : needy) all_waiting += waiting;
 
-  // What borrowers may still be using is not free before it ends.
+  // Bytes that borrowers may still be using are not free until their loans end.
   std::map<AgentId, double> before = lent(now);
   const double kept = std::max(kKept * own, kMargin * static_cast<double>(sent) / to_seconds(period_));
   const double lendable = std::max(own - kept, 0.0);
@@ -129,11 +129,11 @@ std::vector<Loan> BudgetShares::lend(std::size_t backlog, std::size_t sent, Stam
   for (const auto& [waiting, agent] : needy) {
     const double even = lendable * waiting / all_waiting;
     const double loan = std::min(even, before[agent] + granted * more(waiting, agent));
-    constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
-    if (loan >= 1.0) loans.push_back({agent, static_cast<std::uint16_t>(std::min(loan, kMost))});
+    constexpr double kMax = std::numeric_limits<std::uint16_t>::max();
+    if (loan >= 1.0) loans.push_back({agent, static_cast<std::uint16_t>(std::min(loan, kMax))});
   }
-  const Duration delay = std::max(kMostDelay, period_);
-  given_.push_back({loans, now + times(period_, kLoanPeriods) + delay});
+  const Duration delay = std::max(kMaxDelay, period_);
+  grants_.push_back({loans, now + times(period_, kLoanPeriods) + delay});
   return loans;
 }
 

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/cloud_transfer.hpp"
+#include "cloud_transfer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,28 +7,11 @@ namespace fleetmap::exchange {
 namespace {
 
 constexpr std::size_t kPiece = CloudFragment::kMaxPayload;
-constexpr std::size_t kMaxMissing = 256;  // what a request can name
-constexpr int kMaxRestarts = 2;           // more is no accident
+constexpr int kMaxRestarts = 2;  // more is no accident
 
 std::size_t piece_count(std::size_t bytes) { return (bytes + kPiece - 1) / kPiece; }
 
 }  // namespace
-
-Status CloudTransferConfig::validate() const {
-  if (max_cloud_bytes == 0 || max_cloud_bytes > kPiece * kMaxMissing) {
-    return failure("cloud_transfer.max_cloud_bytes must be in 1 .. " + std::to_string(kPiece * kMaxMissing));
-  }
-  if (max_kept == 0 || max_receiving == 0) {
-    return failure("cloud_transfer.max_kept and max_receiving must be at least 1");
-  }
-  if (first_timeout <= Duration::zero() || gap_timeout <= Duration::zero() ||
-      max_timeout <= Duration::zero()) {
-    return failure("cloud_transfer timeouts must be positive");
-  }
-  if (!(backoff >= 1.0) || backoff > 10.0) return failure("cloud_transfer.backoff must be in 1 .. 10");
-  if (max_tries < 1) return failure("cloud_transfer.max_tries must be at least 1");
-  return {};
-}
 
 std::vector<CloudFragment> split_cloud(const AgentId& from, const AgentId& to, const NodeId& node,
                                        const Bytes& cloud) {
@@ -72,7 +55,7 @@ Status CloudSender::offer(const NodeId& node, Bytes cloud, Stamp now) {
 std::optional<std::vector<CloudFragment>> CloudSender::answer(const CloudRequest& request, Stamp now) {
   const auto kept = kept_.find(request.node);
   if (kept == kept_.end()) return std::nullopt;
-  // Pieces must come from the cloud that the others came from; a whole one had better be fresh.
+  // Missing pieces must come from the same cloud as the others; for a whole cloud a fresh one is better.
   if (request.missing.empty() && now - kept->second.made > config_.kept_for) return std::nullopt;
   auto fragments = split_cloud(self_, request.from, request.node, kept->second.cloud);
   if (request.missing.empty()) return fragments;
@@ -92,12 +75,12 @@ std::optional<std::vector<CloudFragment>> CloudSender::answer(const CloudRequest
 CloudReceiver::CloudReceiver(const AgentId& self, const CloudTransferConfig& config)
     : self_(self), config_(config) {}
 
-bool CloudReceiver::want(const NodeId& node, Stamp now, double worth) {
+bool CloudReceiver::want(const NodeId& node, Stamp now, double information) {
   if (waiting_.contains(node)) return true;
   if (full()) return false;
   Waiting& waiting = waiting_[node];
   waiting.deadline = now;  // the first request goes with the next tick
-  waiting.worth = worth;
+  waiting.information = information;
   return true;
 }
 
@@ -166,7 +149,7 @@ CloudRequest CloudReceiver::request(const NodeId& node, Waiting& waiting, Stamp 
     waiting.begin_anew();
     waiting.tries = tries;
   }
-  CloudRequest request{self_, node.agent, node, {}, static_cast<float>(waiting.worth)};
+  CloudRequest request{self_, node.agent, node, {}, static_cast<float>(waiting.information)};
   for (std::size_t index = 0; index < waiting.held.size(); ++index) {
     if (!waiting.held[index]) request.missing.push_back(static_cast<std::uint16_t>(index));
   }

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/content_check.hpp"
+#include "content_check.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace fleetmap::exchange {
 namespace {
 
 constexpr std::uint32_t kParts = 8;     ///< that a range is cut into
-constexpr std::uint32_t kFewItems = 8;  ///< asked for instead of cutting further
+constexpr std::uint32_t kFewItems = 8;  ///< requested instead of cutting further
 constexpr std::size_t kMaxCuts = 64;    ///< of nodes, and of alignments
 constexpr Duration kCutsLast = std::chrono::minutes(2);
 constexpr Duration kFirstRest =
@@ -15,7 +15,7 @@ constexpr Duration kLongestRest = std::chrono::minutes(10);
 
 }  // namespace
 
-bool ContentCheck::compare(const Range& range, std::uint32_t theirs, std::uint32_t ours, Cuts& cuts,
+bool ContentCheck::compare(const SeqRange& range, std::uint32_t theirs, std::uint32_t ours, Cuts& cuts,
                            store::SeqSet& to_ask, Stamp now) {
   if (theirs == ours) return false;
   const std::uint32_t items = range.end - range.first;
@@ -35,16 +35,16 @@ bool ContentCheck::compare(const Range& range, std::uint32_t theirs, std::uint32
 bool ContentCheck::on_digest(const Digest& digest, const store::Store& store, Stamp now) {
   bool differ = false;
   Peer& peer = peers_[digest.from];
-  const auto held = [](const store::SeqSet& set, const Range& range) {
+  const auto held = [](const store::SeqSet& set, const SeqRange& range) {
     return range.first < range.end && set.includes(store::SeqSet({range}));
   };
   for (std::size_t k = 0; k < std::min(digest.nodes.size(), digest.node_prints.size()); ++k) {
-    const Range& range = digest.nodes[k];
+    const SeqRange& range = digest.nodes[k];
     if (!held(store.node_set(), range)) continue;
     differ |= compare(range, digest.node_prints[k], store.node_print(range), node_cuts_, peer.nodes, now);
   }
   for (std::size_t k = 0; k < std::min(digest.alignments.size(), digest.alignment_prints.size()); ++k) {
-    const Range& range = digest.alignments[k];
+    const SeqRange& range = digest.alignments[k];
     if (!held(store.alignment_set(), range)) continue;
     differ |= compare(range, digest.alignment_prints[k], store.alignment_print(range), alignment_cuts_,
                       peer.alignments, now);
@@ -52,10 +52,10 @@ bool ContentCheck::on_digest(const Digest& digest, const store::Store& store, St
   return differ;
 }
 
-std::vector<Range> ContentCheck::cut(const std::vector<Range>& ranges, bool alignments) const {
+std::vector<SeqRange> ContentCheck::cut(const std::vector<SeqRange>& ranges, bool alignments) const {
   const Cuts& cuts = alignments ? alignment_cuts_ : node_cuts_;
-  std::vector<Range> parts;
-  for (Range rest : ranges) {
+  std::vector<SeqRange> parts;
+  for (SeqRange rest : ranges) {
     for (auto it = cuts.upper_bound({rest.agent, rest.first});
          it != cuts.end() && it->first.agent == rest.agent && it->first.seq < rest.end; ++it) {
       parts.push_back({rest.agent, rest.first, it->first.seq});
@@ -73,7 +73,7 @@ std::optional<ItemRequest> ContentCheck::ask(const AgentId& self, const AgentId&
   if ((peer.nodes.empty() && peer.alignments.empty()) || now < peer.resting_until) return std::nullopt;
   const auto few = [](const store::SeqSet& set) { return set.minus({}, kFewItems); };
   ItemRequest request{self, name, few(peer.nodes), few(peer.alignments)};
-  // What still differs then shows in the peer's next digest.
+  // Ranges that still differ then appear in the peer's next digest.
   peer.nodes = {};
   peer.alignments = {};
   peer.rest = std::clamp(2 * peer.rest, kFirstRest, kLongestRest);

@@ -25,7 +25,7 @@ bool all_signed(const store::Store& store) {
          });
 }
 
-/// Of a contested name the first content is the own one if its submap is held.
+/// For a contested name the first content is the own one if its submap is held.
 bool is_own(const store::Store& store, const graph::Node& node) {
   if (node.id.agent != store.self()) return false;
   if (!store.is_contested(node.id)) return true;

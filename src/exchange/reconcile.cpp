@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/reconcile.hpp"
+#include "reconcile.hpp"
 
 #include <algorithm>
 
@@ -21,7 +21,7 @@ std::vector<SeqRange> window(const std::vector<SeqRange>& ranges, std::size_t st
   return taken;
 }
 
-/// Not in order, so that an offer that is not delivered does not keep others from being asked for.
+/// Rotates the ranges, so that an undelivered offer does not keep others from being requested.
 std::vector<SeqRange> rotated(std::vector<SeqRange> ranges, int turns) {
   if (ranges.empty()) return ranges;
   const auto first = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(turns) % ranges.size());
@@ -43,9 +43,9 @@ std::vector<SeqRange> first_items(std::vector<SeqRange> ranges, std::uint64_t it
   return ranges;
 }
 
-/// What of `offered` is lacking and not doubted is none.
-bool holds_all(const SeqSet& held, const SeqSet& offered, const SeqSet& doubted) {
-  return doubted.empty() ? held.includes(offered) : held.includes(SeqSet(offered.minus(doubted)));
+/// Whether everything offered is held, except undelivered items.
+bool holds_all(const SeqSet& held, const SeqSet& offered, const SeqSet& undelivered) {
+  return undelivered.empty() ? held.includes(offered) : held.includes(SeqSet(offered.minus(undelivered)));
 }
 
 SeqSet joined(SeqSet a, const SeqSet& b) {
@@ -62,30 +62,12 @@ SeqSet joined_bounded(SeqSet a, const SeqSet& b) {
 
 }  // namespace
 
-Status ReconcileConfig::validate() const {
-  if (digest_min_period <= Duration::zero() || digest_max_period < digest_min_period) {
-    return failure("reconcile.digest_min_period must be positive and at most digest_max_period");
-  }
-  if (grace < Duration::zero()) return failure("reconcile.grace must not be negative");
-  if (near_period <= Duration::zero() || store_pause <= Duration::zero() || max_store_pause < store_pause) {
-    return failure(
-        "reconcile.near_period and store_pause must be positive, max_store_pause at least store_pause");
-  }
-  if (timeout <= Duration::zero() || peer_timeout <= Duration::zero()) {
-    return failure("reconcile.timeout and peer_timeout must be positive");
-  }
-  if (max_ranges == 0 || max_ranges > 256) return failure("reconcile.max_ranges must be in 1 .. 256");
-  if (max_items == 0 || max_barren < 1)
-    return failure("reconcile.max_items and max_barren must be at least 1");
-  return {};
-}
-
 Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
     : self_(self), config_(config), period_(config.digest_min_period) {}
 
-SeqSet Reconcile::accepted(const std::vector<Range>& ranges, Source source) {
+SeqSet Reconcile::accepted(const std::vector<SeqRange>& ranges, Source source) {
   SeqSet set;
-  for (const Range& range : ranges) {
+  for (const SeqRange& range : ranges) {
     const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
     // Nobody numbers so many items of one session that it reaches the next.
     const bool plausible =
@@ -126,8 +108,8 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   const SeqSet nodes = accepted(digest.nodes, Source::kDigest);
   const SeqSet alignments = accepted(digest.alignments, Source::kDigest);
   // A digest with no room for all ranges shows a part, and adds to those before.
-  const auto offer = [this](SeqSet& offered, const std::vector<Range>& ranges, const SeqSet& told) {
-    offered = ranges.size() < config_.max_ranges ? told : joined_bounded(std::move(offered), told);
+  const auto offer = [this](SeqSet& offered, const std::vector<SeqRange>& ranges, const SeqSet& received) {
+    offered = ranges.size() < config_.max_ranges ? received : joined_bounded(std::move(offered), received);
   };
   offer(peer.offer.nodes, digest.nodes, nodes);
   offer(peer.offer.alignments, digest.alignments, alignments);
@@ -184,7 +166,7 @@ Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Stor
   return items;
 }
 
-void Reconcile::settle_pending(Peer& peer, const store::Store& store, Stamp now) {
+void Reconcile::update_pending(Peer& peer, const store::Store& store, Stamp now) {
   if (!peer.pending) return;
   Pending& pending = *peer.pending;
   const std::uint64_t left =
@@ -208,24 +190,25 @@ void Reconcile::settle_pending(Peer& peer, const store::Store& store, Stamp now)
   }
 }
 
-void Reconcile::settle_doubts(const AgentId& name, Peer& peer, const store::Store& store, Due& due) {
+void Reconcile::update_undelivered(const AgentId& name, Peer& peer, const store::Store& store, Due& due) {
   Offer& offer = peer.offer;
-  const auto delivered = [](const SeqSet& doubted, const SeqSet& held) {
-    return count(doubted.minus(held)) < doubted.size();
+  const auto delivered = [](const SeqSet& undelivered, const SeqSet& held) {
+    return count(undelivered.minus(held)) < undelivered.size();
   };
-  if (delivered(offer.doubted_nodes, store.node_set()) ||
-      delivered(offer.doubted_alignments, store.alignment_set())) {
-    offer.doubted_nodes = {};
-    offer.doubted_alignments = {};
+  if (delivered(offer.undelivered_nodes, store.node_set()) ||
+      delivered(offer.undelivered_alignments, store.alignment_set())) {
+    offer.undelivered_nodes = {};
+    offer.undelivered_alignments = {};
     peer.barren = 0;
-    peer.told = false;
+    peer.undelivered_reported = false;
   }
   if (peer.barren < config_.max_barren || peer.pending) return;
-  offer.doubted_nodes = SeqSet(offer.nodes.minus(store.node_set()));
-  offer.doubted_alignments = SeqSet(offer.alignments.minus(store.alignment_set()));
-  if (peer.told || (offer.doubted_nodes.empty() && offer.doubted_alignments.empty())) return;
-  peer.told = true;
-  due.doubts.push_back({name, offer.doubted_nodes.size(), offer.doubted_alignments.size()});
+  offer.undelivered_nodes = SeqSet(offer.nodes.minus(store.node_set()));
+  offer.undelivered_alignments = SeqSet(offer.alignments.minus(store.alignment_set()));
+  if (peer.undelivered_reported || (offer.undelivered_nodes.empty() && offer.undelivered_alignments.empty()))
+    return;
+  peer.undelivered_reported = true;
+  due.undelivered.push_back({name, offer.undelivered_nodes.size(), offer.undelivered_alignments.size()});
 }
 
 std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const store::Store& store,
@@ -262,8 +245,8 @@ Digest Reconcile::digest_of(const store::Store& store, std::size_t& next_range) 
   const auto alignments = check_.cut(store.alignment_set().ranges(), true);
   digest.nodes = window(nodes, next_range, config_.max_ranges);
   digest.alignments = window(alignments, next_range, config_.max_ranges);
-  for (const Range& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
-  for (const Range& range : digest.alignments)
+  for (const SeqRange& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
+  for (const SeqRange& range : digest.alignments)
     digest.alignment_prints.push_back(store.alignment_print(range));
   next_range = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
                    ? (next_range + config_.max_ranges) % std::max(nodes.size(), alignments.size())
@@ -282,8 +265,8 @@ Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
   }
   check_.expire(now);
   for (auto& [name, peer] : peers_) {
-    settle_pending(peer, store, now);
-    settle_doubts(name, peer, store, due);
+    update_pending(peer, store, now);
+    update_undelivered(name, peer, store, due);
     if (!peer.offer.lacking) continue;
     peer.offer.lacking = !store.node_set().includes(peer.offer.nodes) ||
                          !store.alignment_set().includes(peer.offer.alignments);
@@ -302,8 +285,8 @@ bool Reconcile::complete(const store::Store& store, const std::set<AgentId>& wit
   return std::ranges::all_of(peers_, [&](const auto& entry) {
     if (without.contains(entry.first)) return true;
     const Offer& offer = entry.second.offer;
-    return holds_all(store.node_set(), offer.nodes, offer.doubted_nodes) &&
-           holds_all(store.alignment_set(), offer.alignments, offer.doubted_alignments);
+    return holds_all(store.node_set(), offer.nodes, offer.undelivered_nodes) &&
+           holds_all(store.alignment_set(), offer.alignments, offer.undelivered_alignments);
   });
 }
 

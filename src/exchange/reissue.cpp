@@ -11,15 +11,15 @@ using graph::Node;
 
 constexpr SeqRange all_of(const AgentId& agent) { return {agent, 0, kEndOfSeqs}; }
 
-/// Contested own nodes that no other own node stands for, by odometry frame.
+/// Contested own nodes without an equal under another name, by odometry frame.
 std::map<std::uint16_t, std::vector<const Node*>> nodes_to_name(const store::Store& store) {
   const auto own = store.nodes_from(all_of(store.self()));
   std::map<std::uint16_t, std::vector<const Node*>> found;
-  std::vector<const Node*> chosen;
+  std::vector<const Node*> selected;
   for (const auto& [node, second] : store.contested_nodes(all_of(store.self()))) {
-    const auto stands_for = [&, held = node](const Node* other) { return is_same_place(*other, *held); };
-    if (std::ranges::any_of(own, stands_for) || std::ranges::any_of(chosen, stands_for)) continue;
-    chosen.push_back(node);
+    const auto is_same = [&, held = node](const Node* other) { return is_same_place(*other, *held); };
+    if (std::ranges::any_of(own, is_same) || std::ranges::any_of(selected, is_same)) continue;
+    selected.push_back(node);
     found[node->session].push_back(node);
   }
   return found;
@@ -68,42 +68,42 @@ class Reissue {
 
   Status alignments() {
     for (const auto& [alignment, second] : store_.contested_alignments(all_of(store_.self()))) {
-      // Of a pair without one of its nodes the registration is repeated, if it is found again.
+      // If one node of a pair is missing, the registration is repeated once the pair is found again.
       const auto same_pair = [held = alignment](const auto& entry) {
         return entry.second.i == held->i && entry.second.j == held->j;
       };
       if (!store_.node(alignment->i) || !store_.node(alignment->j)) continue;
       if (std::ranges::any_of(store_.alignments(), same_pair)) continue;
-      if (auto status = tell(*alignment); !status) return status;
+      if (auto status = reissue(*alignment); !status) return status;
     }
     return {};
   }
 
-  std::size_t told() const { return told_; }
+  std::size_t reissued() const { return reissued_; }
 
  private:
   Status name(const Node& node, std::uint16_t session) {
     const auto submap = store_.contested_submap(node.id);
-    if (!submap) return {};  // it was somebody else's, or is lost
+    if (!submap) return {};  // the submap belonged to another robot's node, or is lost
     Node named = node;
     named.id.seq = store_.next_node_seq(session);
     named.session = session;
     const auto put = exchange_.on_own_node(named, *submap, now_);
     if (!put) return tl::unexpected(put.error());
     if (*put != store::Put::kAdded) return {};
-    ++told_;
+    ++reissued_;
     const Node* other = neighbour(store_, node);
-    return other ? tell(odometry_tie(*other, node, named)) : Status{};
+    return other ? reissue(odometry_tie(*other, node, named)) : Status{};
   }
 
-  Status tell(Alignment alignment) {
+  Status reissue(Alignment alignment) {
     alignment.computed_by = store_.self();
     alignment.seq = store_.next_alignment_seq(names_.session);
     const auto quantised = names_.quantised(alignment);
     if (!quantised) return tl::unexpected(quantised.error());
     const auto put = exchange_.on_own_alignment(*quantised, now_);
     if (!put) return tl::unexpected(put.error());
-    told_ += *put == store::Put::kAdded ? 1 : 0;
+    reissued_ += *put == store::Put::kAdded ? 1 : 0;
     return {};
   }
 
@@ -111,7 +111,7 @@ class Reissue {
   store::Store& store_;
   const NewNames& names_;
   Stamp now_;
-  std::size_t told_ = 0;
+  std::size_t reissued_ = 0;
 };
 
 }  // namespace
@@ -126,7 +126,7 @@ Result<std::size_t> reissue_contested(Exchange& exchange, store::Store& store, c
   Reissue reissue(exchange, store, names, now);
   if (auto status = reissue.nodes(); !status) return tl::unexpected(status.error());
   if (auto status = reissue.alignments(); !status) return tl::unexpected(status.error());
-  return reissue.told();
+  return reissue.reissued();
 }
 
 }  // namespace fleetmap::exchange

@@ -7,6 +7,8 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Reach;
+
 constexpr auto kNews = static_cast<std::size_t>(Priority::kNews);
 constexpr auto kBackfill = static_cast<std::size_t>(Priority::kBackfill);
 constexpr auto kCloud = static_cast<std::size_t>(Priority::kCloud);
@@ -18,25 +20,6 @@ constexpr double kLead = 0.5;
 constexpr double kItemsPerCloud = 0.8;
 
 }  // namespace
-
-Status LongRangeConfig::validate() const {
-  if (!(fleet_bytes_per_second > 0.0) || !std::isfinite(fleet_bytes_per_second)) {
-    return failure("long_range.fleet_bytes_per_second must be positive");
-  }
-  if (!(pace.burst_seconds >= 0.0) || pace.burst_seconds > 10.0)
-    return failure("long_range.burst_seconds must be in 0 .. 10");
-  if (!(pace.min_burst_bytes >= 0.0) || pace.min_burst_bytes > 1e6) {
-    return failure("long_range.min_burst_bytes must be in 0 .. 1e6");
-  }
-  if (!(pace.peak >= 1.0) || pace.peak > 100.0) return failure("long_range.peak must be in 1 .. 100");
-  if (!(small_reserve_bytes >= 0.0) || small_reserve_bytes > 1e6) {
-    return failure("long_range.small_reserve_bytes must be in 0 .. 1e6");
-  }
-  if (max_small == 0 || max_backfill == 0 || max_fragments == 0) {
-    return failure("long_range.max_small, max_backfill and max_fragments must be at least 1");
-  }
-  return {};
-}
 
 SendQueue::SendQueue(const LongRangeConfig& config, std::span<const AgentId> peers,
                      std::function<std::size_t(const Message&)> payload_size)
@@ -53,17 +36,17 @@ SendQueue::Key SendQueue::key_of(const Outgoing& outgoing) {
   struct Visitor {
     Subject operator()(const graph::Node& m) const { return {m.id, 0}; }
     Subject operator()(const graph::Alignment& m) const { return {{m.computed_by, m.seq}, 0}; }
-    Subject operator()(const ProximityMatch& m) const { return {m.theirs, m.ours.seq}; }
+    Subject operator()(const messages::ProximityMatch& m) const { return {m.theirs, m.ours.seq}; }
     Subject operator()(const CloudFragment& m) const { return {m.node, m.index}; }
-    Subject operator()(const CloudRequest& m) const { return {m.node, 0}; }
-    Subject operator()(const Digest&) const { return {}; }
-    Subject operator()(const ItemRequest&) const { return {}; }
-    Subject operator()(const AgentStatus&) const { return {}; }
-    Subject operator()(const MissionReport&) const { return {}; }
-    Subject operator()(const Hold&) const { return {}; }
-    Subject operator()(const SubmapDigest&) const { return {}; }
-    Subject operator()(const SubmapRequest& m) const { return {m.node, m.offset}; }
-    Subject operator()(const SubmapChunk& m) const { return {m.node, m.offset}; }
+    Subject operator()(const messages::CloudRequest& m) const { return {m.node, 0}; }
+    Subject operator()(const messages::Digest&) const { return {}; }
+    Subject operator()(const messages::ItemRequest&) const { return {}; }
+    Subject operator()(const messages::AgentStatus&) const { return {}; }
+    Subject operator()(const messages::MissionReport&) const { return {}; }
+    Subject operator()(const messages::Hold&) const { return {}; }
+    Subject operator()(const messages::SubmapDigest&) const { return {}; }
+    Subject operator()(const messages::SubmapRequest& m) const { return {m.node, m.offset}; }
+    Subject operator()(const messages::SubmapChunk& m) const { return {m.node, m.offset}; }
   };
   const Subject subject = std::visit(Visitor{}, outgoing.message);
   return {outgoing.message.index(), outgoing.to.value_or(AgentId{}), subject.node, subject.part};
@@ -79,10 +62,10 @@ std::size_t SendQueue::capacity(std::size_t priority) const {
   return priority == kBackfill ? config_.max_backfill : config_.max_small;
 }
 
-void SendQueue::erase(const Place& place) {
-  backlog_ -= place.item->all_bytes();
-  index_.erase(place.item->key);
-  waiting_[place.priority].erase(place.item);
+void SendQueue::erase(const Position& position) {
+  backlog_ -= position.item->all_bytes();
+  index_.erase(position.item->key);
+  waiting_[position.priority].erase(position.item);
 }
 
 void SendQueue::push(Priority priority, Message message, std::optional<AgentId> to) {
@@ -99,8 +82,8 @@ void SendQueue::push_second(Priority priority, Message message, const AgentId& t
   insert(priority, {{}, {Reach::kLongRange, to, std::move(message)}, bytes, {}, 0.0, true});
 }
 
-void SendQueue::push_fragment(CloudFragment fragment, float worth) {
-  const double rank = static_cast<double>(worth) / std::max(fragment.total_bytes, 1u);
+void SendQueue::push_fragment(CloudFragment fragment, float information) {
+  const double rank = static_cast<double>(information) / std::max(fragment.total_bytes, 1u);
   const AgentId to = fragment.to;
   Message message = std::move(fragment);
   const std::size_t bytes = wire_bytes(message, to);
@@ -129,27 +112,27 @@ void SendQueue::insert(Priority priority, Item item) {
   }
   const auto p = static_cast<std::size_t>(priority);
   Items& items = waiting_[p];
-  auto place = items.end();
-  while (place != items.begin() && std::prev(place)->rank < item.rank) --place;
+  auto position = items.end();
+  while (position != items.begin() && std::prev(position)->rank < item.rank) --position;
   backlog_ += item.all_bytes();
-  const auto added = items.insert(place, std::move(item));
-  index_.emplace(added->key, Place{p, added});
+  const auto added = items.insert(position, std::move(item));
+  index_.emplace(added->key, Position{p, added});
   if (items.size() <= capacity(p)) return;
-  // Of clouds the least worth gives way, else what is oldest.
+  // The class is full: the cloud with the least information is dropped, else the oldest message.
   erase({p, p == kCloud ? std::prev(items.end()) : items.begin()});
   ++stats_.dropped[p];
 }
 
 std::size_t SendQueue::cancel_cloud(const AgentId& to, const NodeId& node) {
-  std::vector<Place> places;
+  std::vector<Position> positions;
   auto& fragments = waiting_[kCloud];
   for (auto it = fragments.begin(); it != fragments.end(); ++it) {
     const auto* fragment = std::get_if<CloudFragment>(&it->outgoing.message);
-    if (fragment && fragment->to == to && fragment->node == node) places.push_back({kCloud, it});
+    if (fragment && fragment->to == to && fragment->node == node) positions.push_back({kCloud, it});
   }
-  for (const Place& place : places) erase(place);
-  stats_.cancelled += places.size();
-  return places.size();
+  for (const Position& position : positions) erase(position);
+  stats_.cancelled += positions.size();
+  return positions.size();
 }
 
 std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
@@ -158,10 +141,10 @@ std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
   for (std::size_t p = 0; p < kPriorities; ++p) {
     for (auto it = waiting_[p].begin(); it != waiting_[p].end();) {
       const auto item = it++;
-      const Place place{p, item};
+      const Position position{p, item};
       if (item->outgoing.to && peers.contains(*item->outgoing.to)) {
         taken.push_back(std::move(item->outgoing));
-        erase(place);
+        erase(position);
         continue;
       }
       // Orders go over both links.
@@ -174,7 +157,7 @@ std::vector<Outgoing> SendQueue::take_for(const std::set<AgentId>& peers) {
       });
       if (near == 0) continue;
       backlog_ -= before - item->all_bytes();
-      if (item->receivers.empty()) erase(place);
+      if (item->receivers.empty()) erase(position);
     }
   }
   return taken;
@@ -186,7 +169,7 @@ std::optional<std::size_t> SendQueue::next() const {
     return from;
   };
   if (const std::size_t urgent = first_of(0, kNews); urgent < kNews) return urgent;
-  // What is larger than the lead goes when there is none.
+  // A message larger than the allowed lead goes when there is no lead.
   const auto may_lead = [&](std::size_t p, double lead) {
     return lead <= 0.0 || lead + static_cast<double>(waiting_[p].front().bytes) <= kLead * pace_.rate();
   };
@@ -196,8 +179,8 @@ std::optional<std::size_t> SendQueue::next() const {
   return items < kCloud && may_lead(items, items_lead_) ? items : kCloud;
 }
 
-Outgoing SendQueue::take_one(const Place& place) {
-  Item& item = *place.item;
+Outgoing SendQueue::take_one(const Position& position) {
+  Item& item = *position.item;
   if (item.receivers.size() > 1) {
     Outgoing copy{item.outgoing.reach, item.receivers.back(), item.outgoing.message};
     item.receivers.pop_back();
@@ -206,7 +189,7 @@ Outgoing SendQueue::take_one(const Place& place) {
   }
   Outgoing last = std::move(item.outgoing);
   if (!item.receivers.empty()) last.to = item.receivers.front();
-  erase(place);
+  erase(position);
   return last;
 }
 

@@ -1,123 +1,47 @@
+#include "submap_receiver.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "fleetmap/exchange/submap_transfer.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
 constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 static_assert(kChunk == SubmapChunk::kMaxPayload);
-/// A download of which nothing came for so many of the longest timeouts is given up.
+/// A download without any arrival for so many of the longest timeouts is stopped.
 constexpr int kSilentTimeouts = 3;
-/// Of what a peer tells to hold; one with more holes starts anew.
-constexpr std::size_t kMaxIntervals = 8192;
-constexpr std::uint64_t kMaxMissing = 4096;  ///< submaps looked at in one tick
+constexpr std::uint64_t kMaxMissing = 4096;  ///< submaps examined in one tick
 
 /// A peer that answers nothing keeps the least of its own window under way: there is room for others beside
 /// it.
 DelayWindowConfig of_all(DelayWindowConfig config) {
-  config.least_bytes = std::min(2 * config.least_bytes, config.first_bytes);
+  config.min_bytes = std::min(2 * config.min_bytes, config.first_bytes);
   return config;
 }
 
 }  // namespace
 
-Status SubmapTransferConfig::validate() const {
-  if (!(bytes_per_second > 0.0) || !std::isfinite(bytes_per_second)) {
-    return failure("submap_transfer.bytes_per_second must be positive");
-  }
-  if (!(burst_bytes >= kChunk) || !std::isfinite(burst_bytes)) {
-    return failure("submap_transfer.burst_bytes must be at least " + std::to_string(kChunk));
-  }
-  if (auto status = window.validate(); !status) return status;
-  if (window.least_bytes < kChunk || request_bytes < kChunk) {
-    return failure("submap_transfer.window.least_bytes and request_bytes must be at least " +
-                   std::to_string(kChunk));
-  }
-  if (first_distrust <= Duration::zero() || max_distrust < first_distrust ||
-      store_pause <= Duration::zero()) {
-    return failure(
-        "submap_transfer.first_distrust and store_pause must be positive, max_distrust at least "
-        "first_distrust");
-  }
-  if (digest_period <= Duration::zero() || peer_timeout <= digest_period) {
-    return failure("submap_transfer.digest_period must be positive and less than peer_timeout");
-  }
-  if (min_timeout <= Duration::zero() || max_timeout < min_timeout) {
-    return failure("submap_transfer.min_timeout must be positive and at most max_timeout");
-  }
-  if (max_ranges == 0 || max_ranges > 1024) return failure("submap_transfer.max_ranges must be in 1 .. 1024");
-  if (max_queued_chunks == 0) return failure("submap_transfer.max_queued_chunks must be at least 1");
-  return {};
-}
-
 SubmapReceiver::SubmapReceiver(const AgentId& self, const SubmapTransferConfig& config)
-    : self_(self), config_(config), window_(of_all(config.window)) {}
+    : self_(self), config_(config), neighbours_(self, config), window_(of_all(config.window)) {}
 
 std::uint32_t SubmapReceiver::chunk_bytes(const graph::Node& node, std::uint32_t chunk) {
   return std::min(kChunk, node.submap_bytes - chunk * kChunk);
 }
 
 void SubmapReceiver::on_heard(const AgentId& name, Stamp now) {
-  Peer& known = peer(name);
-  // Another place, another channel: what the link carried then tells little.
-  if (now - known.heard > config_.peer_timeout) {
-    if (peers_in_reach(now).empty()) window_ = DelayWindow(of_all(config_.window));
-    known.window = DelayWindow(config_.window);
-    known.least_delay = {};
-    known.hears_us = false;
+  if (!neighbours_.in_reach(name, now)) {
+    // The two have moved: what was measured of the link no longer holds.
+    if (neighbours_.in_reach(now).empty()) window_ = DelayWindow(of_all(config_.window));
+    Peer& peer = this->peer(name);
+    peer.window = DelayWindow(config_.window);
+    peer.base_delay = {};
   }
-  known.heard = now;
+  neighbours_.on_heard(name, now);
 }
 
 void SubmapReceiver::on_digest(const SubmapDigest& digest, Stamp now) {
   on_heard(digest.from, now);
-  Peer& peer = this->peer(digest.from);
-  peer.hears_us = std::ranges::count(digest.hears, self_) > 0;
-  if (peer.hears_us) peer.heard_by_it.push_back(now);
-  while (!peer.heard_by_it.empty() && now - peer.heard_by_it.front() > config_.peer_timeout)
-    peer.heard_by_it.pop_front();
-  peer.told = now;
-  // One that had no room for all ranges adds to those before.
-  if (digest.submaps.size() < config_.max_ranges || peer.holds.ranges().size() > kMaxIntervals)
-    peer.holds = {};
-  for (const Range& range : digest.submaps) {
-    const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
-    // Nobody numbers so many items of one session that it reaches the next.
-    if (ordered && session_of(range.first) == session_of(range.end - 1)) {
-      peer.holds.insert(range);
-    } else {
-      ++stats_.hostile;
-    }
-  }
-}
-
-bool SubmapReceiver::in_reach(const AgentId& name, Stamp now) const {
-  const auto peer = peers_.find(name);
-  return peer != peers_.end() && now - peer->second.heard <= config_.peer_timeout;
-}
-
-bool SubmapReceiver::hears_us(const AgentId& name, Stamp now) const {
-  return in_reach(name, now) && peers_.at(name).hears_us;
-}
-
-bool SubmapReceiver::is_near(const AgentId& name, Stamp now) const {
-  if (!hears_us(name, now)) return false;
-  const auto expected =
-      static_cast<double>(config_.peer_timeout.count()) / static_cast<double>(config_.digest_period.count());
-  const auto came = std::ranges::count_if(peers_.at(name).heard_by_it,
-                                          [&](Stamp heard) { return now - heard <= config_.peer_timeout; });
-  return static_cast<double>(came) >= 0.6 * expected;
-}
-
-bool SubmapReceiver::lacks(const AgentId& peer, const NodeId& id) const {
-  const auto known = peers_.find(peer);
-  return known != peers_.end() && !known->second.holds.contains(id.agent, id.seq);
-}
-
-bool SubmapReceiver::lacks_since(const AgentId& name, const NodeId& id, Stamp since) const {
-  return lacks(name, id) && peers_.at(name).told > since;
+  neighbours_.on_digest(digest, now);
 }
 
 std::vector<AgentId> SubmapReceiver::asked() const {
@@ -128,21 +52,10 @@ std::vector<AgentId> SubmapReceiver::asked() const {
   return names;
 }
 
-std::vector<AgentId> SubmapReceiver::peers_in_reach(Stamp now) const {
-  std::vector<AgentId> names;
-  for (const auto& [name, peer] : peers_) {
-    if (in_reach(name, now)) names.push_back(name);
-  }
-  return names;
-}
-
-std::vector<AgentId> SubmapReceiver::even_with(const store::Store& store, Stamp now) const {
-  const store::SeqSet& held = store.submap_set();
-  std::vector<AgentId> names;
-  for (const auto& [name, peer] : peers_) {
-    if (in_reach(name, now) && held.includes(peer.holds) && peer.holds.includes(held)) names.push_back(name);
-  }
-  return names;
+SubmapReceiverStats SubmapReceiver::stats() const {
+  SubmapReceiverStats all = stats_;
+  all.hostile += neighbours_.hostile_ranges();
+  return all;
 }
 
 Duration SubmapReceiver::timeout(const Peer& peer) const {
@@ -160,7 +73,7 @@ void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t ch
   }
   peer.spread += 0.25 * (std::abs(delay - peer.delay) - peer.spread);
   peer.delay += 0.125 * (delay - peer.delay);
-  const double queueing = peer.least_delay.queueing_of(delay, now);
+  const double queueing = peer.base_delay.queueing_of(delay, now);
   peer.window.on_arrival(queueing, flight->second.bytes);
   window_.on_arrival(queueing, flight->second.bytes);
   no_longer_out(peer, flight->second.bytes);
@@ -169,7 +82,7 @@ void SubmapReceiver::on_arrival(Peer& peer, Download& download, std::uint32_t ch
 }
 
 bool SubmapReceiver::is_lost(const Flight& flight, const Peer& peer, Stamp now) const {
-  // As RACK (RFC 8985): one that was asked for later is here, and this one takes longer than they do.
+  // As RACK (RFC 8985): a chunk requested later has arrived, and this one takes longer than usual.
   constexpr std::uint64_t kOvertaken = 3;
   const bool overtaken = flight.order + kOvertaken < peer.answered;
   if (overtaken && to_seconds(now - flight.sent) > peer.delay + 4.0 * peer.spread) return true;
@@ -224,7 +137,7 @@ Result<std::optional<NodeId>> SubmapReceiver::on_chunk(const SubmapChunk& chunk,
   if (wrong) {
     ++stats_.bad_hash;
     sources_[chunk.node].insert(chunk.from);
-    // With one source its guilt is plain; with several the next download, from one peer alone, will tell. A
+    // With one source it is the culprit; with several the next download, from one peer alone, will show. A
     // chunk may have been forged or damaged on its way, so the peer is asked again later.
     if (sources_[chunk.node].size() == 1) distrust(chunk.from, chunk.node, now);
   }
@@ -283,7 +196,7 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
     if (silent) distrust(download.peer, current->first, now);
     // A node whose name became contested has no submap any more.
     const bool over = store.has_submap(current->first) || !store.node(current->first);
-    if (silent || over || !in_reach(download.peer, now)) {
+    if (silent || over || !neighbours_.in_reach(download.peer, now)) {
       stop(current);
       continue;
     }
@@ -294,7 +207,7 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
       }
       ++stats_.timeouts;
       peer.window.on_loss(flight->second.sent, now);
-      // One peer at the edge of reach says nothing of the channel to the others.
+      // Losses of one peer at the edge of reach are not evidence of congestion of the shared channel.
       if (window_.queues()) {
         window_.on_loss(flight->second.sent, now);
       } else {
@@ -307,16 +220,12 @@ void SubmapReceiver::expire(const store::Store& store, Stamp now) {
 }
 
 std::vector<NodeId> SubmapReceiver::missing(const store::Store& store, Stamp now) const {
-  // What is begun is finished first.
+  // Partial downloads are finished first.
   const std::vector<NodeId> begun = store.partial_submaps();
   std::vector<NodeId> ids = begun;
   const store::SeqSet lacking(store.node_set().minus(store.submap_set()));
-  store::SeqSet offered;  // what nobody has must not keep others from being asked for
-  for (const auto& [name, peer] : peers_) {
-    if (!hears_us(name, now)) continue;
-    const store::SeqSet not_offered(lacking.minus(peer.holds));
-    for (const SeqRange& range : lacking.minus(not_offered, kMaxMissing)) offered.insert(range);
-  }
+  // Submaps that no robot offers must not keep others from being requested.
+  const store::SeqSet offered = neighbours_.offered(lacking, kMaxMissing, now);
   for (const SeqRange& range : offered.minus({}, kMaxMissing)) {
     for (std::uint32_t seq = range.first; seq < range.end; ++seq) {
       const NodeId id{range.agent, seq};
@@ -326,13 +235,13 @@ std::vector<NodeId> SubmapReceiver::missing(const store::Store& store, Stamp now
   return ids;
 }
 
-bool SubmapReceiver::may_serve(const AgentId& name, const Peer& peer, const NodeId& id, Stamp now) const {
-  return hears_us(name, now) && peer.holds.contains(id.agent, id.seq) && !distrusts(name, id, now);
+bool SubmapReceiver::may_serve(const AgentId& name, const NodeId& id, Stamp now) const {
+  return neighbours_.hears_us(name, now) && neighbours_.holds(name, id) && !distrusts(name, id, now);
 }
 
 bool SubmapReceiver::any_has_room(Stamp now) const {
   return std::ranges::any_of(peers_, [&](const auto& entry) {
-    return in_reach(entry.first, now) && has_room(entry.second, kChunk);
+    return neighbours_.in_reach(entry.first, now) && has_room(entry.second, kChunk);
   });
 }
 
@@ -345,7 +254,7 @@ bool SubmapReceiver::assign(const store::Store& store, const NodeId& id, Stamp n
   if (downloads_.contains(id) || store.has_submap(id)) return false;
   const AgentId* best = nullptr;
   for (const auto& [name, peer] : peers_) {
-    if (!may_serve(name, peer, id, now) || !has_room(peer, kChunk)) continue;
+    if (!may_serve(name, id, now) || !has_room(peer, kChunk)) continue;
     if (!best || peer.bytes_out < peers_.at(*best).bytes_out) best = &name;
   }
   if (!best) return false;
@@ -394,8 +303,7 @@ std::vector<SubmapRequest> SubmapReceiver::tick(const store::Store& store, Stamp
 bool SubmapReceiver::idle(const store::Store& store, Stamp now) const {
   if (!downloads_.empty()) return false;
   return std::ranges::none_of(missing(store, now), [&](const NodeId& id) {
-    return std::ranges::any_of(peers_,
-                               [&](const auto& peer) { return may_serve(peer.first, peer.second, id, now); });
+    return std::ranges::any_of(peers_, [&](const auto& peer) { return may_serve(peer.first, id, now); });
   });
 }
 

@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "submap_sender.hpp"
 
-#include "fleetmap/exchange/submap_transfer.hpp"
+#include <algorithm>
 
 namespace fleetmap::exchange {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -44,7 +44,7 @@ void Attacker::overhear(const Packet& packet) {
 
 NodeId Attacker::any_id() {
   // Mostly the next numbers of the sessions that are heard.
-  for (const exchange::Outgoing& outgoing : overheard_) {
+  for (const messages::Outgoing& outgoing : overheard_) {
     const auto* node = std::get_if<graph::Node>(&outgoing.message);
     if (node && draws_.chance(0.2))
       return {node->id.agent, node->id.seq + static_cast<std::uint32_t>(draws_.below(8))};
@@ -52,36 +52,36 @@ NodeId Attacker::any_id() {
   return {anyone(), static_cast<std::uint32_t>(draws_.below(kEndOfSeqs))};
 }
 
-Attacker::Injected Attacker::to_anyone(exchange::Message message, exchange::Reach reach) {
-  const AgentId to = exchange::recipient_of(message).value_or(anyone());
-  return {to, reach, std::make_shared<const exchange::Message>(std::move(message))};
+Attacker::Injected Attacker::to_anyone(messages::Message message, messages::Reach reach) {
+  const AgentId to = messages::recipient_of(message).value_or(anyone());
+  return {to, reach, std::make_shared<const messages::Message>(std::move(message))};
 }
 
 std::optional<Attacker::Injected> Attacker::stranger() {
-  const auto reach = draws_.chance(0.5) ? exchange::Reach::kLongRange : exchange::Reach::kShortRange;
+  const auto reach = draws_.chance(0.5) ? messages::Reach::kLongRange : messages::Reach::kShortRange;
   const AgentId to = anyone();
   switch (draws_.below(7)) {
     case 0:
-      return to_anyone(exchange::Digest{mallory(), everything(fleet_), everything(fleet_)}, reach);
+      return to_anyone(messages::Digest{mallory(), everything(fleet_), everything(fleet_)}, reach);
     case 1:
       return to_anyone(node_of({mallory(), static_cast<std::uint32_t>(draws_.below(1000))}), reach);
     case 2:
-      return to_anyone(exchange::ItemRequest{mallory(), to, everything(fleet_), everything(fleet_)}, reach);
+      return to_anyone(messages::ItemRequest{mallory(), to, everything(fleet_), everything(fleet_)}, reach);
     case 3:
-      return to_anyone(exchange::SubmapDigest{mallory(), everything(fleet_), fleet_}, reach);
+      return to_anyone(messages::SubmapDigest{mallory(), everything(fleet_), fleet_}, reach);
     case 4:
-      return to_anyone(exchange::SubmapRequest{mallory(), to, any_id(), 0, 1u << 20}, reach);
+      return to_anyone(messages::SubmapRequest{mallory(), to, any_id(), 0, 1u << 20}, reach);
     case 5:
-      return to_anyone(exchange::CloudRequest{mallory(), to, any_id(), {}, 100.0f}, reach);
+      return to_anyone(messages::CloudRequest{mallory(), to, any_id(), {}, 100.0f}, reach);
     default: {
       if (overheard_.empty()) return {};
-      const exchange::Outgoing& again = overheard_[draws_.below(overheard_.size())];
+      const messages::Outgoing& again = overheard_[draws_.below(overheard_.size())];
       return to_anyone(again.message, again.reach);
     }
   }
 }
 
-exchange::Message Attacker::forged_item() {
+messages::Message Attacker::forged_item() {
   const NodeId id = any_id();
   if (draws_.chance(0.6)) return node_of(id);
   graph::Alignment alignment;
@@ -93,14 +93,14 @@ exchange::Message Attacker::forged_item() {
 }
 
 std::optional<Signature> Attacker::overheard_signature() {
-  for (const exchange::Outgoing& outgoing : overheard_) {
+  for (const messages::Outgoing& outgoing : overheard_) {
     const auto* node = std::get_if<graph::Node>(&outgoing.message);
     if (node && draws_.chance(0.2)) return node->signature;
   }
   return {};
 }
 
-exchange::Message Attacker::with_false_signature(exchange::Message item) {
+messages::Message Attacker::with_false_signature(messages::Message item) {
   if (!signatures_) return item;
   std::optional<Signature> signature = overheard_signature();
   if (!signature && draws_.chance(0.5)) {
@@ -111,22 +111,22 @@ exchange::Message Attacker::with_false_signature(exchange::Message item) {
   return item;
 }
 
-std::optional<exchange::Message> Attacker::damaged() {
+std::optional<messages::Message> Attacker::damaged() {
   if (overheard_.empty()) return {};
-  const exchange::Outgoing& outgoing = overheard_[draws_.below(overheard_.size())];
-  Bytes cdr = wire::encode(outgoing.message);
+  const messages::Outgoing& outgoing = overheard_[draws_.below(overheard_.size())];
+  Bytes cdr = fleet_codec::encode(outgoing.message);
   for (std::size_t k = 0; k < 1 + draws_.below(4); ++k)
     cdr[draws_.below(cdr.size())] ^= static_cast<std::uint8_t>(1u << draws_.below(8));
-  auto message = wire::decode_message(wire::topic_of(outgoing), cdr);
+  auto message = fleet_codec::decode_message(fleet_codec::topic_of(outgoing), cdr);
   if (!message) return {};
   return std::move(*message);
 }
 
 std::optional<Attacker::Injected> Attacker::forged() {
-  const auto reach = draws_.chance(0.5) ? exchange::Reach::kLongRange : exchange::Reach::kShortRange;
+  const auto reach = draws_.chance(0.5) ? messages::Reach::kLongRange : messages::Reach::kShortRange;
   switch (draws_.below(4)) {
     case 0:
-      return to_anyone(exchange::Digest{anyone(), {{anyone(), 0, kEndOfSeqs}}, {{anyone(), 0, kEndOfSeqs}}},
+      return to_anyone(messages::Digest{anyone(), {{anyone(), 0, kEndOfSeqs}}, {{anyone(), 0, kEndOfSeqs}}},
                        reach);
     case 1: {
       auto message = damaged();
@@ -138,18 +138,18 @@ std::optional<Attacker::Injected> Attacker::forged() {
   }
 }
 
-exchange::Message Attacker::lie(exchange::Message message, const AgentId& liar) {
-  if (auto* digest = std::get_if<exchange::Digest>(&message)) {
+messages::Message Attacker::lie(messages::Message message, const AgentId& liar) {
+  if (auto* digest = std::get_if<messages::Digest>(&message)) {
     digest->nodes = digest->alignments = everything(fleet_);
-  } else if (auto* submaps = std::get_if<exchange::SubmapDigest>(&message)) {
+  } else if (auto* submaps = std::get_if<messages::SubmapDigest>(&message)) {
     submaps->submaps = everything(fleet_);
     submaps->hears = fleet_;
-  } else if (auto* status = std::get_if<exchange::AgentStatus>(&message)) {
+  } else if (auto* status = std::get_if<messages::AgentStatus>(&message)) {
     status->backlog_bytes = UINT32_MAX;
     status->busy = true;
-  } else if (auto* chunk = std::get_if<exchange::SubmapChunk>(&message)) {
+  } else if (auto* chunk = std::get_if<messages::SubmapChunk>(&message)) {
     for (auto& byte : chunk->payload) byte = static_cast<std::uint8_t>(draws_.bits());
-  } else if (auto* fragment = std::get_if<exchange::CloudFragment>(&message)) {
+  } else if (auto* fragment = std::get_if<messages::CloudFragment>(&message)) {
     for (auto& byte : fragment->payload) byte = static_cast<std::uint8_t>(draws_.bits());
   }
   if (!signatures_) return message;

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "fleetmap/fault_injection/draws.hpp"
+#include "draws.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
 
 namespace fleetmap::fault_injection {
 
-/// Packets of a radio that nobody of the fleet owns, and lies of a robot that is one of the fleet.
+/// Packets of a sender outside the fleet, and false packets of a robot of the fleet.
 class Attacker {
  public:
   /// `signatures`: robots sign their items.
@@ -20,30 +20,30 @@ class Attacker {
 
   struct Injected {
     AgentId to;
-    exchange::Reach reach;
-    std::shared_ptr<const exchange::Message> message;
+    messages::Reach reach;
+    std::shared_ptr<const messages::Message> message;
   };
-  /// Of nobody of the fleet: own messages and items, and recorded ones again.
+  /// A packet of a sender outside the fleet: with items of its own, or a recorded one.
   std::optional<Injected> stranger();
   /// In the name of a robot of the fleet: items with numbers of its, digests, damaged packets.
   std::optional<Injected> forged();
-  /// What the lying robot `liar` sends instead.
-  exchange::Message lie(exchange::Message message, const AgentId& liar);
+  /// The packet that the lying robot `liar` sends instead.
+  messages::Message lie(messages::Message message, const AgentId& liar);
 
  private:
   const AgentId& anyone() { return fleet_[draws_.below(fleet_.size())]; }
   NodeId any_id();
-  exchange::Message forged_item();
-  exchange::Message with_false_signature(exchange::Message item);
+  messages::Message forged_item();
+  messages::Message with_false_signature(messages::Message item);
   /// That of an item which was overheard, or none.
   std::optional<Signature> overheard_signature();
-  std::optional<exchange::Message> damaged();
-  Injected to_anyone(exchange::Message message, exchange::Reach reach);
+  std::optional<messages::Message> damaged();
+  Injected to_anyone(messages::Message message, messages::Reach reach);
 
   Draws draws_;
   std::vector<AgentId> fleet_;
   bool signatures_;
-  std::deque<exchange::Outgoing> overheard_;
+  std::deque<messages::Outgoing> overheard_;
 };
 
 }  // namespace fleetmap::fault_injection

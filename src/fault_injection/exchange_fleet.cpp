@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kDatabase = ".db";
 constexpr const char* kLog = ".db-wal";
 
-/// Of a file that is not there, none.
+/// Empty for a missing file.
 void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::filesystem::remove(to);
   if (std::filesystem::exists(from)) std::filesystem::copy_file(from, to);
@@ -89,18 +89,18 @@ void ExchangeFleet::lose_store(const AgentId& name) const {
   for (const char* end : {kDatabase, kLog, ".db-shm"}) std::filesystem::remove(file(name, end));
 }
 
-void ExchangeFleet::deliver(const AgentId& to, exchange::Reach reach,
-                            std::shared_ptr<const exchange::Message> message, Duration delay,
+void ExchangeFleet::deliver(const AgentId& to, messages::Reach reach,
+                            std::shared_ptr<const messages::Message> message, Duration delay,
                             std::optional<AgentId> from) {
   in_flight_.push({now_ + delay, order_++, to, reach, std::move(message), std::move(from)});
 }
 
-std::shared_ptr<const exchange::Message> ExchangeFleet::on_air(const Packet& packet) {
-  return std::make_shared<const exchange::Message>(packet.outgoing.message);
+std::shared_ptr<const messages::Message> ExchangeFleet::on_air(const Packet& packet) {
+  return std::make_shared<const messages::Message>(packet.outgoing.message);
 }
 
-void ExchangeFleet::send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot) {
-  const bool long_range = outgoing.reach == exchange::Reach::kLongRange;
+void ExchangeFleet::send(const AgentId& from, const messages::Outgoing& outgoing, const Robot& robot) {
+  const bool long_range = outgoing.reach == messages::Reach::kLongRange;
   const std::size_t bytes = long_range ? robot.exchange->queue().wire_bytes(outgoing.message, outgoing.to)
                                        : config_.payload_size(outgoing.message);
   const Packet packet{now_, from, outgoing, bytes};

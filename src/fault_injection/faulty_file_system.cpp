@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/faulty_file_system.hpp"
+#include "faulty_file_system.hpp"
 
 #include <sqlite3.h>
 
@@ -10,7 +10,7 @@ namespace {
 /// SQLite allocates szOsFile bytes for each: this one, then the file of the system behind it.
 struct File {
   sqlite3_file base;
-  const std::atomic<int>* refusal;  ///< what a write returns
+  const std::atomic<int>* refusal;  ///< the result of a write
 };
 
 sqlite3_file* real(sqlite3_file* file) {
@@ -98,7 +98,7 @@ FaultyFileSystem::~FaultyFileSystem() { sqlite3_vfs_unregister(&state_->vfs); }
 const std::string& FaultyFileSystem::name() const { return state_->name; }
 void FaultyFileSystem::set_full(bool full) { state_->refusal = full ? SQLITE_FULL : SQLITE_OK; }
 void FaultyFileSystem::set_read_only(bool read_only) {
-  // What SQLite makes of EROFS on a file that it opened for writing.
+  // SQLite's result for EROFS on a file that it opened for writing.
   state_->refusal = read_only ? SQLITE_IOERR_WRITE : SQLITE_OK;
 }
 

@@ -4,14 +4,17 @@
 #include <cstdio>
 #include <utility>
 
-#include "fleetmap/agent/results.hpp"
-#include "fleetmap/agent/sessions.hpp"
+#include "convergence.hpp"
+#include "exchange_config.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fault_injection/stand_in_signatures.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/map_merge.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/store/sessions.hpp"
+#include "session_draw.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -21,29 +24,16 @@ constexpr double kWifi = 50.0;  // m
 constexpr Duration kStartRetry = std::chrono::seconds(5);
 constexpr Duration kSessionPause = std::chrono::minutes(1);  // as agent::Agent
 constexpr Duration kPlacementPeriod = std::chrono::seconds(40);
-constexpr double kMostRegistration = 3.0;  // s
+constexpr double kMaxRegistration = 3.0;  // s
 constexpr std::uint64_t kFleetStream = 7;
 
 std::string backup_name(std::size_t fault) { return std::string(".").append(std::to_string(fault)); }
-
-exchange::ExchangeConfig config_of(const Scenario& scenario, bool signatures) {
-  exchange::ExchangeConfig config;
-  if (signatures) config.authenticator = std::make_shared<StandInSignatures>(scenario.seed);
-  for (std::size_t k = 0; k < scenario.robots; ++k)
-    config.fleet.push_back(AgentId::parse(std::string("r").append(std::to_string(k + 1))).value());
-  // So small that a small fleet fills them.
-  config.long_range.max_small = 24;
-  config.long_range.max_backfill = 32;
-  config.long_range.max_fragments = 16;
-  config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
-  return config;
-}
 
 }  // namespace
 
 FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
                          const std::filesystem::path& folder)
-    : ExchangeFleet(folder, config_of(scenario, config.signatures), kTick),
+    : ExchangeFleet(folder, exchange_config_of(scenario, config.signatures), kTick),
       scenario_(scenario),
       run_(config),
       start_(now()),
@@ -52,6 +42,7 @@ FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
       attacker_(scenario.seed, config_.fleet, config.signatures),
       monitor_(now(), config_, config.invariants),
       draws_(scenario.seed, kFleetStream),
+      changes_(changes_of(scenario)),
       next_check_(now()) {
   for (std::size_t k = 0; k < scenario.robots; ++k) {
     Member& member = members_[name_of(k)];
@@ -59,7 +50,6 @@ FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
     member.disk = std::make_unique<FaultyFileSystem>();
     member.start_at = now() + from_seconds(draws_.between(0.0, 5.0));
   }
-  plan();
 }
 
 void FaultyFleet::trace(const std::string& line) {
@@ -69,29 +59,15 @@ void FaultyFleet::trace(const std::string& line) {
   trace_.push_back(stamp + line);
 }
 
-// ---- faults
-// -----------------------------------------------------------------------------------------------------
-
-void FaultyFleet::plan() {
-  for (std::size_t k = 0; k < scenario_.faults.size(); ++k) {
-    const Fault& fault = scenario_.faults[k];
-    if (fault.kind == FaultKind::kOldStore)
-      changes_.push_back({fault.begin - from_seconds(fault.value), k, Change::Kind::kBackup});
-    changes_.push_back({fault.begin, k, Change::Kind::kBegin});
-    changes_.push_back({std::min(fault.begin + fault.length, scenario_.mapping), k, Change::Kind::kEnd});
-  }
-  std::ranges::stable_sort(changes_, {}, &Change::at);
-}
-
-void FaultyFleet::apply(const Change& change) {
+void FaultyFleet::apply(const FaultChange& change) {
   const Fault& fault = scenario_.faults[change.fault];
   switch (change.kind) {
-    case Change::Kind::kBackup:
+    case FaultChange::Kind::kBackup:
       return keep_store(name_of(fault.robots[0]), backup_name(change.fault));
-    case Change::Kind::kBegin:
+    case FaultChange::Kind::kBegin:
       trace(to_string(fault));
       return begin(fault, change.fault);
-    case Change::Kind::kEnd:
+    case FaultChange::Kind::kEnd:
       trace("ends: " + to_string(fault));
       return end(fault);
   }
@@ -157,7 +133,7 @@ void FaultyFleet::stop_robot(const AgentId& name) {
   if (!runs(name)) return;
   kill(name);
   monitor_.on_stopped(name);
-  std::erase_if(jobs_, [&](const Job& job) { return job.robot == name; });
+  jobs_.drop(name);
 }
 
 void FaultyFleet::start_robots() {
@@ -166,17 +142,11 @@ void FaultyFleet::start_robots() {
   }
 }
 
-Result<std::uint16_t> FaultyFleet::draw_session(store::Store& store) {
-  auto sessions = agent::Sessions::load(store);
-  if (!sessions) return tl::unexpected(sessions.error());
-  return sessions->begin(store, [this] { return static_cast<std::uint16_t>(draws_.bits()); });
-}
-
 void FaultyFleet::start_robot(const AgentId& name, Member& member) {
   store::StoreConfig store;
   store.file_system = member.disk->name();
-  const Status started =
-      start(name, store, member.clock_offset, [this](store::Store& opened) { return draw_session(opened); });
+  const Status started = start(name, store, member.clock_offset,
+                               [this](store::Store& opened) { return draw_session(opened, draws_); });
   if (!started) {
     trace(name.str() + " cannot start: " + started.error().message);
     if (!mapping_) monitor_.note(Invariant::kStarts, name, now(), started.error().message);
@@ -196,7 +166,7 @@ void FaultyFleet::start_robot(const AgentId& name, Member& member) {
 void FaultyFleet::begin_session(const AgentId& name, Robot& robot) {
   Member& member = this->member(name);
   if (now() - member.session_begun < kSessionPause) return;
-  const auto session = draw_session(*robot.store);
+  const auto session = draw_session(*robot.store, draws_);
   if (!session) return;
   trace(name.str() + " begins session " + std::to_string(*session) + ": its number was given before");
   member.session_begun = now();
@@ -207,48 +177,42 @@ void FaultyFleet::begin_session(const AgentId& name, Robot& robot) {
 
 void FaultyFleet::reissue(const AgentId& name, Robot& robot) {
   const exchange::NewNames names{
-      robot.session, [&] { return draw_session(*robot.store); },
-      [](const graph::Alignment& alignment) { return wire::quantised(alignment); }};
+      robot.session, [&] { return draw_session(*robot.store, draws_); },
+      [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
   const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, clock(robot));
   trace(name.str() +
         (told ? " names " + std::to_string(*told) + " items anew" : ": " + told.error().message));
 }
-
-// ---- network
-// ----------------------------------------------------------------------------------------------------
 
 void FaultyFleet::on_sent(const Packet& packet) {
   monitor_.on_sent(packet);
   attacker_.overhear(packet);
 }
 
-std::shared_ptr<const exchange::Message> FaultyFleet::on_air(const Packet& packet) {
+std::shared_ptr<const messages::Message> FaultyFleet::on_air(const Packet& packet) {
   const bool lies = liars_.contains(packet.from);
-  const exchange::Message& message = packet.outgoing.message;
-  const Bytes cdr = wire::encode(lies ? attacker_.lie(message, packet.from) : message);
-  auto decoded = wire::decode_message(wire::topic_of(packet.outgoing), cdr);
+  const messages::Message& message = packet.outgoing.message;
+  const Bytes cdr = fleet_codec::encode(lies ? attacker_.lie(message, packet.from) : message);
+  auto decoded = fleet_codec::decode_message(fleet_codec::topic_of(packet.outgoing), cdr);
   if (!decoded) {
     if (!lies)
       monitor_.note(Invariant::kOwnItems, packet.from, now(),
                     "nobody decodes it: " + decoded.error().message);
     return nullptr;
   }
-  return std::make_shared<const exchange::Message>(std::move(*decoded));
+  return std::make_shared<const messages::Message>(std::move(*decoded));
 }
 
 std::vector<Duration> FaultyFleet::arrivals(const Packet& packet, const AgentId& to) {
   const std::size_t from = member(packet.from).index, receiver = member(to).index;
   const auto reach = packet.outgoing.reach;
-  if (reach == exchange::Reach::kShortRange && mapping_) {
+  if (reach == messages::Reach::kShortRange && mapping_) {
     const Eigen::Vector3d apart =
         survey_.T_enu_base(from, time()).translation() - survey_.T_enu_base(receiver, time()).translation();
     if (apart.norm() > kWifi) return {};
   }
   return links_.arrivals(from, receiver, reach);
 }
-
-// ---- the rest of a robot
-// ----------------------------------------------------------------------------------------
 
 void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {
   if (const auto* needed = std::get_if<exchange::CloudNeeded>(&event)) {
@@ -272,8 +236,8 @@ void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Ev
 
 void FaultyFleet::on_received(const AgentId& name, Robot& robot,
                               const loop_closure::ReceivedCloud& received) {
-  jobs_.push_back({now() + from_seconds(draws_.between(0.1, kMostRegistration)), name, robot.session,
-                   received.candidate.pair()});
+  jobs_.add({now() + from_seconds(draws_.between(0.1, kMaxRegistration)), name, robot.session,
+             received.candidate.pair()});
 }
 
 void FaultyFleet::map(const AgentId& name, Robot& robot) {
@@ -294,13 +258,7 @@ void FaultyFleet::map(const AgentId& name, Robot& robot) {
 }
 
 void FaultyFleet::finish_jobs() {
-  for (std::size_t left = jobs_.size(); left > 0; --left) {
-    const Job job = jobs_.front();
-    jobs_.pop_front();
-    if (job.due > now()) {
-      jobs_.push_back(job);
-      continue;
-    }
+  for (const RegistrationJob& job : jobs_.take_due(now())) {
     Robot& robot = this->robot(job.robot);
     const auto alignment = survey_.registration(job.pair, robot.store->next_alignment_seq(robot.session));
     const auto put = alignment ? robot.exchange->on_own_alignment(*alignment, clock(robot))
@@ -315,10 +273,6 @@ void FaultyFleet::finish_jobs() {
   }
 }
 
-graph::Placement FaultyFleet::placement_of(const Robot& robot) const {
-  return graph::place(agent::nodes_of(*robot.store), agent::alignments_of(*robot.store), survey_.site(), {});
-}
-
 void FaultyFleet::place(const AgentId& name, Robot& robot) {
   Member& member = this->member(name);
   const auto period = to_ns(now()) / kPlacementPeriod.count();
@@ -326,7 +280,7 @@ void FaultyFleet::place(const AgentId& name, Robot& robot) {
   const std::size_t items = robot.store->nodes().size() + robot.store->alignments().size();
   if (period == before || items == member.placed_items) return;
   member.placed_items = items;
-  robot.loop_closer->on_used_alignments(placement_of(robot).used);
+  robot.loop_closer->on_used_alignments(placement_of(robot, survey_.site()).used);
 }
 
 void FaultyFleet::attack() {
@@ -356,54 +310,10 @@ void FaultyFleet::work() {
   monitor_.check(robots(), now());
 }
 
-// ---- the end
-// ----------------------------------------------------------------------------------------------------
-
 std::string FaultyFleet::why_not_converged() {
   if (robots().size() < members_.size()) return "a robot does not run";
-  const store::Store& first = *robots().begin()->second.store;
-  for (const auto& [name, robot] : robots()) {
-    const store::Store& store = *robot.store;
-    if (!(store.node_set() == first.node_set())) return name.str() + " holds other nodes";
-    if (!(store.alignment_set() == first.alignment_set())) return name.str() + " holds other alignments";
-    if (!(store.submap_set() == first.submap_set())) return name.str() + " holds other submaps";
-    if (!robot.exchange->fleet_caught_up()) return name.str() + " finds that another lacks something";
-    if (!robot.exchange->idle(clock(robot))) return name.str() + " is not idle";
-  }
+  if (std::string why = fault_injection::why_not_converged(robots(), now()); !why.empty()) return why;
   return jobs_.empty() ? "" : "registrations are under way";
-}
-
-std::string FaultyFleet::why_incomplete() {
-  for (const auto& [name, robot] : robots()) {
-    if (!robot.exchange->complete()) return name.str() + " finds that it lacks something";
-  }
-  return "";
-}
-
-void FaultyFleet::check_maps() {
-  std::optional<graph::Placement> first;
-  std::optional<store::MergedMap> first_map;
-  for (const auto& [name, robot] : robots()) {
-    graph::Placement placement = placement_of(robot);
-    const auto load = [&store = *robot.store](const NodeId& id) -> Result<cloud::PointCloud> {
-      const auto bytes = store.submap(id);
-      if (!bytes) return tl::unexpected(bytes.error());
-      return SyntheticSurvey::decode_submap(*bytes);
-    };
-    store::MergedMap map = store::merge(placement.T_enu_node, load, {});
-    if (!first) {
-      first = std::move(placement);
-      first_map = std::move(map);
-      continue;
-    }
-    const bool same_placement =
-        std::ranges::equal(placement.T_enu_node, first->T_enu_node, [](const auto& a, const auto& b) {
-          return a.first == b.first && a.second.matrix() == b.second.matrix();
-        });
-    if (!same_placement) monitor_.note(Invariant::kSameMap, name, now(), "other places");
-    if (map.cloud.points != first_map->cloud.points || map.unreadable != first_map->unreadable)
-      monitor_.note(Invariant::kSameMap, name, now(), "other points");
-  }
 }
 
 Outcome FaultyFleet::run() {
@@ -416,15 +326,16 @@ Outcome FaultyFleet::run() {
   trace("the last fault has ended");
   const Stamp last_fault = now();
   const bool completes = run_.invariants.contains(Invariant::kCompletes);
-  const auto settled = [&] {
-    return why_not_converged().empty() && (!completes || why_incomplete().empty());
+  const auto converged = [&] {
+    return why_not_converged().empty() && (!completes || why_incomplete(robots()).empty());
   };
-  while (now() - last_fault < run_.settling && !settled()) one();
+  while (now() - last_fault < run_.settling && !converged()) one();
   Outcome outcome;
   outcome.converged_after = now() - last_fault;
   if (const std::string why = why_not_converged(); why.empty()) {
-    check_maps();
-    if (const std::string what = why_incomplete(); !what.empty())
+    for (const MapDifference& difference : map_differences(robots(), survey_.site()))
+      monitor_.note(Invariant::kSameMap, difference.robot, now(), difference.what);
+    if (const std::string what = why_incomplete(robots()); !what.empty())
       monitor_.note(Invariant::kCompletes, {}, now(), what);
   } else {
     monitor_.note(Invariant::kConverges, {}, now(), why);
@@ -434,10 +345,7 @@ Outcome FaultyFleet::run() {
     outcome.nodes = robots().begin()->second.store->nodes().size();
     outcome.alignments = robots().begin()->second.store->alignments().size();
   }
-  outcome.violations = monitor_.violations();
-  outcome.most_bytes_per_second = monitor_.most_bytes_per_second();
-  outcome.packets = monitor_.packets();
-  outcome.fingerprint = monitor_.fingerprint();
+  monitor_.fill(outcome);
   outcome.trace = std::move(trace_);
   return outcome;
 }

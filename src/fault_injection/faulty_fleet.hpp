@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "attacker.hpp"
+#include "fault_changes.hpp"
+#include "faulty_file_system.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
-#include "fleetmap/fault_injection/faulty_file_system.hpp"
 #include "fleetmap/fault_injection/fleet_run.hpp"
-#include "fleetmap/fault_injection/synthetic_survey.hpp"
-#include "fleetmap/graph/placement.hpp"
 #include "link_faults.hpp"
 #include "monitor.hpp"
+#include "registration_jobs.hpp"
+#include "synthetic_survey.hpp"
 
 namespace fleetmap::fault_injection {
 
@@ -37,21 +38,9 @@ class FaultyFleet : private ExchangeFleet {
     Stamp session_begun;
     std::size_t placed_items = 0;  ///< that the last placement used
   };
-  /// A registration that takes time.
-  struct Job {
-    Stamp due;
-    AgentId robot;
-    std::uint16_t session;
-    exchange::NodePair pair;
-  };
-  struct Change {
-    Duration at;
-    std::size_t fault;
-    enum class Kind : std::uint8_t { kBackup, kBegin, kEnd } kind;
-  };
 
   void on_sent(const Packet& packet) override;
-  std::shared_ptr<const exchange::Message> on_air(const Packet& packet) override;
+  std::shared_ptr<const messages::Message> on_air(const Packet& packet) override;
   std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) override;
   void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) override;
   void on_received(const AgentId& name, Robot& robot, const loop_closure::ReceivedCloud& received) override;
@@ -62,14 +51,12 @@ class FaultyFleet : private ExchangeFleet {
   Stamp clock(const Robot& robot) const { return now() + robot.clock_offset; }
   void trace(const std::string& line);
 
-  void plan();
-  void apply(const Change& change);
+  void apply(const FaultChange& change);
   void begin(const Fault& fault, std::size_t number);
   void end(const Fault& fault);
   void stop_robot(const AgentId& name);
   void start_robots();
   void start_robot(const AgentId& name, Member& member);
-  Result<std::uint16_t> draw_session(store::Store& store);
   void begin_session(const AgentId& name, Robot& robot);
   /// Own items whose names are contested go out under fresh names.
   void reissue(const AgentId& name, Robot& robot);
@@ -80,11 +67,8 @@ class FaultyFleet : private ExchangeFleet {
   void place(const AgentId& name, Robot& robot);
   void attack();
 
-  graph::Placement placement_of(const Robot& robot) const;
-  /// Empty: the fleet has converged; likewise its maps are complete.
+  /// Empty once the fleet has converged.
   std::string why_not_converged();
-  std::string why_incomplete();
-  void check_maps();
 
   const Scenario& scenario_;
   const RunConfig& run_;
@@ -95,11 +79,11 @@ class FaultyFleet : private ExchangeFleet {
   Monitor monitor_;
   Draws draws_;
   std::map<AgentId, Member> members_;
-  std::vector<Change> changes_;
+  std::vector<FaultChange> changes_;
   std::size_t next_change_ = 0;
   std::set<std::size_t> attacks_;  ///< faults under way
   std::multiset<AgentId> liars_;
-  std::deque<Job> jobs_;
+  RegistrationJobs jobs_;
   bool mapping_ = true;
   Stamp next_check_;
   std::vector<std::string> trace_;

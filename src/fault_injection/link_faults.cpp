@@ -5,13 +5,13 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr double kLeastDelay = 0.005, kMostDelay = 0.06;  // s, without faults
+constexpr double kMinDelay = 0.005, kMaxDelay = 0.06;  // s, without faults
 constexpr std::uint64_t kLinkStream = 5;
 
 bool names(const Fault& fault, std::size_t robot) { return std::ranges::count(fault.robots, robot) > 0; }
 
-bool concerns(const Fault& fault, std::size_t from, std::size_t to, exchange::Reach reach) {
-  if (!(reach == exchange::Reach::kLongRange ? fault.radio : fault.short_range)) return false;
+bool concerns(const Fault& fault, std::size_t from, std::size_t to, messages::Reach reach) {
+  if (!(reach == messages::Reach::kLongRange ? fault.radio : fault.short_range)) return false;
   return fault.robots.empty() || names(fault, from) || names(fault, to);
 }
 
@@ -22,14 +22,14 @@ bool cut_by(const Fault& fault, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-bool LinkFaults::cuts(std::size_t from, std::size_t to, exchange::Reach reach) const {
+bool LinkFaults::cuts(std::size_t from, std::size_t to, messages::Reach reach) const {
   return std::ranges::any_of(active_, [&](const Fault* fault) {
     return concerns(*fault, from, to, reach) && cut_by(*fault, from, to);
   });
 }
 
-std::vector<Duration> LinkFaults::arrivals(std::size_t from, std::size_t to, exchange::Reach reach) {
-  const std::uint64_t link = kLinkStream + 1000 * from + 2 * to + (reach == exchange::Reach::kLongRange);
+std::vector<Duration> LinkFaults::arrivals(std::size_t from, std::size_t to, messages::Reach reach) {
+  const std::uint64_t link = kLinkStream + 1000 * from + 2 * to + (reach == messages::Reach::kLongRange);
   Draws& draws = draws_.try_emplace({from, to, reach}, seed_, link << 8).first->second;
   if (cuts(from, to, reach)) return {};
   double more_delay = 0.0;
@@ -42,7 +42,7 @@ std::vector<Duration> LinkFaults::arrivals(std::size_t from, std::size_t to, exc
   }
   std::vector<Duration> delays;
   for (int k = 0; k < copies; ++k)
-    delays.push_back(from_seconds(draws.between(kLeastDelay, kMostDelay) + draws.between(0.0, more_delay)));
+    delays.push_back(from_seconds(draws.between(kMinDelay, kMaxDelay) + draws.between(0.0, more_delay)));
   return delays;
 }
 

@@ -9,22 +9,22 @@ namespace {
 /// B in any second: 160 of the radio's 200 kbit/s.
 constexpr double kRadio = 20'000.0;
 /// The longest status period of the largest fleet, and a queue before it.
-constexpr Duration kMostSilence = std::chrono::seconds(60);
+constexpr Duration kMaxSilence = std::chrono::seconds(60);
 /// Names that cost a forger nothing.
-constexpr std::size_t kMostStrangers = 64;
+constexpr std::size_t kMaxStrangers = 64;
 
-bool includes(const store::Store& store, const Holdings& told) {
-  return store.node_set().includes(told.nodes) && store.alignment_set().includes(told.alignments) &&
-         store.submap_set().includes(told.submaps);
+bool includes(const store::Store& store, const Holdings& announced) {
+  return store.node_set().includes(announced.nodes) && store.alignment_set().includes(announced.alignments) &&
+         store.submap_set().includes(announced.submaps);
 }
 
-/// What of `told` is in `held`.
-store::SeqSet common(const store::SeqSet& told, const store::SeqSet& held) {
-  return store::SeqSet(told.minus(store::SeqSet(told.minus(held))));
+/// The part of `announced` that is in `held`.
+store::SeqSet common(const store::SeqSet& announced, const store::SeqSet& held) {
+  return store::SeqSet(announced.minus(store::SeqSet(announced.minus(held))));
 }
 
-std::string missing(const char* what, const store::SeqSet& told, const store::SeqSet& held) {
-  const auto ranges = told.minus(held);
+std::string missing(const char* what, const store::SeqSet& announced, const store::SeqSet& held) {
+  const auto ranges = announced.minus(held);
   if (ranges.empty()) return {};
   return std::string(" ") + what + " " + to_string(NodeId{ranges[0].agent, ranges[0].first});
 }
@@ -44,8 +44,8 @@ void Monitor::on_sent(const Packet& packet) {
   mix(std::hash<AgentId>{}(packet.from));
   mix(packet.outgoing.message.index());
   mix(packet.wire_bytes);
-  if (packet.outgoing.reach == exchange::Reach::kLongRange) note_radio(packet);
-  note_told(packet);
+  if (packet.outgoing.reach == messages::Reach::kLongRange) note_radio(packet);
+  note_announced(packet);
 }
 
 void Monitor::note_radio(const Packet& packet) {
@@ -55,48 +55,48 @@ void Monitor::note_radio(const Packet& packet) {
   }
   last_second_.emplace_back(packet.at, packet.wire_bytes);
   in_last_second_ += static_cast<double>(packet.wire_bytes);
-  most_bytes_per_second_ = std::max(most_bytes_per_second_, in_last_second_);
+  max_bytes_per_second_ = std::max(max_bytes_per_second_, in_last_second_);
   if (in_last_second_ > kRadio)
     note(Invariant::kBudget, {}, packet.at, std::to_string(std::lround(in_last_second_)) + " B in a second");
 }
 
-void Monitor::note_told(const Packet& packet) {
-  Holdings& told = told_[packet.from];
+void Monitor::note_announced(const Packet& packet) {
+  Holdings& announced = announced_[packet.from];
   const auto insert = [](store::SeqSet& set, const std::vector<SeqRange>& ranges) {
     for (const SeqRange& range : ranges) set.insert(range);
   };
-  if (const auto* digest = std::get_if<exchange::Digest>(&packet.outgoing.message)) {
-    insert(told.nodes, digest->nodes);
-    insert(told.alignments, digest->alignments);
-  } else if (const auto* submaps = std::get_if<exchange::SubmapDigest>(&packet.outgoing.message)) {
-    insert(told.submaps, submaps->submaps);
+  if (const auto* digest = std::get_if<messages::Digest>(&packet.outgoing.message)) {
+    insert(announced.nodes, digest->nodes);
+    insert(announced.alignments, digest->alignments);
+  } else if (const auto* submaps = std::get_if<messages::SubmapDigest>(&packet.outgoing.message)) {
+    insert(announced.submaps, submaps->submaps);
   } else if (const auto* node = std::get_if<graph::Node>(&packet.outgoing.message)) {
-    told.nodes.insert(node->id.agent, node->id.seq);
+    announced.nodes.insert(node->id.agent, node->id.seq);
   } else if (const auto* alignment = std::get_if<graph::Alignment>(&packet.outgoing.message)) {
-    told.alignments.insert(alignment->computed_by, alignment->seq);
+    announced.alignments.insert(alignment->computed_by, alignment->seq);
   }
 }
 
 void Monitor::on_made(const NodeId& id) {
-  told_[id.agent].nodes.insert(id.agent, id.seq);
-  told_[id.agent].submaps.insert(id.agent, id.seq);
+  announced_[id.agent].nodes.insert(id.agent, id.seq);
+  announced_[id.agent].submaps.insert(id.agent, id.seq);
 }
 
 void Monitor::on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now) {
   sent_[robot] = now;
   if (disk_intact) return check_held(robot, store, now);
-  Holdings& told = told_[robot];
-  told = {common(told.nodes, store.node_set()), common(told.alignments, store.alignment_set()),
-          common(told.submaps, store.submap_set())};
+  Holdings& announced = announced_[robot];
+  announced = {common(announced.nodes, store.node_set()), common(announced.alignments, store.alignment_set()),
+               common(announced.submaps, store.submap_set())};
 }
 
 void Monitor::check_held(const AgentId& robot, const store::Store& store, Stamp now) {
-  const Holdings& told = told_[robot];
-  if (includes(store, told)) return;
+  const Holdings& announced = announced_[robot];
+  if (includes(store, announced)) return;
   note(Invariant::kNothingLost, robot, now,
-       "told that it holds, and does not:" + missing("node", told.nodes, store.node_set()) +
-           missing("alignment", told.alignments, store.alignment_set()) +
-           missing("submap", told.submaps, store.submap_set()));
+       "told that it holds, and does not:" + missing("node", announced.nodes, store.node_set()) +
+           missing("alignment", announced.alignments, store.alignment_set()) +
+           missing("submap", announced.submaps, store.submap_set()));
 }
 
 void Monitor::on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now) {
@@ -127,15 +127,22 @@ void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robo
   bound("peers that are served submaps", tables.submap_requesters, peers);
   bound("downloads", tables.submap_downloads, robot.store->nodes().size());
   bound("clouds to make", tables.clouds_to_make, robot.store->nodes().size());
-  bound("strangers", tables.strangers, kMostStrangers);
-  bound("refusals told of", tables.refusals, kMostStrangers);
+  bound("strangers", tables.strangers, kMaxStrangers);
+  bound("refusals told of", tables.refusals, kMaxStrangers);
 }
 
 void Monitor::check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now) {
   for (const auto& [name, robot] : robots) {
-    if (now - sent_[name] > kMostSilence) note(Invariant::kAlive, name, now, "nothing was sent");
+    if (now - sent_[name] > kMaxSilence) note(Invariant::kAlive, name, now, "nothing was sent");
     check_bounds(name, robot, now);
   }
+}
+
+void Monitor::fill(Outcome& outcome) const {
+  outcome.violations = violations_;
+  outcome.max_bytes_per_second = max_bytes_per_second_;
+  outcome.packets = packets_;
+  outcome.fingerprint = fingerprint_;
 }
 
 }  // namespace fleetmap::fault_injection

@@ -33,14 +33,12 @@ class Monitor {
   /// When all has come to rest.
   void check_held(const AgentId& robot, const store::Store& store, Stamp now);
 
-  const std::vector<Violation>& violations() const { return violations_; }
-  double most_bytes_per_second() const { return most_bytes_per_second_; }
-  std::uint64_t packets() const { return packets_; }
-  std::uint64_t fingerprint() const { return fingerprint_; }
+  /// Sets the violations and the packet counts of a run that has ended.
+  void fill(Outcome& outcome) const;
 
  private:
   void note_radio(const Packet& packet);
-  void note_told(const Packet& packet);
+  void note_announced(const Packet& packet);
   void check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now);
 
   Stamp start_;
@@ -48,11 +46,11 @@ class Monitor {
   std::set<Invariant> checked_;
   std::vector<Violation> violations_;
   std::set<std::pair<Invariant, AgentId>> noted_;
-  std::map<AgentId, Holdings> told_;  ///< by its digests, as long as its disk keeps it
-  std::map<AgentId, Stamp> sent_;     ///< last packet, or start
+  std::map<AgentId, Holdings> announced_;  ///< by its digests, as long as its disk keeps it
+  std::map<AgentId, Stamp> sent_;          ///< last packet, or start
   std::deque<std::pair<Stamp, double>> last_second_;
   double in_last_second_ = 0.0;
-  double most_bytes_per_second_ = 0.0;
+  double max_bytes_per_second_ = 0.0;
   std::uint64_t packets_ = 0;
   std::uint64_t fingerprint_ = 0xcbf29ce484222325u;
 };

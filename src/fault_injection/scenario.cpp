@@ -1,21 +1,14 @@
 #include "fleetmap/fault_injection/scenario.hpp"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
-#include "fleetmap/fault_injection/draws.hpp"
-#include "names.hpp"
+#include "draws.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr std::array<const char*, kFaultKinds> kNames{
-    "loss",      "delay",     "duplication", "one_way",  "partition", "crash", "lost_store",
-    "old_store", "full_disk", "clock_step",  "stranger", "forged",    "liar"};
 constexpr std::uint64_t kScenarioStream = 1;
-
-bool is_of_links(FaultKind kind) { return kind <= FaultKind::kPartition; }
 
 /// `count` of the robots, in random order.
 std::vector<std::size_t> pick(Draws& draws, std::size_t robots, std::size_t count) {
@@ -66,25 +59,6 @@ double draw_value(Draws& draws, FaultKind kind) {
 
 }  // namespace
 
-const char* to_string(FaultKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
-
-Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names) {
-  return parse_names<FaultKind>(names, kNames);
-}
-
-std::string to_string(const Fault& fault) {
-  std::ostringstream out;
-  out.precision(4);
-  out << "at " << to_seconds(fault.begin) << " s for " << to_seconds(fault.length)
-      << " s: " << to_string(fault.kind);
-  if (fault.value != 0.0) out << ' ' << fault.value;
-  for (std::size_t k = 0; k < fault.robots.size(); ++k)
-    out << (k == 0 ? " of r" : ", r") << fault.robots[k] + 1;
-  if (is_of_links(fault.kind) && !(fault.radio && fault.short_range))
-    out << (fault.radio ? ", radio" : ", short range");
-  return out.str();
-}
-
 Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config) {
   Draws draws(seed, kScenarioStream);
   Scenario scenario{seed, 0, config.mapping, {}};
@@ -99,7 +73,7 @@ Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config) {
     fault.length = from_seconds(draws.between(1.0, 0.5 * mapping));
     fault.robots = pick(draws, scenario.robots, concerned(draws, fault.kind, scenario.robots));
     fault.value = draw_value(draws, fault.kind);
-    if (is_of_links(fault.kind)) {
+    if (impairs_links(fault.kind)) {
       const double link = draws.uniform();
       fault.radio = link < 0.7;
       fault.short_range = link < 0.4 || link >= 0.7;

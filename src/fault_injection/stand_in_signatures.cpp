@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -36,11 +36,11 @@ ItemProof proof_of(const Item& item, const Signature& genuine) {
 Bytes StandInSignatures::fleet() const { return bytes_of(secret_); }
 
 Signature StandInSignatures::sign(const graph::Node& node) const {
-  return keyed_hash(secret_, 1, wire::signed_bytes(node));
+  return keyed_hash(secret_, 1, fleet_codec::signed_bytes(node));
 }
 
 Signature StandInSignatures::sign(const graph::Alignment& alignment) const {
-  return keyed_hash(secret_, 2, wire::signed_bytes(alignment));
+  return keyed_hash(secret_, 2, fleet_codec::signed_bytes(alignment));
 }
 
 ItemProof StandInSignatures::verify(const graph::Node& node) const { return proof_of(node, sign(node)); }

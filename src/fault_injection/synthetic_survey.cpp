@@ -1,11 +1,11 @@
-#include "fleetmap/fault_injection/synthetic_survey.hpp"
+#include "synthetic_survey.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <numbers>
 
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -105,7 +105,7 @@ std::optional<SyntheticSurvey::Made> SyntheticSurvey::node(std::size_t robot, co
   node.G->covariance = covariance(kGpsSigma);
   node.submap_hash = content_hash(made.submap);
   node.submap_bytes = static_cast<std::uint32_t>(made.submap.size());
-  node = wire::quantised(node).value();
+  node = fleet_codec::quantised(node).value();
   return made;
 }
 
@@ -148,7 +148,7 @@ std::optional<graph::Alignment> SyntheticSurvey::registration(const exchange::No
     mode.score = 0.69;
     alignment.modes.push_back(mode);
   }
-  return wire::quantised(alignment).value();
+  return fleet_codec::quantised(alignment).value();
 }
 
 Result<cloud::PointCloud> SyntheticSurvey::decode_submap(ByteView encoded) {

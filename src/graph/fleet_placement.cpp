@@ -1,4 +1,4 @@
-#include "fleetmap/graph/fleet_placement.hpp"
+#include "fleet_placement.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -143,38 +143,6 @@ std::map<NodeId, Matrix6d> covariances(const Solution& solution, std::span<const
 }
 
 }  // namespace
-
-const char* to_string(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::used:
-      return "used";
-    case AlignmentStatus::against_gps:
-      return "against GPS";
-    case AlignmentStatus::against_others:
-      return "against others";
-    case AlignmentStatus::undecided:
-      return "undecided";
-    case AlignmentStatus::quarantined:
-      return "quarantined";
-    case AlignmentStatus::waiting:
-      return "waiting";
-    case AlignmentStatus::invalid:
-      return "invalid";
-  }
-  return "";
-}
-
-Status FleetPlacementConfig::validate() const {
-  if (!(gps_correlation_time > 0.0)) return failure("fleet.gps_correlation_time must be positive");
-  if (!(gps_drift_share > 0.0 && gps_drift_share < 1.0)) {
-    return failure("fleet.gps_drift_share must lie between 0 and 1");
-  }
-  if (!(window_m > 0.0)) return failure("fleet.window_m must be positive");
-  if (!(alignment_floor_m > 0.0) || !(alignment_floor_rad > 0.0)) {
-    return failure("fleet.alignment_floor_m and alignment_floor_rad must be positive");
-  }
-  return {};
-}
 
 Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alignment> alignments,
                                const LocalFrame& site, const FleetPlacementConfig& config,

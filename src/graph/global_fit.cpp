@@ -1,7 +1,8 @@
+#include "global_fit.hpp"
+
 #include <algorithm>
 #include <map>
-
-#include "fleetmap/graph/placement.hpp"
+#include <vector>
 
 namespace fleetmap::graph {
 namespace {

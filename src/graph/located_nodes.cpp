@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "fleetmap/graph/placement.hpp"
+#include "global_fit.hpp"
 
 namespace fleetmap::graph {
 namespace {

@@ -7,20 +7,20 @@
 namespace fleetmap::localization {
 namespace {
 
-constexpr double kFastestTurn = 100.0;                          ///< rad/s, beyond any gyro
-constexpr double kStrongestForce = 1000.0;                      ///< m/s^2, beyond any accelerometer
-constexpr double kFastestRobot = 200.0;                         ///< m/s
-constexpr std::int64_t kLastStamp = 4'000'000'000'000'000'000;  ///< ns, so that differences cannot overflow
+constexpr double kMaxTurnRate = 100.0;                         ///< rad/s, beyond any gyro
+constexpr double kMaxSpecificForce = 1000.0;                   ///< m/s^2, beyond any accelerometer
+constexpr double kMaxSpeed = 200.0;                            ///< m/s
+constexpr std::int64_t kMaxStamp = 4'000'000'000'000'000'000;  ///< ns, so that differences cannot overflow
 constexpr int kBehindToRestart = 50;
 
 bool is_sane(const sensor::Imu& imu) {
   return imu.angular_velocity.allFinite() && imu.specific_force.allFinite() &&
-         imu.angular_velocity.norm() < kFastestTurn && imu.specific_force.norm() < kStrongestForce;
+         imu.angular_velocity.norm() < kMaxTurnRate && imu.specific_force.norm() < kMaxSpecificForce;
 }
 
 bool is_sane(const sensor::Wheel& wheel) {
-  return std::abs(wheel.forward_speed) < kFastestRobot &&
-         (!wheel.yaw_rate || std::abs(*wheel.yaw_rate) < kFastestTurn);
+  return std::abs(wheel.forward_speed) < kMaxSpeed &&
+         (!wheel.yaw_rate || std::abs(*wheel.yaw_rate) < kMaxTurnRate);
 }
 
 /// IMU before wheel before fix at equal stamps: each is predicted by the ones before it.
@@ -78,7 +78,7 @@ bool Ekf::add(const sensor::Fix& fix) {
 }
 
 bool Ekf::admit(Stamp stamp, std::size_t sensor) {
-  if (to_ns(stamp) > kLastStamp || to_ns(stamp) < -kLastStamp) return false;
+  if (to_ns(stamp) > kMaxStamp || to_ns(stamp) < -kMaxStamp) return false;
   if (newest().started) {
     const double ahead = to_seconds(stamp - newest().stamp);
     if (ahead < -config_.max_time_jump && ++consecutive_behind_ >= kBehindToRestart) {

@@ -16,10 +16,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kUnknownYawVariance = std::numbers::pi * std::numbers::pi / 3.0;  // uniform over the circle
-constexpr double kLostYawVariance = 1.0;    ///< rad^2 at which linearisation has no meaning
-constexpr double kLeastOverruledYaw = 0.5;  ///< rad; smaller errors the filter mends by itself
+constexpr double kLostYawVariance = 1.0;  ///< rad^2 at which linearisation has no meaning
+constexpr double kMinOverruledYaw = 0.5;  ///< rad; smaller errors the filter mends by itself
 constexpr int kContradictionsToOverrule = 3;
-constexpr int kLeastFixesToRecover = 5;
+constexpr int kMinFixesToRecover = 5;
 constexpr double kMotionStep = 0.5;  ///< s
 
 void start(const EkfConfig& config, Filter& filter, Stamp stamp) {
@@ -42,7 +42,7 @@ void forget_correlations(Covariance& P, int offset, int size) {
   P.block(offset, offset, size, size) = own;
 }
 
-/// Puts the antenna where the fix says; the error of the position is from now on the error of that fix.
+/// Moves the antenna to the fix; the position now has the covariance of that fix.
 void set_position(const EkfConfig& config, Filter& filter, const Vector3d& p_enu_antenna, const Matrix3d& R) {
   const Vector3d arm = filter.R * config.mounting.p_base_antenna;
   filter.p = p_enu_antenna - arm;
@@ -97,7 +97,7 @@ void set_level(const EkfConfig& config, Filter& filter, const Vector3d& f_base) 
   filter.attitude_set = true;
 }
 
-/// Heading from the device's own orientation, if that knows where down is.
+/// Heading from the device's own orientation, if that agrees with gravity.
 void try_reported_orientation(const EkfConfig& config, Filter& filter, const sensor::Imu& imu) {
   if (!config.imu.use_orientation || !imu.q_enu_imu) return;
   const double norm = imu.q_enu_imu->norm();
@@ -167,10 +167,10 @@ void watch_heading(const EkfConfig& config, Filter& filter, const Vector3d& p_en
   if (!estimate || estimate->sigma > config.motion.heading_sigma) return;
   const double yaw = wrap_angle(estimate->yaw_offset + filter.yaw_turned);
   if (filter.phase == Phase::kTracking) {
-    // Without an odometer a robot that reverses looks like one that faces the other way.
+    // Without an odometer a reversing robot is indistinguishable from one with the opposite heading.
     const double sigma_both = std::hypot(estimate->sigma, std::sqrt(filter.P(kAtt + 2, kAtt + 2)));
     const bool contradicts = odometer && std::abs(wrap_angle(yaw - yaw_of(filter.R))) >
-                                             std::max(kLeastOverruledYaw, 4.0 * sigma_both);
+                                             std::max(kMinOverruledYaw, 4.0 * sigma_both);
     filter.heading_contradictions = contradicts ? filter.heading_contradictions + 1 : 0;
     if (filter.heading_contradictions < kContradictionsToOverrule) return;
     ++filter.counters.heading_resets;
@@ -182,30 +182,30 @@ void watch_heading(const EkfConfig& config, Filter& filter, const Vector3d& p_en
   ++filter.counters.heading_alignments;
 }
 
-void believe(Filter& filter, const sensor::Fix& fix, double sigma) {
+void accept_fix(Filter& filter, const sensor::Fix& fix, double sigma) {
   filter.last_fix = fix.stamp;
   filter.last_fix_position = fix.position;
   filter.last_fix_sigma = sigma;
-  filter.doubted.count = 0;
+  filter.rejected_run.count = 0;
   ++filter.counters.fix_used;
 }
 
 void begin_at(const EkfConfig& config, Filter& filter, const sensor::Fix& fix, const Matrix3d& R) {
   filter.frame = LocalFrame(config.site_origin.value_or(fix.position));
   filter.alignment.clear();
-  filter.attitude_set = true;  // level by assumption where no IMU has told
+  filter.attitude_set = true;  // level by assumption where no IMU measures gravity
   filter.phase = Phase::kCoarse;
   set_position(config, filter, filter.frame->to_enu(fix.position), R);
   if (filter.heading_set) begin_tracking(config, filter);
 }
 
-/// A refused fix; believed after all once enough of them agreed for long enough.
-void doubt(const EkfConfig& config, Filter& filter, const sensor::Fix& fix, const Matrix3d& R, double sigma,
-           bool far) {
-  extend_run(filter.doubted, fix, sigma, config.gps);
+/// Handles a rejected fix. Enough of them that agree for long enough are accepted after all.
+void on_rejected_fix(const EkfConfig& config, Filter& filter, const sensor::Fix& fix, const Matrix3d& R,
+                     double sigma, bool far) {
+  extend_run(filter.rejected_run, fix, sigma, config.gps);
   const double needed = far ? config.gps.recovery_time_far : config.gps.recovery_time;
-  if (filter.doubted.count < kLeastFixesToRecover) return;
-  if (to_seconds(filter.doubted.last - filter.doubted.first) < needed) return;
+  if (filter.rejected_run.count < kMinFixesToRecover) return;
+  if (to_seconds(filter.rejected_run.last - filter.rejected_run.first) < needed) return;
   if (far && config.site_origin) return;
   ++filter.counters.fix_recoveries;
   if (far) {
@@ -214,11 +214,11 @@ void doubt(const EkfConfig& config, Filter& filter, const sensor::Fix& fix, cons
   } else {
     filter.alignment.clear();
     set_position(config, filter, filter.frame->to_enu(fix.position), R);
-    // What led the filter astray may have bent these, too.
+    // The cause of the filter's divergence may have corrupted these, too.
     filter.P.diagonal().segment<3>(kVel).array() += 1.0;
     filter.P(kAtt + 2, kAtt + 2) += 0.1;
   }
-  believe(filter, fix, sigma);
+  accept_fix(filter, fix, sigma);
 }
 
 void take_fix(const EkfConfig& config, Filter& filter, const sensor::Fix& fix) {
@@ -227,9 +227,9 @@ void take_fix(const EkfConfig& config, Filter& filter, const sensor::Fix& fix) {
     ++filter.counters.fix_invalid;
     return;
   }
-  const BelievedCovariance believed = believed_covariance(fix.covariance, config.gps);
-  if (believed.replaced) ++filter.counters.fix_covariance_replaced;
-  const Matrix3d& R = believed.R;
+  const BoundedCovariance bounded = bounded_covariance(fix.covariance, config.gps);
+  if (bounded.replaced) ++filter.counters.fix_covariance_replaced;
+  const Matrix3d& R = bounded.R;
   const double sigma = std::sqrt(R.diagonal().maxCoeff());
   const GeoPoint* origin = config.site_origin ? &*config.site_origin
                            : filter.frame     ? &filter.frame->origin()
@@ -242,19 +242,19 @@ void take_fix(const EkfConfig& config, Filter& filter, const sensor::Fix& fix) {
       ++filter.counters.fix_implausible;
       return;
     }
-    extend_run(filter.doubted, fix, sigma, config.gps);
-    if (filter.doubted.count < config.gps.initial_fixes) {
+    extend_run(filter.rejected_run, fix, sigma, config.gps);
+    if (filter.rejected_run.count < config.gps.initial_fixes) {
       ++filter.counters.fix_pending;
       return;
     }
     begin_at(config, filter, fix, R);
-    believe(filter, fix, sigma);
+    accept_fix(filter, fix, sigma);
     return;
   }
   if (far || !is_reachable(filter.last_fix_position, fix.position, to_seconds(fix.stamp - *filter.last_fix),
                            std::max(sigma, filter.last_fix_sigma), config.gps)) {
     ++filter.counters.fix_implausible;
-    doubt(config, filter, fix, R, sigma, far);
+    on_rejected_fix(config, filter, fix, R, sigma, far);
     return;
   }
   const Vector3d p_enu_antenna = filter.frame->to_enu(fix.position);
@@ -262,12 +262,12 @@ void take_fix(const EkfConfig& config, Filter& filter, const sensor::Fix& fix) {
     set_position(config, filter, p_enu_antenna, R);
   } else if (!update_from_position(config, filter, p_enu_antenna, R)) {
     ++filter.counters.fix_gated;
-    doubt(config, filter, fix, R, sigma, false);
+    on_rejected_fix(config, filter, fix, R, sigma, false);
     return;
   } else if (recent_wheel(config, filter) == nullptr) {
     update_nonholonomic(config, filter);
   }
-  believe(filter, fix, sigma);
+  accept_fix(filter, fix, sigma);
   watch_heading(config, filter, p_enu_antenna, R);
 }
 

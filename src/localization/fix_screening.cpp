@@ -7,15 +7,15 @@
 namespace fleetmap::localization {
 namespace {
 
-constexpr double kHighestAltitude = 20e3;  ///< m
-constexpr double kReachSlack = 10.0;       ///< m
+constexpr double kMaxAltitude = 20e3;  ///< m
+constexpr double kReachSlack = 10.0;   ///< m
 
 }  // namespace
 
-BelievedCovariance believed_covariance(const Eigen::Matrix3d& reported, const GpsModel& model) {
+BoundedCovariance bounded_covariance(const Eigen::Matrix3d& reported, const GpsModel& model) {
   const Eigen::Vector3d fallback(model.default_sigma_h, model.default_sigma_h, model.default_sigma_v);
-  BelievedCovariance replaced{fallback.cwiseAbs2().asDiagonal(), true};
-  // Sums of huge numbers overflow inside the decomposition: those say nothing anyway.
+  BoundedCovariance replaced{fallback.cwiseAbs2().asDiagonal(), true};
+  // Sums of huge numbers overflow inside the decomposition: such covariances are replaced.
   if (!reported.allFinite() || reported.cwiseAbs().maxCoeff() > 1e18) return replaced;
   if (reported.diagonal().minCoeff() <= 0.0) return replaced;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(0.5 * (reported + reported.transpose()));
@@ -28,7 +28,7 @@ BelievedCovariance believed_covariance(const Eigen::Matrix3d& reported, const Gp
 
 bool is_usable(const sensor::Fix& fix) {
   if (!fix.valid || !is_valid(fix.position)) return false;
-  if (std::abs(fix.position.altitude) > kHighestAltitude) return false;
+  if (std::abs(fix.position.altitude) > kMaxAltitude) return false;
   return fix.position.latitude != 0.0 || fix.position.longitude != 0.0;
 }
 

@@ -7,9 +7,9 @@
 namespace fleetmap::localization {
 namespace {
 
-constexpr std::size_t kLeastMatches = 5;
-constexpr double kLeastSpacing = 0.5;         ///< m
-constexpr double kLeastBaseline = 2.0;        ///< m
+constexpr std::size_t kMinMatches = 5;
+constexpr double kMinSpacing = 0.5;           ///< m
+constexpr double kMinBaseline = 2.0;          ///< m
 constexpr double kDeadReckoningSigma = 0.03;  ///< rad, of the track's own bending
 
 }  // namespace
@@ -22,7 +22,7 @@ void HeadingAlignment::advance(double distance, double yaw) {
 bool HeadingAlignment::add_fix(const Eigen::Vector2d& p_enu, double sigma,
                                const Eigen::Vector2d& antenna_offset) {
   // Spaced so that the whole window spans a dozen standard deviations.
-  if (count_ > 0 && travelled_ < std::max(kLeastSpacing, 0.5 * sigma)) return false;
+  if (count_ > 0 && travelled_ < std::max(kMinSpacing, 0.5 * sigma)) return false;
   push({p_enu, position_ + antenna_offset, sigma});
   return true;
 }
@@ -30,7 +30,7 @@ bool HeadingAlignment::add_fix(const Eigen::Vector2d& p_enu, double sigma,
 bool HeadingAlignment::add_fix_without_odometer(const Eigen::Vector2d& p_enu, double sigma, double yaw) {
   if (count_ > 0) {
     const Eigen::Vector2d step = p_enu - matches_[(next_ + kCapacity - 1) % kCapacity].gps;
-    // Steps must stand out of the noise, or a standing robot would seem to drive.
+    // Steps must exceed the noise, or a robot at rest would appear to drive.
     if (step.norm() < std::max(2.0, 4.0 * sigma)) return false;
     const double turn = std::remainder(yaw - last_yaw_, 2.0 * std::numbers::pi);
     advance(step.norm(), last_yaw_ + 0.5 * turn);
@@ -48,7 +48,7 @@ void HeadingAlignment::push(const Match& match) {
 }
 
 std::optional<HeadingAlignment::Estimate> HeadingAlignment::estimate() const {
-  if (count_ < kLeastMatches) return std::nullopt;
+  if (count_ < kMinMatches) return std::nullopt;
   const auto n = static_cast<double>(count_);
   Eigen::Vector2d gps_mean = Eigen::Vector2d::Zero();
   Eigen::Vector2d reckoned_mean = Eigen::Vector2d::Zero();
@@ -68,7 +68,7 @@ std::optional<HeadingAlignment::Estimate> HeadingAlignment::estimate() const {
   }
   // Root mean square spread times three is close to the length of a straight track.
   const double baseline = 3.0 * std::sqrt(reckoned2 / n);
-  if (baseline < kLeastBaseline) return std::nullopt;
+  if (baseline < kMinBaseline) return std::nullopt;
   const double residual2 = std::max(0.0, gps2 + reckoned2 - 2.0 * std::hypot(dot, cross)) / n;
   const double residual = std::sqrt(residual2);
   if (residual > 3.0 * sigma + 0.1 * baseline) return std::nullopt;

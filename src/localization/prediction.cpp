@@ -34,8 +34,8 @@ void add_velocity_noise(Covariance& Q, double q, double dt) {
   }
 }
 
-/// Track for the heading from motion. In the coarse phase the position stands still and grows uncertain
-/// instead.
+/// Updates the track for the heading from motion. In the coarse phase the position is held and its
+/// covariance grows instead.
 void reckon(const EkfConfig& config, Filter& filter, double dt, double turn) {
   const sensor::Wheel* wheel = recent_wheel(config, filter);
   if (wheel != nullptr) {
@@ -81,7 +81,7 @@ void predict_inertial(const EkfConfig& config, Filter& filter, double dt, const 
   Covariance Q = Covariance::Zero();
   const Matrix3d R_imu = R_middle * R_base_imu;
   F.block<3, 3>(kAtt, kGyroBias) = -R_imu * dt;
-  // What happened between two samples is unknown by about the difference between them.
+  // The motion between two samples is uncertain by about their difference.
   const double rate_q = config.imu.gyro_noise * config.imu.gyro_noise + rate_change.squaredNorm() / 36.0 * dt;
   Q.diagonal().segment<3>(kAtt).array() += rate_q * dt;
   if (filter.phase == Phase::kTracking) {

@@ -4,13 +4,14 @@
 
 namespace fleetmap::localization {
 
-/// Integrates angular velocity and specific force (IMU frame) that hold on average over `dt` seconds; the
-/// differences say how much they changed meanwhile, which bounds what sampling missed.
+/// Integrates angular velocity and specific force (IMU frame), averages over `dt` seconds. Their change over
+/// the interval bounds the sampling error.
 void predict_inertial(const EkfConfig& config, Filter& filter, double dt,
                       const Eigen::Vector3d& angular_velocity, const Eigen::Vector3d& specific_force,
                       const Eigen::Vector3d& rate_change, const Eigen::Vector3d& force_change);
 
-/// Constant speed and turn rate along the ground for `dt` seconds, for when no IMU speaks.
+/// Predicts with constant speed and turn rate along the ground for `dt` seconds, where no IMU sample is
+/// available.
 void predict_by_motion_model(const EkfConfig& config, Filter& filter, double dt);
 
 /// Fresh wheel sample at the filter's time, else null.

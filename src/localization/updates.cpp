@@ -14,8 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, kStates>;
 
-/// White noise as informative as errors of variance `variance` that persist for `time` seconds, sampled each
-/// `dt` (both give the same variance to the mean over a long time).
+/// Variance of the white noise, sampled each `dt`, that is as informative as errors of variance `variance`
+/// that persist for `time` seconds: both give the same variance to the mean over a long time.
 double as_white(double time, double dt) { return std::max(1.0, 2.0 * time / std::max(dt, 1e-3)); }
 
 void correct(Filter& filter, const ErrorState& dx) {
@@ -69,7 +69,7 @@ void update_gyro_bias(const EkfConfig& config, Filter& filter, double yaw_rate, 
   const Eigen::Matrix<double, 1, 1> residual(yaw_rate -
                                              axis.dot(filter.last_imu->angular_velocity - filter.gyro_bias));
   double variance = config.wheel.yaw_rate_sigma * config.wheel.yaw_rate_sigma * inflation;
-  // Wheels that slip in a turn say nothing about the gyro.
+  // Wheels slip in turns, so their error there is not evidence about the gyro bias.
   const double expected = variance + (H * filter.P * H.transpose()).value();
   const double excess = residual(0) * residual(0) / expected / config.wheel.gate;
   if (excess > 1.0) variance *= excess * excess;

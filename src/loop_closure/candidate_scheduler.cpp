@@ -1,9 +1,9 @@
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
+#include "candidate_selection.hpp"
 #include "candidate_set.hpp"
 #include "descriptor_candidates.hpp"
 #include "node_index.hpp"
@@ -19,10 +19,6 @@ using Origin = LoopCandidate::Origin;
 /// A search visits all nodes of a robot, and thousands are due once two long tracks have a transform.
 constexpr std::size_t kMaxSearchesPerTick = 20;
 
-bool under_way(const ScheduledCandidate& candidate) {
-  return candidate.phase == Phase::kRequested || candidate.phase == Phase::kRegistering;
-}
-
 void fail(ScheduledCandidate& candidate, Stamp retry_at) {
   candidate.phase = Phase::kFailed;
   candidate.retry_at = retry_at;
@@ -36,13 +32,15 @@ struct CandidateScheduler::State {
         positions(self, config.proximity),
         descriptors(config.descriptors, config.proximity.max_radius),
         transforms(self, config.proximity, nodes),
-        candidates(config, nodes) {}
+        candidates(config, nodes),
+        selection(config, nodes, candidates) {}
 
   NodeIndex nodes;
   PositionCandidates positions;
   DescriptorCandidates descriptors;
   TransformCandidates transforms;
   CandidateSet candidates;
+  CandidateSelection selection;
 };
 
 CandidateScheduler::CandidateScheduler(const AgentId& self, const LoopClosureConfig& config)
@@ -56,14 +54,15 @@ CandidateScheduler::~CandidateScheduler() = default;
 void CandidateScheduler::on_node(const graph::Node& node, Stamp now) {
   State& state = *state_;
   if (!state.nodes.add(node)) return;
-  information_.add(node);
+  state.candidates.on_node(node.id);
+  state_->selection.information().add(node);
   for (const LoopCandidate& candidate : state.transforms.propose(node)) offer_by_transform(candidate, now);
   const bool located = state.nodes.located(node);
   const auto side =
       node.id.agent == self_ ? DescriptorCandidates::Side::kOurs : DescriptorCandidates::Side::kTheirs;
   for (const LoopCandidate& candidate : state.descriptors.propose(node, located, side)) {
     ++stats_.by_descriptor;
-    // A transform tells more than a match, and may tell that the two are far apart.
+    // A transform is more accurate than a match, and may show that the two are far apart.
     if (!transform(candidate.pair())) state.candidates.offer(candidate, now);
   }
   if (!located) return;
@@ -84,18 +83,18 @@ void CandidateScheduler::on_contested(const NodeId& node) {
   state_->transforms.remove(node);
   state_->candidates.erase_if([&](const NodePair& pair, const ScheduledCandidate& candidate) {
     if (pair.ours != node && pair.theirs != node) return false;
-    if (candidate.phase == Phase::kRegistering) return false;  // its result comes anyway
+    if (candidate.phase == Phase::kRegistering) return false;  // its result is still to be recorded
     if (candidate.phase == Phase::kRequested) withdrawn_.push_back(pair);
     return true;
   });
 }
 
 void CandidateScheduler::on_used_alignments(std::span<const graph::Alignment> used) {
-  information_.use(used);
+  state_->selection.information().use(used);
   const NodeIndex& nodes = state_->nodes;
   std::uint64_t obsolete = 0;
   for (const auto& frames : state_->transforms.on_used_alignments(used)) {
-    // What waits is found again, if it is near; a descriptor match that failed had another prior.
+    // Waiting candidates are found again if they are near; a failed descriptor match had another prior.
     state_->candidates.erase_if([&](const NodePair& pair, const ScheduledCandidate& candidate) {
       if (candidate.known_to_peer || !nodes.lacks_position(pair)) return false;
       if (nodes.find(pair.ours)->frame != frames.first || nodes.find(pair.theirs)->frame != frames.second)
@@ -117,7 +116,7 @@ std::optional<UncertainPose> CandidateScheduler::transform(const NodePair& pair)
 // ---- the match handshake
 // ----------------------------------------------------------------------------------------
 
-void CandidateScheduler::on_match(const exchange::ProximityMatch& match, Stamp now) {
+void CandidateScheduler::on_match(const messages::ProximityMatch& match, Stamp now) {
   const NodePair pair{match.theirs, match.ours};  // the sender's "ours" is our "theirs"
   if (match.to != self_ || pair.ours.agent != self_ || pair.theirs.agent != match.from) return;
   CandidateSet& candidates = state_->candidates;
@@ -125,7 +124,7 @@ void CandidateScheduler::on_match(const exchange::ProximityMatch& match, Stamp n
     known->known_to_peer = true;
     return;
   }
-  // Without both nodes there is nothing to compare; when the missing one comes, it makes the candidate.
+  // Without both nodes the pair cannot be compared; the missing node will make the candidate.
   if (!state_->nodes.contains(pair) || !(match.distance <= config_.proximity.max_radius)) return;
   ++stats_.by_position;
   if (candidates.redundant(pair)) yield_to(pair);
@@ -171,13 +170,13 @@ bool CandidateScheduler::heard(const AgentId& peer, Stamp now) const {
 
 void CandidateScheduler::on_alignment(const graph::Alignment& alignment, Stamp) {
   const bool good = alignment.best().rmse <= graph::kGoodRmse;
-  if (good) information_.add(alignment);
+  if (good) state_->selection.information().add(alignment);
   const bool first_is_ours = alignment.i.agent == self_;
   if (first_is_ours == (alignment.j.agent == self_)) return;  // between others, or within our own track
   const NodePair pair =
       first_is_ours ? NodePair{alignment.i, alignment.j} : NodePair{alignment.j, alignment.i};
-  // An ambiguous one ends the candidate, since the same clouds would be ambiguous again, but it does not give
-  // the relative pose yet.
+  // An ambiguous alignment ends the candidate, since the same clouds would be ambiguous again, but it does
+  // not determine the relative pose.
   if (good && !alignment.ambiguous()) state_->candidates.on_aligned(pair.theirs.agent);
   const bool by_us = alignment.computed_by == self_;
   if (!by_us && !(good && config_.stop_when_peer_aligned)) return;
@@ -193,7 +192,7 @@ void CandidateScheduler::on_alignment(const graph::Alignment& alignment, Stamp) 
     ++stats_.ended_by_peer;
     withdrawn_.push_back(pair);
   }
-  candidate.phase = Phase::kDone;
+  state_->candidates.conclude(pair);
 }
 
 void CandidateScheduler::on_cloud(const NodeId& theirs, Bytes cloud) {
@@ -231,73 +230,6 @@ void CandidateScheduler::on_rejected(const NodePair& pair, Stamp now) {
 // ---- requests
 // ---------------------------------------------------------------------------------------------------
 
-bool CandidateScheduler::retryable(const NodePair& pair, const ScheduledCandidate& candidate) const {
-  return candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts &&
-         !state_->candidates.redundant(pair);
-}
-
-std::vector<NodePair> CandidateScheduler::ready(Stamp now) {
-  CandidateSet& candidates = state_->candidates;
-  const auto clouds_complete = [&](const NodePair& pair, const ScheduledCandidate& candidate) {
-    if (candidate.phase == Phase::kFailed) return now >= candidate.retry_at;
-    if (now >= candidate.found + config_.max_wait) return true;
-    return state_->nodes.nodes_after(pair.ours) >= config_.min_nodes_after &&
-           state_->nodes.nodes_after(pair.theirs) >= config_.min_nodes_after;
-  };
-  std::vector<NodePair> ready, obsolete;
-  for (const auto& [pair, candidate] : candidates.all()) {
-    // The cheap conditions come first: redundant() visits all others.
-    if (!heard(pair.theirs.agent, now) || !clouds_complete(pair, candidate)) continue;
-    if (candidate.phase != Phase::kWaiting && !retryable(pair, candidate)) continue;
-    // The spacing grows with the first good alignment.
-    const bool is_obsolete =
-        candidate.phase == Phase::kWaiting && !candidate.known_to_peer && candidates.redundant(pair);
-    (is_obsolete ? obsolete : ready).push_back(pair);
-  }
-  for (const NodePair& pair : obsolete) {
-    // Of two that make each other redundant one stays.
-    if (candidates.redundant(pair)) {
-      candidates.drop_redundant(pair);
-    } else {
-      ready.push_back(pair);
-    }
-  }
-  return ready;
-}
-
-std::optional<CandidateScheduler::Choice> CandidateScheduler::choose(std::vector<NodePair>& ready,
-                                                                     bool radio_has_room) {
-  CandidateSet& candidates = state_->candidates;
-  std::vector<graph::AlignmentWorth::Pair> pairs, expected;
-  for (const NodePair& pair : ready) pairs.emplace_back(pair.ours, pair.theirs);
-  for (const auto& [pair, candidate] : candidates.all()) {
-    if (under_way(candidate)) expected.emplace_back(pair.ours, pair.theirs);
-  }
-  const std::vector<double> information = information_.of(pairs, expected);
-  std::optional<std::size_t> best;
-  std::vector<NodePair> left;
-  const auto before = [&](std::size_t a, std::size_t b) {
-    const Stamp found_a = candidates.at(ready[a]).found, found_b = candidates.at(ready[b]).found;
-    if (config_.order == exchange::CloudOrder::kFirstCome) return found_a < found_b;
-    return std::tuple(information[a], found_a) > std::tuple(information[b], found_b);
-  };
-  for (std::size_t k = 0; k < ready.size(); ++k) {
-    if (information[k] < config_.min_information && !radio_has_room) {
-      candidates.erase(ready[k]);
-      ++stats_.uninformative;
-    } else if (!best || before(k, *best)) {
-      if (best) left.push_back(ready[*best]);
-      best = k;
-    } else {
-      left.push_back(ready[k]);
-    }
-  }
-  std::optional<Choice> choice;
-  if (best) choice = Choice{ready[*best], information[*best]};
-  ready = std::move(left);
-  return choice;
-}
-
 void CandidateScheduler::request(exchange::CloudDemand& demand, Stamp now, bool radio_has_room) {
   CandidateSet& candidates = state_->candidates;
   // A robot that fell silent must not keep the others waiting for its clouds.
@@ -307,17 +239,20 @@ void CandidateScheduler::request(exchange::CloudDemand& demand, Stamp now, bool 
            candidate.phase == Phase::kRegistering;
   }));
   if (active >= config_.max_active) return;
-  for (std::vector<NodePair> waiting = ready(now); !waiting.empty() && active < config_.max_active;) {
-    const auto choice = choose(waiting, radio_has_room);
-    if (!choice) return;
-    ScheduledCandidate& chosen = candidates.at(choice->pair);
-    chosen.phase = Phase::kRequested;
-    ++chosen.attempts;
+  CandidateSelection& selection = state_->selection;
+  const auto is_heard = [&](const AgentId& peer) { return heard(peer, now); };
+  for (std::vector<NodePair> ready = selection.ready(is_heard, now);
+       !ready.empty() && active < config_.max_active;) {
+    const auto next = selection.next(ready, radio_has_room);
+    if (!next) return;
+    ScheduledCandidate& selected = candidates.at(next->pair);
+    selected.phase = Phase::kRequested;
+    ++selected.attempts;
     ++stats_.requested;
     ++active;
-    demand.wanted.push_back({choice->pair.theirs, choice->information});
-    // The place that was chosen may make others redundant.
-    std::erase_if(waiting, [&](const NodePair& pair) {
+    demand.wanted.push_back({next->pair.theirs, next->information});
+    // The place that was selected may make others redundant.
+    std::erase_if(ready, [&](const NodePair& pair) {
       const ScheduledCandidate& other = candidates.at(pair);
       if (other.phase != Phase::kWaiting || other.known_to_peer || !candidates.redundant(pair)) return false;
       candidates.drop_redundant(pair);
@@ -354,9 +289,9 @@ bool CandidateScheduler::idle(Stamp now, const std::set<AgentId>& without) const
   return std::ranges::none_of(candidates.all(), [&](const auto& entry) {
     const auto& [pair, candidate] = entry;
     if (without.contains(pair.theirs.agent)) return false;
-    if (under_way(candidate)) return true;
+    if (candidate.under_way()) return true;
     if (!heard(pair.theirs.agent, now)) return false;
-    return candidate.phase == Phase::kWaiting || retryable(pair, candidate);
+    return candidate.phase == Phase::kWaiting || candidates.retryable(pair, candidate);
   });
 }
 
@@ -368,6 +303,7 @@ LoopClosureStats CandidateScheduler::stats() const {
   LoopClosureStats all = stats_;
   all.redundant = state_->candidates.redundant_count();
   all.crowded_out = state_->candidates.crowded_out_count();
+  all.uninformative = state_->selection.uninformative_count();
   return all;
 }
 

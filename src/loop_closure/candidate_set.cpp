@@ -1,18 +1,36 @@
 #include "candidate_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace fleetmap::loop_closure {
 
 using Origin = LoopCandidate::Origin;
 
 ScheduledCandidate* CandidateSet::find(const NodePair& pair) {
+  if (const auto found = candidates_.find(pair); found != candidates_.end()) return &found->second;
+  const auto done = done_.find(pair);
+  return done == done_.end() ? nullptr : &done->second;
+}
+
+const ScheduledCandidate& CandidateSet::held(const NodePair& pair) const {
   const auto found = candidates_.find(pair);
-  return found == candidates_.end() ? nullptr : &found->second;
+  return found == candidates_.end() ? done_.at(pair) : found->second;
+}
+
+void CandidateSet::conclude(const NodePair& pair) {
+  done_.insert(candidates_.extract(pair)).position->second.phase = Phase::kDone;
+}
+
+void CandidateSet::erase(const NodePair& pair) {
+  candidates_.erase(pair);
+  grid_.erase(pair);
 }
 
 ScheduledCandidate& CandidateSet::find_or_make(const NodePair& pair) {
+  if (const auto done = done_.find(pair); done != done_.end()) return done->second;
   ScheduledCandidate& candidate = candidates_[pair];
+  grid_.add(pair);
   candidate.candidate.target = pair.ours;
   candidate.candidate.source = pair.theirs;
   return candidate;
@@ -37,11 +55,12 @@ void CandidateSet::add(const LoopCandidate& candidate, Stamp found, bool known_t
   scheduled.next_match = found;
   scheduled.known_to_peer = known_to_peer;
   candidates_.emplace(candidate.pair(), scheduled);
+  grid_.add(candidate.pair());
   crowd_out();
 }
 
 void CandidateSet::drop_redundant(const NodePair& pair) {
-  candidates_.erase(pair);
+  erase(pair);
   ++redundant_;
 }
 
@@ -70,10 +89,10 @@ double CandidateSet::spacing(const ScheduledCandidate& other, const AgentId& pee
 std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t max) const {
   std::vector<NodePair> found;
   if (!nodes_.contains(pair)) return found;
-  for (const auto& [other, candidate] : candidates_) {
+  for (const NodePair& other : grid_.around(pair.ours)) {
     if (found.size() >= max) break;
     if (other == pair || other.theirs.agent != pair.theirs.agent) continue;
-    const double limit = spacing(candidate, pair.theirs.agent);
+    const double limit = spacing(held(other), pair.theirs.agent);
     if (nodes_.near(pair.ours, other.ours, limit) && nodes_.near(pair.theirs, other.theirs, limit))
       found.push_back(other);
   }
@@ -83,27 +102,30 @@ std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t m
 std::vector<NodePair> CandidateSet::rivals(const NodePair& pair) const {
   const std::vector<NodePair> nearby = too_near(pair, 2);
   if (nearby.size() != 1) return {};
-  const ScheduledCandidate& only = candidates_.at(nearby.front());
+  const ScheduledCandidate& only = held(nearby.front());
   const bool under_way = only.phase == Phase::kWaiting || only.phase == Phase::kRequested;
   return under_way && !only.known_to_peer ? nearby : std::vector<NodePair>{};
 }
 
-std::size_t CandidateSet::room() const {
-  const auto waiting = static_cast<std::size_t>(std::ranges::count_if(
+bool CandidateSet::retryable(const NodePair& pair, const ScheduledCandidate& candidate) const {
+  return candidate.phase == Phase::kFailed && candidate.attempts < config_.max_attempts && !redundant(pair);
+}
+
+std::size_t CandidateSet::waiting() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
       candidates_, [](const auto& entry) { return entry.second.phase == Phase::kWaiting; }));
-  return config_.max_waiting > waiting ? config_.max_waiting - waiting : 0;
+}
+
+std::size_t CandidateSet::room() const {
+  return config_.max_waiting - std::min(config_.max_waiting, waiting());
 }
 
 void CandidateSet::crowd_out() {
-  std::size_t waiting = 0;
-  auto oldest = candidates_.end();
-  for (auto it = candidates_.begin(); it != candidates_.end(); ++it) {
-    if (it->second.phase != Phase::kWaiting) continue;
-    ++waiting;
-    if (oldest == candidates_.end() || it->second.found < oldest->second.found) oldest = it;
-  }
-  if (waiting <= config_.max_waiting) return;
-  candidates_.erase(oldest);
+  if (waiting() <= config_.max_waiting) return;
+  const auto waiting_by_age = [](const auto& entry) {
+    return std::pair(entry.second.phase != Phase::kWaiting, entry.second.found);
+  };
+  erase(NodePair(std::ranges::min_element(candidates_, {}, waiting_by_age)->first));
   ++crowded_out_;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "candidate_grid.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
 #include "fleetmap/loop_closure/loop_closure_config.hpp"
@@ -25,40 +27,53 @@ struct ScheduledCandidate {
   int matches_sent = 0;
   Stamp next_match;
   bool known_to_peer = false;
+
+  /// Its cloud is requested or being registered.
+  bool under_way() const { return phase == Phase::kRequested || phase == Phase::kRegistering; }
 };
 
-/// The candidates with other robots, at most one at a place: a candidate is redundant if another one of the
-/// same two robots lies nearer than the spacing at both ends. One that nothing has been requested for gives
-/// way to a better rival at its place.
+/// The candidates with other robots, thinned by distance: a candidate is redundant if another one of the
+/// same two robots lies nearer than the spacing at both ends. A better candidate replaces one whose cloud
+/// was not requested yet.
 class CandidateSet {
  public:
   using Phase = ScheduledCandidate::Phase;
   using Candidates = std::map<NodePair, ScheduledCandidate>;
 
   /// `config` and `nodes` outlive this.
-  CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes) : config_(config), nodes_(nodes) {}
+  CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes)
+      : config_(config), nodes_(nodes), grid_(largest_spacing(config), nodes) {}
 
+  /// Those that are not done. Done ones, of which a long drive has many, only keep others away.
   const Candidates& all() const { return candidates_; }
-  bool contains(const NodePair& pair) const { return candidates_.contains(pair); }
-  /// Null: there is none.
+  bool contains(const NodePair& pair) const { return candidates_.contains(pair) || done_.contains(pair); }
+  /// The node was added to the index.
+  void on_node(const NodeId& node) { grid_.on_node(node); }
+  /// Null: there is none. A done one is not in all().
   ScheduledCandidate* find(const NodePair& pair);
   ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
   /// Makes it if there is none.
   ScheduledCandidate& find_or_make(const NodePair& pair);
+  /// The candidate is aligned.
+  void conclude(const NodePair& pair);
   template <class Visitor>
   void for_each(Visitor visit) {
     for (auto& [pair, candidate] : candidates_) visit(pair, candidate);
   }
 
-  /// Adds a candidate that is neither known nor redundant. It takes the place of a rival that lies farther
-  /// apart, or matches less if both are descriptor matches.
+  /// Adds a candidate that is neither known nor redundant. It replaces a rival that lies farther apart, or
+  /// has a lower score if both are descriptor matches.
   void offer(const LoopCandidate& candidate, Stamp now);
   /// Adds it in any case, unless a node is unknown. The oldest one waiting is dropped if too many wait.
   void add(const LoopCandidate& candidate, Stamp found, bool known_to_peer);
-  void erase(const NodePair& pair) { candidates_.erase(pair); }
+  void erase(const NodePair& pair);
   template <class Predicate>
   void erase_if(Predicate predicate) {
-    std::erase_if(candidates_, [&](const auto& entry) { return predicate(entry.first, entry.second); });
+    std::vector<NodePair> erased;
+    for (const auto& [pair, candidate] : candidates_) {
+      if (predicate(pair, candidate)) erased.push_back(pair);
+    }
+    for (const NodePair& pair : erased) erase(pair);
   }
   /// Erases one that another has made redundant, and counts it.
   void drop_redundant(const NodePair& pair);
@@ -68,26 +83,36 @@ class CandidateSet {
   bool is_aligned(const AgentId& peer) const { return aligned_.contains(peer); }
 
   bool redundant(const NodePair& pair) const { return !too_near(pair, 1).empty(); }
-  /// The candidate without which the pair would not be redundant, if it may give way; one at most.
+  /// The only candidate that makes the pair redundant, if it may be replaced; at most one.
   std::vector<NodePair> rivals(const NodePair& pair) const;
   /// Candidates that may wait besides those that do.
   std::size_t room() const;
+  /// A failed candidate that may be tried again.
+  bool retryable(const NodePair& pair, const ScheduledCandidate& candidate) const;
 
   std::uint64_t redundant_count() const { return redundant_; }
   std::uint64_t crowded_out_count() const { return crowded_out_; }
   void count_redundant(std::uint64_t candidates = 1) { redundant_ += candidates; }
 
  private:
+  static double largest_spacing(const LoopClosureConfig& config) {
+    return std::max({1.0, config.spacing_m, config.spacing_aligned_m, config.spacing_failed_m});
+  }
+  const ScheduledCandidate& held(const NodePair& pair) const;
   /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them.
   std::vector<NodePair> too_near(const NodePair& pair, std::size_t max) const;
   double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
   /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.
   Stamp replace_rival(const LoopCandidate& candidate, Stamp now);
+  std::size_t waiting() const;
+  /// Drops the oldest waiting candidate if too many wait.
   void crowd_out();
 
   const LoopClosureConfig& config_;
   const NodeIndex& nodes_;
   Candidates candidates_;
+  Candidates done_;
+  CandidateGrid grid_;  ///< of both
   std::set<AgentId> aligned_;
   std::uint64_t redundant_ = 0;
   std::uint64_t crowded_out_ = 0;

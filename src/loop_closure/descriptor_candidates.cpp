@@ -73,7 +73,7 @@ DescriptorCandidates::compare(const Keyframe& query, const Track& other) const {
   std::vector<std::pair<FramePair, Match>> matches;
   const place::DescriptorQuery prepared(query.descriptor);
   for (const Keyframe* keyframe : keyframes) {
-    const place::Likeness compared = prepared.compare(keyframe->descriptor);
+    const place::DescriptorMatch compared = prepared.compare(keyframe->descriptor);
     if (compared.similarity <= 0.0) continue;
     const Pose T_other_query = place::relative_pose(compared, keyframe->up, query.up);
     const Pose T = keyframe->T_odom_base * T_other_query * query.T_odom_base.inverse();

@@ -13,14 +13,15 @@
 
 namespace fleetmap::loop_closure {
 
-/// Place recognition: candidates between two sides of nodes by descriptor match, for where no G gives their
-/// positions. A match is supported by others that imply the same transform of the two odometry frames: in
-/// rows that repeat a single match is often one row off, several in a row are less often.
+/// Place recognition: candidates between the nodes of two sides by descriptor match, where G does not
+/// determine both positions. A match is supported by others that imply the same transform of the two
+/// odometry frames: among repeated rows a single match is often one row off, several in a row are less
+/// often.
 class DescriptorCandidates {
  public:
   enum class Side : std::uint8_t { kOurs, kTheirs };
 
-  /// `radius` (m): which the candidates are given.
+  /// `radius` (m): LoopCandidate::radius of the results.
   DescriptorCandidates(const DescriptorMatchConfig& config, double radius)
       : config_(config), radius_(radius) {}
 

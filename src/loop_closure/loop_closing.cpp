@@ -49,7 +49,7 @@ void LoopClosing::make_cloud(const graph::Node& node, std::function<void(std::op
 void LoopClosing::register_own(const LoopCandidate& candidate) {
   const graph::Node* target = store_.node(candidate.target);
   const graph::Node* source = store_.node(candidate.source);
-  // A node that came back from others may still lack its submap.
+  // A node that others returned may still lack its submap.
   if (target == nullptr || source == nullptr || !store_.has_submap(target->id)) return;
   if (const auto prior = registration_prior(candidate, *target, *source, config_.candidates))
     worker_->register_own(*target, *source, *prior, [this](const Registration& done) { conclude(done); });
@@ -67,8 +67,8 @@ void LoopClosing::start(const ReceivedCloud& received) {
   const auto prior = registration_prior(candidate, *target, *source, config_.candidates);
   if (!prior) {
     // The peer alone has a prior; it registers the pair too.
-    spdlog::info("{}: nothing tells how {} lies to {}", config_.self.str(), to_string(source->id),
-                 to_string(target->id));
+    spdlog::info("{}: there is no prior for the pose of {} relative to {}", config_.self.str(),
+                 to_string(source->id), to_string(target->id));
     return scheduler_.on_rejected(candidate.pair(), bus_.now());
   }
   const bool started = worker_->register_received(*target, *source, received.cloud, *prior,
@@ -82,10 +82,10 @@ void LoopClosing::conclude(const Registration& registration) {
   const graph::Node& i = registration.target;
   const graph::Node& j = registration.source;
   const bool rejected = !registration.result || registration.result->verdict == Verdict::rejected;
-  // An ambiguous one is sent with all its modes: other alignments may tell which of them is right.
+  // An ambiguous alignment is sent with all its modes, since other alignments may resolve the ambiguity.
   if (rejected || !outputs_.publish(alignment_of(i.id, j.id, config_.self, *registration.result)))
     return scheduler_.on_rejected({i.id, j.id}, bus_.now());
-  // What was under way when a session began says nothing of it.
+  // A registration that began before the session does not count for it.
   if (registration.result->verdict == Verdict::accepted && i.id.agent == j.id.agent &&
       i.session != session_ && j.session == session_)
     sessions_->on_accepted(i, j);

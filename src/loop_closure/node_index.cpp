@@ -6,7 +6,9 @@
 
 namespace fleetmap::loop_closure {
 
-bool NodeIndex::located(const graph::Node& node) const { return place::tells_place(node.G, max_sigma_m_); }
+bool NodeIndex::located(const graph::Node& node) const {
+  return place::has_known_position(node.G, max_sigma_m_);
+}
 
 bool NodeIndex::add(const graph::Node& node) {
   Entry entry{std::nullopt, node.frame(), node.T_odom_base.translation()};

@@ -12,7 +12,7 @@
 
 namespace fleetmap::loop_closure {
 
-/// Where all nodes are that loop closing has: on Earth where a G is good enough, and in their odometry
+/// Positions of all nodes for loop closing: on Earth if their G is good enough, and in their odometry
 /// frames.
 class NodeIndex {
  public:
@@ -26,7 +26,7 @@ class NodeIndex {
   NodeIndex(const AgentId& self, double max_sigma_m) : self_(self), max_sigma_m_(max_sigma_m) {}
 
   bool located(const graph::Node& node) const;
-  /// False: the node is known.
+  /// False if the node was added before.
   bool add(const graph::Node& node);
   void remove(const NodeId& node) { entries_.erase(node); }
 
@@ -34,7 +34,7 @@ class NodeIndex {
   const Entry* find(const NodeId& node) const;
   bool contains(const NodePair& pair) const { return find(pair.ours) && find(pair.theirs); }
   const std::map<NodeId, Entry>& entries() const { return entries_; }
-  /// Both nodes are known, and not both are located.
+  /// Both nodes were added, and at least one is not located.
   bool lacks_position(const NodePair& pair) const;
   /// Some node was added that is not located.
   bool any_unlocated() const { return any_unlocated_; }
@@ -42,7 +42,7 @@ class NodeIndex {
   std::uint32_t nodes_after(const NodeId& node) const;
   /// With whose nodes those of `agent` form pairs: with all peers if it is this robot, else with this robot.
   std::vector<AgentId> partners_of(const AgentId& agent) const;
-  /// Both nodes are known, of comparable positions, and less than `limit` (m) apart.
+  /// Both nodes were added, have comparable positions, and lie less than `limit` (m) apart.
   bool near(const NodeId& a, const NodeId& b, double limit) const;
 
  private:

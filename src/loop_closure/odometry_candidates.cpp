@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMinPath = 40.0;  // m of path
 
-/// Whether a node `distance` away lies where the robot has just come from, straight on or around one corner.
+/// Whether a node `distance` away is on the path just driven, straight or around one corner.
 bool just_left(double path, double distance) { return path <= std::max(kMinPath, 1.5 * distance); }
 
 }  // namespace

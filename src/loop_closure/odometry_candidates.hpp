@@ -10,8 +10,8 @@
 
 namespace fleetmap::loop_closure {
 
-/// Candidates where a robot comes back to its own path within one odometry frame: rows that lie side by side
-/// are driven minutes apart. Only odometry is used, so it needs no GPS.
+/// Candidates where a robot returns to its own path within one odometry frame: adjacent rows are driven
+/// minutes apart. Uses odometry only, so it needs no GPS.
 class OdometryCandidates {
  public:
   explicit OdometryCandidates(const OwnPathConfig& config) : config_(config) {}

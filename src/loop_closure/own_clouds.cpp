@@ -12,7 +12,7 @@ namespace fleetmap::loop_closure {
 namespace {
 
 constexpr std::size_t kMaxClouds = 12;  // prepared some 5 MB each
-/// Of submaps as encoded, about as much as their thinned points then take.
+/// Encoded size of the submaps that are kept; their thinned points take about as much.
 constexpr std::size_t kMaxSubmapBytes = 32u << 20;
 constexpr double kGrowth = 1.2;
 

@@ -22,7 +22,7 @@ class OwnSubmap {
  public:
   explicit OwnSubmap(Bytes encoded) : encoded_(std::move(encoded)), encoded_bytes_(encoded_.size()) {}
 
-  /// Decoded at the first call. One thread at a time; all calls with the same `voxel_m`.
+  /// The points, decoded at the first call. Not thread-safe; all calls with the same `voxel_m`.
   const Result<cloud::PointCloud>& points(float voxel_m);
   std::size_t encoded_bytes() const { return encoded_bytes_; }
 
@@ -32,8 +32,8 @@ class OwnSubmap {
   std::optional<Result<cloud::PointCloud>> points_;
 };
 
-/// M^s of one own node (Alg. 3, first half), in its base_link, made of the submaps of pass_around() when it
-/// is first asked for.
+/// M^s of one own node (Alg. 3, first half), in its base_link, computed at the first call from the submaps
+/// of pass_around().
 class OwnCloud {
  public:
   using Submaps = std::vector<std::pair<Pose, std::shared_ptr<OwnSubmap>>>;  ///< with T_node_submap
@@ -42,7 +42,7 @@ class OwnCloud {
       : node_(node), around_(std::move(around)), config_(config) {}
 
   const graph::Node& node() const { return node_; }
-  /// Long work at the first call. One thread at a time: jobs of one lane of a bus.
+  /// Takes long at the first call. Not thread-safe: all calls from one lane of the bus.
   const Result<registration::SpherizedCloud>& spherized();
   /// The same, made ready for registrations at the first call. All calls with the same `config`.
   Result<registration::PreparedCloud> prepared(const registration::RegistrationConfig& config);

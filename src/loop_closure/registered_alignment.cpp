@@ -7,9 +7,10 @@ namespace {
 /// likely than one in a thousand does not keep a registration from being accepted either.
 constexpr double kAlternativeWeight = 1e-3;
 
-/// Nodes farther apart than this see what stands between them from its two sides. Posts and tables are some
-/// centimetres thick, and their fronts come to lie on their backs: 42 m apart all alignments of two lanes of
-/// a farm lay 7 cm too near, with a scatter of 2 cm. So many that err alike (30 of two lanes) count as one.
+/// Nodes farther apart than this see objects between them from opposite sides. Posts and tables are some
+/// centimetres thick, and registration matches their fronts with their backs: 42 m apart all alignments of
+/// two lanes of a farm were 7 cm too short, with a scatter of 2 cm. The added sigma makes so many equal
+/// errors (30 of two lanes) count as one.
 constexpr double kOppositeSidesFrom = 30.0;  // m
 constexpr double kOppositeSidesSigma = 0.3;  // m, horizontally
 

@@ -14,7 +14,7 @@ constexpr double kMinSigma = 0.1;        // m
 constexpr double kMinAngle = 0.01;       // rad
 constexpr double kTransformSigma = 1.5;  // m, added to that of an inter-frame transform
 
-/// Errors of the relative pose that two descriptors give: cells and yaws are tried in coarse steps, and the
+/// Errors of the relative pose of two descriptors: it is searched in coarse cells and yaw steps, and the
 /// best match may be a few cells off.
 constexpr double kMatchSigma = 3.0;        // m
 constexpr double kMatchHeightSigma = 0.7;  // m: the ground under both is near
@@ -39,7 +39,7 @@ std::optional<registration::Prior> descriptor_prior(const graph::Node& target, c
   const auto of_target = place::Descriptor::decode(target.descriptor);
   const auto of_source = place::Descriptor::decode(source.descriptor);
   if (!of_target || !of_source) return std::nullopt;
-  const place::Likeness match = place::compare(*of_target, *of_source);
+  const place::DescriptorMatch match = place::compare(*of_target, *of_source);
   if (!(match.similarity >= min_similarity && match.similarity > 0.0)) return std::nullopt;
   registration::Prior prior;
   prior.T_target_source = place::relative_pose(match, target.up_in_base, source.up_in_base);
@@ -77,7 +77,8 @@ std::optional<registration::Prior> registration_prior(const LoopCandidate& candi
     const double added = candidate.origin == LoopCandidate::Origin::kOdometry ? kMinSigma : kTransformSigma;
     return transform_prior(*candidate.T_target_source, target.up_in_base, added);
   }
-  if (place::tells_place(target.G, config.max_sigma_m) && place::tells_place(source.G, config.max_sigma_m))
+  if (place::has_known_position(target.G, config.max_sigma_m) &&
+      place::has_known_position(source.G, config.max_sigma_m))
     return position_prior(*target.G, *source.G);
   return descriptor_prior(target, source, config.descriptors.min_similarity);
 }

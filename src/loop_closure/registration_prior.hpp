@@ -13,10 +13,13 @@ namespace fleetmap::loop_closure {
 registration::Prior position_prior(const GlobalPose& target, const GlobalPose& source);
 
 /// The prior with which the clouds of a candidate are registered:
+///
 /// - its own T_target_source, if it has one. That of an inter-frame transform is widened to the sigma of a
-///   good GPS, so that the search window holds the neighbouring rows and posts too: were the transform one
-///   row off, the right pose would be among the modes;
+///   good GPS, so that the search window contains the neighbouring rows and posts too: if the transform is
+///   one row off, the right pose is still among the modes;
+///
 /// - else both G, if neither's horizontal sigma exceeds LoopClosureConfig::max_sigma_m;
+///
 /// - else the descriptor match, if it reaches DescriptorMatchConfig::min_similarity.
 std::optional<registration::Prior> registration_prior(const LoopCandidate& candidate,
                                                       const graph::Node& target, const graph::Node& source,

@@ -7,8 +7,8 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/loop_closure/cloud_drift.hpp"
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/loop_closure/submap_drift.hpp"
 
 namespace fleetmap::loop_closure {
 namespace {
@@ -116,7 +116,7 @@ Result<RegistrationWorker::Source> RegistrationWorker::source_of(Job& job) const
     return Source{std::move(*prepared), job.own_source->spherized()->bytes};
   }
   const graph::Node& node = job.registration.source;
-  auto message = wire::decode<wire::SpherizedCloud>(job.received);
+  auto message = fleet_codec::decode<messages::SpherizedCloud>(job.received);
   if (!message) return tl::unexpected(message.error());
   if (message->node != node.id) return failure("the cloud is of node " + to_string(message->node));
   const auto cloud = cloud::decode(message->payload);
@@ -142,7 +142,7 @@ void RegistrationWorker::count(const Registration& registration) {
 void RegistrationWorker::note_refused_job() {
   --jobs_;
   ++counters_.failed;
-  spdlog::warn("{}: {} jobs wait already; one was let go", self_.str(), bus::Bus::kMostWork);
+  spdlog::warn("{}: {} jobs wait already; one was dropped", self_.str(), bus::Bus::kMaxWork);
 }
 
 void RegistrationWorker::make_cloud(const graph::Node& node, OnCloud done) {
@@ -178,8 +178,8 @@ std::optional<Bytes> RegistrationWorker::encoded(OwnCloud& own) {
   }
   ++counters_.clouds_made;
   counters_.largest_cloud_bytes = std::max(counters_.largest_cloud_bytes, cloud->bytes.size());
-  return wire::encode(wire::SpherizedCloud{id, spherize_.radius_m, cloud->voxel_m,
-                                           static_cast<std::uint32_t>(cloud->encoded), cloud->bytes});
+  return fleet_codec::encode(messages::SpherizedCloud{
+      id, spherize_.radius_m, cloud->voxel_m, static_cast<std::uint32_t>(cloud->encoded), cloud->bytes});
 }
 
 }  // namespace fleetmap::loop_closure

@@ -8,8 +8,8 @@
 namespace fleetmap::loop_closure {
 namespace {
 
-/// In rows that repeat one descriptor match may be one row off; of several that agree the graph rejects the
-/// wrong one. One registration that a G found is enough.
+/// Accepted registrations until a session counts as joined. Among repeated rows one descriptor match may be
+/// one row off; of several that agree the graph rejects the wrong one. By G one is enough.
 constexpr int kMinByDescriptor = 3;
 
 using Side = DescriptorCandidates::Side;
@@ -41,7 +41,7 @@ void SessionCandidates::on_accepted(const graph::Node& earlier, const graph::Nod
 }
 
 bool SessionCandidates::located(const graph::Node& node) const {
-  return place::tells_place(node.G, config_.max_sigma_m);
+  return place::has_known_position(node.G, config_.max_sigma_m);
 }
 
 std::optional<LoopCandidate> SessionCandidates::nearest(const graph::Node& node) const {

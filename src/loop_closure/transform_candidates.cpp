@@ -48,7 +48,7 @@ std::optional<LoopCandidate> TransformCandidates::search(const NodeId& node, con
   if (!nearest || nearest->distance > config_.max_radius) return std::nullopt;
   const NodePair pair = other == self_ ? NodePair{nearest->id, node} : NodePair{node, nearest->id};
   if (!usable(pair)) return std::nullopt;
-  // The same way round at both ends, so that both come to the same radius.
+  // In the same direction at both robots, so that both compute the same radius.
   const auto T = transforms_.between(std::min(pair.ours, pair.theirs), std::max(pair.ours, pair.theirs));
   if (!T) return std::nullopt;
   const double distance = T->T_a_b.translation().head<2>().norm();

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chord_visitors.hpp"
+
 namespace fleetmap::place {
 namespace {
 
 /// A child may hold this share of its parent's places before the parent is rebuilt...
-constexpr double kMostLopsided = 0.7;
+constexpr double kMaxChildShare = 0.7;
 /// ...provided that the parent has grown this much since it was last built. Equal coordinates can forbid an
 /// even split, and without this condition such a subtree would be rebuilt at every insert.
 constexpr double kGrowthBeforeRebuild = 1.5;
@@ -17,12 +19,6 @@ constexpr double kGrowthAtRebuild = 2.0;
 /// Leaves are built this full, to leave room for what comes.
 constexpr std::size_t kBuiltLeafSize = 10;
 
-/// Upper bound on the chord of any point that haversine_distance could, by its rounding, rank equal to or
-/// before a point at this chord. Unit vectors carry about 3e-16 of absolute error, haversine_distance about 8
-/// roundings of relative error in its square: both fit in here many times. On Earth the slack is 25 nm.
-double with_slack(double chord) { return chord * (1.0 + 1e-14) + 4e-15; }
-double squared(double x) { return x * x; }
-
 bool ranks_before(const Neighbor& a, const Neighbor& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
 }
@@ -30,66 +26,6 @@ bool ranks_before(const Neighbor& a, const Neighbor& b) {
 bool same_place(const GeoPoint& a, const GeoPoint& b) {
   return a.latitude == b.latitude && a.longitude == b.longitude;
 }
-
-/// Keeps the nearest place, and how near another one comes to it.
-struct NearestPlace {
-  double best = std::numeric_limits<double>::infinity();       ///< squared chord
-  double runner_up = std::numeric_limits<double>::infinity();  ///< squared chord
-  double bound = std::numeric_limits<double>::infinity();      ///< chord beyond which nothing matters
-  std::uint32_t place = 0;
-
-  void offer(double chord2, std::uint32_t candidate) {
-    if (chord2 >= best) {
-      runner_up = std::min(runner_up, chord2);
-      return;
-    }
-    runner_up = best;
-    best = chord2;
-    place = candidate;
-    bound = with_slack(std::sqrt(chord2));
-  }
-  double limit() const { return bound; }
-  bool ambiguous() const { return runner_up <= squared(bound); }
-};
-
-/// Collects every place within a fixed chord.
-struct PlacesWithin {
-  double bound;
-  double bound2;
-  std::vector<std::uint32_t> places;
-
-  explicit PlacesWithin(double chord) : bound(chord), bound2(squared(chord)) {}
-  void offer(double chord2, std::uint32_t candidate) {
-    if (chord2 <= bound2) places.push_back(candidate);
-  }
-  double limit() const { return bound; }
-};
-
-/// Collects every place that may be among the k nearest.
-struct NearestPlaces {
-  std::size_t k;
-  std::vector<double> heap;  ///< the k least squared chords, the greatest on top
-  std::vector<std::pair<double, std::uint32_t>> places;
-  double bound = std::numeric_limits<double>::infinity();
-  double bound2 = std::numeric_limits<double>::infinity();
-
-  explicit NearestPlaces(std::size_t count) : k(count) {}
-  void offer(double chord2, std::uint32_t candidate) {
-    if (chord2 > bound2) return;
-    places.emplace_back(chord2, candidate);
-    heap.push_back(chord2);
-    std::push_heap(heap.begin(), heap.end());
-    if (heap.size() > k) {
-      std::pop_heap(heap.begin(), heap.end());
-      heap.pop_back();
-    }
-    if (heap.size() == k) {
-      bound = with_slack(std::sqrt(heap.front()));
-      bound2 = squared(bound);
-    }
-  }
-  double limit() const { return bound; }
-};
 
 }  // namespace
 
@@ -181,7 +117,7 @@ std::size_t BallTree::insert(const GeoPoint& point) {
     const Node& node = nodes_[id];
     if (id == leaf || node.places < kGrowthBeforeRebuild * node.built) continue;
     const auto larger = std::max(nodes_[node.child].places, nodes_[node.child + 1].places);
-    if (larger > kMostLopsided * node.places || node.places >= kGrowthAtRebuild * node.built) {
+    if (larger > kMaxChildShare * node.places || node.places >= kGrowthAtRebuild * node.built) {
       rebuild(id);
       break;
     }
@@ -221,7 +157,7 @@ void BallTree::rebuild(Id node) {
   build(node, items.data(), items.data() + items.size());
 }
 
-/// Takes the items out of a subtree and gives back its storage, all but `node` itself.
+/// Moves the items of a subtree to `items` and frees its storage, except `node` itself.
 void BallTree::gather(Id node, std::vector<Item>& items) {
   const Node& n = nodes_[node];
   if (n.axis != kLeaf) {
@@ -316,7 +252,7 @@ void BallTree::visit(Id node, double bound, const Vector& q, Visitor& visitor) c
     }
     const double left = least_chord(nodes_[n.child].ball, q);
     const double right = least_chord(nodes_[n.child + 1].ball, q);
-    // Where the query lies in both balls, the side of the split it lies on tells more than the bounds do.
+    // A query inside both balls is nearer to the side of the split on which it lies.
     const bool left_first = std::max(left, 0.0) != std::max(right, 0.0) ? left < right : q[n.axis] < n.split;
     const Id child = n.child;
     visit(child + (left_first ? 0 : 1), left_first ? left : right, q, visitor);

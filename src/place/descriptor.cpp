@@ -15,8 +15,8 @@ constexpr float kLowHeight = 0.5f;   ///< m above the ground around
 constexpr float kHighHeight = 1.5f;  ///< m
 /// Overlaps of this many cells count half: few cells agree by chance.
 constexpr double kHalfTrustedOverlap = 60.0;
-constexpr int kLeastOverlap = 30;        ///< cells
-constexpr double kLeastVariation = 1.0;  ///< cells: a scene without anything on it resembles nothing
+constexpr int kMinOverlap = 30;        ///< cells
+constexpr double kMinVariation = 1.0;  ///< cells: a scene without anything on it resembles nothing
 
 struct Heights {
   std::array<float, kCells * kCells> low, high;
@@ -28,7 +28,7 @@ struct Heights {
 
 std::size_t cell(int x, int y) { return static_cast<std::size_t>(y * kCells + x); }
 
-/// The lowest that was seen in the cell and those next to it: the ground, even below a table that hides it.
+/// The lowest height in the cell and those next to it: the ground, even below a table that hides it.
 float ground_around(const Heights& heights, int x, int y) {
   float ground = std::numeric_limits<float>::infinity();
   for (int v = std::max(0, y - 1); v <= std::min(kCells - 1, y + 1); ++v) {
@@ -44,13 +44,13 @@ struct Counts {
 };
 
 double similarity_of(const Counts& c) {
-  if (c.n < kLeastOverlap) return 0.0;
+  if (c.n < kMinOverlap) return 0.0;
   const double n = c.n;
   const double sum_a = c.low_a + c.high_a;
   const double sum_b = c.low_b + c.high_b;
   const double variation_a = c.low_a + 3 * c.high_a - sum_a * sum_a / n;
   const double variation_b = c.low_b + 3 * c.high_b - sum_b * sum_b / n;
-  if (variation_a <= kLeastVariation || variation_b <= kLeastVariation) return 0.0;
+  if (variation_a <= kMinVariation || variation_b <= kMinVariation) return 0.0;
   const double correlation = (c.products - sum_a * sum_b / n) / std::sqrt(variation_a * variation_b);
   return std::clamp(correlation * n / (n + kHalfTrustedOverlap), 0.0, 1.0);
 }
@@ -192,14 +192,14 @@ DescriptorQuery::DescriptorQuery(const Descriptor& b) {
   }
 }
 
-Likeness DescriptorQuery::compare(const Descriptor& a) const {
+DescriptorMatch DescriptorQuery::compare(const Descriptor& a) const {
   std::array<std::uint64_t, kWords> seen{}, low{}, high{};
   for (std::size_t w = 0; w < kWords; ++w) {
     seen[w] = std::uint64_t{a.seen_[2 * w]} | std::uint64_t{a.seen_[2 * w + 1]} << 32;
     low[w] = std::uint64_t{a.low_[2 * w]} | std::uint64_t{a.low_[2 * w + 1]} << 32;
     high[w] = std::uint64_t{a.high_[2 * w]} | std::uint64_t{a.high_[2 * w + 1]} << 32;
   }
-  Likeness best;
+  DescriptorMatch best;
   for (int k = 0; k < kYaws; ++k) {
     const Turned& b = turned_[static_cast<std::size_t>(k)];
     for (int dy = -kShifts; dy <= kShifts; ++dy) {
@@ -225,13 +225,14 @@ Likeness DescriptorQuery::compare(const Descriptor& a) const {
   return best;
 }
 
-Likeness compare(const Descriptor& a, const Descriptor& b) { return DescriptorQuery(b).compare(a); }
+DescriptorMatch compare(const Descriptor& a, const Descriptor& b) { return DescriptorQuery(b).compare(a); }
 
-Pose relative_pose(const Likeness& likeness, const Eigen::Vector3d& up_in_a, const Eigen::Vector3d& up_in_b) {
+Pose relative_pose(const DescriptorMatch& match, const Eigen::Vector3d& up_in_a,
+                   const Eigen::Vector3d& up_in_b) {
   const Eigen::Matrix3d R_a_level = levelling(up_in_a).transpose();
-  const Eigen::Matrix3d turn = rotation_from_rpy(0.0, 0.0, likeness.yaw);
+  const Eigen::Matrix3d turn = rotation_from_rpy(0.0, 0.0, match.yaw);
   return make_pose(Eigen::Matrix3d(R_a_level * turn * levelling(up_in_b)),
-                   R_a_level * Eigen::Vector3d(likeness.translation.x(), likeness.translation.y(), 0.0));
+                   R_a_level * Eigen::Vector3d(match.translation.x(), match.translation.y(), 0.0));
 }
 
 }  // namespace fleetmap::place

@@ -4,12 +4,6 @@
 
 namespace fleetmap::place {
 
-Status NodeGeneratorConfig::validate() const {
-  if (!(spacing > 0.0) || !std::isfinite(spacing))
-    return failure("spacing: must be a finite number of metres > 0");
-  return {};
-}
-
 bool NodeGenerator::offer(const Pose& T_odom_base) {
   if (!all_finite(T_odom_base)) {
     ++refused_;

@@ -6,23 +6,6 @@
 
 namespace fleetmap::place {
 
-const char* to_string(Uncertainty uncertainty) {
-  return uncertainty == Uncertainty::variance ? "variance" : "sigma";
-}
-
-Status ProximityConfig::validate() const {
-  if (!(radius_scale > 0.0) || !std::isfinite(radius_scale)) {
-    return failure("radius_scale: must be a finite number > 0");
-  }
-  if (!(min_radius >= 0.0) || !std::isfinite(min_radius)) {
-    return failure("min_radius: must be a finite number of metres >= 0");
-  }
-  if (!(max_radius >= min_radius) || !std::isfinite(max_radius)) {
-    return failure("max_radius: must be a finite number of metres >= min_radius");
-  }
-  return {};
-}
-
 double horizontal_sigma(const Matrix6d& C_ekf) {
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   const double a = C_ekf(0, 0);
@@ -36,7 +19,7 @@ double horizontal_sigma(const Matrix6d& C_ekf) {
   return std::sqrt(std::max(0.0, mean + spread));
 }
 
-bool tells_place(const std::optional<GlobalPose>& G, double max_sigma_m) {
+bool has_known_position(const std::optional<GlobalPose>& G, double max_sigma_m) {
   return G && is_valid(G->position) && horizontal_sigma(G->covariance) <= max_sigma_m;
 }
 

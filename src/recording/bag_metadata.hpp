@@ -9,7 +9,7 @@
 
 namespace fleetmap::recording {
 
-/// The part of metadata.yaml that reading needs and the whole that writing gives.
+/// The part of metadata.yaml that reading needs, and the whole of it for writing.
 struct BagMetadata {
   struct Topic {
     std::string name;

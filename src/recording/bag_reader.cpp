@@ -127,7 +127,7 @@ class BagReader : public CheckedReader {
   std::optional<Stamp> recorded() const override { return recorded_; }
 
  private:
-  /// One message further; empty when it gave no sample.
+  /// Advances by one message; empty when it yields no sample.
   Result<std::optional<Sample>> advance() {
     if (!split_) {
       if (next_file_ == files_.size()) {
@@ -174,7 +174,7 @@ class BagReader : public CheckedReader {
   std::optional<Sample> decode(Kind kind, ByteView cdr, const std::string& topic) {
     switch (kind) {
       case Kind::kScan: {
-        auto decoded = wire::decode_scan(cdr);
+        auto decoded = ros_codec::decode_scan(cdr);
         if (!decoded) return undecodable(topic, decoded.error());
         if (!admit_points(*decoded, "a scan on " + topic)) return std::nullopt;
         return Sample(std::move(decoded->scan));
@@ -190,7 +190,7 @@ class BagReader : public CheckedReader {
 
   template <class T>
   std::optional<Sample> sample_of(ByteView cdr, const std::string& topic) {
-    auto decoded = wire::decode<T>(cdr);
+    auto decoded = ros_codec::decode<T>(cdr);
     if (!decoded) return undecodable(topic, decoded.error());
     return Sample(std::move(*decoded));
   }
@@ -240,7 +240,7 @@ Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wan
     if (!found) return tl::unexpected(found.error());
     topics.insert(found->begin(), found->end());
   }
-  auto kinds = choose_topics({topics.begin(), topics.end()}, wanted, path.string());
+  auto kinds = select_topics({topics.begin(), topics.end()}, wanted, path.string());
   if (!kinds) return tl::unexpected(kinds.error());
   return std::make_unique<BagReader>(path.string(), std::move(*files), std::move(*kinds));
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr char kNone[] = "none";
 
-/// One line of the choice: which config key, which type, which name we give it ourselves.
+/// One kind of topic: its config key, its type and our own name for it.
 struct Role {
   Kind kind;
   const char* key;
@@ -31,7 +31,7 @@ std::string list(const std::vector<BagTopic>& topics) {
   return out.empty() ? "none" : out;
 }
 
-Result<std::string> choose(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
+Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
                            const std::string& bag) {
   std::vector<BagTopic> candidates;
   std::ranges::copy_if(topics, std::back_inserter(candidates),
@@ -56,12 +56,12 @@ Result<std::string> choose(const Role& role, const std::vector<BagTopic>& topics
 
 }  // namespace
 
-Result<std::map<std::string, Kind>> choose_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
+Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
                                                   const std::string& bag) {
   std::map<std::string, Kind> chosen;
   for (const Role& role : kRoles) {
     if (wanted.*role.wanted == kNone && !role.needed) continue;
-    const auto name = choose(role, topics, wanted.*role.wanted, bag);
+    const auto name = select(role, topics, wanted.*role.wanted, bag);
     if (!name) return tl::unexpected(name.error());
     if (!name->empty()) chosen.emplace(*name, role.kind);
   }

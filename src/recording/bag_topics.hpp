@@ -16,13 +16,13 @@ struct BagTopic {
   auto operator<=>(const BagTopic&) const = default;
 };
 
-/// What a message of a topic is decoded to.
+/// The sample to which a message of a topic is decoded.
 enum class Kind { kScan, kImu, kFix, kWheel };
 
-/// Chooses what to read: by name where the config gives one, else the only topic of the type, else the one
-/// that has our own name. Points must be found; the rest may be absent. Errors list the candidates and the
-/// config key.
-Result<std::map<std::string, Kind>> choose_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
+/// Selects the topics to read: by name if the config has one, else the only topic of the type, else the one
+/// with our own name. Points must be found; the rest may be absent. Errors list the candidates and the config
+/// key.
+Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
                                                   const std::string& bag);
 
 }  // namespace fleetmap::recording

@@ -28,7 +28,7 @@ constexpr Counter kCounters[] = {
     {"malformed_oxts_frames", &Counters::malformed_oxts_frames},
 };
 
-/// A clock is believed to have been set back by more than this when two samples say so ...
+/// A clock counts as set back by more than this after two such samples ...
 constexpr Duration kClockSet = std::chrono::seconds(1);
 /// ... and the next one does, too.
 constexpr int kClockSetSamples = 2;
@@ -85,7 +85,7 @@ bool CheckedReader::admit(const Sample& sample) {
   return true;
 }
 
-bool CheckedReader::admit_points(const wire::DecodedScan& decoded, const std::string& where) {
+bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const std::string& where) {
   if (decoded.scan.points.empty()) {
     skip(&Counters::empty_scans, where + " has no return");
     return false;

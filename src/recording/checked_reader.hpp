@@ -6,11 +6,11 @@
 #include <string>
 
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 
 namespace fleetmap::recording {
 
-/// What every reader does with a sample before giving it out, and how it says what it left out.
+/// Checks that every reader applies to a sample, and the log of what they leave out.
 class CheckedReader : public Reader {
  public:
   explicit CheckedReader(std::string source) : source_(std::move(source)) {}
@@ -22,7 +22,7 @@ class CheckedReader : public Reader {
   /// out again, as a live sensor's would come.
   bool admit(const Sample& sample);
   /// False, counted, for a scan without a return; else its dropped points are counted.
-  bool admit_points(const wire::DecodedScan& decoded, const std::string& where);
+  bool admit_points(const ros_codec::DecodedScan& decoded, const std::string& where);
   /// Counts, and logs the first of each kind.
   void skip(std::uint64_t Counters::*reason, const std::string& what, std::uint64_t count = 1);
 

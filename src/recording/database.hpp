@@ -38,7 +38,9 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement_;
 };
 
-/// One SQLite file. Errors name the file.
+/// One SQLite file. Errors name the file. Written by hand (90 lines) and apart from store::Database, which
+/// holds the durability of a write-ahead log that a bag does not need; SQLiteCpp throws where a damaged bag
+/// has to return an Error.
 class Database {
  public:
   static Result<Database> open_for_reading(const std::filesystem::path& file);
@@ -46,7 +48,7 @@ class Database {
 
   Result<Statement> prepare(const char* sql) const;
   Status execute(const char* sql) const;
-  /// What SQLite says about the last failure.
+  /// SQLite's message about the last failure.
   Error error(const std::string& doing) const;
   std::int64_t last_insert_id() const { return sqlite3_last_insert_rowid(connection_.get()); }
 

@@ -33,7 +33,7 @@ std::optional<std::size_t> frame_number(const fs::path& file) {
   return number <= kMaxFrame ? std::optional(number) : std::nullopt;
 }
 
-/// Where a recording of KITTI's kinds keeps what.
+/// The paths of a recording in KITTI's formats.
 struct Layout {
   fs::path scans;
   fs::path scan_stamps;  ///< a file; it need not be there
@@ -244,7 +244,7 @@ Status read_stamps(const Layout& layout, KittiReader::Files& files) {
   return {};
 }
 
-/// What the files do not say and is taken to be so.
+/// Logs assumptions that replace missing files.
 void say_what_is_assumed(const Layout& layout, const KittiReader::Files& files, const KittiConfig& config) {
   const std::string where = layout.scans.string();
   if (files.scan_stamps.empty()) {
@@ -266,7 +266,7 @@ void say_what_is_assumed(const Layout& layout, const KittiReader::Files& files, 
 
 }  // namespace
 
-bool looks_like_kitti(const fs::path& path) { return layout_of(path).has_value(); }
+bool has_kitti_layout(const fs::path& path) { return layout_of(path).has_value(); }
 
 Result<std::unique_ptr<Reader>> open_kitti(const fs::path& path, const KittiConfig& config) {
   const Layout layout = layout_of(path).value();

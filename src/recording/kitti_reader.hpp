@@ -9,8 +9,8 @@ namespace fleetmap::recording {
 
 /// KITTI's raw layout (velodyne_points, oxts), that of its odometry benchmark (velodyne, times.txt), or a
 /// bare folder of scans.
-bool looks_like_kitti(const std::filesystem::path& path);
-/// Of a path that looks like it.
+bool has_kitti_layout(const std::filesystem::path& path);
+/// True for a path with such a content.
 Result<std::unique_ptr<Reader>> open_kitti(const std::filesystem::path& path, const KittiConfig& config);
 
 }  // namespace fleetmap::recording

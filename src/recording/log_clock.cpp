@@ -11,43 +11,43 @@ namespace fleetmap::recording {
 namespace {
 
 constexpr Duration kLooksAt = std::chrono::seconds(20);
-constexpr std::size_t kMostSamples = 20'000;
+constexpr std::size_t kMaxSamples = 20'000;
 /// A sensor's rate is known from so much of its own time.
-constexpr Duration kLeastSpan = std::chrono::seconds(2);
+constexpr Duration kMinSpan = std::chrono::seconds(2);
 /// Clocks drift by less; programs that played or simulated at another rate miss it by more.
-constexpr double kMostRateError = 0.05;
+constexpr double kMaxRateError = 0.05;
 /// Lags below this are those of drivers and of single sensors' clocks.
 constexpr Duration kWrittenLater = std::chrono::minutes(1);
 
-/// Of one kind of sensor.
-struct Seen {
+/// Times of one kind of sensor.
+struct SensorTimes {
   Stamp first_stamp, last_stamp, first_recorded, last_recorded;
   Duration least_lag = Duration::max();
 };
 
-std::optional<double> rate_of(const Seen& seen) {
+std::optional<double> rate_of(const SensorTimes& seen) {
   const Duration span = seen.last_stamp - seen.first_stamp;
-  if (span < kLeastSpan) return std::nullopt;
+  if (span < kMinSpan) return std::nullopt;
   return to_seconds(seen.last_recorded - seen.first_recorded) / to_seconds(span);
 }
 
-/// Of sensors that disagree, the one nearer to the times of recording.
+/// Two sensors that disagree: the one nearer to the times of recording counts.
 Duration common_lag(std::vector<Duration> lags) {
   std::ranges::sort(lags, {}, [](Duration lag) { return lag < Duration::zero() ? -lag : lag; });
   return lags[(lags.size() - 1) / 2];
 }
 
-LogClock clock_of(const std::vector<Seen>& sensors) {
+LogClock clock_of(const std::vector<SensorTimes>& sensors) {
   std::vector<double> rates;
   std::vector<Duration> lags;
-  for (const Seen& seen : sensors) {
+  for (const SensorTimes& seen : sensors) {
     if (const auto rate = rate_of(seen)) rates.push_back(*rate);
     lags.push_back(seen.least_lag);
   }
   LogClock clock;
   if (!rates.empty()) {
     std::ranges::sort(rates, {}, [](double rate) { return std::abs(rate - 1.0); });
-    clock.usable = std::abs(rates[(rates.size() - 1) / 2] - 1.0) <= kMostRateError;
+    clock.usable = std::abs(rates[(rates.size() - 1) / 2] - 1.0) <= kMaxRateError;
   }
   const Duration lag = common_lag(lags);
   if (lag > kWrittenLater || lag < -kWrittenLater) clock.shift = -lag;
@@ -59,23 +59,23 @@ LogClock clock_of(const std::vector<Seen>& sensors) {
 Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config) {
   auto reader = open(recording, config);
   if (!reader) return tl::unexpected(reader.error());
-  std::array<std::optional<Seen>, std::variant_size_v<Sample>> seen;
+  std::array<std::optional<SensorTimes>, std::variant_size_v<Sample>> seen;
   std::optional<Stamp> begun;
-  for (std::size_t samples = 0; samples < kMostSamples; ++samples) {
+  for (std::size_t samples = 0; samples < kMaxSamples; ++samples) {
     const auto sample = (*reader)->next();
-    if (!sample || !*sample) break;  // whoever plays it says why
+    if (!sample || !*sample) break;  // the player reports the reason
     const auto recorded = (*reader)->recorded();
     if (!recorded) return LogClock{};
     if (!begun) begun = recorded;
     const Stamp stamp = stamp_of(**sample);
-    std::optional<Seen>& sensor = seen[(*sample)->index()];
-    if (!sensor) sensor = Seen{stamp, stamp, *recorded, *recorded};
+    std::optional<SensorTimes>& sensor = seen[(*sample)->index()];
+    if (!sensor) sensor = SensorTimes{stamp, stamp, *recorded, *recorded};
     sensor->last_stamp = stamp;
     sensor->last_recorded = *recorded;
     sensor->least_lag = std::min(sensor->least_lag, *recorded - stamp);
     if (*recorded - *begun > kLooksAt) break;
   }
-  std::vector<Seen> sensors;
+  std::vector<SensorTimes> sensors;
   for (const auto& sensor : seen) {
     if (sensor) sensors.push_back(*sensor);
   }

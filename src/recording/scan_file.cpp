@@ -16,7 +16,7 @@ fs::path unpacked_name(const fs::path& file) {
   return file.extension() == ".xz" ? file.stem() : file.filename();
 }
 
-void add_point(wire::DecodedScan& out, const Eigen::Vector3f& position, float intensity) {
+void add_point(ros_codec::DecodedScan& out, const Eigen::Vector3f& position, float intensity) {
   if (!position.allFinite()) {
     ++out.non_finite_points;
   } else if (position.isZero(0.0f)) {
@@ -26,13 +26,13 @@ void add_point(wire::DecodedScan& out, const Eigen::Vector3f& position, float in
   }
 }
 
-Result<wire::DecodedScan> read_bin(const Bytes& bytes, const std::string& file) {
+Result<ros_codec::DecodedScan> read_bin(const Bytes& bytes, const std::string& file) {
   constexpr std::size_t kPoint = 4 * sizeof(float);
   if (bytes.size() % kPoint != 0) {
     return failure(file + ": " + std::to_string(bytes.size()) +
                    " bytes are no whole number of points of 16 bytes; the file is truncated");
   }
-  wire::DecodedScan out;
+  ros_codec::DecodedScan out;
   out.scan.points.reserve(bytes.size() / kPoint);
   for (std::size_t at = 0; at < bytes.size(); at += kPoint) {
     float values[4];
@@ -42,7 +42,7 @@ Result<wire::DecodedScan> read_bin(const Bytes& bytes, const std::string& file) 
   return out;
 }
 
-/// Where a PCD header says that things are.
+/// Positions of fields by a PCD header.
 struct PcdHeader {
   std::size_t points = 0;
   std::size_t step = 0;              ///< bytes of a point
@@ -123,14 +123,14 @@ Result<PcdHeader> read_header(const Bytes& bytes, const std::string& file) {
   return header;
 }
 
-Result<wire::DecodedScan> read_pcd_binary(const Bytes& bytes, const PcdHeader& header,
-                                          const std::string& file) {
+Result<ros_codec::DecodedScan> read_pcd_binary(const Bytes& bytes, const PcdHeader& header,
+                                               const std::string& file) {
   const std::size_t there = (bytes.size() - header.data_begin) / header.step;
   if (there < header.points) {
     return failure(file + ": has " + std::to_string(there) + " of " + std::to_string(header.points) +
                    " points; the file is truncated");
   }
-  wire::DecodedScan out;
+  ros_codec::DecodedScan out;
   out.scan.points.reserve(header.points);
   const std::uint8_t* point = bytes.data() + header.data_begin;
   for (std::size_t k = 0; k < header.points; ++k, point += header.step) {
@@ -143,11 +143,11 @@ Result<wire::DecodedScan> read_pcd_binary(const Bytes& bytes, const PcdHeader& h
   return out;
 }
 
-Result<wire::DecodedScan> read_pcd_ascii(const Bytes& bytes, const PcdHeader& header,
-                                         const std::string& file) {
+Result<ros_codec::DecodedScan> read_pcd_ascii(const Bytes& bytes, const PcdHeader& header,
+                                              const std::string& file) {
   std::istringstream stream(
       std::string(bytes.begin() + static_cast<std::ptrdiff_t>(header.data_begin), bytes.end()));
-  wire::DecodedScan out;
+  ros_codec::DecodedScan out;
   for (std::size_t k = 0; k < header.points; ++k) {
     float values[4] = {0, 0, 0, 0};
     for (std::size_t column = 0; column < header.columns; ++column) {
@@ -165,7 +165,7 @@ Result<wire::DecodedScan> read_pcd_ascii(const Bytes& bytes, const PcdHeader& he
   return out;
 }
 
-Result<wire::DecodedScan> read_pcd(const Bytes& bytes, const std::string& file) {
+Result<ros_codec::DecodedScan> read_pcd(const Bytes& bytes, const std::string& file) {
   const auto header = read_header(bytes, file);
   if (!header) return tl::unexpected(header.error());
   if (header->data == "binary") return read_pcd_binary(bytes, *header, file);
@@ -181,7 +181,7 @@ bool is_scan_file(const fs::path& file) {
   return extension == ".bin" || extension == ".pcd";
 }
 
-Result<wire::DecodedScan> read_scan_file(const fs::path& file) {
+Result<ros_codec::DecodedScan> read_scan_file(const fs::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return tl::unexpected(bytes.error());
   return unpacked_name(file).extension() == ".bin" ? read_bin(*bytes, file.string())

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 
 namespace fleetmap::recording {
 
@@ -13,6 +13,6 @@ bool is_scan_file(const std::filesystem::path& file);
 /// A KITTI scan: .bin of float32 x, y, z, reflectance, or .pcd (binary or ascii) with x, y, z and perhaps
 /// intensity. Neither has time or ring. Points without a return are dropped and counted, as are those at the
 /// origin: files converted from .bin may end in such a mark.
-Result<wire::DecodedScan> read_scan_file(const std::filesystem::path& file);
+Result<ros_codec::DecodedScan> read_scan_file(const std::filesystem::path& file);
 
 }  // namespace fleetmap::recording

@@ -20,7 +20,7 @@ bool was_seen(const FlatMap& map, const Eigen::Vector3f& p) {
 struct PointFit {
   bool seen = false;
   bool near = false;     ///< a surfel is near whose normal does not contradict
-  float squared = 0.0f;  ///< m^2, distance from it in the directions that it knows
+  float squared = 0.0f;  ///< m^2, distance from it in the directions that it constrains
 };
 
 PointFit fit_of(const Surfel* surfel, const FlatMap& flat, const Eigen::Vector3f& p, const Facing& own,
@@ -64,7 +64,7 @@ void for_each_fit(const PreparedCloud::Data& fixed, const MovingPoints& moving, 
 
 struct Total {
   double misfit = 0.0, squares = 0.0;
-  std::size_t inliers = 0, seen = 0, standing = 0, standing_inliers = 0;
+  std::size_t inliers = 0, seen = 0, above_floor = 0, above_floor_inliers = 0;
 };
 
 void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& moving, const Pose& T,
@@ -74,13 +74,13 @@ void compare_one_way(const PreparedCloud::Data& fixed, const MovingPoints& movin
     if (!point.seen) return;
     const float misfit = point.near ? point.squared / (point.squared + half2) : 1.0f;
     ++total.seen;
-    total.standing += moving.standing[i];
+    total.above_floor += moving.above_floor[i];
     total.misfit += static_cast<double>(misfit);
     fit.misfit[first_patch + moving.patches[i]] += misfit;
     ++fit.seen[first_patch + moving.patches[i]];
     if (!point.near || point.squared > inlier2) return;
     ++total.inliers;
-    total.standing_inliers += moving.standing[i];
+    total.above_floor_inliers += moving.above_floor[i];
     total.squares += static_cast<double>(point.squared);
   });
 }
@@ -100,8 +100,8 @@ Fit compare(const PreparedCloud::Data& target, const PreparedCloud::Data& source
   }
   const auto seen = static_cast<double>(forth.seen + back.seen);
   fit.score = seen > 0.0 ? 1.0 - (forth.misfit + back.misfit) / seen : 0.0;
-  if (forth.standing > 0)
-    fit.agreement = static_cast<double>(forth.standing_inliers) / static_cast<double>(forth.standing);
+  if (forth.above_floor > 0)
+    fit.agreement = static_cast<double>(forth.above_floor_inliers) / static_cast<double>(forth.above_floor);
   fit.inliers = forth.inliers;
   fit.overlapping = forth.seen;
   fit.scored = source.fine.points.size();

@@ -14,8 +14,8 @@ struct Fit {
   std::vector<std::uint16_t> seen;  ///< points of the patch that lie where the other saw something
   double score = 0.0;
   double rmse = 0.0;
-  /// Of the source points that stand out of the floor and lie where the target saw something: share of
-  /// inliers. Floors agree at any pose.
+  /// Share of inliers among the source points above the floor that lie in the area seen by the target's
+  /// robot. Floors agree at any pose.
   double agreement = 0.0;
   std::size_t inliers = 0;
   std::size_t overlapping = 0;
@@ -33,10 +33,10 @@ double noise_of(const PreparedCloud::Data& data, const RegistrationConfig& confi
 double coarse_misfit(const PreparedCloud::Data& target, const PreparedCloud::Data& source, const Pose& T,
                      const RegistrationConfig& config);
 
-/// How much more the points speak for `a` than for `b`, as a logarithm of odds. Poses are compared patch by
-/// patch; the sum over its own size (self-normalised: bounded for any symmetric chance) is a standard deviate
-/// z, and z |z| / 2 the evidence. A patch that only one pose lets the other robot see is compared with
-/// `chance`, the misfit of a patch at a wrong pose, or left out if that is unknown.
+/// Evidence for pose `a` against `b` as a logarithm of odds. Poses are compared patch by patch. The sum of
+/// the differences, divided by its own size (self-normalised: bounded for any symmetric distribution), is a
+/// standard normal deviate z, and z |z| / 2 the evidence. A patch that the other robot sees at one of the
+/// poses only is compared with `chance`, the misfit of a patch at a wrong pose, or left out without it.
 double evidence(const Fit& a, const Fit& b, std::optional<double> chance);
 
 }  // namespace fleetmap::registration

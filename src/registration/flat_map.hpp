@@ -4,18 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace fleetmap::registration {
+#include "flat_config.hpp"
 
-/// A levelled cloud as seen from above: which cells hold something, by its height above the floor. The floor
-/// is the lower envelope of the points, so two clouds agree on heights before anyone knows their offset in
-/// height or their common tilt.
-struct FlatConfig {
-  float cell_m = 0.6f;          ///< m
-  float layer_m = 0.6f;         ///< m of height above the floor
-  float floor_cell_m = 2.0f;    ///< m
-  float min_height_m = 0.35f;   ///< m above the floor, what is lower is floor
-  std::size_t max_cells = 600;  ///< of a cloud that moves: those compared, evenly picked
-};
+namespace fleetmap::registration {
 
 inline constexpr int kLayers = 8;  ///< the last holds all that is higher
 
@@ -29,19 +20,22 @@ struct Floor {
   float at(const Eigen::Vector2f& p) const;
 };
 
-/// One occupied cell of a cloud that moves.
+/// An occupied cell of the moving cloud.
 struct FlatCell {
   Eigen::Vector2f center;
   int layer = 0;
 };
 
+/// A levelled cloud from above: the occupied cells by height above the floor. The floor is the lower
+/// envelope of the points, so two clouds agree on heights before their offset in height or their common tilt
+/// is estimated.
 struct FlatMap {
   float cell_m = 0.6f;
   Eigen::Vector2f origin = Eigen::Vector2f::Zero();
   Eigen::Vector2i size = Eigen::Vector2i::Zero();
   /// Layer by layer, row by row: 2 where occupied, 1 next to that.
   std::vector<std::uint8_t> layers;
-  /// Of kSeenCells x kSeenCells cells: 1 where there is any point, floor or not.
+  /// Grid of kSeenCells x kSeenCells cells: 1 where there is any point, floor or not.
   Eigen::Vector2i seen_size = Eigen::Vector2i::Zero();
   std::vector<std::uint8_t> seen;
   std::vector<FlatCell> cells;  ///< picked

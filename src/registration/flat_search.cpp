@@ -13,7 +13,7 @@ constexpr float kSectorRad = 0.6f;  // poses of one place whose yaws differ by m
 constexpr std::size_t kFloorsForSlope = 20;
 constexpr float kFloorNoise = 0.2f;   // m
 constexpr float kSlopeHold = 400.0f;  // m^2, towards no slope: as of one more cell 20 m away
-constexpr float kMostSlope = 0.15f;   // more than levels err
+constexpr float kMaxSlope = 0.15f;    // more than levels err
 
 /// Scores of all shifts of one yaw, as integers.
 struct Sums {
@@ -178,15 +178,15 @@ class Search {
     std::vector<FlatCandidate> best;
     for (Ranked& ranked : found) {
       if (best.size() == window_.max_candidates) break;
-      stand_on_floor(ranked.candidate);
+      snap_to_floor(ranked.candidate);
       best.push_back(ranked.candidate);
     }
     return best;
   }
 
-  /// Sets height and slope: the plane through the differences of the floors where both are known. Levels are
-  /// known to a degree or so, which at the rim of a map is as much as a panel's height.
-  void stand_on_floor(FlatCandidate& candidate) const {
+  /// Sets height and slope: the plane through the differences of the floors where both have one. Levels are
+  /// accurate to about a degree, which at the rim of a map is as much as the height of a panel.
+  void snap_to_floor(FlatCandidate& candidate) const {
     const Floor& floor = source_.floor;
     const float c = std::cos(candidate.yaw), s = std::sin(candidate.yaw);
     std::vector<Eigen::Vector3f> differences;
@@ -224,7 +224,7 @@ class Search {
       }
       H.diagonal().tail<2>().array() += kSlopeHold;
       const Eigen::Vector3f plane = H.ldlt().solve(g);
-      if (!plane.allFinite() || plane.tail<2>().norm() > kMostSlope) return;
+      if (!plane.allFinite() || plane.tail<2>().norm() > kMaxSlope) return;
       candidate.height = plane[0];
       candidate.slope = plane.tail<2>();
     }

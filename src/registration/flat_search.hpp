@@ -7,7 +7,7 @@
 
 namespace fleetmap::registration {
 
-/// Where to look: T_target_source between levelled frames.
+/// The search window: T_target_source between levelled frames.
 struct FlatWindow {
   Eigen::Vector2f center = Eigen::Vector2f::Zero();
   float radius_m = 20.0f;     ///< m
@@ -27,8 +27,8 @@ struct FlatCandidate {
   double overlap = 0.0;                             ///< [0, 1]
 };
 
-/// Every pose of the window, to the map's cell and the yaw's step, is scored by correlation; local maxima
-/// come back, best first.
+/// Scores every pose of the window, to the map's cell and the yaw's step, by correlation (Olson, "Real-time
+/// correlative scan matching", ICRA 2009). Returns local maxima, best first.
 std::vector<FlatCandidate> flat_search(const FlatMap& target, const FlatMap& source,
                                        const FlatWindow& window);
 

@@ -8,7 +8,7 @@
 namespace fleetmap::registration {
 namespace {
 
-/// Modes of less weight after a rough alignment are not looked at again.
+/// Modes of less weight after a rough alignment are dropped.
 constexpr double kContenderWeight = 1e-9;
 
 /// The prior of levelled frames.
@@ -92,7 +92,7 @@ std::vector<Candidate> candidates_of(const PreparedCloud::Data& target, const Pr
   return distinct;
 }
 
-/// Where there are many modes most are wrong, and the median of their misfits is that of a wrong pose.
+/// With many modes most are wrong, so the median of their misfits estimates that of a wrong pose.
 std::optional<double> chance_of(const std::vector<FoundMode>& modes) {
   if (modes.size() < 5) return std::nullopt;
   std::vector<double> misfits;
@@ -120,16 +120,16 @@ bool weigh(std::vector<FoundMode>& modes) {
   return first;
 }
 
-/// Aligns `points` from each start; what ends outside of the prior or at the same place is dropped; best
-/// score first. With covariances if `bendings` are given.
+/// Aligns `points` from each start and drops results outside of the prior or equal to another one. Best
+/// score first; with covariances if `drift_models` are present.
 std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const PreparedCloud::Data& source,
                                const MovingPoints& points, const std::vector<Pose>& starts,
                                const IcpConfig& icp, const Window& window, const RegistrationConfig& config,
-                               const Bendings* bendings) {
+                               const DriftModels* drift_models) {
   std::vector<FoundMode> modes;
   for (const Pose& start : starts) {
     FoundMode mode;
-    mode.icp = align(target.surfels, points, start, icp, bendings);
+    mode.icp = align(target.surfels, points, start, icp, drift_models);
     mode.T_level = mode.icp.T_target_source;
     if (window.prior && !agrees(*window.prior, mode.T_level, config.prior_sigmas)) continue;
     mode.fit = compare(target, source, mode.T_level, config);
@@ -152,14 +152,16 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
-/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant.
+/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant. What would
+/// leave the prior stays as it was.
 void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
-            const Bendings& bendings, FoundMode& mode) {
+            const DriftModels& drift_models, const Window& window, double prior_sigmas, FoundMode& mode) {
   IcpConfig icp = fine;
   icp.sides = Sides::of_sensors;
   icp.iterations_per_stage = 12;
-  const IcpResult refined = align(target.surfels, points, mode.T_level, icp, &bendings);
+  const IcpResult refined = align(target.surfels, points, mode.T_level, icp, &drift_models);
   if (!refined.converged) return;
+  if (window.prior && !agrees(*window.prior, refined.T_target_source, prior_sigmas)) return;
   mode.icp = refined;
   mode.T_level = refined.T_target_source;
 }
@@ -186,10 +188,12 @@ std::vector<FoundMode> find_modes(const PreparedCloud::Data& target, const Prepa
   IcpConfig fine = config.icp;
   fine.kernels_m = {config.icp.kernels_m.back()};
   fine.far_stages = 0;
-  const Bendings bendings{{drifts.target, target.R_level_cloud}, {drifts.source, source.R_level_cloud}};
+  const DriftModels drift_models{{drifts.target, target.R_level_cloud},
+                                 {drifts.source, source.R_level_cloud}};
   const MovingPoints& points = contenders.size() == 1 ? source.all : source.fine;
-  std::vector<FoundMode> modes = aligned(target, source, points, contenders, fine, window, config, &bendings);
-  for (FoundMode& mode : modes) refine(target, points, fine, bendings, mode);
+  std::vector<FoundMode> modes =
+      aligned(target, source, points, contenders, fine, window, config, &drift_models);
+  for (FoundMode& mode : modes) refine(target, points, fine, drift_models, window, config.prior_sigmas, mode);
   return modes;
 }
 

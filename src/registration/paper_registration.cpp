@@ -45,13 +45,13 @@ using Points = pcl::PointCloud<pcl::PointNormal>;
 using Features = pcl::PointCloud<pcl::FPFHSignature33>;
 using Tree = pcl::search::KdTree<pcl::PointNormal>;
 
-/// Registrations of several robots run beside each other; each uses the one core it was given.
+/// Registrations of several robots run in parallel; each uses one core.
 constexpr unsigned kThreads = 1;
 /// m and rad: standard deviation of what the scene does not constrain.
 constexpr double kUnconstrained = 10.0;
 /// m: residuals below this are rounding of the coded points, not knowledge.
-constexpr double kLeastResidual = 0.01;
-constexpr int kMostDraws = 100'000;  // of three correspondences, until their triangles are similar
+constexpr double kMinResidual = 0.01;
+constexpr int kMaxDraws = 100'000;  // of three correspondences, until their triangles are similar
 
 Points::Ptr points_of(const cloud::PointCloud& cloud) {
   auto points = std::make_shared<Points>();
@@ -93,7 +93,7 @@ Features::Ptr fpfh_of(const Points::Ptr& points, float radius_m) {
   return features;
 }
 
-/// PCL prints to stderr where it finds no pose; the verdict says so already.
+/// PCL prints to stderr if it finds no pose; the verdict reports that already.
 void silence_pcl() {
   static std::once_flag once;
   std::call_once(once, [] { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); });
@@ -117,7 +117,7 @@ struct FeatureCloud::Data {
 namespace {
 
 /// Draws three correspondences until their triangles in source and target have equal sides: scoring a pose
-/// is dear, and most samples of wrong correspondences are told apart by this (Buch et al., ICRA 2013, as in
+/// is expensive, and this test rejects most samples of wrong correspondences (Buch et al., ICRA 2013, as in
 /// PCL's SampleConsensusPrerejective, which draws from the process's rand()).
 class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::PointNormal> {
  public:
@@ -134,10 +134,11 @@ class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::Point
     setInputTarget(target, indices(matches, &pcl::Correspondence::index_match));
   }
 
-  /// As the base's, which gives up after 1000 draws; one in some thousand is good where little overlaps.
+  /// Overrides the base class, which stops after 1000 draws; with little overlap one in some thousand is
+  /// good.
   void getSamples(int& /*iterations*/, pcl::Indices& samples) override {
     samples.resize(getSampleSize());
-    for (int draw = 0; draw < kMostDraws; ++draw) {
+    for (int draw = 0; draw < kMaxDraws; ++draw) {
       drawIndexSample(samples);
       if (isSampleGood(samples)) return;
     }
@@ -240,7 +241,7 @@ void measure(const FeatureCloud::Data& target, const FeatureCloud::Data& source,
   if (result.inliers == 0) return;
   const auto count = static_cast<double>(result.inliers);
   result.rmse = std::sqrt(squared_distances / count);
-  const double variance = std::max(squared_residuals / count, kLeastResidual * kLeastResidual);
+  const double variance = std::max(squared_residuals / count, kMinResidual * kMinResidual);
   information /= variance;
   information.diagonal().array() += 1.0 / (kUnconstrained * kUnconstrained);
   result.covariance = information.inverse();

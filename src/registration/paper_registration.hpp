@@ -25,10 +25,10 @@ class FeatureCloud {
   std::shared_ptr<const Data> data_;
 };
 
-/// The paper's spherized registration (Alg. 3): RANSAC over reciprocal FPFH correspondences gives a pose,
-/// point-to-plane ICP refines it. E_ij is the root mean square distance of the inlier pairs (Eq. 2), C_ij the
-/// inverse Fisher information of the point-to-plane residuals. The result has one mode, or none where the
-/// features give no pose. Deterministic.
+/// The paper's spherized registration (Alg. 3): RANSAC over reciprocal FPFH correspondences finds a pose,
+/// point-to-plane ICP refines it. E_ij is the root mean square distance of the inlier pairs (Eq. 2), C_ij
+/// the inverse Fisher information of the point-to-plane residuals. The result has one mode, or none if
+/// RANSAC finds no pose. Deterministic.
 RegistrationResult register_by_features(const FeatureCloud& target, const FeatureCloud& source,
                                         const PaperConfig& config);
 

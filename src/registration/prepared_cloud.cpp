@@ -11,7 +11,7 @@
 namespace fleetmap::registration {
 namespace {
 
-constexpr float kStandingHeight = 0.35f;  // m above the floor
+constexpr float kMinHeightAboveFloor = 0.35f;  // m above the floor
 
 std::vector<Eigen::Vector3f> levelled(const cloud::PointCloud& cloud, const Eigen::Matrix3d& R_level_cloud,
                                       const RegistrationConfig& config) {
@@ -41,7 +41,7 @@ MovingPoints moving(const std::vector<Eigen::Vector3f>& points, const SurfelMap&
     const auto cell = [&](float v) {
       return std::clamp(static_cast<int>(std::floor(v / config.patch_m)) + side / 2, 0, side - 1);
     };
-    all.standing.push_back(points[i].z() - floor.at(points[i].head<2>()) > kStandingHeight ? 1 : 0);
+    all.above_floor.push_back(points[i].z() - floor.at(points[i].head<2>()) > kMinHeightAboveFloor ? 1 : 0);
     all.patches.push_back(static_cast<std::uint16_t>(cell(points[i].y()) * side + cell(points[i].x())));
   }
   return all;
@@ -57,7 +57,7 @@ MovingPoints picked(const MovingPoints& all, std::size_t count) {
     some.points.push_back(all.points[i]);
     some.facing.push_back(all.facing[i]);
     some.patches.push_back(all.patches[i]);
-    some.standing.push_back(all.standing[i]);
+    some.above_floor.push_back(all.above_floor[i]);
   }
   return some;
 }

@@ -11,9 +11,9 @@ namespace fleetmap::registration {
 namespace {
 
 /// Modes of less weight are not handed over.
-constexpr double kLeastWeight = 1e-6;
-/// m; what is known worse is only taken where nearly everything agrees (a corridor).
-constexpr double kMostStddev = 0.5;
+constexpr double kMinWeight = 1e-6;
+/// m; a pose less certain than this is accepted only if nearly everything agrees (a corridor).
+constexpr double kMaxStddev = 0.5;
 constexpr double kPlainAgreement = 0.8;
 
 template <class... Values>
@@ -46,7 +46,7 @@ Mode mode_of(const FoundMode& found, const PreparedCloud::Data& target, const Pr
 /// Sets verdict and reason from the numbers already in `result`.
 void judge(RegistrationResult& result, const RegistrationConfig& config) {
   result.verdict = Verdict::rejected;
-  const bool degenerate = result.covariance.diagonal().head<3>().maxCoeff() > kMostStddev * kMostStddev &&
+  const bool degenerate = result.covariance.diagonal().head<3>().maxCoeff() > kMaxStddev * kMaxStddev &&
                           result.agreement < kPlainAgreement;
   if (result.inliers < config.min_inliers) {
     result.reason = text("only %zu inliers, at least %zu are needed", result.inliers, config.min_inliers);
@@ -121,7 +121,7 @@ RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCl
   }
   RegistrationResult result;
   for (const FoundMode& found : modes) {
-    if (found.weight >= kLeastWeight) result.modes.push_back(mode_of(found, *target.data(), *source.data()));
+    if (found.weight >= kMinWeight) result.modes.push_back(mode_of(found, *target.data(), *source.data()));
   }
   const Mode& best = result.modes.front();
   result.T_target_source = best.T_target_source;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fleetmap/cloud/encode_within.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::registration {
@@ -36,16 +37,6 @@ PointCloud thinned_ball(std::span<const PlacedCloud> parts, const SpherizeConfig
 }
 
 }  // namespace
-
-Status SpherizeConfig::validate() const {
-  if (!(radius_m > 0.0f) || !std::isfinite(radius_m)) return failure("spherize radius_m must be positive");
-  if (!(voxel_m > 0.0f) || !std::isfinite(voxel_m)) return failure("spherize voxel_m must be positive");
-  if (!(ground_voxel_m >= 0.0f)) return failure("spherize ground_voxel_m must not be negative");
-  for (const Status& part : {ground.validate(), outliers.validate(), fit.validate()}) {
-    if (!part) return failure("spherize: " + part.error().message);
-  }
-  return {};
-}
 
 Result<SpherizedCloud> spherize(const PointCloud& map_in_node_frame, const Eigen::Vector3f& up,
                                 const SpherizeConfig& config) {

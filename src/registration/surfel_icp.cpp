@@ -22,7 +22,7 @@ constexpr std::size_t kBlockPatches = 4;  // to a side
 struct System {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();
-  std::vector<Vector6d> patch_gradients;  ///< where asked for
+  std::vector<Vector6d> patch_gradients;  ///< empty if no covariance is needed
   std::vector<Eigen::Matrix<float, 6, 6>> patch_informations;
   std::vector<std::uint8_t> patch_used;
 };
@@ -37,9 +37,9 @@ bool agree(const Surfel& target, const Facing& source, const Eigen::Matrix3f& R,
   return (cosine > 0.0f) == ((target.side > 0.0f) == (source.side > 0.0f));
 }
 
-/// How many of the surfel's directions hold for a point that a sensor at `sensor` saw. A panel seen from
-/// behind is another surface, and of a post the other side is: to take one for the other draws two maps
-/// together by the thickness of all that stands between them.
+/// Number of the surfel's directions that constrain a point seen by a sensor at `sensor`. A panel seen from
+/// behind is another surface, and so is the far side of a post: to match one with the other would shift the
+/// two maps by the thickness of every object between them.
 std::size_t directions_for(const Surfel& surfel, const Eigen::Vector3f& sensor) {
   if (std::abs(surfel.side) < kUnsureSide || surfel.directions == 0 || surfel.directions == 3)
     return surfel.directions;
@@ -51,8 +51,8 @@ std::size_t directions_for(const Surfel& surfel, const Eigen::Vector3f& sensor) 
 /// Rows of the Jacobian, summed up many at a time: in single precision over a block, then in double.
 class Rows {
  public:
-  static constexpr int kMost = 128;
-  bool has_room() const { return count_ + 3 <= kMost; }
+  static constexpr int kMaxRows = 128;
+  bool has_room() const { return count_ + 3 <= kMaxRows; }
   /// A residual `r` along `n` of a point whose arm from the source's origin is `u`.
   void add(const Eigen::Vector3f& n, const Eigen::Vector3f& u, float weight, float r) {
     J_.col(count_).head<3>() = n;
@@ -61,7 +61,7 @@ class Rows {
     residuals_[count_] = r;
     ++count_;
   }
-  /// Adds what rows from `first` on say to one patch.
+  /// Adds the rows from `first` on to the gradient of one patch.
   void add_to(Vector6d& gradient, Eigen::Matrix<float, 6, 6>& information, int first) const {
     for (int row = first; row < count_; ++row) {
       const Eigen::Matrix<float, 6, 1> J = J_.col(row), weighted = weights_[row] * J;
@@ -78,7 +78,7 @@ class Rows {
       weights_[count_] = residuals_[count_] = 0.0f;
     }
     const auto row_of = [&](const float* data) { return Row(data, padded); };
-    Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMost> weighted(padded);
+    Eigen::Array<float, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMaxRows> weighted(padded);
     for (int a = 0; a < 6; ++a) {
       weighted = row_of(J_.row(a).data()) * row_of(weights_.data());
       system.g[a] += static_cast<double>((weighted * row_of(residuals_.data())).sum());
@@ -90,11 +90,11 @@ class Rows {
 
  private:
   int count_ = 0;
-  Eigen::Matrix<float, 6, kMost, Eigen::RowMajor> J_;
-  Eigen::Array<float, 1, kMost> weights_, residuals_;
+  Eigen::Matrix<float, 6, kMaxRows, Eigen::RowMajor> J_;
+  Eigen::Array<float, 1, kMaxRows> weights_, residuals_;
 };
 
-/// What one point next to `surfel` adds to `rows`, in the first `directions` of it.
+/// Adds the rows of one point next to `surfel`, in its first `directions` directions.
 void add_rows(const Surfel& surfel, std::size_t directions, const Eigen::Vector3f& d,
               const Eigen::Vector3f& u, float kernel2, Rows& rows) {
   std::array<Eigen::Vector3f, 3> axes{surfel.axes[0], surfel.axes[1], Eigen::Vector3f::Zero()};
@@ -212,7 +212,8 @@ std::vector<Vector6d> block_gradients(const System& system) {
 }
 
 /// Covariance of the gradient at `T` from the drift of both maps.
-Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& T, const Bendings& bendings) {
+Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& T,
+                  const DriftModels& drift_models) {
   const std::size_t side = side_of(system), half = side / 2;
   std::vector<PatchInformation> in_source, in_target;
   for (std::size_t k = 0; k < system.patch_used.size(); ++k) {
@@ -229,8 +230,8 @@ Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& 
   Matrix6d from_source = Matrix6d::Zero(), from_target = Matrix6d::Identity();
   from_source.topLeftCorner<3, 3>() = from_source.bottomRightCorner<3, 3>() = T.linear();
   from_target.topRightCorner<3, 3>() = -skew(T.translation());
-  return bendings.source.gradient_covariance(in_source, from_source) +
-         bendings.target.gradient_covariance(in_target, from_target);
+  return drift_models.source.gradient_covariance(in_source, from_source) +
+         drift_models.target.gradient_covariance(in_target, from_target);
 }
 
 Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever, const IcpConfig& config) {
@@ -268,20 +269,8 @@ Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever
 
 }  // namespace
 
-Status IcpConfig::validate() const {
-  if (kernels_m.empty()) return failure("icp kernels_m must not be empty");
-  for (const float kernel : kernels_m) {
-    if (!(kernel > 0.0f)) return failure("icp kernels_m must be positive");
-  }
-  if (iterations_per_stage < 1) return failure("icp iterations_per_stage must be at least 1");
-  if (!(max_stddev_m > 0.0)) return failure("icp max_stddev_m must be positive");
-  if (!(min_stddev_m > 0.0)) return failure("icp min_stddev_m must be positive");
-  if (!(min_stddev_rad > 0.0)) return failure("icp min_stddev_rad must be positive");
-  return {};
-}
-
 IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose& T_initial,
-                const IcpConfig& config, const Bendings* bendings) {
+                const IcpConfig& config, const DriftModels* drift_models) {
   IcpResult result;
   result.T_target_source = T_initial;
   const double lever = lever_of(source.points);
@@ -302,14 +291,14 @@ IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose&
       if (result.converged) break;
     }
   }
-  if (bendings != nullptr) {
+  if (drift_models != nullptr) {
     const System system =
         linearize(target, source, result.T_target_source, config.kernels_m.size() <= config.far_stages,
                   config.kernels_m.back(), config, true);
     result.unconstrained = solve(system, lever, config.degenerate_share).unconstrained;
     Matrix6d turn = Matrix6d::Zero();  // to the right tangent
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = result.T_target_source.linear().transpose();
-    const Matrix6d drift = drift_of(system, source, result.T_target_source, *bendings);
+    const Matrix6d drift = drift_of(system, source, result.T_target_source, *drift_models);
     result.covariance = turn * covariance_of(system, drift, lever, config) * turn.transpose();
   }
   return result;

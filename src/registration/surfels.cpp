@@ -35,8 +35,8 @@ struct Moments {
   }
 };
 
-/// A post is seen from one side, and from the other by who passes there: what it says towards the sensor,
-/// along axes[1], is worth less than what it says across.
+/// Two robots may see a post from opposite sides: along the line of sight, axes[1], its constraint has less
+/// weight than across.
 void discount_depth(const Eigen::Vector3f& along, const Eigen::Vector3f& sensor, float variance,
                     const SurfelConfig& config, Surfel& surfel) {
   const Eigen::Vector3f across = along.cross(sensor - surfel.mean);
@@ -71,7 +71,7 @@ Surfel surfel_of(const Moments& m, const Eigen::Vector3f& middle, const SurfelCo
   surfel.side = surfel.axes[0].dot(sensor - surfel.mean);
   if (constraining == 2)
     discount_depth(eigen.eigenvectors().col(2), sensor, eigen.eigenvalues()[1], config, surfel);
-  if (constraining == 3) surfel.directions = 0;  // a speck: too small to say which way it faces
+  if (constraining == 3) surfel.directions = 0;  // a speck: too small for a surface normal
   if (constraining == 0) {
     surfel.directions = 3;
     surfel.weights.fill(1.0f / std::max(1e-4f, variances.mean()));
@@ -142,7 +142,7 @@ class Voxels {
     return box_.low + (c.cast<float>() + Eigen::Vector3f::Constant(0.5f)) * cell_m_;
   }
   Eigen::Vector3f middle(std::size_t v) const { return middle(voxels_[v].cell); }
-  /// Of the 3 x 3 x 3 voxels around the v-th, about its middle.
+  /// Moments of the 3 x 3 x 3 voxels around the v-th, about its middle.
   Moments around(std::size_t v) const {
     Moments sum;
     for (int dz = -1; dz <= 1; ++dz) {

@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "surfel_config.hpp"
+
 namespace fleetmap::registration {
 
-/// A piece of surface, edge or clutter: the points of 3 x 3 x 3 voxels, as their mean and what they say of a
-/// point near them: one direction across a plane, two across a post, three in clutter, none in a speck. One
-/// line of the cache.
+/// A piece of surface, edge or clutter: the points of 3 x 3 x 3 voxels, as their mean and the directions in
+/// which they constrain a point near them: one across a plane, two across a post, three in clutter, none in
+/// a speck. Fits one cache line.
 struct alignas(64) Surfel {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   std::array<Eigen::Vector3f, 2> axes;  ///< unit, of the first two directions; the third is across both
@@ -30,16 +32,6 @@ inline Eigen::Vector3f sensor_beside(const Eigen::Vector3f& point) {
   return {point.x(), 0.0f, kSensorHeight};
 }
 
-struct SurfelConfig {
-  float voxel_m = 0.35f;     ///< m
-  float noise_m = 0.03f;     ///< m, of a point, added to the spread
-  float extended_m = 0.15f;  ///< m, a larger spread along an axis is extent, not uncertainty
-  int min_points = 4;
-  float sparse_voxel_m =
-      1.75f;  ///< m, where points lie too wide apart for surfels of `voxel_m`: thinned ground
-  float hidden_depth_m = 0.12f;  ///< m, how far the middle of a post may lie behind the side that was seen
-};
-
 /// Surfels of a cloud, one for each voxel that holds points and has enough around it, larger ones through the
 /// lowest points where they lie wide apart, and, for every place near them, which is nearest. Points must be
 /// finite and within some 100 m of the origin.
@@ -50,9 +42,9 @@ class SurfelMap {
 
   static constexpr std::uint16_t kNone = 0xffff;
   static constexpr std::size_t kBlock =
-      64;  ///< points looked up together: most of the time memory is waited for
+      64;  ///< points whose cells are fetched together: the lookup is bound by memory latency
   enum class Reach { near, far };
-  /// Of each of up to kBlock points: the nearest surfel, as seen from the middle of a small cell around it,
+  /// Finds the nearest surfel of up to kBlock points, as seen from the middle of a small cell around each,
   /// within about a voxel (near) or three (far); null where there is none.
   void find(std::span<const Eigen::Vector3f> points, Reach reach, const Surfel** found) const;
   const std::vector<Surfel>& surfels() const { return surfels_; }
@@ -66,7 +58,7 @@ class SurfelMap {
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();
     Eigen::Vector3i size = Eigen::Vector3i::Zero();
     std::vector<std::uint16_t> cells;
-    /// Of the surfels from `first` on.
+    /// Builds the grid of the surfels from `first` on.
     void build(const std::vector<Surfel>& surfels, std::size_t first, float cell_m);
     /// Index into `cells`, -1 outside.
     std::ptrdiff_t cell_of(const Eigen::Vector3f& p) const {

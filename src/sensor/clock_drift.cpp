@@ -13,7 +13,7 @@ bool ClockDrift::add(Stamp arrival, double lag) {
   if (arrival - *bucket_begun_ >= kBucket) {
     if (!first_) first_ = least_;
     buckets_.push_back({least_time_, least_ - *first_});
-    if (buckets_.size() > kMost) buckets_.pop_front();
+    if (buckets_.size() > kMax) buckets_.pop_front();
     bucket_begun_ = arrival;
     least_ = std::numeric_limits<double>::infinity();
     completed = true;
@@ -26,7 +26,7 @@ bool ClockDrift::add(Stamp arrival, double lag) {
 }
 
 std::optional<ClockDrift::Line> ClockDrift::line() const {
-  if (buckets_.size() < kFewest) return std::nullopt;
+  if (buckets_.size() < kMinBuckets) return std::nullopt;
   const auto n = static_cast<double>(buckets_.size());
   double mean_time = 0.0, mean_lag = 0.0;
   for (const Bucket& bucket : buckets_) {

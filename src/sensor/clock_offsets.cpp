@@ -11,14 +11,14 @@
 namespace fleetmap::sensor {
 namespace {
 
-/// Samples of so long, and so many, tell a sensor's lag; a GPS may give one a second.
+/// A sensor's lag is determined from samples over this time, and this many; a GPS may send one a second.
 constexpr Duration kLearning = std::chrono::milliseconds(1500);
 /// A computer that is starting up is busy; samples that are still late after this have another clock.
 constexpr Duration kProving = std::chrono::seconds(10);
 /// The second sensor follows the first within this.
 constexpr Duration kAlone = std::chrono::milliseconds(300);
 /// When a clock is set that all sensors share, they show it one after the other.
-constexpr Duration kTellAfter = std::chrono::seconds(4);
+constexpr Duration kReportAfter = std::chrono::seconds(4);
 /// s: sensors whose lags differ by less share a clock.
 constexpr double kTogether = 0.5;
 /// s: a correction that was begun stays until the clock is nearer than this.
@@ -30,7 +30,7 @@ constexpr double kSameRate = 20e-6;
 /// A drift is one beyond this rate and so many standard deviations, when it has come to so many s: a computer
 /// that becomes busier delays samples by less.
 constexpr double kDrift = 30e-6, kCertain = 5.0, kVisible = 0.05;
-constexpr double kOtherDrift = 30e-6;  // s/s, told again when it changed by so much
+constexpr double kOtherDrift = 30e-6;  // s/s, a change of the drift that is reported again
 /// ... and to so many times what the lags scatter about the line, which a step does not.
 constexpr double kStraight = 10.0;
 
@@ -74,7 +74,7 @@ std::size_t ClockOffsets::sharing(double lag) const {
 bool ClockOffsets::may_be_late(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
     const double late = track.lag() - other.lag();
-    return other.begun && late > kWrong && late < LagEnvelope::kMostLate &&
+    return other.begun && late > kWrong && late < LagEnvelope::kMaxLateness &&
            sharing(other.lag()) >= sharing(track.lag());
   });
 }
@@ -146,9 +146,9 @@ void ClockOffsets::find_drifts() {
                          std::abs(slow) * line->span > std::max(kVisible, kStraight * line->scatter);
     own.slow = certain ? std::optional(slow) : std::nullopt;
     // A drift on the edge of what is certain comes and goes.
-    if (!certain || (own.told_slow && std::abs(slow - *own.told_slow) < kOtherDrift)) continue;
-    own.told_slow = slow;
-    tell_drift(static_cast<Source>(k), slow);
+    if (!certain || (own.reported_slow && std::abs(slow - *own.reported_slow) < kOtherDrift)) continue;
+    own.reported_slow = slow;
+    report_drift(static_cast<Source>(k), slow);
   }
 }
 
@@ -177,18 +177,19 @@ void ClockOffsets::judge(Source source, double right, Duration since, Stamp arri
     const double most = kSlew * to_seconds(since);
     own.correction += std::clamp(change, -most, most);
   }
-  tell_offset(source, offset, arrival);
+  report_offset(source, offset, arrival);
 }
 
-void ClockOffsets::tell_offset(Source source, double offset, Stamp arrival) {
+void ClockOffsets::report_offset(Source source, double offset, Stamp arrival) {
   Track& own = tracks_[static_cast<std::size_t>(source)];
-  const bool is_off = std::abs(offset) > kTold;
-  if (is_off ? std::abs(offset - own.told) < kTold : own.told == 0.0) return own.untold_since.reset();
-  if (!own.untold_since) own.untold_since = arrival;
-  // What is not corrected may be late samples of a busy computer.
-  if (arrival - *own.untold_since < (own.is_off || !is_off ? kTellAfter : kProving)) return;
-  own.untold_since.reset();
-  own.told = is_off ? offset : 0.0;
+  const bool is_off = std::abs(offset) > kReportedOffset;
+  if (is_off ? std::abs(offset - own.reported) < kReportedOffset : own.reported == 0.0)
+    return own.unreported_since.reset();
+  if (!own.unreported_since) own.unreported_since = arrival;
+  // An uncorrected offset may be that of a busy computer's late samples.
+  if (arrival - *own.unreported_since < (own.is_off || !is_off ? kReportAfter : kProving)) return;
+  own.unreported_since.reset();
+  own.reported = is_off ? offset : 0.0;
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << to_string(source);
   if (!is_off) {
@@ -204,7 +205,7 @@ void ClockOffsets::tell_offset(Source source, double offset, Stamp arrival) {
   news_.push_back(text.str());
 }
 
-void ClockOffsets::tell_drift(Source source, double slow) {
+void ClockOffsets::report_drift(Source source, double slow) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(0) << to_string(source) << ": its clock runs "
        << kMillion * std::abs(slow) << " ppm too " << (slow > 0.0 ? "slow" : "fast")

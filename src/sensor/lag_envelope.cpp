@@ -7,7 +7,7 @@ namespace {
 
 constexpr Duration kBucket = std::chrono::seconds(5), kWindow = std::chrono::seconds(30);
 constexpr int kStepSamples = 3;
-/// What a program that was stopped finds waiting comes all at once and proves nothing.
+/// Samples that waited while the program was stopped arrive all at once and prove nothing.
 constexpr Duration kStepTime = std::chrono::milliseconds(150);
 /// Samples that overtake each other are not set back.
 constexpr Duration kSetBack = std::chrono::milliseconds(500);
@@ -44,7 +44,7 @@ bool LagEnvelope::stepped(Stamp stamp, Stamp arrival, double lag) {
   run.set_back = run.set_back && newest_ - stamp > kSetBack;
   if (run.samples < kStepSamples) return false;
   if (run.set_back) return arrival - run.begun >= kStepTime;
-  return run.least > least_ + kMostLate && run.most - run.least < kSteady &&
+  return run.least > least_ + kMaxLateness && run.most - run.least < kSteady &&
          arrival - run.begun >= kSteadyTime;
 }
 

@@ -183,7 +183,7 @@ class ObstacleMarker {
     return z.high >= ground + band_.low && z.low <= ground + band_.high;
   }
 
-  /// Small triangles (nearly all of a terrain) are told by their height alone.
+  /// For small triangles (nearly all of a terrain) the height alone decides.
   bool out_of_band(int first_column, int last_column, int first_row, int last_row, const Extent& z) const {
     if ((last_column - first_column) * (last_row - first_row) > 100) return false;
     for (int row = first_row; row <= last_row; ++row) {
@@ -264,7 +264,7 @@ std::vector<std::uint8_t> obstacle_raster(const Mesh& mesh, const Grid& grid, co
           ground.gap[index] > bridged || too_steep(grid, ground.heights, column, row, config) ? 1 : 0;
     }
   }
-  // Allowed slopes must not stand out of their own cells.
+  // Allowed slopes must not rise above their own cells.
   const double own_rise = 0.75 * grid.cell * std::tan(config.max_slope_rad);
   ObstacleMarker marker(grid, ground.heights, {std::max(config.step_height, own_rise), config.robot_height},
                         blocked);

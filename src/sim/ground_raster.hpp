@@ -32,8 +32,8 @@ struct GroundRaster {
 };
 GroundRaster ground_raster(const Mesh& mesh, const Grid& grid, double step_height);
 
-/// 1 for each cell that a robot cannot be in: something hangs or stands there between the heights it drives
-/// over and its own, the ground is too steep, or there is no ground.
+/// 1 for each cell that a robot cannot enter: an obstacle lies between the heights that it drives over and
+/// its own, the ground is too steep, or there is no ground.
 std::vector<std::uint8_t> obstacle_raster(const Mesh& mesh, const Grid& grid, const GroundRaster& ground,
                                           const DrivableConfig& config);
 

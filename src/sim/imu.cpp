@@ -13,22 +13,6 @@ Eigen::Vector3d normal3(RandomStream& random) {
 
 }  // namespace
 
-Status ImuSpec::validate() const {
-  return first_failure({
-      within("rate", rate, 1.0, 2000.0, "Hz"),
-      within("gyro_noise", gyro_noise, 0.0, 1.0, "rad/s/sqrt(Hz)"),
-      within("accel_noise", accel_noise, 0.0, 10.0, "m/s^2/sqrt(Hz)"),
-      within("gyro_bias_sigma", gyro_bias_sigma, 0.0, 1.0, "rad/s"),
-      within("accel_bias_sigma", accel_bias_sigma, 0.0, 10.0, "m/s^2"),
-      within("gyro_bias_walk", gyro_bias_walk, 0.0, 1.0, "rad/s/sqrt(s)"),
-      within("accel_bias_walk", accel_bias_walk, 0.0, 10.0, "m/s^2/sqrt(s)"),
-      within("gravity", gravity, 0.0, 30.0, "m/s^2"),
-      within("tilt_sigma", tilt_sigma, 0.0, 1.0, "rad"),
-      within("heading_sigma", heading_sigma, 0.0, 3.2, "rad"),
-      within("heading_correlation_time", heading_correlation_time, 1e-3, 1e6, "s"),
-  });
-}
-
 struct ImuModel::State {
   State(const ImuSpec& s, std::uint64_t seed)
       : spec(s), random(seed, 0x1470), heading(s.heading_sigma, s.heading_correlation_time) {

@@ -100,7 +100,7 @@ class BeamCaster {
     points.push_back(point);
   }
 
-  /// What a beam returns whose axis met `echo` and whose rim met `rim`.
+  /// The return of a beam whose axis met `echo` and whose rim met `rim`.
   void mix(const Hit& rim, float share, Hit& echo) const {
     if (rim.distance <= 0.0f) return;
     if (echo.distance <= 0.0f) {
@@ -232,7 +232,7 @@ std::size_t firings(const LidarSpec& spec) {
   return static_cast<std::size_t>(spec.pattern == FiringPattern::kSpinning ? spec.columns : spec.rays);
 }
 
-std::size_t firings_known(const LidarSpec& spec, const ScanJob& job) {
+std::size_t firings_ready(const LidarSpec& spec, const ScanJob& job) {
   const double step = to_seconds(job.step);
   if (job.T_enu_lidar.size() < 2 || !(step > 0.0)) return 0;
   const std::size_t block = block_size(spec), blocks = firings(spec) / block;

@@ -1,8 +1,9 @@
+#include "fleetmap/sim/lidar_spec.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "fleetmap/sim/lidar.hpp"
 #include "spec_rules.hpp"
 
 namespace fleetmap::sim {

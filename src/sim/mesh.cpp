@@ -50,7 +50,7 @@ cloud::PointCloud sample_surface(const Mesh& mesh, double points_per_m2, std::ui
   const double wanted = std::min(total * points_per_m2, static_cast<double>(max_points));
   const double spacing = total / wanted;  // m^2 a point
   cloud.points.reserve(static_cast<std::size_t>(wanted) + 1);
-  // Points stand at equal steps of summed area, behind a random offset.
+  // Points lie at equal steps of summed area, after a random offset.
   double next = spacing * uniform_at(seed, 0);
   double passed = 0.0;
   std::uint64_t number = 0;

@@ -10,7 +10,9 @@
 #include <string>
 #include <system_error>
 
-#include "mesh_formats.hpp"
+#include "mesh_text.hpp"
+#include "obj_format.hpp"
+#include "ply_format.hpp"
 
 namespace fleetmap::sim {
 namespace {

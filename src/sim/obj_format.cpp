@@ -1,12 +1,14 @@
+#include "obj_format.hpp"
+
 #include <cstdint>
 
 #include "fleetmap/sim/mesh_file.hpp"
-#include "mesh_formats.hpp"
+#include "mesh_text.hpp"
 
 namespace fleetmap::sim {
 namespace {
 
-/// What surfaces are made of now: the last `usemtl`, or the group or object that says more.
+/// The material of the next surfaces: the last `usemtl`, or the group or object with a better known name.
 struct Names {
   Material material = Material::kConcrete, group = Material::kConcrete, object = Material::kConcrete;
   Material current() const {

@@ -30,12 +30,12 @@ constexpr std::array<Kind, 3> kKinds = {Kind{1.2, 1.0, 1.1, Material::kConcrete}
                                         Kind{2.6, 1.5, 1.3, Material::kMetal},     // a trailer
                                         Kind{4.6, 1.9, 1.9, Material::kMetal}};    // a van
 
-struct Spot {
+struct ParkingPose {
   Eigen::Vector2d at;
   double yaw;
 };
 
-/// Numbers of one thing: what chance gives the `attempt`-th time that a place is tried.
+/// Random numbers of one thing at its `attempt`-th position.
 struct Chance {
   std::uint64_t seed, thing, attempt;
   double operator()(std::uint64_t what) const {
@@ -43,17 +43,18 @@ struct Chance {
   }
 };
 
-std::optional<Spot> in_a_lane(const World& world, const Chance& chance) {
+std::optional<ParkingPose> in_a_lane(const World& world, const Chance& chance) {
   const std::vector<Aisle>& lanes = world.aisles();
   if (lanes.empty()) return std::nullopt;
   const auto index = static_cast<std::size_t>(chance(0) * static_cast<double>(lanes.size()));
   const Eigen::Vector2d along = lanes[index].to - lanes[index].from;
   const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
-  return Spot{lanes[index].from + (0.1 + 0.8 * chance(1)) * along + kAside * (2.0 * chance(2) - 1.0) * across,
-              std::atan2(along.y(), along.x()) + kSlew * (2.0 * chance(3) - 1.0)};
+  return ParkingPose{
+      lanes[index].from + (0.1 + 0.8 * chance(1)) * along + kAside * (2.0 * chance(2) - 1.0) * across,
+      std::atan2(along.y(), along.x()) + kSlew * (2.0 * chance(3) - 1.0)};
 }
 
-Spot anywhere(const World& world, const Chance& chance) {
+ParkingPose anywhere(const World& world, const Chance& chance) {
   const WorldBounds& bounds = world.bounds();
   const Eigen::Vector2d size = bounds.high - bounds.low;
   return {bounds.low + Eigen::Vector2d(chance(0) * size.x(), chance(1) * size.y()),
@@ -78,15 +79,15 @@ bool far_from(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& p)
   return true;
 }
 
-void add_thing(const Kind& kind, const Spot& spot, const World& world, Mesh& mesh) {
-  const Eigen::Vector2d direction(std::cos(spot.yaw), std::sin(spot.yaw));
+void add_thing(const Kind& kind, const ParkingPose& pose, const World& world, Mesh& mesh) {
+  const Eigen::Vector2d direction(std::cos(pose.yaw), std::sin(pose.yaw));
   MeshBuilder builder(mesh, direction);
-  const Eigen::Vector2d uv(direction.dot(spot.at), direction.x() * spot.at.y() - direction.y() * spot.at.x());
+  const Eigen::Vector2d uv(direction.dot(pose.at), direction.x() * pose.at.y() - direction.y() * pose.at.x());
   // On the highest ground under it, so that nothing of it is taken for the ground.
   const Eigen::Vector2d across(-direction.y(), direction.x());
-  double ground = world.ground_height(spot.at);
+  double ground = world.ground_height(pose.at);
   for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    ground = std::max(ground, world.ground_height(spot.at + 0.5 * u * kind.length * direction +
+    ground = std::max(ground, world.ground_height(pose.at + 0.5 * u * kind.length * direction +
                                                   0.5 * v * kind.width * across));
   }
   const auto box = [&](double length, double width, double bottom, double top) {
@@ -113,12 +114,12 @@ Result<std::shared_ptr<const World>> with_parked_things(const World& world, std:
       const Chance chance{seed, thing, attempt};
       const Kind& kind = kKinds[static_cast<std::size_t>(chance(4) * kKinds.size())];
       const auto lane = thing % 3 == 2 ? std::nullopt : in_a_lane(world, chance);
-      const Spot spot = lane.value_or(anywhere(world, chance));
+      const ParkingPose pose = lane.value_or(anywhere(world, chance));
       const double room = lane ? 0.5 * kind.width : 0.5 * kind.length + 1.5;
-      if (!inside(world.drawing().boundary, spot.at) || world.blocked(spot.at, room)) continue;
-      if (!far_from(taken, spot.at)) continue;
-      add_thing(kind, spot, world, mesh);
-      taken.push_back(spot.at);
+      if (!inside(world.drawing().boundary, pose.at) || world.blocked(pose.at, room)) continue;
+      if (!far_from(taken, pose.at)) continue;
+      add_thing(kind, pose, world, mesh);
+      taken.push_back(pose.at);
       placed = true;
     }
     if (!placed) {

@@ -1,9 +1,11 @@
+#include "ply_format.hpp"
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <vector>
 
-#include "mesh_formats.hpp"
+#include "mesh_text.hpp"
 
 namespace fleetmap::sim {
 namespace {
@@ -297,7 +299,7 @@ Status skip(const Element& element, Body& body) {
   return {};
 }
 
-/// The header's counts are believed only as far as the file is long.
+/// The header's counts are bounded by the file's length.
 Status plausible(const Element& element, const Header& header) {
   std::size_t smallest = 0;
   for (const Property& property : element.properties)

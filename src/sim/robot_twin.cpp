@@ -87,16 +87,6 @@ Status check_start(const World& world, const RobotTwinConfig& config) {
 
 }  // namespace
 
-Status RobotTwinConfig::validate() const {
-  if (!start.allFinite() || !std::isfinite(start_yaw)) return failure("start: must be finite");
-  if (!all_finite(T_base_lidar) || !all_finite(T_base_imu) || !p_base_antenna.allFinite()) {
-    return failure("mounts: must be finite");
-  }
-  return first_failure({named("lidar", lidar.validate()), named("imu", imu.validate()),
-                        named("gps", gps.validate()), named("wheels", wheels.validate()),
-                        named("vehicle", vehicle.validate())});
-}
-
 Stamp due(const TwinSample& sample) {
   if (const auto* job = std::get_if<ScanJob>(&sample)) {
     return job->stamp + static_cast<std::int64_t>(job->T_enu_lidar.size() - 1) * job->step;

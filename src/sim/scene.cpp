@@ -40,7 +40,7 @@ Status check(const Mesh& mesh) {
   return {};
 }
 
-/// What Embree may be given; it asserts on rays that are not finite.
+/// Rays that Embree accepts; it asserts on rays that are not finite.
 bool usable(const Ray& ray) {
   const float length = ray.direction.squaredNorm();
   return length > 0.25f && length < 4.0f && std::isfinite(ray.origin.sum());
@@ -117,7 +117,7 @@ void Scene::State::cast_packet(std::span<const Ray> rays, float min_range, float
     packet.ray.dir_x[k] = ray.direction.x();
     packet.ray.dir_y[k] = ray.direction.y();
     packet.ray.dir_z[k] = ray.direction.z();
-    // Where packets of 16 are not native Embree goes by the range and not by `valid`.
+    // Without native packets of 16 Embree goes by the range and not by `valid`.
     packet.ray.tnear[k] = cast ? min_range : kInfinity;
     packet.ray.tfar[k] = cast ? max_range : -kInfinity;
     packet.ray.time[k] = 0.0f;

@@ -42,11 +42,11 @@ void place_tables(const SolarFarmConfig& config, SolarFarmLayout& layout) {
   }
   for (int k = 0; k < rows; ++k) layout.rows.push_back((k - 0.5 * (rows - 1)) * config.row_pitch);
   layout.places.assign(static_cast<std::size_t>(rows),
-                       std::vector<Place>(static_cast<std::size_t>(tables), Place::kTable));
+                       std::vector<TableSlot>(static_cast<std::size_t>(tables), TableSlot::kTable));
   for (std::size_t row = 0; row < layout.places.size(); ++row) {
     for (std::size_t k = 0; k < layout.places[row].size(); ++k) {
       if (uniform_at(config.seed, kMissing, row, k) < config.missing_tables)
-        layout.places[row][k] = Place::kEmpty;
+        layout.places[row][k] = TableSlot::kEmpty;
     }
   }
 }
@@ -63,7 +63,7 @@ void place_cabins(const SolarFarmConfig& config, SolarFarmLayout& layout) {
   const std::size_t count = std::min(candidates.size(), static_cast<std::size_t>(config.cabins));
   for (std::size_t k = 0; k < count; ++k) {
     const auto [row, place] = candidates[k].second;
-    layout.places[row][place] = Place::kCabin;
+    layout.places[row][place] = TableSlot::kCabin;
   }
 }
 
@@ -112,16 +112,16 @@ Footprint around(const SolarFarmLayout& layout, const Eigen::Vector2d& center, c
 /// Tables that are drawn next to each other are one block.
 void add_row(const SolarFarmConfig& config, const SolarFarmLayout& layout, std::size_t row,
              std::vector<Footprint>& drawn) {
-  const std::vector<Place>& places = layout.places[row];
+  const std::vector<TableSlot>& places = layout.places[row];
   const double v = layout.rows[row];
   const Eigen::Vector2d reach(0.5 * config.table_length + kRim, 0.5 * layout.depth + kRim);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    if (places[k] == Place::kCabin) {
+    if (places[k] == TableSlot::kCabin) {
       drawn.push_back(around(layout, {layout.tables[k], v}, 0.5 * cabin_size(config)));
       continue;
     }
     const std::size_t first = k;
-    while (k + 1 < places.size() && places[k + 1] != Place::kCabin &&
+    while (k + 1 < places.size() && places[k + 1] != TableSlot::kCabin &&
            !road_before(config, static_cast<int>(k) + 1))
       ++k;
     drawn.push_back(rectangle(layout, Eigen::Vector2d(layout.tables[first], v) - reach,

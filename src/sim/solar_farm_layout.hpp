@@ -8,24 +8,24 @@
 
 namespace fleetmap::sim {
 
-/// A place for a table: what stands in it.
-enum class Place : std::uint8_t { kTable, kEmpty, kCabin };
+/// The use of a table's slot.
+enum class TableSlot : std::uint8_t { kTable, kEmpty, kCabin };
 
-struct Spot {
+struct TreeFootprint {
   Eigen::Vector2d center;  ///< (u, v)
   double radius = 0.0;     ///< m
 };
 
-/// Where everything of a solar farm stands, in its own frame: u along the rows, v across, 0 in the middle.
+/// Positions of everything on a solar farm, in its own frame: u along the rows, v across, 0 in the middle.
 struct SolarFarmLayout {
-  Eigen::Vector2d direction;               ///< ENU unit vector of u
-  Eigen::Vector2d half_site;               ///< m, the fence
-  double depth = 0.0;                      ///< m, a table seen from above, across the row
-  std::vector<double> rows;                ///< v of each row's middle
-  std::vector<double> tables;              ///< u of the middle of each place in a row
-  std::vector<bool> beside_road;           ///< of each place
-  std::vector<std::vector<Place>> places;  ///< [row][place]
-  std::vector<Spot> trees;
+  Eigen::Vector2d direction;                   ///< ENU unit vector of u
+  Eigen::Vector2d half_site;                   ///< m, the fence
+  double depth = 0.0;                          ///< m, a table seen from above, across the row
+  std::vector<double> rows;                    ///< v of each row's middle
+  std::vector<double> tables;                  ///< u of the middle of each place in a row
+  std::vector<bool> beside_road;               ///< of each place
+  std::vector<std::vector<TableSlot>> places;  ///< [row][place]
+  std::vector<TreeFootprint> trees;
 
   Eigen::Vector2d enu(const Eigen::Vector2d& uv) const {
     return {direction.x() * uv.x() - direction.y() * uv.y(), direction.y() * uv.x() + direction.x() * uv.y()};

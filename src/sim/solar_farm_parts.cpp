@@ -158,13 +158,14 @@ void add_fence(const SolarFarmConfig& config, const FarmGround& ground, MeshBuil
 /// A trunk and a cloud of leaves: triangles at random in an ellipsoid, which a beam may pass between.
 void add_tree(const SolarFarmConfig& config, const FarmGround& ground, std::size_t tree,
               MeshBuilder& builder) {
-  const Spot& spot = ground.layout.trees[tree];
+  const TreeFootprint& tree_footprint = ground.layout.trees[tree];
   const auto size = [&](std::uint64_t what) { return uniform_at(config.seed, kTreeSize, tree, what); };
   const double trunk = 2.0 + 1.5 * size(0);
   const Point crown_radii(1.2 + 0.8 * size(1), 1.2 + 0.8 * size(2), 1.2 + 1.3 * size(3));
-  const Point foot(spot.center.x(), spot.center.y(), ground.height(spot.center.x(), spot.center.y()));
-  builder.post(foot - Point(0.0, 0.0, kSunk), trunk + kSunk + 0.5 * crown_radii.z(), spot.radius, kPostSides,
-               Material::kVegetation);
+  const Point foot(tree_footprint.center.x(), tree_footprint.center.y(),
+                   ground.height(tree_footprint.center.x(), tree_footprint.center.y()));
+  builder.post(foot - Point(0.0, 0.0, kSunk), trunk + kSunk + 0.5 * crown_radii.z(), tree_footprint.radius,
+               kPostSides, Material::kVegetation);
   const Point crown = foot + Point(0.0, 0.0, trunk + 0.7 * crown_radii.z());
   constexpr std::uint64_t kLeaves = 350;
   for (std::uint64_t leaf = 0; leaf < kLeaves; ++leaf) {

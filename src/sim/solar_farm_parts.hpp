@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fleetmap/sim/solar_farm.hpp"
+#include "fleetmap/sim/terrain.hpp"
 #include "mesh_builder.hpp"
 #include "solar_farm_layout.hpp"
 

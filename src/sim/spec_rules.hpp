@@ -16,6 +16,14 @@ inline Status within(const char* field, double value, double low, double high, c
   return failure(text.str());
 }
 
+/// The same in the words of a world's file; `unit` begins with a space.
+inline Status in_range(const char* name, double value, double low, double high, const char* unit) {
+  if (value >= low && value <= high) return {};
+  std::ostringstream out;
+  out << name << " must be from " << low << " to " << high << unit << ", found " << value;
+  return failure(out.str());
+}
+
 inline Status first_failure(std::initializer_list<Status> checks) {
   for (const Status& check : checks) {
     if (!check) return check;

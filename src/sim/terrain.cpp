@@ -17,7 +17,7 @@ constexpr double kNoiseDeviation = 0.25;  // standard deviation of the noise bel
 double fade(double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 double fade_slope(double t) { return 30.0 * t * t * (t - 1.0) * (t - 1.0); }
 
-/// Of the lattice point (i, j): a plane through 0 there, of a random direction.
+/// The plane of the lattice point (i, j): 0 there, of a random direction.
 Eigen::Vector2d lattice_gradient(std::uint64_t seed, std::int64_t i, std::int64_t j) {
   const double angle =
       2.0 * std::numbers::pi * uniform_at(seed, static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(j));
@@ -67,29 +67,6 @@ Jet jet(const TerrainConfig& c, std::uint64_t seed, double x, double y) {
 }
 
 }  // namespace
-
-Status TerrainConfig::validate() const {
-  if (!(rolling_amplitude >= 0.0 && rolling_amplitude <= 100.0))
-    return failure("rolling_amplitude must be from 0 to 100 m");
-  if (!(rolling_wavelength >= 5.0 && rolling_wavelength <= 1e5))
-    return failure("rolling_wavelength must be from 5 to 1e5 m");
-  if (!(rough_amplitude >= 0.0 && rough_amplitude <= 1.0))
-    return failure("rough_amplitude must be from 0 to 1 m");
-  if (!(rough_wavelength >= 0.5 && rough_wavelength <= 100.0))
-    return failure("rough_wavelength must be from 0.5 to 100 m");
-  for (const double slope : {slope_east_rad, slope_north_rad}) {
-    if (!(std::abs(slope) <= std::numbers::pi / 6.0)) return failure("slopes must be from -30 to 30 deg");
-  }
-  const auto steepest = [](double amplitude, double wavelength) { return 24.0 * amplitude / wavelength; };
-  const double slope = steepest(rolling_amplitude, rolling_wavelength) +
-                       steepest(rough_amplitude, rough_wavelength) +
-                       std::hypot(std::tan(slope_east_rad), std::tan(slope_north_rad));
-  if (slope > 1.0)
-    return failure(
-        "the ground would be steeper than 45 deg in places; lower an amplitude or a slope, or "
-        "lengthen a wavelength");
-  return {};
-}
 
 double Terrain::height(double x, double y) const { return jet(config_, seed_, x, y)[0]; }
 

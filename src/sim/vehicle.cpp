@@ -17,27 +17,6 @@ double towards(double value, double target, double most) {
 
 }  // namespace
 
-Status VehicleSpec::validate() const {
-  return first_failure({
-      within("max_speed", max_speed, 0.01, 50.0, "m/s"),
-      within("acceleration", acceleration, 0.01, 50.0, "m/s^2"),
-      within("max_yaw_rate", max_yaw_rate, 0.01, 20.0, "rad/s"),
-      within("yaw_acceleration", yaw_acceleration, 0.01, 200.0, "rad/s^2"),
-      within("lag", lag, 0.0, 5.0, "s"),
-      within("radius", radius, 0.05, 5.0, "m"),
-      within("base_height", base_height, 0.0, 3.0, "m"),
-      within("wheelbase", wheelbase, 0.05, 5.0, "m"),
-      within("suspension_rate", suspension_rate, 0.2, 10.0, "Hz"),
-      within("suspension_damping", suspension_damping, 0.1, 2.0, "(a ratio)"),
-      within("braking", braking, 0.5, 100.0, "m/s^2"),
-      within("command_timeout", command_timeout, 0.0, 1e4, "s"),
-      within("battery_wh", battery_wh, 0.0, 1e6, "Wh"),
-      within("idle_power_w", idle_power_w, 0.0, 1e5, "W"),
-      within("energy_per_metre", energy_per_metre, 0.0, 1e5, "J/m"),
-      within("energy_per_radian", energy_per_radian, 0.0, 1e5, "J/rad"),
-  });
-}
-
 /// The target's own rate passes through the damper, so that the body does not lag behind on a slope.
 void Vehicle::Spring::follow(double next_target, double stiffness, double damping, double dt) {
   const double target_rate = (next_target - target) / dt;
@@ -53,7 +32,7 @@ Vehicle::Vehicle(const VehicleSpec& spec, std::shared_ptr<const World> world, co
   height_ = {under.x(), 0.0, under.x()};
   slope_east_ = {under.y(), 0.0, under.y()};
   slope_north_ = {under.z(), 0.0, under.z()};
-  settle(1e-3);
+  update_suspension(1e-3);
 }
 
 /// Height (m) and slope towards east and north of the ground under the wheels.
@@ -77,7 +56,7 @@ void Vehicle::step(double forward_speed, double yaw_rate, double dt) {
   yaw_ = wrap_angle(yaw_ + 0.5 * yaw_rate_ * dt);
   move(powered ? forward_speed : 0.0, dt);
   yaw_ = wrap_angle(yaw_ + 0.5 * yaw_rate_ * dt);
-  settle(dt);
+  update_suspension(dt);
   const double joule = (spec_.idle_power_w + spec_.energy_per_metre * std::abs(speed_) +
                         spec_.energy_per_radian * std::abs(yaw_rate_)) *
                        dt;
@@ -87,14 +66,15 @@ void Vehicle::step(double forward_speed, double yaw_rate, double dt) {
 /// Motors: a first-order lag behind the command, then limited accelerations.
 void Vehicle::drive(double forward_speed, double yaw_rate, double dt) {
   const double share = dt / (dt + spec_.lag);
-  wanted_speed_ += share * (std::clamp(forward_speed, -spec_.max_speed, spec_.max_speed) - wanted_speed_);
-  wanted_yaw_rate_ +=
-      share * (std::clamp(yaw_rate, -spec_.max_yaw_rate, spec_.max_yaw_rate) - wanted_yaw_rate_);
-  speed_ = towards(speed_, wanted_speed_, spec_.acceleration * dt);
-  yaw_rate_ = towards(yaw_rate_, wanted_yaw_rate_, spec_.yaw_acceleration * dt);
+  commanded_speed_ +=
+      share * (std::clamp(forward_speed, -spec_.max_speed, spec_.max_speed) - commanded_speed_);
+  commanded_yaw_rate_ +=
+      share * (std::clamp(yaw_rate, -spec_.max_yaw_rate, spec_.max_yaw_rate) - commanded_yaw_rate_);
+  speed_ = towards(speed_, commanded_speed_, spec_.acceleration * dt);
+  yaw_rate_ = towards(yaw_rate_, commanded_yaw_rate_, spec_.yaw_acceleration * dt);
 }
 
-/// Where `distance` m (negative: back) along the present arc leads.
+/// The pose after `distance` m (negative: back) along the present arc.
 Eigen::Vector2d Vehicle::ahead(double distance) const {
   const double turn = std::abs(speed_) > 0.1 ? 0.5 * yaw_rate_ / speed_ * distance : 0.0;
   const Eigen::Vector2d slope(slope_east_.value, slope_north_.value);
@@ -102,7 +82,7 @@ Eigen::Vector2d Vehicle::ahead(double distance) const {
   return p_ + distance / std::sqrt(1.0 + std::pow(slope.dot(heading), 2)) * heading;
 }
 
-/// It brakes hard for what stands within its braking distance, so that it stops before touching.
+/// Brakes hard for an obstacle within the braking distance, so that the robot stops before it.
 void Vehicle::move(double wanted, double dt) {
   const double way = speed_ < 0.0 ? -1.0 : 1.0;
   const double reach = 0.5 * speed_ * speed_ / spec_.braking + 2.0 * std::abs(speed_) * dt;
@@ -123,7 +103,7 @@ void Vehicle::move(double wanted, double dt) {
 }
 
 /// The body on its tyres.
-void Vehicle::settle(double dt) {
+void Vehicle::update_suspension(double dt) {
   const double omega = 2.0 * std::numbers::pi * spec_.suspension_rate;
   const double stiffness = omega * omega, damping = 2.0 * spec_.suspension_damping * omega;
   const Eigen::Vector3d under = ground();

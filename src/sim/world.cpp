@@ -43,7 +43,7 @@ Status consistent(const Mesh& mesh) {
   return {};
 }
 
-/// Of the vertices that triangles use: stray ones do not stretch the world.
+/// Bounds of the vertices that triangles use: stray ones do not extend the world.
 WorldBounds bounds_of(const Mesh& mesh) {
   WorldBounds bounds;
   bounds.low.setConstant(std::numeric_limits<double>::infinity());
@@ -81,16 +81,6 @@ Status drivable_enough(const WorldBounds& bounds, double share, std::size_t free
 }
 
 }  // namespace
-
-Status DrivableConfig::validate() const {
-  if (!(cell >= 0.05 && cell <= 5.0)) return failure("cell must be from 0.05 to 5 m");
-  if (!(robot_height > 0.0 && robot_height <= 10.0)) return failure("robot_height must be within (0, 10] m");
-  if (!(step_height >= 0.0 && step_height < robot_height))
-    return failure("step_height must be from 0 m to below robot_height");
-  if (!(max_slope_rad > 0.0 && max_slope_rad < 0.49 * std::numbers::pi))
-    return failure("max_slope must be above 0 and below 88 deg");
-  return {};
-}
 
 Result<std::shared_ptr<const World>> World::create(Mesh mesh, const DrivableConfig& config,
                                                    SiteDrawing drawing) {

@@ -42,7 +42,7 @@ constexpr int kPagesBeforeCheckpoint = 1000;  // as SQLite's own
 
 /// The open file of a log; null when nothing was written.
 sqlite3_file* log_file(sqlite3* db) {
-  // SQLite has no call to sync it, but gives it out; its first sync is one of the folder, too.
+  // SQLite has no call that syncs the log, but returns its file; the first sync includes the folder.
   sqlite3_file* file = nullptr;
   sqlite3_file_control(db, "main", SQLITE_FCNTL_JOURNAL_POINTER, static_cast<void*>(&file));
   return file && file->pMethods ? file : nullptr;
@@ -79,20 +79,20 @@ LogSync sync(LogState& log) {
     if (!move_log(log.db, *file)) return LogSync::kFailed;
     log.left = false;
     log.frames = log.durable = 0;
-    log.set_doubtful(false);
+    log.set_uncertain(false);
     return LogSync::kDone;
   }
-  if (log.doubtful) {
+  if (log.uncertain) {
     const LogContent found = scan_log(sqlite3_filename_wal(sqlite3_db_filename(log.db, "main")));
     const bool anew = found.generation > log.generation;  // and nothing was committed since
     if (log.frames > 0 && !anew && (found.generation < log.generation || found.frames < log.frames))
       return LogSync::kLost;
-    // What is sound on the disk is not touched: a power cut may tear what is written.
+    // Sound pages on the disk are left alone, because a power cut may tear a page that is being written.
     const std::size_t begin = anew || log.durable == 0 ? 0 : end_of_frames(log.durable, found.page_bytes);
     if (!write_again(*file, begin)) return LogSync::kFailed;
   }
   const bool synced = file->pMethods->xSync(file, SQLITE_SYNC_NORMAL) == SQLITE_OK;
-  log.set_doubtful(!synced);
+  log.set_uncertain(!synced);
   if (synced) log.durable = log.frames;
   return synced ? LogSync::kDone : LogSync::kFailed;
 }
@@ -102,7 +102,7 @@ LogSync sync(LogState& log) {
 int after_commit(void* state, sqlite3* db, const char* name, int frames) {
   auto& log = *static_cast<LogState*>(state);
   log.note_commit(static_cast<std::size_t>(frames));
-  if (frames < kPagesBeforeCheckpoint || (log.doubtful && sync(log) != LogSync::kDone)) return SQLITE_OK;
+  if (frames < kPagesBeforeCheckpoint || (log.uncertain && sync(log) != LogSync::kDone)) return SQLITE_OK;
   // Syncs the log first.
   if (sqlite3_wal_checkpoint_v2(db, name, SQLITE_CHECKPOINT_PASSIVE, nullptr, nullptr) == SQLITE_OK) {
     log.durable = log.frames;
@@ -127,11 +127,11 @@ void LogState::note_commit(std::size_t all_frames) {
 
 void LogState::note_error() {
   const int code = sqlite3_extended_errcode(db);
-  if (code == SQLITE_IOERR_FSYNC || code == SQLITE_IOERR_DIR_FSYNC) set_doubtful(true);
+  if (code == SQLITE_IOERR_FSYNC || code == SQLITE_IOERR_DIR_FSYNC) set_uncertain(true);
 }
 
-void LogState::set_doubtful(bool now) {
-  doubtful = now;
+void LogState::set_uncertain(bool now) {
+  uncertain = now;
   sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, now ? 1 : 0, nullptr);
 }
 
@@ -218,9 +218,9 @@ Result<std::int64_t> Database::integer(const char* sql) const {
   return *row ? statement->integer(0) : 0;
 }
 
-void Database::doubt_left_log() {
+void Database::mark_left_log() {
   log_->left = true;
-  log_->set_doubtful(true);
+  log_->set_uncertain(true);
 }
 
 Status Database::sync_log() {

@@ -12,23 +12,23 @@
 
 namespace fleetmap::store {
 
-/// What is known of a connection's write-ahead log.
+/// Durability of a connection's write-ahead log.
 struct LogState {
   sqlite3* db = nullptr;
   std::uint32_t generation = 0;  ///< at the last commit (LogContent)
   std::size_t frames = 0;        ///< that were committed; 0 until the first commit
   std::size_t durable = 0;       ///< of these, up to the last sync that succeeded
-  /// A sync failed: the system then counts the pages as written and may drop them, so the next sync that
-  /// succeeds says nothing about them.
-  bool doubtful = false;
-  /// It is of a process that was killed, perhaps after such a sync: nobody knows how much of it is on the
-  /// disk.
+  /// A sync failed. The system then counts the pages as written and may drop them, so that a later successful
+  /// sync proves nothing about them.
+  bool uncertain = false;
+  /// The log was left by a killed process, perhaps after such a sync, so the part of it that is on the disk
+  /// is unknown.
   bool left = false;
 
   void note_commit(std::size_t all_frames);
   /// Notes whether the last error of the connection was a sync's.
   void note_error();
-  void set_doubtful(bool now);
+  void set_uncertain(bool now);
 };
 
 /// One prepared statement in use. Bind from 1, read columns from 0.
@@ -54,7 +54,9 @@ class Statement {
   sqlite3_stmt* stmt_;
 };
 
-/// A SQLite connection whose errors say which file and what to do.
+/// A SQLite connection whose errors name the file and the remedy. Written by hand: SQLiteCpp (3.2.1 in Debian
+/// 12) would replace about 120 of the 276 lines of database.cpp, and throw where a Result is needed; the
+/// log's durability (LogState) needs SQLite's C interface in any case.
 class Database {
  public:
   /// `file_system`: name of a SQLite VFS; empty: the system's own.
@@ -66,14 +68,13 @@ class Database {
   Result<std::int64_t> integer(const char* sql) const;
   /// Rows that were inserted, updated or deleted since the file was opened.
   std::int64_t changes() const { return sqlite3_total_changes64(db_.get()); }
-  /// What was committed to the write-ahead log survives a power cut from now on. After a sync that failed,
-  /// what came since the last one that succeeded is written again before. Fails also when that can no more be
-  /// read as it was written.
+  /// Makes all commits in the write-ahead log survive a power cut. After a failed sync, the frames since the
+  /// last successful one are written again first. Fails also when these frames can no longer be read.
   Status sync_log();
   /// Part of the log may not be on the disk, though it can be read.
-  bool log_is_doubtful() const { return log_->doubtful; }
+  bool log_is_uncertain() const { return log_->uncertain; }
   /// The log is of another process: sync_log() then moves all of it into the file.
-  void doubt_left_log();
+  void mark_left_log();
   /// A commit with synchronous = FULL has synced the log.
   void note_log_synced() { log_->durable = log_->frames; }
   /// The last error shows that the file is damaged or that parts of it cannot be read.

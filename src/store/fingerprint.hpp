@@ -7,13 +7,12 @@
 
 namespace fleetmap::store {
 
-/// 32 bits of a hash of what an item says, the same on every machine. The numbers of an item that came over
-/// the wire pass the C library's sine and exponential, whose last bits differ between processors, so
-/// rotations are rounded to 1e-6 and standard deviations to single precision; what differs by less has no
-/// consequence.
+/// 32 bits of a hash of an item's content, equal on every machine. Numbers of an item that came over the wire
+/// pass the C library's sine and exponential, whose last bits differ between processors, so rotations are
+/// rounded to 1e-6 and standard deviations to single precision; smaller differences have no consequence.
 std::uint32_t fingerprint(const graph::Node& node);
 std::uint32_t fingerprint(const graph::Alignment& alignment);
-/// Of a name that has two contents, whichever two prove it.
+/// The fingerprint of a contested name, equal for any two contents that prove it.
 std::uint32_t fingerprint_of_contested(const NodeId& name);
 
 }  // namespace fleetmap::store

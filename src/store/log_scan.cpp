@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kHeaderBytes = 32, kFrameHeaderBytes = 24;
 constexpr std::uint32_t kMagic = 0x377f0682;  // its last bit is set where the sums are of big-endian words
 constexpr std::uint32_t kFormat = 3007000;
-constexpr std::size_t kLeastPage = 512, kMostPage = 65536;
+constexpr std::size_t kMinPage = 512, kMaxPage = 65536;
 
 std::uint32_t word(ByteView bytes, std::size_t at, bool big_endian = true) {
   std::uint32_t value = 0;
@@ -54,7 +54,7 @@ LogContent scan_log(const std::filesystem::path& log) {
   sum.add(head.first(24), big_endian);
   const std::size_t page_bytes = word(head, 8);
   if ((word(head, 0) & ~1u) != kMagic || word(head, 4) != kFormat || !sum.is_at(head, 24) ||
-      !std::has_single_bit(page_bytes) || page_bytes < kLeastPage || page_bytes > kMostPage)
+      !std::has_single_bit(page_bytes) || page_bytes < kMinPage || page_bytes > kMaxPage)
     return content;
   content.page_bytes = page_bytes;
   content.generation = word(head, kGenerationInLog);

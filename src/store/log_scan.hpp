@@ -8,7 +8,7 @@ namespace fleetmap::store {
 
 constexpr std::size_t kGenerationInLog = 12;  ///< offset, B, of 4 bytes, the first one the highest
 
-/// What a write-ahead log of SQLite holds.
+/// The content of a SQLite write-ahead log.
 struct LogContent {
   std::size_t page_bytes = 0;
   std::uint32_t generation = 0;                 ///< counts how often the log began anew
@@ -21,7 +21,7 @@ struct LogContent {
 /// there or is no log. Format: https://www.sqlite.org/fileformat2.html#the_write_ahead_log.
 LogContent scan_log(const std::filesystem::path& log);
 
-/// Where the frame after `frames` others begins, B.
+/// The offset (B) at which the frame after `frames` others begins.
 std::size_t end_of_frames(std::size_t frames, std::size_t page_bytes);
 
 }  // namespace fleetmap::store

@@ -7,14 +7,6 @@
 
 namespace fleetmap::store {
 
-Status MergeConfig::validate() const {
-  // The grid's edge is a float.
-  using Float = std::numeric_limits<float>;
-  if (!(voxel_m >= double{Float::min()} && voxel_m <= double{Float::max()}))
-    return failure("merge.voxel_m must be positive");
-  return {};
-}
-
 std::uint8_t MapOutline::add_submap(const NodeId& id, std::size_t points) {
   ++submaps;
   points_in += points;

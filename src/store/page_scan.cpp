@@ -130,7 +130,7 @@ class Pages {
     return size >= 512 && size <= 65536 && (size & (size - 1)) == 0;
   }
 
-  /// A header that is no more tells nothing: stores have pages of the usual size.
+  /// A destroyed header gives no page size; stores then have the usual one.
   void read_header() {
     constexpr std::string_view kMagic("SQLite format 3\0", 16);
     const Bytes header = read_at(file_, 0, kHeaderBytes);

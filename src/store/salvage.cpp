@@ -112,10 +112,10 @@ std::optional<ValueRow> value_row(std::span<const Value> values) {
   return ValueRow{text(*key), *value};
 }
 
-/// Names that programs give; keeps other records of two columns out.
+/// Names that programs use; keeps other records of two columns out.
 bool is_key(ByteView bytes) {
-  constexpr std::size_t kMost = 64;
-  return !bytes.empty() && bytes.size() <= kMost && std::ranges::all_of(bytes, [](std::uint8_t byte) {
+  constexpr std::size_t kMax = 64;
+  return !bytes.empty() && bytes.size() <= kMax && std::ranges::all_of(bytes, [](std::uint8_t byte) {
     return (byte >= 'a' && byte <= 'z') || (byte >= '0' && byte <= '9') || byte == '_' || byte == '-' ||
            byte == '.';
   });

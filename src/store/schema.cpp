@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kApplicationId = 0x464c4d50;  // "FLMP", in the file's header
 constexpr std::int64_t kSchemaVersion = Store::kSchemaVersion;
 
-// WITHOUT ROWID keeps an item in its index; large blobs want the ordinary layout instead.
+// WITHOUT ROWID keeps an item in its index; large blobs need the ordinary layout.
 constexpr const char* kTables = R"sql(
   CREATE TABLE meta(key TEXT PRIMARY KEY, value BLOB NOT NULL) WITHOUT ROWID;
   CREATE TABLE node(agent TEXT, seq INTEGER, item BLOB NOT NULL, hash BLOB NOT NULL DEFAULT x'',
@@ -34,7 +34,7 @@ constexpr const char* kContestedTables = R"sql(
                                    PRIMARY KEY(agent, seq)) WITHOUT ROWID;
 )sql";
 
-// Of its maker; empty in a fleet without keys.
+// The maker's signature; empty in a fleet without keys.
 constexpr const char* kSignatureColumns = R"sql(
   ALTER TABLE node ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
   ALTER TABLE alignment ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
@@ -42,7 +42,7 @@ constexpr const char* kSignatureColumns = R"sql(
   ALTER TABLE contested_alignment ADD COLUMN signature BLOB NOT NULL DEFAULT x'';
 )sql";
 
-// Of key and value.
+// Hash of key and value.
 constexpr const char* kHashOfValues = "ALTER TABLE meta ADD COLUMN hash BLOB NOT NULL DEFAULT x''";
 constexpr std::int64_t kFirstWithHashOfValues = 6;
 

@@ -15,15 +15,15 @@ enum class Recognised : std::uint8_t {
   kStoreWithoutMark,  ///< has the tables of one, but another application id in its header
   kOther
 };
-/// What a file is that SQLite can read. Fails when it cannot.
+/// Classifies a file that SQLite can read. Fails when it cannot.
 Result<Recognised> recognise(const Database& db);
 
 /// Makes the tables of an empty file for `self`, brings a store of version 3 or later to this one, or checks
 /// that the file is a store of this version.
 Status prepare_schema(Database& db, const std::filesystem::path& path, const AgentId& self);
-/// The same check without writing; gives whose store it is.
+/// Checks the same without writing; returns the owner.
 Result<AgentId> check_schema(const Database& db, const std::filesystem::path& path);
-/// Whose store it is, of any version that prepare_schema() reads. Fails when that is damaged.
+/// Returns the owner of a store of any version that prepare_schema() reads. Fails when it is damaged.
 Result<AgentId> owner_of(const Database& db, const std::filesystem::path& path);
 
 }  // namespace fleetmap::store

@@ -6,7 +6,7 @@
 namespace fleetmap::store {
 namespace {
 
-constexpr std::size_t kMostAtOnce = 100'000;  ///< points between two looks at how many there are
+constexpr std::size_t kMaxPointsAtOnce = 100'000;  ///< points added between two checks of the size
 
 /// Points [begin, end).
 cloud::PointCloud slice(const cloud::PointCloud& cloud, std::size_t begin, std::size_t end) {
@@ -29,9 +29,10 @@ ThinnedMap::ThinnedMap(double voxel_m, std::size_t max_points)
 
 void ThinnedMap::add(const MapTile& tile) {
   for (std::size_t begin = 0; begin < tile.cloud.size();) {
-    // Points of one agent at a time: the merger tells how many of them are kept, not which.
+    // Adds points of one agent at a time, because the merger returns how many it kept, not which.
     std::size_t end = begin;
-    while (end < tile.cloud.size() && end - begin < kMostAtOnce && tile.seen_by[end] == tile.seen_by[begin])
+    while (end < tile.cloud.size() && end - begin < kMaxPointsAtOnce &&
+           tile.seen_by[end] == tile.seen_by[begin])
       ++end;
     seen_by_.insert(seen_by_.end(), merger_.add(slice(tile.cloud, begin, end)), tile.seen_by[begin]);
     begin = end;

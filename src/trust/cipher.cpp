@@ -1,9 +1,10 @@
+#include "fleetmap/trust/cipher.hpp"
+
 #include <openssl/core_names.h>
 #include <openssl/kdf.h>
 
 #include <algorithm>
 
-#include "fleetmap/trust/datagram.hpp"
 #include "joined.hpp"
 #include "openssl.hpp"
 
@@ -70,6 +71,13 @@ std::optional<Bytes> Cipher::open(std::uint64_t counter, ByteView header, ByteVi
       EVP_CIPHER_CTX_ctrl(context, EVP_CTRL_AEAD_SET_TAG, kTagBytes, tag.data()) == 1 &&
       EVP_DecryptFinal_ex(context, out + size, &size) == 1;
   return good ? std::optional(std::move(message)) : std::nullopt;
+}
+
+Session draw_session(const std::array<std::uint8_t, 2>& first) {
+  Session session{};
+  fill_random(session);
+  std::ranges::copy(first, session.begin());
+  return session;
 }
 
 SecretKey session_key(const SecretKey& fleet_key, const FleetId& fleet, std::uint16_t epoch,

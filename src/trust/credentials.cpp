@@ -90,7 +90,7 @@ Result<Credentials> load_credentials(const fs::path& folder, Stamp now) {
 void LearnedCertificates::add(const Certificate& certificate) {
   const std::scoped_lock lock(mutex_);
   const auto same = [&](const Certificate& other) { return other.der == certificate.der; };
-  if (certificates_.size() < kMost && std::ranges::none_of(certificates_, same))
+  if (certificates_.size() < kMax && std::ranges::none_of(certificates_, same))
     certificates_.push_back(certificate);
 }
 

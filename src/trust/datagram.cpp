@@ -40,13 +40,6 @@ std::array<std::uint8_t, kTailBytes> tail_of(const Session& session) {
 
 }  // namespace
 
-Session draw_session(const std::array<std::uint8_t, 2>& first) {
-  Session session{};
-  fill_random(session);
-  std::ranges::copy(first, session.begin());
-  return session;
-}
-
 DatagramSealer::DatagramSealer(const Credentials& credentials, const AgentId& name, std::uint8_t radio,
                                const Session& session)
     : fleet_(credentials.authority.fleet),
@@ -117,7 +110,7 @@ bool DatagramOpener::is_new_claim(const Session& session, std::uint64_t counter)
   const auto [claim, first] = claims_.try_emplace(session, 0);
   if (first) {
     claims_by_age_.push_back(session);
-    if (claims_by_age_.size() > kMostClaims) {
+    if (claims_by_age_.size() > kMaxClaims) {
       claims_.erase(claims_by_age_.front());
       claims_by_age_.pop_front();
     }
@@ -152,7 +145,7 @@ bool DatagramOpener::admit(const Session& session, Role role) {
   }
   const auto claim = claims_.find(session);
   // Another that ends alike keeps its place; so many starts of members are beyond any day's work.
-  if (claim == claims_.end() || senders_.size() >= kMostSessions || by_tail_.contains(tail_of(session)))
+  if (claim == claims_.end() || senders_.size() >= kMaxSessions || by_tail_.contains(tail_of(session)))
     return false;
   senders_.emplace(session,
                    Sender{cipher_of(session, keys_.rbegin()->first), ReplayWindow(claim->second), role});

@@ -1,7 +1,8 @@
+#include "fleetmap/trust/fleet_keys.hpp"
+
 #include <charconv>
 #include <sstream>
 
-#include "fleetmap/trust/credentials.hpp"
 #include "openssl.hpp"
 
 namespace fleetmap::trust {

@@ -12,8 +12,8 @@ enum Flag : std::uint8_t { kKnowsYou = 1, kKnowsAnother = 2, kLacks = 4, kSigned
 constexpr std::size_t kFixed = 1 + sizeof(Fingerprint), kSize = 2;
 
 std::uint8_t to_byte(const Introducer::Flags& flags) {
-  return static_cast<std::uint8_t>((flags.knows_you ? kKnowsYou : 0) |
-                                   (flags.knows_another ? kKnowsAnother : 0) |
+  return static_cast<std::uint8_t>((flags.names_you ? kKnowsYou : 0) |
+                                   (flags.names_another ? kKnowsAnother : 0) |
                                    (flags.lacks_certificate ? kLacks : 0));
 }
 
@@ -28,8 +28,8 @@ std::optional<Introduction> parse_introduction(ByteView bytes) {
   const std::uint8_t flags = rest[0];
   Introduction result;
   result.text.assign(text.begin(), text.end());
-  result.knows_you = (flags & kKnowsYou) != 0;
-  result.knows_another = (flags & kKnowsAnother) != 0;
+  result.names_you = (flags & kKnowsYou) != 0;
+  result.names_another = (flags & kKnowsAnother) != 0;
   result.lacks_certificate = (flags & kLacks) != 0;
   std::copy_n(rest.begin() + 1, result.fingerprint.size(), result.fingerprint.begin());
   rest = rest.subspan(kFixed);
@@ -81,7 +81,7 @@ Result<Certificate> Introducer::verify(const Introduction& introduction, const S
     if (!certificate) return failure("its certificate " + certificate.error().message);
     if (fingerprint(*certificate) != introduction.fingerprint)
       return failure("its certificate is another one");
-    if (members_.size() >= kMostMembers) return failure("the fleet has too many certificates");
+    if (members_.size() >= kMaxMembers) return failure("the fleet has too many certificates");
     learned_->add(*certificate);
     known = members_.emplace(introduction.fingerprint, *std::move(certificate)).first;
   }
@@ -89,7 +89,7 @@ Result<Certificate> Introducer::verify(const Introduction& introduction, const S
   const Certificate& certificate = known->second;
   if (Status valid = check(certificate, revocations_, now); !valid) return tl::unexpected(valid.error());
   const std::uint8_t flags =
-      to_byte({introduction.knows_you, introduction.knows_another, introduction.lacks_certificate});
+      to_byte({introduction.names_you, introduction.names_another, introduction.lacks_certificate});
   if (!introduction.signature ||
       !trust::verify(certificate.key, signed_bytes(introduction.text, flags, sender),
                      *introduction.signature))

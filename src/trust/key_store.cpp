@@ -27,10 +27,10 @@ Status make_folder(const fs::path& folder, fs::perms permissions) {
 std::uint32_t random_number() {
   std::array<std::uint8_t, 4> bytes{};
   fill_random(bytes);
-  constexpr std::uint32_t kMost = 0x7fffffff;
+  constexpr std::uint32_t kMax = 0x7fffffff;
   return ((std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 | std::uint32_t{bytes[2]} << 8 |
            bytes[3]) &
-          kMost) |
+          kMax) |
          1U;
 }
 

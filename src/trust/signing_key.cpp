@@ -1,25 +1,10 @@
-// Ed25519 keys and what of OpenSSL all of trust uses.
+#include "fleetmap/trust/signing_key.hpp"
+
 #include <openssl/pem.h>
-#include <openssl/rand.h>
 
-#include <stdexcept>
-
-#include "fleetmap/trust/certificate.hpp"
 #include "openssl.hpp"
 
 namespace fleetmap::trust {
-
-void require(bool good, const char* what) {
-  if (!good) throw std::runtime_error(std::string("OpenSSL: ") + what + " failed");
-}
-
-void fill_random(std::span<std::uint8_t> bytes) {
-  require(RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) == 1, "random numbers");
-}
-
-KeyHandle public_key_handle(std::span<const std::uint8_t, 32> key) {
-  return KeyHandle(EVP_PKEY_new_raw_public_key(EVP_PKEY_ED25519, nullptr, key.data(), key.size()));
-}
 
 SigningKey SigningKey::generate() {
   EVP_PKEY* key = EVP_PKEY_Q_keygen(nullptr, nullptr, "ED25519");
@@ -30,7 +15,7 @@ SigningKey SigningKey::generate() {
 Result<SigningKey> SigningKey::from_pem(const std::string& pem) {
   const BioHandle bio(BIO_new_mem_buf(pem.data(), static_cast<int>(pem.size())));
   require(bio != nullptr, "memory");
-  // A callback of its own, or OpenSSL would ask for a passphrase on the terminal.
+  // Without a callback OpenSSL would request a passphrase on the terminal.
   const auto no_passphrase = [](char*, int, int, void*) { return -1; };
   std::shared_ptr<EVP_PKEY> key(PEM_read_bio_PrivateKey(bio.get(), nullptr, no_passphrase, nullptr),
                                 EVP_PKEY_free);

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "agent/driven_fleet.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/place/proximity_search.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -125,7 +125,7 @@ TEST(DriveSafety, AnOperatorHoldsOneRobotAndLetsItGo) {
   const auto nodes = fleet.robot("r1").agent->perception().counters().scans;
   fleet.run_for(20s);
   EXPECT_GT(fleet.robot("r1").agent->perception().counters().scans, nodes + 150) << "it goes on to see";
-  EXPECT_EQ(fleet.robot("r1").agent->navigator()->status().state, planning::MissionState::kDriving)
+  EXPECT_EQ(fleet.robot("r1").agent->navigator()->status().state, messages::MissionState::kDriving)
       << "who is held is not stuck";
   EXPECT_EQ(fleet.robot("r1").agent->navigator()->status().mine, 1u) << "nor loses its row";
   const double held_at = fleet.robot("r1").twin->odometer();
@@ -180,12 +180,12 @@ TEST(DriveSafety, AButtonOnTheRobotHoldsIt) {
   DrivenFleet fleet({.robots = {"r1", "r2"}});
   ASSERT_TRUE(fleet.run_until_driving());
   const auto press = [&](bool hold) {
-    exchange::HoldOrder order = fleet.order_now("r1", hold);
+    messages::HoldOrder order = fleet.order_now("r1", hold);
     order.stamp = {};  // buttons have no clock
     fleet.robot("r1").bus->publish(
-        wire::topics::hold_onboard(),
-        wire::encode(
-            exchange::Hold{testing::robot_id("button"), exchange::Hold::Driving::kNoRobot, {order}}));
+        fleet_codec::topics::hold_onboard(),
+        fleet_codec::encode(
+            messages::Hold{testing::robot_id("button"), messages::Hold::Driving::kNoRobot, {order}}));
   };
   const Stamp event = fleet.now();
   press(true);

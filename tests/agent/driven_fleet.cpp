@@ -4,10 +4,13 @@
 #include <stdexcept>
 #include <variant>
 
-#include "fleetmap/config/world_config.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/world_file.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::testing {
 namespace {
@@ -41,7 +44,7 @@ DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kO
     twin.vehicle.command_timeout = 0.0;
     twin.lidar.rate = options.lidar_rate;
     twin.gps.fitted = !options.guided;
-    twin.start_given = true;
+    twin.has_start = true;
     twin.start = lane.from;
     twin.start_yaw = std::atan2(along.y(), along.x());
     planning::RobotAbility ability;
@@ -81,14 +84,15 @@ void DrivenFleet::start(Robot& robot) {
   const auto member =
       std::ranges::find_if(config_.members, [&](const auto& m) { return m.agent.id == robot.id; });
   robot.bus = &network_->add_robot(robot.id);
-  robot.handles.push_back(robot.bus->subscribe(wire::topics::cmd_vel(), [this, &robot](const Bytes& cdr) {
-    const auto command = wire::decode<wire::VelocityCommand>(cdr).value();
-    robot.commands.push_back({now(), command});
-    robot.twin->command(command.forward_speed, command.yaw_rate);
-  }));
-  robot.handles.push_back(robot.bus->subscribe(wire::topics::global_pose(), [&robot](const Bytes& cdr) {
-    robot.G = wire::decode<GlobalPose>(cdr).value();
-  }));
+  robot.handles.push_back(
+      robot.bus->subscribe(ros_codec::topics::cmd_vel(), [this, &robot](const Bytes& cdr) {
+        const auto command = ros_codec::decode<ros_codec::VelocityCommand>(cdr).value();
+        robot.commands.push_back({now(), command});
+        robot.twin->command(command.forward_speed, command.yaw_rate);
+      }));
+  robot.handles.push_back(robot.bus->subscribe(
+      fleet_codec::topics::global_pose(),
+      [&robot](const Bytes& cdr) { robot.G = fleet_codec::decode<GlobalPose>(cdr).value(); }));
   robot.agent = must(agent::Agent::create(member->agent, *robot.bus));
 }
 
@@ -117,7 +121,7 @@ void DrivenFleet::guide(Robot& robot) {
   const Pose T = robot.twin->T_enu_base();
   pose.position = LocalFrame(origin_).to_geo(T.translation());
   pose.q_enu_base = Eigen::Quaterniond(T.linear()).normalized();
-  robot.bus->publish(wire::topics::guide_pose(), wire::encode(pose));
+  robot.bus->publish(fleet_codec::topics::guide_pose(), fleet_codec::encode(pose));
 }
 
 void DrivenFleet::sense(Robot& robot) {
@@ -130,17 +134,17 @@ void DrivenFleet::sense(Robot& robot) {
           sample);
     }
     if (const auto* imu = std::get_if<sensor::Imu>(&sample)) {
-      robot.bus->publish(wire::topics::imu(), wire::encode(*imu));
+      robot.bus->publish(ros_codec::topics::imu(), ros_codec::encode(*imu));
     } else if (const auto* fix = std::get_if<sensor::Fix>(&sample)) {
-      if (robot.fixes) robot.bus->publish(wire::topics::fix(), wire::encode(*fix));
+      if (robot.fixes) robot.bus->publish(ros_codec::topics::fix(), ros_codec::encode(*fix));
     } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) {
-      if (robot.wheel) robot.bus->publish(wire::topics::wheel_odometry(), wire::encode(*wheel));
+      if (robot.wheel) robot.bus->publish(ros_codec::topics::wheel_odometry(), ros_codec::encode(*wheel));
     } else if (robot.scans) {
       sensor::Scan scan = sim::cast_scan(*scene_, robot.twin->config().lidar, std::get<sim::ScanJob>(sample));
       if (!robot.points) scan.points.resize(10);
       scan.stamp += robot.clock + robot.lidar_clock;
       robot.last_scan = now();
-      robot.bus->publish(wire::topics::points(), wire::encode(scan));
+      robot.bus->publish(ros_codec::topics::points(), ros_codec::encode(scan));
     }
   }
 }
@@ -153,14 +157,14 @@ bool DrivenFleet::run_until_driving() {
   return false;
 }
 
-exchange::HoldOrder DrivenFleet::order_now(const std::string& robot, bool hold) const {
+messages::HoldOrder DrivenFleet::order_now(const std::string& robot, bool hold) const {
   return {now(), robot.empty() ? AgentId{} : robot_id(robot), robot_id("operator"), hold};
 }
 
 void DrivenFleet::order(const std::string& robot, bool hold) {
-  const exchange::Hold message{
-      robot_id("operator"), exchange::Hold::Driving::kNoRobot, {order_now(robot, hold)}};
-  operator_->publish(wire::topics::hold(), wire::encode(message));
+  const messages::Hold message{
+      robot_id("operator"), messages::Hold::Driving::kNoRobot, {order_now(robot, hold)}};
+  operator_->publish(fleet_codec::topics::hold(), fleet_codec::encode(message));
 }
 
 Stamp stands_from(const DrivenFleet::Robot& robot, Stamp event, Stamp until) {

@@ -7,12 +7,12 @@
 #include "apps/small_twin.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
-#include "fleetmap/wire/sensors.hpp"
 
 namespace fleetmap::testing {
 
@@ -31,7 +31,7 @@ class DrivenFleet {
   };
   struct Command {
     Stamp at;
-    wire::VelocityCommand velocity;
+    ros_codec::VelocityCommand velocity;
     bool zero() const { return velocity.forward_speed == 0.0 && velocity.yaw_rate == 0.0; }
   };
   struct Robot {
@@ -59,7 +59,7 @@ class DrivenFleet {
   bool run_until_driving();
   /// What an operator sends on the long range, once.
   void order(const std::string& robot, bool hold);
-  exchange::HoldOrder order_now(const std::string& robot, bool hold) const;
+  messages::HoldOrder order_now(const std::string& robot, bool hold) const;
   /// As kill -9 and a new start do; the chassis stands meanwhile.
   void restart(const std::string& name);
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "store/items.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,7 +19,7 @@ AgentId id(const char* name) { return AgentId::parse(name).value(); }
 exchange::Exchange make_exchange(store::Store& store, exchange::LoopCloser& loop_closer) {
   exchange::ExchangeConfig config;
   config.fleet = {id("r1"), id("r2")};
-  config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
+  config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   return exchange::Exchange::make(config, store, loop_closer, {}).value();
 }
 
@@ -35,14 +35,15 @@ TEST(FleetLink, AskingWhomNobodyAnswersForIsNoProgress) {
   exchange::Exchange exchange = make_exchange(store, loop_closer);
   FleetLink link(id("r1"), own, exchange, [] {});
 
-  const auto say = [&](const exchange::Message& message) {
-    other.publish(wire::topic_of(message), wire::encode(message));
+  const auto say = [&](const messages::Message& message) {
+    other.publish(fleet_codec::topic_of(message), fleet_codec::encode(message));
   };
   int asked = 0;
-  const exchange::Message request = exchange::ItemRequest{id("r2"), id("r1"), {{id("r1"), 0, 1}}, {}};
-  const bus::Handle heard = other.subscribe(wire::topic_of(exchange::ItemRequest{id("r1"), id("r2"), {}, {}}),
-                                            [&](const Bytes&) { ++asked; });
-  say(exchange::Digest{id("r2"), {{id("r2"), 0, 3}}, {}, {0}, {}});
+  const messages::Message request = messages::ItemRequest{id("r2"), id("r1"), {{id("r1"), 0, 1}}, {}};
+  const bus::Handle heard =
+      other.subscribe(fleet_codec::topic_of(messages::ItemRequest{id("r1"), id("r2"), {}, {}}),
+                      [&](const Bytes&) { ++asked; });
+  say(messages::Digest{id("r2"), {{id("r2"), 0, 3}}, {}, {0}, {}});
   network->run_until(Stamp{} + 120s);
   EXPECT_GE(asked, 2) << "r1 asks for what it lacks, again and again";
   EXPECT_EQ(link.counters().last_useful, Stamp{});
@@ -94,7 +95,7 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   EXPECT_TRUE(exchange.provide_cloud(node, Bytes(25'000, 7), radio.now()));
   FleetLink link(id("r1"), radio, exchange, [] {});
   for (int k = 0; k < 20; ++k) {
-    const exchange::Message request = exchange::CloudRequest{id("r2"), id("r1"), node, {}};
+    const messages::Message request = messages::CloudRequest{id("r2"), id("r1"), node, {}};
     exchange.on_message(request, radio.now());
     network->run_until(radio.now() + 1s);
   }

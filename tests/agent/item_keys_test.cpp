@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/agent/fleet_link.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/fleet_of_keys.hpp"
 
@@ -29,7 +29,7 @@ graph::Node node_of(const char* maker, std::uint32_t seq) {
   node.stamp = testing::kNow;
   node.T_odom_base = se3_exp(Vector6d{1.0, 2.0, 0.3, 0.1, -0.2, 0.7 + seq});
   node.odom_covariance = 1e-3 * Matrix6d::Identity();
-  return wire::quantised(node).value();
+  return fleet_codec::quantised(node).value();
 }
 
 class ItemKeysTest : public ::testing::Test {
@@ -48,7 +48,7 @@ TEST_F(ItemKeysTest, ProveTheMakerAndTheContent) {
   graph::Node node = signed_by(of_r1_, node_of("r1", 3));
   EXPECT_EQ(of_r1_.verify(node), ItemProof::kGenuine) << "own ones come back, too";
   EXPECT_EQ(of_r2_.verify(node), ItemProof::kGenuine);
-  EXPECT_EQ(of_r2_.verify(*wire::decode<graph::Node>(wire::encode(node))), ItemProof::kGenuine);
+  EXPECT_EQ(of_r2_.verify(*fleet_codec::decode<graph::Node>(fleet_codec::encode(node))), ItemProof::kGenuine);
   EXPECT_EQ(of_r2_.verify(signed_by(of_r2_, node)), ItemProof::kWrong) << "in the name of another";
   graph::Node altered = node;
   altered.submap_hash[0] ^= 1;
@@ -95,7 +95,7 @@ TEST_F(ItemKeysTest, AChangedMemberHandsOnWhatIsGenuineAndInventsNothing) {
   r2_->members = {r1_->certificate, r3.certificate};
   exchange::ExchangeConfig config;
   config.fleet = {id("r1"), id("r2"), id("r3")};
-  config.payload_size = [](const exchange::Message& message) { return wire::encode(message).size(); };
+  config.payload_size = [](const messages::Message& message) { return fleet_codec::encode(message).size(); };
   config.authenticator = std::make_shared<ItemKeys>(r2_);
   auto store = store::Store::open(folder.path() / "store.db", id("r2")).value();
   loop_closure::CandidateScheduler loop_closer(store.self(), {});
@@ -106,8 +106,8 @@ TEST_F(ItemKeysTest, AChangedMemberHandsOnWhatIsGenuineAndInventsNothing) {
       if (const auto* one = std::get_if<exchange::ItemRefused>(&event)) refused.push_back(*one);
     }
   });
-  const auto say = [&](const exchange::Message& message) {
-    bus_of_r3.publish(wire::topic_of(message), wire::encode(message));
+  const auto say = [&](const messages::Message& message) {
+    bus_of_r3.publish(fleet_codec::topic_of(message), fleet_codec::encode(message));
     network->run_until(network->now() + 1s);
   };
   const ItemKeys of_r3(shared(r3));

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "fleetmap/bus/local_bus.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::agent {
@@ -24,8 +24,8 @@ class LivePlacementTest : public ::testing::Test {
     ASSERT_TRUE(network);
     network_ = std::move(*network);
     bus_ = &network_->add_robot(kSelf);
-    subscription_ = bus_->subscribe(wire::topics::corrected_pose(), [this](const Bytes& cdr) {
-      heard_.push_back(wire::decode<GlobalPose>(cdr).value());
+    subscription_ = bus_->subscribe(fleet_codec::topics::corrected_pose(), [this](const Bytes& cdr) {
+      heard_.push_back(fleet_codec::decode<GlobalPose>(cdr).value());
     });
     config_.id = kSelf;
     config_.site_origin = origin_;
@@ -125,6 +125,19 @@ TEST_F(LivePlacementTest, FollowsTheOdometryBetweenSolutionsAndIgnoresThatOfAnot
   // Nothing new, nothing solved.
   live_->refresh(0);
   EXPECT_EQ(used_.size(), 1u);
+}
+
+/// 5 s for each 10,000 nodes, so that a long day takes no more of the CPU.
+TEST_F(LivePlacementTest, WithManyNodesSolutionsAreFartherApart) {
+  for (std::uint32_t seq = 0; seq < 12'000; ++seq) add_node(kSelf, seq, seq == 0);
+  solve();
+  add_node(kSelf, 12'000, false);
+  live_->refresh(0);
+  network_->run_until(network_->now() + std::chrono::seconds(3));
+  EXPECT_FALSE(live_->idle()) << "5 s after the start of the first, one more is due";
+  network_->run_until(network_->now() + std::chrono::seconds(1));
+  solve();
+  EXPECT_EQ(used_.size(), 2u);
 }
 
 }  // namespace

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "fleetmap/bus/local_bus.hpp"
-#include "fleetmap/wire/messages.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -77,13 +78,13 @@ class NavigatorTest : public ::testing::Test {
     ASSERT_TRUE(network);
     network_ = std::move(*network);
     bus_ = &network_->add_robot(self_);
-    subscription_ = bus_->subscribe(wire::topics::cmd_vel(), [this](const Bytes& cdr) {
-      commands_.push_back(wire::decode<wire::VelocityCommand>(cdr).value());
+    subscription_ = bus_->subscribe(ros_codec::topics::cmd_vel(), [this](const Bytes& cdr) {
+      commands_.push_back(ros_codec::decode<ros_codec::VelocityCommand>(cdr).value());
     });
     NavigatorConfig config;
     config.plan = small_plan();
     ASSERT_TRUE(config.plan);
-    auto made = Navigator::create(config, self_, site_, *bus_, [this](exchange::MissionReport report) {
+    auto made = Navigator::create(config, self_, site_, *bus_, [this](messages::MissionReport report) {
       told_.push_back(std::move(report));
     });
     ASSERT_TRUE(made) << made.error().message;
@@ -101,7 +102,7 @@ class NavigatorTest : public ::testing::Test {
   /// Scans and ticks at one place for `seconds`; `told`: what who leads the robot tells it.
   void stand(const Perceived& perceived, int seconds, const Bytes& told = {}) {
     for (int k = 0; k < 10 * seconds; ++k) {
-      if (!told.empty()) bus_->publish(wire::topics::guide_pose(), told);
+      if (!told.empty()) bus_->publish(fleet_codec::topics::guide_pose(), told);
       network_->run_until(network_->now() + std::chrono::milliseconds(100));
       see(perceived);
       if (k % 5 == 4) navigator_->tick(false);
@@ -119,13 +120,13 @@ class NavigatorTest : public ::testing::Test {
       ASSERT_EQ(command.yaw_rate, 0.0);
     }
   }
-  static exchange::HoldOrder order(bool hold) { return {{}, {}, AgentId::parse("operator").value(), hold}; }
-  exchange::MissionReport report_of(const char* id, Bytes done) const {
-    exchange::MissionReport report;
+  static messages::HoldOrder order(bool hold) { return {{}, {}, AgentId::parse("operator").value(), hold}; }
+  messages::MissionReport report_of(const char* id, Bytes done) const {
+    messages::MissionReport report;
     report.from = AgentId::parse(id).value();
     report.stamp = network_->now() + std::chrono::seconds(1);
-    report.current = planning::MissionReport::kNoRow;
-    report.done = std::move(done);
+    report.current = messages::MissionReport::kNoRow;
+    report.done = messages::RowSet(std::move(done));
     return report;
   }
 
@@ -134,8 +135,8 @@ class NavigatorTest : public ::testing::Test {
   std::unique_ptr<bus::LocalNetwork> network_;
   bus::Bus* bus_ = nullptr;
   bus::Handle subscription_;
-  std::vector<wire::VelocityCommand> commands_;
-  std::vector<exchange::MissionReport> told_;
+  std::vector<ros_codec::VelocityCommand> commands_;
+  std::vector<messages::MissionReport> told_;
   std::unique_ptr<Navigator> navigator_;
 };
 
@@ -172,18 +173,18 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   const auto led_at = [&](const Eigen::Vector2d& p) {
     GlobalPose pose = *at(p, 0.0).G;
     pose.stamp = network_->now();
-    stand({}, 1, wire::encode(pose));
+    stand({}, 1, fleet_codec::encode(pose));
   };
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
   ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
+  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
 
   stand(at({30.0, 30.0}, 0.0), 1);
-  bus_->publish(wire::topics::guide_pose(), Bytes(7, 0xff));
+  bus_->publish(fleet_codec::topics::guide_pose(), Bytes(7, 0xff));
   GlobalPose nowhere = *at({0.0, 0.0}, 0.0).G;
   nowhere.position.latitude = std::numeric_limits<double>::quiet_NaN();
-  bus_->publish(wire::topics::guide_pose(), wire::encode(nowhere));
+  bus_->publish(fleet_codec::topics::guide_pose(), fleet_codec::encode(nowhere));
   stand({}, 1);
   commands_.clear();
   stand({}, 2);
@@ -193,12 +194,12 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
 
 TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
   for (int k = 0; k < 8; ++k) {
-    stand(at({9.0, 4.0}, 0.0), 1, wire::encode(*at({1.0, 0.0}, 0.0).G));
+    stand(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
   ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().east, 1.0, 0.01);
+  EXPECT_NEAR(told_.back().position.x(), 1.0, 0.01);
   stand(at({9.0, 4.0}, 0.0), 8);
-  EXPECT_NEAR(told_.back().east, 9.0, 0.01) << "alone again, it goes by its own G";
+  EXPECT_NEAR(told_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
@@ -226,14 +227,14 @@ TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
   ASSERT_GE(told_.size(), 3u);
   EXPECT_LE(told_.size(), 4u);
   EXPECT_EQ(told_.back().from, self_);
-  EXPECT_NEAR(told_.back().east, 0.0, 0.01);
-  EXPECT_EQ(told_.back().claimed.size(), 1u);
-  EXPECT_NE(told_.back().claimed[0], 0) << "it claims its row";
+  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
+  EXPECT_EQ(told_.back().claimed.bytes().size(), 1u);
+  EXPECT_TRUE(told_.back().claimed.has(0)) << "it claims its row";
 }
 
 TEST_F(NavigatorTest, HearsOfItsBattery) {
   EXPECT_FALSE(navigator_->battery());
-  bus_->publish(wire::topics::battery(), wire::encode(sensor::Battery{network_->now(), 0.25}));
+  bus_->publish(ros_codec::topics::battery(), ros_codec::encode(sensor::Battery{network_->now(), 0.25}));
   network_->run_until(network_->now());
   ASSERT_TRUE(navigator_->battery());
   EXPECT_NEAR(*navigator_->battery(), 0.25, 1e-6);
@@ -261,12 +262,11 @@ TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
 TEST_F(NavigatorTest, ReportsThatCannotBeAreHarmless) {
   stand(at({0.0, 0.0}, 0.0), 2);
   const auto before = navigator_->status();
-  exchange::MissionReport beyond = report_of("r2", Bytes(128, 0xfc));
-  beyond.claimed = Bytes(128, 0xfc);
-  beyond.failed = Bytes(128, 0xfc);
+  messages::MissionReport beyond = report_of("r2", Bytes(128, 0xfc));
+  beyond.claimed = beyond.failed = beyond.done;
   beyond.current = 900;
-  beyond.state = 250;
-  beyond.east = std::numeric_limits<float>::quiet_NaN();
+  beyond.state = static_cast<messages::MissionState>(250);
+  beyond.position.x() = std::numeric_limits<double>::quiet_NaN();
   navigator_->on_report(beyond);
   navigator_->on_report(report_of("r9", {0b11}));
   navigator_->on_report(report_of("r1", {0b11}));
@@ -325,12 +325,12 @@ TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   expect_zeros();
   EXPECT_EQ(navigator_->stands(), StandReason::kNoOdometry);
   commands_.clear();
-  stand(lost, 1, wire::encode(*at({0.0, 0.0}, 0.0).G));
+  stand(lost, 1, fleet_codec::encode(*at({0.0, 0.0}, 0.0).G));
   expect_zeros();  // whoever leads it does not see what is in the way
 }
 
 TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
-  const Bytes told = wire::encode(*at({0.0, 0.0}, 0.0).G);
+  const Bytes told = fleet_codec::encode(*at({0.0, 0.0}, 0.0).G);
   stand({}, 2, told);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
   navigator_->obey(order(true));
@@ -348,7 +348,7 @@ TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
   commands_.clear();
   stand(at({0.0, 0.0}, 0.0), 50);
   expect_zeros();
-  EXPECT_EQ(navigator_->status().state, planning::MissionState::kDriving);
+  EXPECT_EQ(navigator_->status().state, messages::MissionState::kDriving);
   EXPECT_EQ(navigator_->status().mine, 1u);
   EXPECT_EQ(navigator_->status().replans, 0u);
   EXPECT_FALSE(told_.empty()) << "the others hear of it";

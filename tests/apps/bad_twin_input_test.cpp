@@ -6,7 +6,7 @@
 #include <fstream>
 #include <regex>
 
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "small_twin.hpp"
 #include "support/process.hpp"
 

@@ -11,7 +11,8 @@
 #include "bus/dds_domains.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 #include "small_twin.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
@@ -27,14 +28,14 @@ constexpr auto kPatience = std::chrono::minutes(6);
 constexpr double kBesideRow = 2.5, kLeastShare = 0.8;
 
 /// Share of a straight row that has a pose of the trajectory within kBesideRow.
-double share_driven(const planning::Row& row, const std::vector<eval::StampedPose>& truth) {
+double share_driven(const planning::Row& row, const output::Trajectory& truth) {
   constexpr int kSteps = 40;
   int near = 0;
   for (int k = 0; k <= kSteps; ++k) {
     const double along = static_cast<double>(k) / kSteps;
     const Eigen::Vector2d point = (1.0 - along) * row.waypoints.front() + along * row.waypoints.back();
-    near += std::ranges::any_of(truth, [&](const eval::StampedPose& pose) {
-      return (pose.T_enu_base.translation().head<2>() - point).norm() < kBesideRow;
+    near += std::ranges::any_of(truth, [&](const output::StampedPose& pose) {
+      return (pose.T_w_base.translation().head<2>() - point).norm() < kBesideRow;
     });
   }
   return static_cast<double>(near) / (kSteps + 1);
@@ -68,7 +69,7 @@ class DdsMission : public ::testing::Test {
   std::set<planning::RowId> rows_driven(const std::string& id) const {
     const LocalFrame site(geo_point_from_degrees(39.0, -3.0, 600.0));
     const auto drawing = planning::read_geojson(twin_.path("site") / "site.geojson", site);
-    const auto truth = eval::read_tum(twin_.path("truth") / id / "truth.tum");
+    const auto truth = output::read_tum(twin_.path("truth") / id / "truth.tum");
     EXPECT_TRUE(drawing && truth) << id;
     std::set<planning::RowId> rows;
     if (!drawing || !truth) return rows;

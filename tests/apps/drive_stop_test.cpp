@@ -12,8 +12,8 @@
 #include "apps/small_twin.hpp"
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -40,8 +40,8 @@ class CommandLog {
     config.onboard.domain = domain;
     config.long_range.enabled = config.short_range.enabled = false;
     bus_ = bus::DdsBus::create(config).value();
-    subscription_ = bus_->subscribe(wire::topics::cmd_vel(), [this](const Bytes& cdr) {
-      const auto command = wire::decode<wire::VelocityCommand>(cdr).value();
+    subscription_ = bus_->subscribe(ros_codec::topics::cmd_vel(), [this](const Bytes& cdr) {
+      const auto command = ros_codec::decode<ros_codec::VelocityCommand>(cdr).value();
       commands_.push_back({bus_->now(), command.forward_speed == 0.0 && command.yaw_rate == 0.0});
     });
     name_ = robot;
@@ -194,7 +194,7 @@ class Watchdog : public ::testing::Test {
     config.long_range.enabled = config.short_range.enabled = false;
     bus_ = bus::DdsBus::create(config).value();
     watchdog_ = std::make_unique<apps::DriveWatchdog>(*bus_, stop_);
-    const auto matched = [&] { return bus_->matches(wire::topics::cmd_vel()).readers == 1; };
+    const auto matched = [&] { return bus_->matches(ros_codec::topics::cmd_vel()).readers == 1; };
     ASSERT_TRUE(bus_->run_until(matched, 20s));
     bus_->run_until([] { return false; }, 300ms);
   }

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
@@ -50,8 +50,8 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   std::vector<std::vector<Pose>> trajectories;
   std::vector<Pose> placed_poses, true_poses;
   for (const testing::GeneratedRobot& robot : fleet->robots) {
-    const auto odometry = agent::read_trajectory(out / robot.id / "odometry.tum");
-    const auto placed = agent::read_trajectory(out / robot.id / "trajectory.tum");
+    const auto odometry = output::read_growing_tum(out / robot.id / "odometry.tum");
+    const auto placed = output::read_growing_tum(out / robot.id / "trajectory.tum");
     ASSERT_TRUE(odometry && placed);
     ASSERT_EQ(odometry->size(), robot.T_enu_base.size());
     std::vector<Pose> O, T;
@@ -95,7 +95,7 @@ void write_carried_robot(const std::filesystem::path& folder) {
   auto bag = recording::BagWriter::create(folder);
   ASSERT_TRUE(bag) << bag.error().message;
   const testing::SyntheticWorld yard = testing::yard_world(), panels = testing::panel_world();
-  const bus::Topic topic = wire::topics::points();
+  const bus::Topic topic = ros_codec::topics::points();
   for (int k = 0; k < 32; ++k) {
     const double seconds = 0.1 * k;
     const bool carried = k >= 12;
@@ -106,7 +106,7 @@ void write_carried_robot(const std::filesystem::path& folder) {
     sensor::Scan scan = make_scan(
         carried ? panels : yard, [&](double) { return there; }, seconds, odometry::vlp16());
     scan.stamp = stamp_from_ns(1'750'000'000'000'000'000) + from_seconds(seconds);
-    ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, wire::encode(scan)));
+    ASSERT_TRUE(bag->write(topic.name, topic.type, scan.stamp, ros_codec::encode(scan)));
   }
   ASSERT_TRUE(bag->close());
 }

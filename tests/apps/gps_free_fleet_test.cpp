@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/generated_fleet.hpp"
 #include "support/measured.hpp"
@@ -37,7 +37,7 @@ class GpsFreeFleet : public ::testing::Test {
     return nlohmann::json::parse(report, nullptr, false);
   }
   Pose first_pose(const std::string& robot) const {
-    const auto placed = agent::read_trajectory(out_ / robot / "trajectory.tum");
+    const auto placed = output::read_growing_tum(out_ / robot / "trajectory.tum");
     return placed && !placed->empty() ? placed->front().T_w_base : Pose::Identity();
   }
   /// Where r2 began as seen from where r1 began, against the truth.
@@ -54,9 +54,9 @@ class GpsFreeFleet : public ::testing::Test {
     // The first poses alone would not show a track that is bent.
     std::vector<Pose> placed, truth;
     for (const testing::GeneratedRobot& robot : fleet_.robots) {
-      const auto track = agent::read_trajectory(out_ / robot.id / "trajectory.tum");
+      const auto track = output::read_growing_tum(out_ / robot.id / "trajectory.tum");
       ASSERT_TRUE(track) << track.error().message;
-      for (const agent::StampedPose& pose : *track) placed.push_back(pose.T_w_base);
+      for (const output::StampedPose& pose : *track) placed.push_back(pose.T_w_base);
       truth.insert(truth.end(), robot.T_enu_base.begin(), robot.T_enu_base.end());
     }
     ASSERT_EQ(placed.size(), truth.size());

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/generated_fleet.hpp"
 #include "support/measured.hpp"
@@ -23,10 +23,10 @@ constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
 
 std::vector<Pose> poses_of(const std::filesystem::path& file) {
   std::vector<Pose> poses;
-  const auto read = agent::read_trajectory(file);
+  const auto read = output::read_growing_tum(file);
   EXPECT_TRUE(read) << (read ? "" : read.error().message);
   if (read) {
-    for (const agent::StampedPose& pose : *read) poses.push_back(pose.T_w_base);
+    for (const output::StampedPose& pose : *read) poses.push_back(pose.T_w_base);
   }
   return poses;
 }
@@ -51,7 +51,7 @@ class KittiFleet : public ::testing::Test {
   testing::GeneratedRobot reference(const std::filesystem::path& out, const std::string& id,
                                     std::size_t first) const {
     testing::GeneratedRobot robot{id, {}, {}};
-    const auto scans = agent::read_trajectory(out / id / "odometry.tum");
+    const auto scans = output::read_growing_tum(out / id / "odometry.tum");
     EXPECT_TRUE(scans);
     for (std::size_t k = 0; scans && k < scans->size() && first + k < consensus_.size(); ++k) {
       robot.stamps.push_back((*scans)[k].stamp);

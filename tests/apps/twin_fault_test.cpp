@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/store.hpp"
 #include "small_twin.hpp"
 
@@ -34,7 +35,7 @@ Nodes nodes_in(const std::filesystem::path& directory, const std::string& self) 
 
 /// m between where the robot was at two times, s since its first pose.
 double moved_between(const std::filesystem::path& directory, double from, double until) {
-  const auto truth = eval::read_tum(directory / "truth.tum");
+  const auto truth = output::read_tum(directory / "truth.tum");
   if (!truth || truth->empty()) return -1.0;
   const Stamp start = truth->front().stamp;
   const auto a = eval::pose_at(*truth, start + from_seconds(from));

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "bus/dds_domains.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "small_twin.hpp"
 #include "support/eventually.hpp"
 #include "support/measured.hpp"
@@ -30,9 +30,9 @@ std::string hash_of(const fs::path& file) {
 }
 
 /// Share of the true poses at which less than `radius` was free around the robot.
-double share_touching(const eval::Trajectory& truth, const sim::World& world, double radius) {
-  const auto touching = std::ranges::count_if(truth, [&](const eval::StampedPose& pose) {
-    return world.blocked(pose.T_enu_base.translation().head<2>(), radius);
+double share_touching(const output::Trajectory& truth, const sim::World& world, double radius) {
+  const auto touching = std::ranges::count_if(truth, [&](const output::StampedPose& pose) {
+    return world.blocked(pose.T_w_base.translation().head<2>(), radius);
   });
   return static_cast<double>(touching) / static_cast<double>(truth.size());
 }
@@ -75,9 +75,9 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
   expect_at_least(f1, 0.917, "fleet, F1 at 10 cm where two robots were", seed);
   expect_at_most(best - f1, 0.001, "fleet, F1 lost against true poses", seed);
   // Wherever GPS has taken the robots' EKFs, their fleet as a whole is not taken farther.
-  std::vector<eval::Trajectory> ekf, truths;
+  std::vector<output::Trajectory> ekf, truths;
   for (const std::string id : {"r1", "r2", "r3"}) {
-    const auto one = eval::read_tum(out / id / "ekf.tum"), other = eval::read_tum(out / id / "truth.tum");
+    const auto one = output::read_tum(out / id / "ekf.tum"), other = output::read_tum(out / id / "truth.tum");
     ASSERT_TRUE(one && other) << id;
     ekf.push_back(*one), truths.push_back(*other);
   }
@@ -87,8 +87,8 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
   expect_at_most(at("/fleet/ate_unaligned") / errors_of_ekf->unaligned, 1.0,
                  "fleet, ATE without alignment over that of its EKFs", seed);
   for (const std::string id : {"r1", "r2", "r3"}) {
-    const auto truth = eval::read_tum(out / id / "truth.tum");
-    const auto odometry = eval::read_tum(out / id / "odometry.tum");
+    const auto truth = output::read_tum(out / id / "truth.tum");
+    const auto odometry = output::read_tum(out / id / "odometry.tum");
     ASSERT_TRUE(truth && odometry) << id;
     const auto errors = eval::compare(*odometry, *truth);
     ASSERT_TRUE(errors) << id << ": " << errors.error().message;
@@ -128,7 +128,7 @@ TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
     EXPECT_EQ(agent["missing_submaps"], 0) << id;
     EXPECT_EQ(agent["aligned_groups"].size(), 1u) << id;
     EXPECT_GT(agent["map_points"].get<std::size_t>(), 50'000u) << id;
-    const auto truth = eval::read_tum(two.out / id / "truth.tum");
+    const auto truth = output::read_tum(two.out / id / "truth.tum");
     ASSERT_TRUE(truth) << id;
     EXPECT_LT(share_touching(*truth, **world, 0.3), 0.02) << id;
   }
@@ -190,7 +190,7 @@ TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
       {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()});
   const bool drove = testing::eventually(
       [&] {
-        const auto poses = agent::read_trajectory(twin.path("agents/r1/odometry.tum"));
+        const auto poses = output::read_growing_tum(twin.path("agents/r1/odometry.tum"));
         return poses && !poses->empty() && poses->back().T_w_base.translation().norm() > 1.5;
       },
       std::chrono::minutes(2));
@@ -206,9 +206,9 @@ TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
   for (const char* sensor : {"scans", "imu", "fixes", "wheel"})
     EXPECT_GT(sensors[sensor].get<int>(), 3) << sensor << agent.output();
   const auto moved = [&](const std::string& id) {
-    const auto truth = eval::read_tum(twin.path("truth") / id / "truth.tum");
+    const auto truth = output::read_tum(twin.path("truth") / id / "truth.tum");
     if (!truth || truth->empty()) return -1.0;
-    return (truth->back().T_enu_base.translation() - truth->front().T_enu_base.translation()).norm();
+    return (truth->back().T_w_base.translation() - truth->front().T_w_base.translation()).norm();
   };
   EXPECT_GT(moved("r1"), 1.0) << "it obeyed its agent";
   EXPECT_GE(moved("r2"), 0.0);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "fleetmap/eval/trajectory.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/store.hpp"
 #include "small_twin.hpp"
 #include "support/measured.hpp"
@@ -71,8 +72,8 @@ TEST(TwinWithoutGps, TheFixOfOneRobotPutsAllOnTheMap) {
     const auto& r2 = run.report["agents"]["r2"];
     EXPECT_THAT(r2["aligned_groups"], SizeIs(1)) << run.output;
     EXPECT_THAT(r2["not_georeferenced"], SizeIs(0));
-    const auto truth = eval::read_tum(run.out / "r2" / "truth.tum");
-    const auto placed = eval::read_tum(run.out / "r2" / "trajectory.tum");
+    const auto truth = output::read_tum(run.out / "r2" / "truth.tum");
+    const auto placed = output::read_tum(run.out / "r2" / "trajectory.tum");
     ASSERT_TRUE(truth && placed);
     const auto errors = eval::compare(*placed, *truth);
     ASSERT_TRUE(errors) << errors.error().message;

@@ -3,6 +3,7 @@
 
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/cloud/encode_within.hpp"
 #include "fleetmap/cloud/ground.hpp"
 #include "fleetmap/cloud/kd_tree.hpp"
 #include "fleetmap/cloud/normals.hpp"

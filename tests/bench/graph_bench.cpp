@@ -7,8 +7,9 @@
 #include <limits>
 
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "graph/simulated_fleet.hpp"
+#include "paper_placement.hpp"
 
 namespace {
 
@@ -36,7 +37,7 @@ void measure(int robots, int nodes_each, int every, double false_share) {
   const NodeId newest = fleet.nodes.back().id;
   graph::Placement placement;
   const double fleet_s = best_of(3, [&] {
-    placement = graph::place(fleet.nodes, fleet.alignments, fleet.site, fleet_mode, {&newest, 1});
+    placement = graph::compute_placement(fleet.nodes, fleet.alignments, fleet.site, fleet_mode, {&newest, 1});
   });
   const double paper_s =
       best_of(3, [&] { graph::place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site); });

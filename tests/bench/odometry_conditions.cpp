@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "sim/lane_odometry.hpp"
 
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "sim/lane_odometry.hpp"
 #include "support/process.hpp"
 
@@ -109,11 +109,11 @@ class SpoiltDrive {
 Status record(SpoiltDrive& drive, double seconds, const std::filesystem::path& bag_folder) {
   auto bag = recording::BagWriter::create(bag_folder);
   if (!bag) return tl::unexpected(bag.error());
-  const bus::Topic topic = wire::topics::points();
+  const bus::Topic topic = ros_codec::topics::points();
   for (std::uint64_t k = 0; static_cast<double>(k) < 10.0 * seconds; ++k) {
     const sensor::Scan scan = drive.scan(k);
-    const Status written =
-        bag->write(topic.name, topic.type, scan.stamp + std::chrono::milliseconds(100), wire::encode(scan));
+    const Status written = bag->write(topic.name, topic.type, scan.stamp + std::chrono::milliseconds(100),
+                                      ros_codec::encode(scan));
     if (!written) return written;
   }
   return bag->close();

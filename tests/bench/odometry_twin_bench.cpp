@@ -12,7 +12,7 @@
 
 #include "bench/twin_drive.hpp"
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
@@ -147,11 +147,7 @@ int drive(const std::string& world_name, const std::string& sensor_name, double 
     return 1;
   }
   const auto scene = sim::Scene::create((*world)->mesh());
-  sim::RobotTwinConfig robot;
-  robot.lidar = *lidar;
-  robot.T_base_lidar = make_pose(rotation_from_rpy(0.0, 0.02, 0.0), {0.1, 0.0, 0.5});
-  robot.T_base_imu = make_pose(rotation_from_rpy(0.0, 0.0, 0.5), {0.0, 0.1, 0.1});
-  robot.seed = seed;
+  const sim::RobotTwinConfig robot = testing::drive_robot(*lidar, seed);
 
   odometry::LoamConfig loam;
   loam.T_base_lidar = robot.T_base_lidar;
@@ -160,7 +156,7 @@ int drive(const std::string& world_name, const std::string& sensor_name, double 
   for (const Variant& v : kVariants)
     runs.push_back(std::make_unique<Run>(loam, *odometry::lidar_model(lidar->model), v));
 
-  testing::TwinDrive twin(*world, *scene, robot, 0.2 + 0.1 * static_cast<double>(seed % 5), length);
+  testing::TwinDrive twin(*world, *scene, robot, testing::first_lane_of(seed), length);
   testing::TwinDrive::Listener listener;
   listener.imu = [&](const sensor::Imu& imu) {
     for (auto& run : runs) {

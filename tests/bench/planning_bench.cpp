@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "planning/sites.hpp"
 
 namespace {

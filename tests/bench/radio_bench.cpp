@@ -14,7 +14,7 @@
 namespace {
 
 using namespace fleetmap;
-using exchange::Reach;
+using messages::Reach;
 using testing::SimFleet;
 
 struct Case {
@@ -44,7 +44,7 @@ Bytes bytes_of(const SimFleet& fleet) {
     const auto size = static_cast<double>(sent.wire_bytes);
     bytes.all += size;
     if (std::holds_alternative<graph::Node>(sent.outgoing.message)) bytes.nodes += size;
-    if (std::holds_alternative<exchange::CloudFragment>(sent.outgoing.message)) bytes.clouds += size;
+    if (std::holds_alternative<messages::CloudFragment>(sent.outgoing.message)) bytes.clouds += size;
   }
   return bytes;
 }

@@ -72,7 +72,7 @@ void introduce_and_verify(benchmark::State& state) {
   Introducer listener(second, 1, draw_session({1, 15}));
   const Bytes hello(150, 7);
   for (auto _ : state) {
-    const auto read = parse_introduction(sender.introduce(hello, {.knows_you = true}, true, true));
+    const auto read = parse_introduction(sender.introduce(hello, {.names_you = true}, true, true));
     if (!listener.verify(*read, session, kNow)) return state.SkipWithError("not verified");
   }
 }

@@ -32,6 +32,17 @@ std::vector<Eigen::Vector2d> serpentine(const sim::World& world, double first_la
 
 }  // namespace
 
+sim::RobotTwinConfig drive_robot(const sim::LidarSpec& lidar, std::uint64_t seed) {
+  sim::RobotTwinConfig robot;
+  robot.lidar = lidar;
+  robot.T_base_lidar = make_pose(rotation_from_rpy(0.0, 0.02, 0.0), {0.1, 0.0, 0.5});
+  robot.T_base_imu = make_pose(rotation_from_rpy(0.0, 0.0, 0.5), {0.0, 0.1, 0.1});
+  robot.seed = seed;
+  return robot;
+}
+
+double first_lane_of(std::uint64_t seed) { return 0.2 + 0.1 * static_cast<double>(seed % 5); }
+
 TwinDrive::TwinDrive(std::shared_ptr<const sim::World> world, std::shared_ptr<const sim::Scene> scene,
                      const sim::RobotTwinConfig& robot, double first_lane, double length)
     : world_(std::move(world)), scene_(std::move(scene)), robot_(robot), length_(length) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -7,6 +8,11 @@
 #include "fleetmap/sim/robot_twin.hpp"
 
 namespace fleetmap::testing {
+
+/// The robot of the odometry's drives, with sensors mounted obliquely.
+sim::RobotTwinConfig drive_robot(const sim::LidarSpec& lidar, std::uint64_t seed);
+/// Drives of other seeds begin in other lanes.
+double first_lane_of(std::uint64_t seed);
 
 /// A drive of about `length` m at 1 m/s up and down the lanes of a world, beginning in the lane `first_lane`
 /// (a share of all, 0 to 1): with a stop of 3 s after a quarter, and a full turn on the spot after three

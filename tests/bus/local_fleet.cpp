@@ -1,5 +1,5 @@
 #include "bus/fleet.hpp"
-#include "fleetmap/bus/local_bus.hpp"
+#include "fleetmap/bus/local_network.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {

@@ -1,5 +1,5 @@
 // What a process that was killed leaves in the folder of shared memory.
-#include "fleetmap/bus/shared_memory.hpp"
+#include "bus/dds/shared_memory.hpp"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "cloud/scenes.hpp"
+#include "fleetmap/cloud/encode_within.hpp"
 #include "fleetmap/cloud/kd_tree.hpp"
 
 namespace fleetmap::cloud {

@@ -1,10 +1,13 @@
-#include "fleetmap/config/fleet_config.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/fleet_agreement.hpp"
+#include "fleetmap/config/fleet_file.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::config {

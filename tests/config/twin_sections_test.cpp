@@ -32,7 +32,7 @@ TEST(TwinSections, WithoutTheKeyTheRobotCarriesAVlp16) {
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.robot.lidar.name, "vlp16");
   EXPECT_TRUE(r.robot.validate());
-  EXPECT_FALSE(r.robot.start_given);
+  EXPECT_FALSE(r.robot.has_start);
 }
 
 TEST(TwinSections, MountsAreThoseOfTheAgent) {
@@ -63,7 +63,7 @@ TEST(TwinSections, EverythingOfTheRobotCanBeSet) {
   EXPECT_EQ(r.robot.lidar.rate, 5.0);
   EXPECT_EQ(r.robot.lidar.range_noise, 0.08);
   EXPECT_EQ(r.robot.lidar.max_range, 40.0);
-  EXPECT_TRUE(r.robot.start_given);
+  EXPECT_TRUE(r.robot.has_start);
   EXPECT_EQ(r.robot.start, Eigen::Vector2d(3, -4));
   EXPECT_DOUBLE_EQ(r.robot.start_yaw, std::numbers::pi / 2);
   EXPECT_EQ(r.robot.seed, 9u);

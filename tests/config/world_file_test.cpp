@@ -1,9 +1,10 @@
+#include "fleetmap/config/world_file.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "fleetmap/config/world_config.hpp"
 #include "fleetmap/sim/mesh_file.hpp"
 #include "support/temporary_folder.hpp"
 

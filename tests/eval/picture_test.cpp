@@ -1,13 +1,8 @@
 #include "fleetmap/eval/picture.hpp"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <cmath>
-#include <fstream>
-#include <set>
-
-#include "support/temporary_folder.hpp"
 
 namespace fleetmap::eval {
 namespace {
@@ -25,17 +20,6 @@ cloud::PointCloud scene() {
   return cloud;
 }
 
-Image decoded(const std::vector<std::uint8_t>& bytes) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  EXPECT_NE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()), 0);
-  png.format = PNG_FORMAT_RGB;
-  Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
-  image.pixels.resize(png.width * png.height);
-  EXPECT_NE(png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr), 0);
-  return image;
-}
-
 std::size_t count(const Image& image, Rgb colour) {
   return static_cast<std::size_t>(std::count(image.pixels.begin(), image.pixels.end(), colour));
 }
@@ -49,25 +33,6 @@ View small(Projection projection) {
   view.scale_bar = false;
   view.point_size = 0.12;
   return view;
-}
-
-TEST(Picture, goes_through_png_unchanged) {
-  Image image{67, 31, {}};
-  for (int k = 0; k < 67 * 31; ++k) {
-    image.pixels.push_back(
-        {static_cast<std::uint8_t>(k), static_cast<std::uint8_t>(k / 7), static_cast<std::uint8_t>(k * k)});
-  }
-  const auto bytes = encode_png(image);
-  ASSERT_TRUE(bytes);
-  const Image read = decoded(*bytes);
-  EXPECT_EQ(read.width, 67);
-  EXPECT_EQ(read.pixels, image.pixels);
-  const testing::TemporaryFolder folder;
-  ASSERT_TRUE(write_png(folder.path() / "a.png", image));
-  EXPECT_EQ(std::filesystem::file_size(folder.path() / "a.png"), bytes->size());
-  EXPECT_FALSE(write_png(folder.path() / "none" / "a.png", image));
-  EXPECT_FALSE(encode_png({}));
-  EXPECT_FALSE(encode_png({5, 5, {}}));
 }
 
 TEST(Picture, from_above_shows_east_to_the_right_and_north_up) {
@@ -139,23 +104,6 @@ TEST(Picture, refuses_what_cannot_be_drawn) {
   const cloud::PointCloud one{{{1, 2, 3}}, {}};
   EXPECT_TRUE(render(one, std::vector<Rgb>(1), small(Projection::kTop)));
   EXPECT_TRUE(render(one, std::vector<Rgb>(1), small(Projection::kPerspective)));
-}
-
-TEST(Colours, of_tables_are_where_they_belong_and_of_robots_differ) {
-  // The polynomials are fits.
-  const auto near = [](Rgb a, Rgb b) {
-    return std::abs(a.r - b.r) < 25 && std::abs(a.g - b.g) < 25 && std::abs(a.b - b.b) < 25;
-  };
-  EXPECT_TRUE(near(viridis(0.0), {68, 1, 84}));
-  EXPECT_TRUE(near(viridis(0.5), {33, 145, 140}));
-  EXPECT_TRUE(near(viridis(1.0), {253, 231, 37}));
-  EXPECT_TRUE(near(turbo(0.5), {164, 252, 60}));
-  EXPECT_EQ(viridis(7.0), viridis(1.0));
-  EXPECT_EQ(turbo(NAN), (Rgb{128, 128, 128}));
-  std::set<std::string> robots;
-  for (std::size_t k = 0; k < 7; ++k) robots.insert(hex(robot_colour(k)));
-  EXPECT_EQ(robots.size(), 7u);
-  EXPECT_EQ(hex({1, 171, 255}), "#01abff");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/budget_shares.hpp"
+#include "budget_shares.hpp"
 
 #include <gtest/gtest.h>
 

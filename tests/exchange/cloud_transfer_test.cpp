@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/cloud_transfer.hpp"
+#include "cloud_transfer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,8 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::SubmapChunk;
+using messages::SubmapRequest;
 using testing::SimFleet;
 
 TEST(Correction, ANewAlignmentSendsItselfAndNoSubmapAgain) {

@@ -1,4 +1,4 @@
-#include "fleetmap/exchange/delay_window.hpp"
+#include "delay_window.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct Bottleneck {
   double standing_s = 0.0;   ///< mean s that a chunk waited in the queue, over the second half
 
   void run(DelayWindow& window, double seconds) {
-    LeastDelay least_delay;
+    BaseDelay base_delay;
     constexpr std::uint32_t kChunk = 8192;
     struct Flight {
       double asked, arrives;
@@ -38,7 +38,7 @@ struct Bottleneck {
         if (flight.lost) {
           window.on_loss(at(flight.asked), at(now));
         } else {
-          window.on_arrival(least_delay.queueing_of(now - flight.asked, at(now)), kChunk);
+          window.on_arrival(base_delay.queueing_of(now - flight.asked, at(now)), kChunk);
           delivered += now > seconds / 2;
         }
       }
@@ -89,10 +89,10 @@ TEST(DelayWindow, GoesOnWhereARadioLosesWithoutAQueue) {
 
 TEST(DelayWindow, FollowsAPathThatBecomesSlower) {
   DelayWindow window{DelayWindowConfig{}};
-  LeastDelay least_delay;
+  BaseDelay base_delay;
   const auto arrive = [&](double from, double until, double delay) {
     for (double now = from; now < until; now += 0.02)
-      window.on_arrival(least_delay.queueing_of(delay, Bottleneck::at(now)), 8192);
+      window.on_arrival(base_delay.queueing_of(delay, Bottleneck::at(now)), 8192);
   };
   arrive(0.0, 10.0, 0.02);
   arrive(10.0, 200.0, 0.4);
@@ -126,7 +126,7 @@ TEST(DelayWindow, GrowsNoLargerThanAllowedAndGivesWayToAQueueOfOthers) {
 TEST(DelayWindowConfig, NamesWhatIsWrong) {
   DelayWindowConfig config;
   EXPECT_TRUE(config.validate());
-  config.most_bytes = 10'000;
+  config.max_bytes = 10'000;
   EXPECT_FALSE(config.validate());
   config = {};
   config.target_s = 0.0;

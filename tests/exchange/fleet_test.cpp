@@ -12,6 +12,10 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::CloudRequest;
+using messages::Digest;
+using messages::Hold;
+using messages::ItemRequest;
 using testing::agent;
 using testing::SimFleet;
 

@@ -9,6 +9,7 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::CloudRequest;
 using namespace std::chrono_literals;
 using testing::agent;
 using testing::SimFleet;

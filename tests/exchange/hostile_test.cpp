@@ -7,6 +7,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Digest;
+using messages::SubmapChunk;
+using messages::SubmapDigest;
 using testing::agent;
 using testing::events;
 using testing::make_alignment;
@@ -19,7 +22,7 @@ const std::vector<std::string> kThree{"r1", "r2", "r3"};
 bool equal_contents(const SimFleet& fleet) {
   const auto& first = *fleet.robots().begin()->second.store;
   return fleet.all([&](const SimFleet::Robot& robot) {
-    const auto same_print = [&](const Range& range) {
+    const auto same_print = [&](const SeqRange& range) {
       return robot.store->node_print(range) == first.node_print(range) &&
              robot.store->alignment_print(range) == first.alignment_print(range);
     };
@@ -200,7 +203,7 @@ TEST_F(Hostile, a_forged_digest_lasts_until_the_next_genuine_one) {
   EXPECT_FALSE(fleet_.robot("r1").exchange->complete());
   fleet_.run_for(std::chrono::seconds(40), [&] { return all_complete(); });
   EXPECT_TRUE(all_complete());
-  EXPECT_TRUE(events<OfferDoubted>(fleet_.robot("r1")).empty());
+  EXPECT_TRUE(events<OfferUndelivered>(fleet_.robot("r1")).empty());
 }
 
 TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
@@ -218,10 +221,10 @@ TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
     fleet_.run_for(std::chrono::seconds(4));
   }
   EXPECT_TRUE(all_complete());
-  ASSERT_EQ(events<OfferDoubted>(fleet_.robot("r1")).size(), 1u);
-  EXPECT_EQ(events<OfferDoubted>(fleet_.robot("r1"))[0].peer, agent("r2"));
-  EXPECT_EQ(events<OfferDoubted>(fleet_.robot("r1"))[0].nodes, 50'000u + 65'536u);
-  EXPECT_EQ(events<OfferDoubted>(fleet_.robot("r1"))[0].alignments, 9u);
+  ASSERT_EQ(events<OfferUndelivered>(fleet_.robot("r1")).size(), 1u);
+  EXPECT_EQ(events<OfferUndelivered>(fleet_.robot("r1"))[0].peer, agent("r2"));
+  EXPECT_EQ(events<OfferUndelivered>(fleet_.robot("r1"))[0].nodes, 50'000u + 65'536u);
+  EXPECT_EQ(events<OfferUndelivered>(fleet_.robot("r1"))[0].alignments, 9u);
   // It is not deaf to what is delivered after all, nor to others.
   fleet_.forge("r1", forged("r3", first_seq(40) + 3));
   EXPECT_TRUE(fleet_.robot("r1").store->node({agent("r3"), first_seq(40) + 3}));
@@ -264,7 +267,7 @@ TEST_F(Hostile, a_forged_node_whose_submap_nobody_has_is_not_waited_for) {
 
 TEST_F(Hostile, digests_of_submaps_name_the_fleets_own_and_plausible_ranges_alone) {
   settle();
-  const auto even = [&] { return fleet_.robot("r1").exchange->even_with(fleet_.now()).size(); };
+  const auto even = [&] { return fleet_.robot("r1").exchange->in_sync_with(fleet_.now()).size(); };
   fleet_.run_for(std::chrono::seconds(5), [&] { return even() == 2u; });
   ASSERT_EQ(even(), 2u);
   const auto before = fleet_.robot("r1").exchange->stats();

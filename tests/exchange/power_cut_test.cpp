@@ -10,6 +10,9 @@
 namespace fleetmap::exchange {
 namespace {
 
+using messages::Digest;
+using messages::Hold;
+using messages::SubmapDigest;
 using testing::agent;
 using testing::PowerCutDisk;
 using testing::SimFleet;
@@ -17,8 +20,8 @@ using testing::SimFleet;
 constexpr int kFleets = 30, kCutsOfAFleet = 10;
 const AgentId kSelf = agent("r1");
 
-void insert_all(store::SeqSet& set, const std::vector<Range>& ranges) {
-  for (const Range& range : ranges) set.insert(range);
+void insert_all(store::SeqSet& set, const std::vector<SeqRange>& ranges) {
+  for (const SeqRange& range : ranges) set.insert(range);
 }
 
 /// What messages of one robot promise that it holds.

@@ -5,11 +5,15 @@
 #include <deque>
 #include <random>
 
+#include "cloud_transfer.hpp"
 #include "exchange/sim_fleet.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
+using messages::CloudRequest;
+using messages::Digest;
+using messages::Hold;
 using testing::agent;
 
 const AgentId kSelf = agent("r1");

@@ -7,11 +7,11 @@
 #include <variant>
 
 #include "fleetmap/exchange/reissue.hpp"
-#include "fleetmap/wire/messages.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::testing {
 
-std::size_t payload_size(const Message& message) { return wire::encode(message).size(); }
+std::size_t payload_size(const Message& message) { return fleet_codec::encode(message).size(); }
 
 SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
                    const std::function<void(exchange::ExchangeConfig&)>& adjust,
@@ -59,7 +59,7 @@ graph::Node SimFleet::add_node(const std::string& name, double east_m, std::size
 
 void SimFleet::forge(const std::string& name, const Message& message, std::optional<AgentId> from) {
   Robot& r = robot(name);
-  r.exchange->on_message(message, exchange::usual_reach(message), now(), std::move(from));
+  r.exchange->on_message(message, messages::usual_reach(message), now(), std::move(from));
   pass_on(agent(name), r);
 }
 
@@ -92,7 +92,7 @@ bool SimFleet::equal_sets(std::size_t nodes) const {
 
 void SimFleet::on_sent(const fault_injection::Packet& packet) {
   sent_.push_back(packet);
-  const bool queues = network_.short_range && packet.outgoing.reach == exchange::Reach::kShortRange;
+  const bool queues = network_.short_range && packet.outgoing.reach == messages::Reach::kShortRange;
   queued_ = queues ? queueing(packet) : Duration::zero();
 }
 

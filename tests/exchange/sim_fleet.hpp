@@ -17,7 +17,7 @@
 
 namespace fleetmap::testing {
 
-using exchange::Message;
+using messages::Message;
 
 /// Bytes of a message as agents publish it.
 std::size_t payload_size(const Message& message);
@@ -72,9 +72,9 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 
   /// `reachable(from, to, link)`: by default everyone hears everyone on the long-range link, nobody on the
   /// other.
-  std::function<bool(const AgentId&, const AgentId&, exchange::Reach)> reachable =
-      [](const AgentId&, const AgentId&, exchange::Reach reach) {
-        return reach == exchange::Reach::kLongRange;
+  std::function<bool(const AgentId&, const AgentId&, messages::Reach)> reachable =
+      [](const AgentId&, const AgentId&, messages::Reach reach) {
+        return reach == messages::Reach::kLongRange;
       };
   /// RMSE of the registration of a pair, nothing when it is rejected.
   std::function<std::optional<double>(const exchange::NodePair&)> registration =

@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/faulty_file_system.hpp"
+#include "faulty_file_system.hpp"
 
 #include <gtest/gtest.h>
 

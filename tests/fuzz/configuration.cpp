@@ -1,9 +1,12 @@
 // A YAML configuration of any kind. The first byte chooses: all of it, its sensors alone, or a --set of the
 // command line.
 #include "checks.hpp"
-#include "fleetmap/config/fleet_config.hpp"
+#include "fleetmap/config/file_kind.hpp"
+#include "fleetmap/config/mission_settings.hpp"
+#include "fleetmap/config/override.hpp"
+#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/config/sensor_file.hpp"
-#include "fleetmap/config/world_config.hpp"
+#include "fleetmap/config/world_file.hpp"
 
 namespace fleetmap::fuzz {
 namespace {

@@ -1,7 +1,8 @@
 // A site's drawing in GeoJSON.
-#include "fleetmap/planning/geojson.hpp"
+#include "fleetmap/planning/site/geojson.hpp"
 
 #include "checks.hpp"
+#include "fleetmap/planning/site/geojson_writer.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace fleetmap;

@@ -11,16 +11,17 @@
 #include "bus/dds/hello.hpp"
 #include "checks.hpp"
 #include "fixed_keys.hpp"
+#include "fleet_codec/random_messages.hpp"
 #include "fleetmap/cloud/codec.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/store/store.hpp"
 #include "fleetmap/trust/introduction.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
 #include "store/item_codec.hpp"
 #include "store/items.hpp"
 #include "trust/key_files.hpp"
-#include "wire/random_messages.hpp"
 
 namespace fleetmap::fuzz {
 namespace {
@@ -73,25 +74,25 @@ sensor::Fix small_fix() {
   return fix;
 }
 
-void wire_messages(const fs::path& corpus) {
-  const Seeds seeds(corpus, "wire_messages");
-  wire::testing::RandomMessages random(1);
-  for (const exchange::Message& message : random.one_of_each())
-    seeds.add("message_" + std::to_string(message.index()), message.index(), wire::encode(message));
-  constexpr std::size_t kMessages = std::variant_size_v<exchange::Message>;
-  seeds.add("global_pose", kMessages, wire::encode(random.global_pose()));
-  seeds.add("spherized_cloud", kMessages + 1, wire::encode(random.cloud()));
+void fleet_messages(const fs::path& corpus) {
+  const Seeds seeds(corpus, "fleet_messages");
+  fleet_codec::testing::RandomMessages random(1);
+  for (const messages::Message& message : random.one_of_each())
+    seeds.add("message_" + std::to_string(message.index()), message.index(), fleet_codec::encode(message));
+  constexpr std::size_t kMessages = std::variant_size_v<messages::Message>;
+  seeds.add("global_pose", kMessages, fleet_codec::encode(random.global_pose()));
+  seeds.add("spherized_cloud", kMessages + 1, fleet_codec::encode(random.cloud()));
 }
 
 void ros_messages(const fs::path& corpus) {
   const Seeds seeds(corpus, "ros_messages");
-  seeds.add("point_cloud2", 0, wire::encode(small_scan()));
-  seeds.add("imu", 1, wire::encode(small_imu()));
-  seeds.add("fix", 2, wire::encode(small_fix()));
-  seeds.add("wheel", 3, wire::encode(sensor::Wheel{kNow, 1.0, 0.1}));
-  seeds.add("battery", 4, wire::encode(sensor::Battery{}));
-  seeds.add("odometry", 5, wire::encode(wire::OdometryMsg{.stamp = kNow}));
-  seeds.add("velocity", 6, wire::encode(wire::VelocityCommand{1.0, 0.1}));
+  seeds.add("point_cloud2", 0, ros_codec::encode(small_scan()));
+  seeds.add("imu", 1, ros_codec::encode(small_imu()));
+  seeds.add("fix", 2, ros_codec::encode(small_fix()));
+  seeds.add("wheel", 3, ros_codec::encode(sensor::Wheel{kNow, 1.0, 0.1}));
+  seeds.add("battery", 4, ros_codec::encode(sensor::Battery{}));
+  seeds.add("odometry", 5, ros_codec::encode(ros_codec::OdometryMsg{.stamp = kNow}));
+  seeds.add("velocity", 6, ros_codec::encode(ros_codec::VelocityCommand{1.0, 0.1}));
 }
 
 /// Small clouds, and as many points as 25 kB may claim, which a sender of ours would not encode.
@@ -186,10 +187,10 @@ void bag(const fs::path& corpus) {
     const auto put = [&](const bus::Topic& topic, const Bytes& cdr) {
       require(bag.write(topic.name, topic.type, kNow, cdr).has_value(), "the bag cannot be written");
     };
-    put(wire::topics::points(), wire::encode(small_scan()));
-    put(wire::topics::imu(), wire::encode(small_imu()));
-    put(wire::topics::fix(), wire::encode(small_fix()));
-    put(wire::topics::wheel_odometry(), wire::encode(sensor::Wheel{kNow, 1.0, 0.1}));
+    put(ros_codec::topics::points(), ros_codec::encode(small_scan()));
+    put(ros_codec::topics::imu(), ros_codec::encode(small_imu()));
+    put(ros_codec::topics::fix(), ros_codec::encode(small_fix()));
+    put(ros_codec::topics::wheel_odometry(), ros_codec::encode(sensor::Wheel{kNow, 1.0, 0.1}));
   }
   for (const auto& entry : fs::directory_iterator(folder.path() / "drive")) {
     if (entry.path().extension() == ".yaml") add_file({corpus, "bag_metadata"}, "metadata", entry.path());
@@ -243,7 +244,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   using namespace fleetmap::fuzz;
-  for (const auto make : {wire_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, scans})
+  for (const auto make : {fleet_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, scans})
     make(argv[1]);
   return 0;
 }

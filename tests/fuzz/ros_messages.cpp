@@ -2,7 +2,7 @@
 #include <array>
 
 #include "checks.hpp"
-#include "fleetmap/wire/sensors.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 
 namespace fleetmap::fuzz {
 namespace {
@@ -10,15 +10,16 @@ namespace {
 template <class T>
 void decode(ByteView cdr) {
   const MemoryPeak memory;
-  const auto message = wire::decode<T>(cdr);
+  const auto message = ros_codec::decode<T>(cdr);
   require(memory.bytes() <= 65'536 + 32 * cdr.size(), "decoding allocates far more than its bytes");
   if (!message) return require(!message.error().message.empty(), "refused without a reason");
-  require(wire::decode<T>(wire::encode(*message)).has_value(), "what was accepted is refused when recorded");
+  require(ros_codec::decode<T>(ros_codec::encode(*message)).has_value(),
+          "what was accepted is refused when recorded");
 }
 
 void decode_scan(ByteView cdr) {
-  const auto stamp = wire::stamp_of_scan(cdr);
-  const auto decoded = wire::decode_scan(cdr);
+  const auto stamp = ros_codec::stamp_of_scan(cdr);
+  const auto decoded = ros_codec::decode_scan(cdr);
   if (!decoded) return;
   require(stamp.has_value(), "a scan that can be decoded has no stamp");
   for (const auto& point : decoded->scan.points)
@@ -32,8 +33,8 @@ constexpr std::array<Decoder, 7> kDecoders{&decode_scan,
                                            &decode<sensor::Fix>,
                                            &decode<sensor::Wheel>,
                                            &decode<sensor::Battery>,
-                                           &decode<wire::OdometryMsg>,
-                                           &decode<wire::VelocityCommand>};
+                                           &decode<ros_codec::OdometryMsg>,
+                                           &decode<ros_codec::VelocityCommand>};
 
 }  // namespace
 }  // namespace fleetmap::fuzz

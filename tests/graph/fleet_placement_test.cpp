@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "paper_placement.hpp"
 #include "placed_fleet.hpp"
 #include "support/measured.hpp"
 

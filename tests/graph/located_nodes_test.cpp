@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleetmap/graph/placement.hpp"
+#include "paper_placement.hpp"
 
 namespace fleetmap::graph {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "fleetmap/graph/fleet_placement.hpp"
+#include "fleet_placement.hpp"
 #include "simulated_fleet.hpp"
 
 namespace fleetmap::graph::testing {

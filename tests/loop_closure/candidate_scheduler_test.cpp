@@ -31,7 +31,7 @@ LoopClosureConfig at_once() {
 
 std::vector<NodeId> wanted(const exchange::CloudDemand& due) {
   std::vector<NodeId> nodes;
-  for (const auto& [node, worth] : due.wanted) nodes.push_back(node);
+  for (const auto& [node, information] : due.wanted) nodes.push_back(node);
   return nodes;
 }
 
@@ -82,7 +82,7 @@ TEST(CandidateScheduler, are_the_same_on_both_ends_without_talk) {
       a.on_node(node, now);
       b.on_node(node, now);
     }
-    for (const auto& [id, worth] : a.tick(now).wanted) {
+    for (const auto& [id, information] : a.tick(now).wanted) {
       a_wants.insert(id);
       for (const auto& pair : on_cloud(a, id)) {
         pairs.push_back(pair);
@@ -110,7 +110,7 @@ TEST(CandidateScheduler, of_one_place_are_not_repeated_until_the_spacing_is_left
   std::vector<std::uint32_t> begun;
   for (std::uint32_t seq = 0; seq < 50; ++seq) {
     a.on_node(node_at(kB, seq, 1.0 * seq), kStart);
-    for (const auto& [id, worth] : a.tick(kStart).wanted) {
+    for (const auto& [id, information] : a.tick(kStart).wanted) {
       begun.push_back(id.seq);
       for (const auto& pair : on_cloud(a, id)) {
         a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq, 0.3), kStart);
@@ -129,7 +129,7 @@ TEST(CandidateScheduler, that_were_rejected_are_tried_again_later_and_not_for_ev
   std::vector<Stamp> begun;
   for (Stamp now = kStart; now < kStart + std::chrono::minutes(10); now += std::chrono::seconds(1)) {
     a.on_heard(kB, now);
-    for (const auto& [id, worth] : a.tick(now).wanted) {
+    for (const auto& [id, information] : a.tick(now).wanted) {
       begun.push_back(now);
       for (const auto& pair : on_cloud(a, id)) a.on_rejected(pair, now);
     }
@@ -278,7 +278,7 @@ TEST(CandidateScheduler, without_gps_begin_at_places_that_look_alike_and_keep_th
   for (std::uint32_t seq = 0; seq < 12; ++seq) {
     a.on_node(beside_walls(kA, seq), kStart);
     a.on_node(beside_walls(kB, seq), kStart);
-    for (const auto& [id, worth] : a.tick(kStart).wanted) {
+    for (const auto& [id, information] : a.tick(kStart).wanted) {
       for (const NodePair& pair : on_cloud(a, id)) {
         pairs.push_back(pair);
         a.on_alignment(testing::make_alignment(pair.ours, pair.theirs, kA, seq, 0.1), kStart);

@@ -85,5 +85,45 @@ TEST_F(CandidateSetTest, APairWithAnUnknownNodeIsNotAdded) {
   EXPECT_TRUE(set_.all().empty());
 }
 
+TEST_F(CandidateSetTest, ADoneCandidateKeepsOthersAwayAndIsVisitedNoMore) {
+  set_.offer(candidate(0, 0, 1.0), kStart);
+  set_.conclude(candidate(0, 0, 1.0).pair());
+  EXPECT_TRUE(set_.all().empty());
+  EXPECT_TRUE(set_.contains(candidate(0, 0, 1.0).pair()));
+  set_.offer(candidate(4, 4, 1.0), kStart);  // 8 m on
+  EXPECT_TRUE(set_.all().empty());
+  set_.offer(candidate(6, 6, 1.0), kStart);
+  EXPECT_EQ(set_.all().size(), 1u);
+}
+
+/// After a start alignments come before their nodes.
+TEST(CandidateSetOrder, ACandidateIsFoundByItsPlaceOnceItsNodesAreThere) {
+  LoopClosureConfig config;
+  NodeIndex nodes(agent("a"), 15.0);
+  CandidateSet set(config, nodes);
+  const auto add = [&](const char* name, std::uint32_t seq, bool located) {
+    auto node = testing::make_node(agent(name), seq, Bytes{}, 2.0 * seq);
+    node.G->covariance = 0.01 * Matrix6d::Identity();
+    node.T_odom_base.translation() = Eigen::Vector3d(2.0 * seq, 0.0, 0.0);
+    if (!located) node.G.reset();
+    nodes.add(node);
+    set.on_node(node.id);
+  };
+  const auto pair = [](std::uint32_t seq) { return NodePair{{agent("a"), seq}, {agent("b"), seq}}; };
+  set.find_or_make(pair(0));
+  set.conclude(pair(0));
+  for (const char* name : {"a", "b"}) {
+    add(name, 0, true);
+    add(name, 4, true);
+    add(name, 5, false);
+    add(name, 40, true);
+  }
+  EXPECT_TRUE(set.redundant(pair(4)));
+  EXPECT_FALSE(set.redundant(pair(40)));
+  // Without G by the odometry frames.
+  set.find_or_make(pair(4));
+  EXPECT_TRUE(set.redundant(pair(5)));
+}
+
 }  // namespace
 }  // namespace fleetmap::loop_closure

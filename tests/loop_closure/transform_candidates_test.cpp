@@ -61,7 +61,7 @@ std::vector<NodePair> on_cloud(CandidateScheduler& scheduler, const NodeId& thei
 std::vector<NodeId> wanted(CandidateScheduler& a) {
   std::vector<NodeId> all;
   for (int tick = 0; tick < 20; ++tick) {
-    for (const auto& [id, worth] : a.tick(kStart).wanted) all.push_back(id);
+    for (const auto& [id, information] : a.tick(kStart).wanted) all.push_back(id);
   }
   return all;
 }

@@ -11,6 +11,7 @@
 
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "odometry/xz_file.hpp"
 #include "support/shared_data.hpp"
@@ -117,7 +118,7 @@ class UnevenFarm : public ::testing::Test {
   }
 
   DriveResult drive(const Heard& heard) {
-    const auto track = eval::read_tum(folder_ / "truth_base_link.tum");
+    const auto track = output::read_tum(folder_ / "truth_base_link.tum");
     if (!track) {
       ADD_FAILURE() << track.error().message;
       return {};

@@ -79,9 +79,9 @@ TEST(Descriptor, AnyBytesOfTheRightLengthCanBeComparedWithinTheBounds) {
     const auto any = Descriptor::decode(bytes);
     ASSERT_TRUE(any);
     EXPECT_EQ(*Descriptor::decode(any->encode()), *any);
-    const Likeness likeness = compare(*any, yard_place);
-    EXPECT_GE(likeness.similarity, 0.0);
-    EXPECT_LT(likeness.similarity, 0.4);
+    const DescriptorMatch match = compare(*any, yard_place);
+    EXPECT_GE(match.similarity, 0.0);
+    EXPECT_LT(match.similarity, 0.4);
   }
 }
 
@@ -96,7 +96,7 @@ TEST(Descriptor, OnePlaceIsKnownAgainFromAnyHeadingAndSomeMetresOff) {
     const Pose b = pose(a.translation().x() + off(random), a.translation().y() + off(random), yaw(random),
                         tilt(random), tilt(random));
     const Descriptor of_a = described(world, a);
-    const Likeness same = compare(of_a, described(world, b));
+    const DescriptorMatch same = compare(of_a, described(world, b));
     worst_same = std::min(worst_same, same.similarity);
     best_other = std::max(best_other, compare(of_a, described(yard(seed + 100), b)).similarity);
     // The pose that comes with it.
@@ -118,8 +118,8 @@ TEST(Descriptor, ComparingTheOtherWayRoundGivesTheInverse) {
   const Points world = yard(6);
   const Descriptor a = described(world, pose(0, 0, 0.3));
   const Descriptor b = described(world, pose(3, -4, 2.0));
-  const Likeness ab = compare(a, b);
-  const Likeness ba = compare(b, a);
+  const DescriptorMatch ab = compare(a, b);
+  const DescriptorMatch ba = compare(b, a);
   EXPECT_NEAR(ab.similarity, ba.similarity, 0.1);
   EXPECT_NEAR(wrap_angle(ab.yaw + ba.yaw), 0.0, 0.1);
   const Eigen::Vector2d back = -(Eigen::Rotation2Dd(-ab.yaw) * ab.translation);

@@ -35,17 +35,17 @@ TEST(HorizontalSigma, UnknownWhereTheCovarianceSaysNothing) {
 }
 
 TEST(TellsPlace, OnlyAPlaceOnEarthThatIsKnownWellEnough) {
-  EXPECT_FALSE(tells_place(std::nullopt, 15.0));
+  EXPECT_FALSE(has_known_position(std::nullopt, 15.0));
   GlobalPose G;
   G.position = geo_point_from_degrees(39.0, -3.0, 600.0);
   G.covariance = with_horizontal_sigmas(14.0, 1.0, 0.3);
-  EXPECT_TRUE(tells_place(G, 15.0));
-  EXPECT_FALSE(tells_place(G, 13.0));
+  EXPECT_TRUE(has_known_position(G, 15.0));
+  EXPECT_FALSE(has_known_position(G, 13.0));
   GlobalPose nowhere = G;
   nowhere.position.latitude = kNaN;
-  EXPECT_FALSE(tells_place(nowhere, 15.0));
+  EXPECT_FALSE(has_known_position(nowhere, 15.0));
   G.covariance(0, 0) = kNaN;
-  EXPECT_FALSE(tells_place(G, 15.0));
+  EXPECT_FALSE(has_known_position(G, 15.0));
 }
 
 TEST(SearchRadius, IsEquationOne) {

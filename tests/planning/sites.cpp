@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "fleetmap/planning/site/row_selection.hpp"
+
 namespace fleetmap::planning::testing {
 
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1.0p-53; }

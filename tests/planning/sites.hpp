@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/planning/mission.hpp"
+#include "fleetmap/planning/site/mission.hpp"
 
 namespace fleetmap::planning::testing {
 

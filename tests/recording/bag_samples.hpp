@@ -7,8 +7,8 @@
 
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::recording::testing {
 
@@ -48,12 +48,12 @@ inline void put(BagWriter& bag, const bus::Topic& topic, std::int64_t received, 
 inline void put_drive(BagWriter& bag, int seconds) {
   for (int k = 0; k < seconds * 50; ++k) {
     const std::int64_t ns = kStart + std::int64_t{k} * 20'000'000;
-    put(bag, wire::topics::imu(), ns, wire::encode(imu_at(ns)));
-    if (k % 5 == 0) put(bag, wire::topics::points(), ns + 1, wire::encode(scan_at(ns)));
+    put(bag, ros_codec::topics::imu(), ns, ros_codec::encode(imu_at(ns)));
+    if (k % 5 == 0) put(bag, ros_codec::topics::points(), ns + 1, ros_codec::encode(scan_at(ns)));
     if (k % 5 == 0)
-      put(bag, wire::topics::wheel_odometry(), ns + 2,
-          wire::encode(sensor::Wheel{stamp_from_ns(ns), 1.0, {}}));
-    if (k % 50 == 0) put(bag, wire::topics::fix(), ns + 3, wire::encode(fix_at(ns)));
+      put(bag, ros_codec::topics::wheel_odometry(), ns + 2,
+          ros_codec::encode(sensor::Wheel{stamp_from_ns(ns), 1.0, {}}));
+    if (k % 50 == 0) put(bag, ros_codec::topics::fix(), ns + 3, ros_codec::encode(fix_at(ns)));
   }
 }
 

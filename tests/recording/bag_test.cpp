@@ -44,7 +44,7 @@ TEST(Bag, SplitsAreReadInOrder) {
     const std::string name = "part" + std::to_string(k);
     {
       auto bag = *BagWriter::create(folder.path() / name);
-      put(bag, wire::topics::points(), kStart + k, wire::encode(scan_at(kStart + k)));
+      put(bag, ros_codec::topics::points(), kStart + k, ros_codec::encode(scan_at(kStart + k)));
     }
     fs::create_directories(folder.path() / "b");
     fs::rename(folder.path() / name / (name + "_0.db3"),
@@ -62,7 +62,7 @@ TEST(Bag, MessagesComeInTheOrderOfReception) {
   {
     auto bag = *BagWriter::create(folder.path() / "b");
     for (const int k : {3, 1, 2})
-      put(bag, wire::topics::points(), kStart + k, wire::encode(scan_at(kStart + k)));
+      put(bag, ros_codec::topics::points(), kStart + k, ros_codec::encode(scan_at(kStart + k)));
   }
   auto reader = open(folder.path() / "b");
   EXPECT_EQ(read_all(**reader).size(), 3u);
@@ -75,9 +75,9 @@ TEST(Bag, TimeRunningBackwardsIsSkippedAndCounted) {
     auto bag = *BagWriter::create(folder.path() / "b");
     for (const int stamp : {10, 20, 15, 20, 30}) {
       static std::int64_t received = kStart;
-      put(bag, wire::topics::points(), ++received, wire::encode(scan_at(kStart + stamp)));
+      put(bag, ros_codec::topics::points(), ++received, ros_codec::encode(scan_at(kStart + stamp)));
     }
-    put(bag, wire::topics::imu(), kStart + 100, wire::encode(imu_at(kStart + 1)));
+    put(bag, ros_codec::topics::imu(), kStart + 100, ros_codec::encode(imu_at(kStart + 1)));
   }
   auto reader = open(folder.path() / "b");
   EXPECT_EQ(read_all(**reader).size(), 4u) << "another kind keeps its own time";
@@ -92,7 +92,7 @@ TEST(Bag, AClockThatWasSetBackIsFollowedAfterTwoSamples) {
     std::int64_t received = kStart;
     // One stray sample from long ago is no clock that was set.
     for (const int stamp : {100, 101, 7, 102, 60, 61, 62, 63, 64}) {
-      put(bag, wire::topics::points(), ++received, wire::encode(scan_at(kStart + stamp * kSecond)));
+      put(bag, ros_codec::topics::points(), ++received, ros_codec::encode(scan_at(kStart + stamp * kSecond)));
     }
   }
   auto reader = open(folder.path() / "b");
@@ -105,21 +105,21 @@ TEST(Bag, BadMessagesAreSkippedAndCounted) {
   const TemporaryFolder folder;
   {
     auto bag = *BagWriter::create(folder.path() / "b");
-    const Bytes good = wire::encode(scan_at(kStart));
-    put(bag, wire::topics::points(), kStart, good);
-    put(bag, wire::topics::points(), kStart + 1, Bytes(good.begin(), good.begin() + 100));
-    put(bag, wire::topics::points(), kStart + 2, Bytes{});
+    const Bytes good = ros_codec::encode(scan_at(kStart));
+    put(bag, ros_codec::topics::points(), kStart, good);
+    put(bag, ros_codec::topics::points(), kStart + 1, Bytes(good.begin(), good.begin() + 100));
+    put(bag, ros_codec::topics::points(), kStart + 2, Bytes{});
     auto empty = scan_at(kStart + 3);
     empty.points.clear();
-    put(bag, wire::topics::points(), kStart + 3, wire::encode(empty));
+    put(bag, ros_codec::topics::points(), kStart + 3, ros_codec::encode(empty));
     auto holes = scan_at(kStart + 4);
     holes.points[0].position.x() = std::nanf("");
     holes.points[1].position.setZero();
     holes.points[2].position.setZero();
-    put(bag, wire::topics::points(), kStart + 4, wire::encode(holes));
+    put(bag, ros_codec::topics::points(), kStart + 4, ros_codec::encode(holes));
     auto imu = imu_at(kStart + 5);
     imu.angular_velocity.x() = std::nan("");
-    put(bag, wire::topics::imu(), kStart + 5, wire::encode(imu));
+    put(bag, ros_codec::topics::imu(), kStart + 5, ros_codec::encode(imu));
   }
   auto reader = open(folder.path() / "b");
   const auto samples = read_all(**reader);
@@ -136,7 +136,8 @@ TEST(Bag, MessagesWithoutAStampTakeTheTimeOfRecording) {
   const TemporaryFolder folder;
   {
     auto bag = *BagWriter::create(folder.path() / "b");
-    for (int k = 1; k <= 3; ++k) put(bag, wire::topics::points(), kStart + k, wire::encode(scan_at(0)));
+    for (int k = 1; k <= 3; ++k)
+      put(bag, ros_codec::topics::points(), kStart + k, ros_codec::encode(scan_at(0)));
   }
   auto reader = open(folder.path() / "b");
   const auto samples = read_all(**reader);
@@ -202,7 +203,7 @@ TEST(Bag, MessagesCompressedOneByOneAreRecognised) {
   const TemporaryFolder folder;
   {
     auto bag = *BagWriter::create(folder.path() / "b");
-    put(bag, wire::topics::points(), kStart, Bytes{0x28, 0xb5, 0x2f, 0xfd, 1, 2, 3});
+    put(bag, ros_codec::topics::points(), kStart, Bytes{0x28, 0xb5, 0x2f, 0xfd, 1, 2, 3});
   }
   EXPECT_THAT(failure_of(folder.path() / "b"), HasSubstr("zstd-compressed"));
 }

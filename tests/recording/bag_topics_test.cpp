@@ -20,10 +20,10 @@ void write_bag(const std::filesystem::path& dir,
   ASSERT_TRUE(bag);
   for (const auto& [name, type] : topics) {
     const std::string kind = type;
-    const Bytes cdr = kind == kCloud ? wire::encode(scan_at(kStart))
+    const Bytes cdr = kind == kCloud ? ros_codec::encode(scan_at(kStart))
                       : kind == "sensor_msgs/msg/Imu"
-                          ? wire::encode(imu_at(kStart))
-                          : wire::encode(sensor::Wheel{stamp_from_ns(kStart), 1.0, {}});
+                          ? ros_codec::encode(imu_at(kStart))
+                          : ros_codec::encode(sensor::Wheel{stamp_from_ns(kStart), 1.0, {}});
     ASSERT_TRUE(bag->write(name, type, stamp_from_ns(kStart), cdr));
   }
 }

@@ -9,6 +9,9 @@
 #include <iterator>
 
 #include "bag_samples.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -58,9 +61,9 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
   {
     auto bag = BagWriter::create(dir);
     ASSERT_TRUE(bag);
-    put(*bag, wire::topics::imu(), kStart, wire::encode(imu_at(kStart)));
-    put(*bag, wire::topics::imu(), kStart + 5, wire::encode(imu_at(kStart + 5)));
-    put(*bag, wire::topics::global_pose(), kStart + 9, wire::encode(GlobalPose{}));
+    put(*bag, ros_codec::topics::imu(), kStart, ros_codec::encode(imu_at(kStart)));
+    put(*bag, ros_codec::topics::imu(), kStart + 5, ros_codec::encode(imu_at(kStart + 5)));
+    put(*bag, fleet_codec::topics::global_pose(), kStart + 9, fleet_codec::encode(GlobalPose{}));
   }
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(dir)) files.push_back(entry.path().filename());
@@ -118,7 +121,7 @@ TEST(BagWriter, FlushedMessagesAreThereForAReaderAtOnce) {
   const TemporaryFolder folder;
   auto bag = BagWriter::create(folder.path() / "live");
   ASSERT_TRUE(bag);
-  put(*bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+  put(*bag, ros_codec::topics::points(), kStart, ros_codec::encode(scan_at(kStart)));
   ASSERT_TRUE(bag->flush());
   auto reader = open(folder.path() / "live");
   ASSERT_TRUE(reader) << reader.error().message;
@@ -147,9 +150,9 @@ TEST(BagWriter, AssigningOverAnOpenBagClosesIt) {
   const TemporaryFolder folder;
   {
     auto bag = *BagWriter::create(folder.path() / "a");
-    put(bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+    put(bag, ros_codec::topics::points(), kStart, ros_codec::encode(scan_at(kStart)));
     bag = *BagWriter::create(folder.path() / "b");
-    put(bag, wire::topics::points(), kStart, wire::encode(scan_at(kStart)));
+    put(bag, ros_codec::topics::points(), kStart, ros_codec::encode(scan_at(kStart)));
   }
   for (const char* name : {"a", "b"}) {
     auto reader = open(folder.path() / name);

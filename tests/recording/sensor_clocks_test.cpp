@@ -3,6 +3,7 @@
 
 #include "bag_samples.hpp"
 #include "fleetmap/recording/play_times.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -53,14 +54,14 @@ class SensorClocks : public ::testing::TestWithParam<std::tuple<WrongClock, std:
   static void write(BagWriter& bag, std::size_t source, std::int64_t stamp, std::int64_t received) {
     switch (static_cast<Source>(source)) {
       case Source::kLidar:
-        return put(bag, wire::topics::points(), received, wire::encode(scan_at(stamp)));
+        return put(bag, ros_codec::topics::points(), received, ros_codec::encode(scan_at(stamp)));
       case Source::kImu:
-        return put(bag, wire::topics::imu(), received, wire::encode(imu_at(stamp)));
+        return put(bag, ros_codec::topics::imu(), received, ros_codec::encode(imu_at(stamp)));
       case Source::kGps:
-        return put(bag, wire::topics::fix(), received, wire::encode(fix_at(stamp)));
+        return put(bag, ros_codec::topics::fix(), received, ros_codec::encode(fix_at(stamp)));
       case Source::kWheel:
-        return put(bag, wire::topics::wheel_odometry(), received,
-                   wire::encode(sensor::Wheel{stamp_from_ns(stamp), 1.0, {}}));
+        return put(bag, ros_codec::topics::wheel_odometry(), received,
+                   ros_codec::encode(sensor::Wheel{stamp_from_ns(stamp), 1.0, {}}));
     }
   }
 
@@ -129,9 +130,10 @@ LogClock clock_of_bag(double begun, double rate) {
   for (int k = 0; k < 200; ++k) {
     const std::int64_t stamp = kStart + k * 100'000'000LL;
     const auto received = kStart + static_cast<std::int64_t>(1e9 * (begun + rate * 0.1 * k));
-    put(bag, wire::topics::points(), received + 100'000'000, wire::encode(scan_at(stamp)));
-    put(bag, wire::topics::imu(), received + 100'000'000, wire::encode(imu_at(stamp)));
-    if (k % 10 == 0) put(bag, wire::topics::fix(), received + 100'000'000, wire::encode(fix_at(stamp)));
+    put(bag, ros_codec::topics::points(), received + 100'000'000, ros_codec::encode(scan_at(stamp)));
+    put(bag, ros_codec::topics::imu(), received + 100'000'000, ros_codec::encode(imu_at(stamp)));
+    if (k % 10 == 0)
+      put(bag, ros_codec::topics::fix(), received + 100'000'000, ros_codec::encode(fix_at(stamp)));
   }
   EXPECT_TRUE(bag.close());
   return find_log_clock(folder).value();

@@ -283,7 +283,7 @@ TEST(Lidar, PartsCastAsPosesComeInAreTheWholeScan) {
     std::size_t first = 0;
     for (const std::size_t poses : {1u, 2u, 3u, 9u, 10u, 20u, 21u}) {
       known.T_enu_lidar.assign(job.T_enu_lidar.begin(), job.T_enu_lidar.begin() + poses);
-      const std::size_t end = poses == 21u ? firings(spec) : firings_known(spec, known);
+      const std::size_t end = poses == 21u ? firings(spec) : firings_ready(spec, known);
       EXPECT_GE(end, first);
       // All but the firings after the last pose and less than a block of 64 before it.
       EXPECT_GE(static_cast<double>(end) + 64.0,

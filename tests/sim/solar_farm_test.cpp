@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "fleetmap/sim/terrain.hpp"
+
 namespace fleetmap::sim {
 namespace {
 

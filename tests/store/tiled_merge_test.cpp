@@ -113,8 +113,8 @@ TEST(TiledMerge, KeepsWithinItsBudget) {
   ASSERT_TRUE(tiled);
   const std::size_t points = streamed(*tiled).size();
   EXPECT_LE(tiled->stats().largest_tile, kSmall.tile_voxels);
-  EXPECT_LE(tiled->stats().most_cached_bytes, kSmall.cache_bytes);
-  EXPECT_GT(tiled->stats().most_cached_bytes, kSmall.cache_bytes / 2) << "the bound was reached";
+  EXPECT_LE(tiled->stats().max_cached_bytes, kSmall.cache_bytes);
+  EXPECT_GT(tiled->stats().max_cached_bytes, kSmall.cache_bytes / 2) << "the bound was reached";
   EXPECT_LE(tiled->tiles(), 1 + points / (kSmall.tile_voxels - 50)) << "and no more tiles than needed";
 }
 

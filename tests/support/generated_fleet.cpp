@@ -6,8 +6,8 @@
 #include <random>
 
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/wire/sensors.hpp"
-#include "fleetmap/wire/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "synthetic_lidar.hpp"
 
 namespace fleetmap::testing {
@@ -74,7 +74,7 @@ class RobotRecording {
   double noise(double sigma) { return sigma * normal_(random_); }
   template <class T>
   void put(const bus::Topic& topic, const T& sample, Stamp received) {
-    const Status written = bag_.write(topic.name, topic.type, received, wire::encode(sample));
+    const Status written = bag_.write(topic.name, topic.type, received, ros_codec::encode(sample));
     if (!written && status_) status_ = written;
   }
 
@@ -88,20 +88,20 @@ class RobotRecording {
     imu.q_enu_imu = Eigen::Quaterniond(T_enu_base(t).linear() *
                                        rotation_from_rpy(noise(0.005), noise(0.005), noise(0.02)));
     imu.orientation_variance = Eigen::Vector3d(1e-4, 1e-4, 4e-3);
-    put(wire::topics::imu(), imu, stamp);
+    put(ros_codec::topics::imu(), imu, stamp);
   }
   void write_wheel(double t, Stamp stamp) {
     sensor::Wheel wheel = robot_.drive.wheel(t);
     wheel.stamp = stamp;
     wheel.forward_speed = wheel.forward_speed * 1.01 + noise(0.02);
-    put(wire::topics::wheel_odometry(), wheel, stamp);
+    put(ros_codec::topics::wheel_odometry(), wheel, stamp);
   }
   void write_fix(double t, Stamp stamp) {
     sensor::Fix fix;
     fix.stamp = stamp;
     fix.position = site_.to_geo(T_enu_base(t).translation() + gps_.next(0.2));
     fix.covariance = Eigen::Matrix3d::Identity() * kGpsSigma * kGpsSigma;
-    put(wire::topics::fix(), fix, stamp);
+    put(ros_codec::topics::fix(), fix, stamp);
   }
   void write_scan(double t, Stamp stamp, Stamp received) {
     ScanOptions options;
@@ -110,7 +110,7 @@ class RobotRecording {
     const PoseAt pose_at = [this](double seconds) { return T_enu_base(seconds); };
     sensor::Scan scan = make_scan(world_, pose_at, t, odometry::vlp16(), options);
     scan.stamp = stamp;
-    put(wire::topics::points(), scan, received);
+    put(ros_codec::topics::points(), scan, received);
     truth_.stamps.push_back(stamp);
     truth_.T_enu_base.push_back(T_enu_base(t));
   }

@@ -20,7 +20,7 @@ class Introductions : public ::testing::Test {
  protected:
   Introduction introduce(const Credentials& from, bool with_certificate = true) const {
     return parse_introduction(Introducer(from, kRadio, session_)
-                                  .introduce(kText, {.knows_you = true}, true, with_certificate))
+                                  .introduce(kText, {.names_you = true}, true, with_certificate))
         .value();
   }
   std::string refusal(const Credentials& from) {
@@ -42,8 +42,8 @@ TEST_F(Introductions, SurviveTheirEncoding) {
         parse_introduction(Introducer(r1_, kRadio, session_).introduce(kText, flags, sign, certificate));
     ASSERT_TRUE(read);
     EXPECT_EQ(read->text, kText);
-    EXPECT_EQ(read->knows_you, flags.knows_you);
-    EXPECT_EQ(read->knows_another, flags.knows_another);
+    EXPECT_EQ(read->names_you, flags.names_you);
+    EXPECT_EQ(read->names_another, flags.names_another);
     EXPECT_EQ(read->lacks_certificate, flags.lacks_certificate);
     EXPECT_EQ(read->fingerprint, fingerprint(r1_.certificate));
     EXPECT_EQ(read->signature.has_value(), sign);
@@ -100,7 +100,7 @@ TEST_F(Introductions, NothingSignedMayBeChanged) {
     return !listener_.verify(changed, session_, kNow);
   };
   EXPECT_TRUE(refused([](Introduction& i) { i.text[2] ^= 1; }));
-  EXPECT_TRUE(refused([](Introduction& i) { i.knows_you = !i.knows_you; }));
+  EXPECT_TRUE(refused([](Introduction& i) { i.names_you = !i.names_you; }));
   EXPECT_TRUE(refused([](Introduction& i) { i.signature->at(5) ^= 1; }));
   EXPECT_TRUE(refused([](Introduction& i) { i.signature.reset(); }));
   EXPECT_FALSE(listener_.verify(good, draw_session({1, 15}), kNow)) << "of another start";

@@ -11,16 +11,13 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/failure_log.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
-#include "fleetmap/agent/global_track.hpp"
-#include "fleetmap/agent/level_track.hpp"
+#include "fleetmap/agent/node_factory.hpp"
 #include "fleetmap/agent/perception.hpp"
-#include "fleetmap/agent/recent_surroundings.hpp"
-#include "fleetmap/agent/sessions.hpp"
-#include "fleetmap/agent/submap_builder.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
+#include "fleetmap/agent/registration_recorder.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
-#include "fleetmap/odometry/motion_covariance.hpp"
-#include "fleetmap/store/registration_log.hpp"
+#include "fleetmap/output/global_track.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::agent {
 
@@ -93,14 +90,15 @@ class Agent {
   WorkSeconds work_seconds() const;
 
  private:
-  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, Sessions sessions,
-        std::uint16_t session, TrajectoryFile odometry_file, GlobalTrackFile global_file);
+  Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
+        std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file);
   Status start();
   /// Robots that were not heard of for long on a mission.
   std::set<AgentId> lost() const;
 
   void on_perceived(Perceived&& perceived);
-  void freeze_node(const Perceived& perceived);
+  /// Makes the node at the last scan, stores it and tells the fleet.
+  void freeze_node();
   /// What the odometry computes from now on is in another frame. `why` is for people. False: the store
   /// failed.
   bool begin_session(const char* why);
@@ -108,62 +106,50 @@ class Agent {
   void navigate();
   /// From a button on the robot.
   void on_local_hold(const Bytes& cdr);
-  /// GPS may take a while to begin with; nodes without G are made only when it does not come.
-  bool worth_waiting_for_gps();
   void on_events();
   void handle(const exchange::CloudNeeded& needed);
-  void handle(const exchange::PeerStatus& status);
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
   void handle(const exchange::ItemConflict& conflict);
-  void handle(const exchange::ItemRefused& refused);
-  void handle(const exchange::ItemsAdopted& adopted);
-  void handle(const exchange::OfferDoubted& doubted);
+  void handle(const exchange::SessionTaken& taken);
+  void handle(const exchange::StoreFailed& failed);
+  void handle(const exchange::NodeAdded& added);
+  // Nothing follows from these but a line in the log (event_log.hpp).
+  void handle(const exchange::PeerStatus&) {}
+  void handle(const exchange::ItemRefused&) {}
+  void handle(const exchange::ItemsAdopted&) {}
+  void handle(const exchange::OfferUndelivered&) {}
+  void handle(const exchange::OwnItemsElsewhere&) {}
+  void handle(const exchange::StrangerHeard&) {}
+  void handle(const exchange::AlignmentAdded&) {}
+  void handle(const exchange::SubmapAdded&) {}
+  void handle(const exchange::MapComplete&) {}
   /// Own items whose names are contested get others.
   void name_contested_anew();
-  void handle(const exchange::OwnItemsElsewhere& found);
-  void handle(const exchange::SessionTaken& taken);
-  void handle(const exchange::StrangerHeard& heard);
-  void handle(const exchange::StoreFailed& failed);
   void note_store_that_works();
-  void handle(const exchange::NodeAdded& added);
-  void handle(const exchange::AlignmentAdded& added);
-  void handle(const exchange::SubmapAdded&) {}
-  void handle(const exchange::MapComplete& complete);
 
   /// The alignment gets a name, is stored, and goes to the fleet. False: it was refused.
   bool publish(graph::Alignment alignment);
-  /// A registration has ended.
-  void record(const loop_closure::Registration& registration);
-  void log_registration(const loop_closure::Registration& registration);
-  /// Keeps both clouds, so that the pair can be registered again by another method.
-  void keep_input(const store::LoggedRegistration& input);
   void update_status();
 
   AgentConfig config_;
   bus::Bus& bus_;
   store::Store store_;
-  Sessions sessions_;
+  store::Sessions sessions_;
   std::uint16_t session_;
-  bool told_of_missing_gps_ = false;
   bool rest_frozen_for_meeting_ = false;
-  bool own_item_contested_ = true;               ///< perhaps: also before the start
-  std::optional<TrajectoryFile> odometry_file_;  ///< none: it could not be begun, and holds no other frame
-  GlobalTrackFile global_file_;
-  std::optional<store::RegistrationLog> registration_log_;  ///< empty once it could not be written
-  double odometry_seconds_ = 0.0;                           ///< CPU
-  SubmapBuilder submap_;
-  RecentSurroundings recent_surroundings_;
-  place::NodeGenerator node_generator_;
-  LevelTrack level_;
-  odometry::MotionCovariance motion_;  ///< since the last node
+  bool own_item_contested_ = true;  ///< perhaps: also before the start
+  /// None: it could not be begun, and holds no other frame.
+  std::optional<output::TrajectoryFile> odometry_file_;
+  output::GlobalTrackFile global_file_;
+  double odometry_seconds_ = 0.0;  ///< CPU
+  RegistrationRecorder registrations_;
+  NodeFactory nodes_;
   loop_closure::LoopClosing loop_closing_;
   std::optional<exchange::Exchange> exchange_;
-  std::optional<Perceived> last_perceived_;  ///< without its points
-  std::uint64_t map_restarts_ = 0;           ///< of the odometry, seen so far
-  std::uint64_t clock_resets_ = 0;           ///< likewise
+  std::uint64_t map_restarts_ = 0;  ///< of the odometry, seen so far
+  std::uint64_t clock_resets_ = 0;  ///< likewise
   std::vector<double> scan_seconds_;
-  std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
   std::unique_ptr<Navigator> navigator_;

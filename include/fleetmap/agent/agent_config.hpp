@@ -5,18 +5,19 @@
 #include <optional>
 
 #include "fleetmap/agent/perception.hpp"
-#include "fleetmap/agent/sessions.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/exchange.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/place.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
+#include "fleetmap/output/results.hpp"
 #include "fleetmap/place/node_generator.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/sessions.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::agent {
@@ -41,9 +42,12 @@ struct AgentConfig {
   graph::PlacementConfig placement;
   store::StoreConfig store;
   store::MergeConfig map;
-  Sessions::Draw draw_session = random_session;
+  store::Sessions::Draw draw_session = store::random_session;
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
 
+  /// How the maps are made, and the rest that results depend on.
+  output::RecipeConfig recipe() const { return {site_origin, placement, map}; }
+  output::ResultsConfig results() const { return {id, directory, recipe()}; }
   /// Names the component, the field and the rule that it breaks.
   Status validate() const;
 };

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
-#include "fleetmap/agent/trajectory_file.hpp"
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::agent {
 
@@ -29,7 +29,7 @@ class LivePlacement {
   /// Of all solutions.
   double cpu_seconds() const { return cpu_seconds_; }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
-  void publish(const graph::FrameId& frame, const StampedPose& odometry);
+  void publish(const graph::FrameId& frame, const output::StampedPose& odometry);
 
  private:
   struct Solution {
@@ -48,6 +48,7 @@ class LivePlacement {
   OnUsed on_used_;
   std::uint64_t items_ = 0;  ///< the store's revision at the last solution
   bool under_way_ = false;
+  Stamp paused_until_;
   double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;
 };

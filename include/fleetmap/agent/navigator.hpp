@@ -9,12 +9,12 @@
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/ids.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/planning/fleet_plan.hpp"
-#include "fleetmap/planning/mission_executive.hpp"
-#include "fleetmap/planning/path_follower.hpp"
-#include "fleetmap/planning/row_coverage.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/planning/driving/path_follower.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/planning/mission/mission_executive.hpp"
+#include "fleetmap/planning/mission/row_coverage.hpp"
 
 namespace fleetmap::agent {
 
@@ -43,12 +43,12 @@ struct NavigatorConfig {
 
 /// Drives one robot through its part of the mission: pose and scan in, cmd_vel out; tells the others how far
 /// it is and takes over what they cannot do. Uses the EKF's pose for where to go, or while one is told that
-/// of wire::topics::guide_pose() (so a robot without GPS can be led), and the scan for where it is free.
-/// Every command passes a DriveGuard, and while that has a reason zero is published every
+/// of fleet_codec::topics::guide_pose() (so a robot without GPS can be led), and the scan for where it is
+/// free. Every command passes a DriveGuard, and while that has a reason zero is published every
 /// DriveGuard::kPeriod.
 class Navigator {
  public:
-  using Tell = std::function<void(exchange::MissionReport)>;
+  using Tell = std::function<void(messages::MissionReport)>;
   /// `site`: the ENU frame of the plan. `tell` brings a report to the others. Fails if the plan does not know
   /// `self`.
   static Result<std::unique_ptr<Navigator>> create(const NavigatorConfig& config, const AgentId& self,
@@ -60,14 +60,14 @@ class Navigator {
   void on_scan() { guard_.on_scan(bus_.now()); }
   /// After every scan.
   void on_perceived(const Perceived& perceived);
-  void on_report(const exchange::MissionReport& report);
+  void on_report(const messages::MissionReport& report);
   /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
   /// of. `exchanged_with`: robots in reach with whom nothing is left to be exchanged.
   void tick(bool maps_exchanged, std::vector<AgentId> exchanged_with = {});
   /// A node of any robot became known: evidence that its surroundings were driven.
   void on_node(const graph::Node& node);
   /// The order of an operator that is in force.
-  void obey(const exchange::HoldOrder& order);
+  void obey(const messages::HoldOrder& order);
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.

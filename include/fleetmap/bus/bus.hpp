@@ -8,16 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "fleetmap/bus/link.hpp"
 #include "fleetmap/bus/work.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
 
 namespace fleetmap::bus {
-
-/// The three DDS domains of a robot.
-enum class Link : std::uint8_t { kOnboard, kLongRange, kShortRange };
-const char* to_string(Link link);
 
 /// A stream of messages of one IDL type. Two topics with the same link and name must have the same type and
 /// profile.
@@ -61,14 +58,14 @@ class Handle {
   std::function<void()> cancel_;
 };
 
-/// Where long work runs. Items of one lane run in order, one at a time; the lanes run beside each other, so
-/// that slow background work does not hold up the sensors.
+/// Lanes of long work. Items of one lane run in order, one at a time; lanes run in parallel, so that slow
+/// background work does not delay the sensors.
 enum class Lane : std::uint8_t { kPerception, kBackground };
 
-/// What a robot's components see of the world: topics of CDR-encoded IDL messages, a clock, timers and a
-/// place for long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all
-/// members are called from that thread, except where said. Messages published by a robot are delivered to its
-/// own subscribers on the onboard link only.
+/// The environment of a robot's components: topics of CDR-encoded IDL messages, a clock, timers and lanes for
+/// long work. All callbacks of one Bus (one robot) run one after the other, on one thread; all members are
+/// called from that thread, with exceptions as noted. Messages published by a robot are delivered to its own
+/// subscribers on the onboard link only.
 class Bus {
  public:
   using OnMessage = std::function<void(const Bytes& cdr)>;
@@ -85,7 +82,7 @@ class Bus {
   /// counted.
   virtual void publish(const Topic& topic, const Bytes& cdr) = 0;
   [[nodiscard]] virtual Handle subscribe(const Topic& topic, OnMessage on_message) = 0;
-  /// During a callback of subscribe(): the robot that sent the message, as far as the link knows it. Nothing
+  /// During a callback of subscribe(): the robot that sent the message, if the link can identify it. Empty
   /// onboard. A member of the fleet that changed its program can send under another robot's name.
   virtual std::optional<AgentId> sender() const = 0;
 
@@ -93,10 +90,10 @@ class Bus {
   [[nodiscard]] virtual Handle every(Duration period, Work callback) = 0;
 
   /// Items of a lane that may wait.
-  static constexpr std::size_t kMostWork = 256;
+  static constexpr std::size_t kMaxWork = 256;
 
   /// Runs `work` off the callback thread, then `done` on it. In virtual time `done` follows after a set time,
-  /// so results do not depend on the machine. Returns false, and runs neither, while kMostWork items of the
+  /// so results do not depend on the machine. Returns false, and runs neither, while kMaxWork items of the
   /// lane wait.
   virtual bool offload(Lane lane, Work work, std::function<void()> done) = 0;
 

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/bus/dds_bus_config.hpp"
+#include "fleetmap/bus/dds_link_config.hpp"
 #include "fleetmap/bus/fleet_settings.hpp"
 #include "fleetmap/bus/radio_survey.hpp"
 #include "fleetmap/bus/stall_detector.hpp"
@@ -25,49 +27,7 @@ namespace fleetmap::bus {
 /// The profiles that qos/<link>.xml must define, each as a data writer and as a data reader.
 const std::vector<std::string>& profiles_of(Link link);
 
-/// What differs from run to run on one link; everything else is policy and lives in qos/<link>.xml.
-struct DdsLinkConfig {
-  bool enabled = true;       ///< a link that is not: publishing counts as dropped, subscribing is silent
-  std::uint32_t domain = 0;  ///< DDS domain id in [0, 230]
-  /// IPv4 address of the own interface to use, and no other. Empty: the loopback onboard, every interface on
-  /// radios.
-  std::string address = {};
-  /// Where others may be: "10.0.0.2" or "10.0.0.2:7412", a port being that of discovery
-  /// (docs/reference/dds.md). Empty: as the profile says, or else this machine. Onboard the loopback's
-  /// multicast group is asked as well.
-  std::vector<std::string> peers = {};
-  std::uint32_t participants_per_peer =
-      0;  ///< how many participant ids to try on a peer; 0: as the profile says
-  /// On radios: what is for all goes out once, to a multicast group; false: a datagram for each robot. All
-  /// robots must have it alike, and the medium must carry multicast between them.
-  bool multicast = false;
-  /// On radios: DDS domains in whose ports others are looked for besides, at the addresses of `peers`.
-  std::vector<std::uint32_t> other_domains = {};
-  /// On radios: bit/s that all robots together may send; their Hellos keep to a part of it.
-  double fleet_bits_per_second = 145e3;
-  std::size_t queue_messages = 256;     ///< of one topic waiting for their callback; the oldest gives way
-  std::size_t queue_bytes = 64u << 20;  ///< the same in bytes; one message always fits
-  bool shared_memory = true;            ///< false leaves out the profile's shared memory transports
-};
-
-struct DdsBusConfig {
-  AgentId agent;
-  std::filesystem::path qos_directory;  ///< holds onboard.xml, long_range.xml, short_range.xml
-  DdsLinkConfig onboard{.domain = 0};
-  DdsLinkConfig long_range{.domain = 1};
-  DdsLinkConfig short_range{.domain = 2, .fleet_bits_per_second = 1450e3};
-  std::optional<FleetSettings> settings = {};  ///< of a robot, that others compare with theirs
-  /// On radios: listens, but not at a robot's port (the first of its address), and finds others faster.
-  bool observes = false;
-  /// On radios: all that is sent is sealed, and only members of the fleet are heard. Empty: anyone is.
-  std::shared_ptr<const trust::Credentials> keys = {};
-  /// Names the field and the rule that it breaks.
-  Status validate() const;
-};
-/// The settings of one of its links.
-const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link);
-
-/// What came from one robot over one radio in some time.
+/// Traffic from one robot over one radio in some time.
 struct HeardTraffic {
   Link link = Link::kLongRange;
   AgentId from;
@@ -81,8 +41,8 @@ struct HeardTraffic {
 
 /// A robot's Bus over Fast DDS: a participant per enabled link.
 ///
-/// The thread that is in `run` or `run_until` is the bus's callback thread. Messages that arrive meanwhile or
-/// before wait in bounded queues. Members may be called from that thread, or from any one thread while nobody
+/// The thread inside `run` or `run_until` is the bus's callback thread. Messages that arrive meanwhile or
+/// before wait in bounded queues. Members may be called from that thread, or from any one thread while none
 /// runs the bus (to wire components up); `post`, `stop`, `publish`, `matches`, `survey` and `stats` from any
 /// thread. A topic that names a profile which its link's file lacks, or one name with two types, is a bug and
 /// throws std::logic_error.
@@ -106,8 +66,8 @@ class DdsBus final : public Bus {
   std::vector<TopicStats> stats() const override;
   std::uint64_t discovery_bytes(Link link) const override;
 
-  /// Waits for the work items under way and lets the waiting ones go, for good: afterwards nothing that was
-  /// offloaded runs any more, so its owner may be destroyed. Call it while nobody runs the bus.
+  /// Waits for the work items under way and drops the waiting ones, for good: afterwards no offloaded work
+  /// runs any more, so its owner may be destroyed. Call it while no thread runs the bus.
   void finish_work();
 
   /// Runs `callback` on the callback thread; false, and it does not, while thousands of them wait.
@@ -115,11 +75,11 @@ class DdsBus final : public Bus {
 
   /// Runs callbacks until `stop()`, which may have been called already.
   void run();
-  /// Runs callbacks until `stop` is set, for instance by a signal handler, or `stop()` is called; looks at
-  /// the flag after each callback and every 100 ms.
+  /// Runs callbacks until `stop` is set, for instance by a signal handler, or `stop()` is called; checks the
+  /// flag after each callback and every 100 ms.
   void run_until(const std::atomic<bool>& stop);
-  /// Runs callbacks until `done()`, which is asked before the first and after each; false if `timeout` came
-  /// first.
+  /// Runs callbacks until `done()` returns true, which is called before the first and after each; false if
+  /// `timeout` came first.
   bool run_until(const std::function<bool()>& done, Duration timeout);
   void stop();
 
@@ -130,16 +90,16 @@ class DdsBus final : public Bus {
   };
   Matches matches(const Topic& topic) const;
 
-  /// What came over the radios since the last call, of each robot that sent anything.
+  /// Traffic over the radios since the last call, of each robot that sent anything.
   std::vector<HeardTraffic> take_heard_traffic();
-  /// Who was heard on a radio, from any thread. Empty onboard and on a link that is not enabled.
+  /// The robots heard on a radio, from any thread. Empty onboard and on a link that is not enabled.
   RadioSurvey survey(Link link) const;
 
-  /// What the links run without because this machine has not enough of it, with the remedy.
+  /// Features that the links run without because of limits of this machine, with the remedy.
   std::vector<std::string> warnings() const;
 
-  /// How often the callback thread and the threads of the lanes were stuck in one piece of work, from any
-  /// thread. The log tells of each.
+  /// Counts how often the callback thread and the threads of the lanes were stuck in one piece of work, from
+  /// any thread. The log reports each.
   std::vector<StallCounters> stalls() const;
 
  private:

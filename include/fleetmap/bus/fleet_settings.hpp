@@ -6,8 +6,8 @@
 
 namespace fleetmap::bus {
 
-/// What all robots of a fleet must have alike. Every Hello carries it; robots that differ are named in the
-/// log and go on.
+/// Settings that all robots of a fleet must share. Every Hello carries them; differences are logged, and the
+/// robots go on.
 struct FleetSettings {
   std::uint8_t wire_schema = 0;    ///< version of the fleet's messages, > 0
   std::uint32_t fleet = 0;         ///< hash of the names of all robots, sorted

@@ -11,21 +11,21 @@
 
 namespace fleetmap::bus {
 
-/// What was heard on a radio since the bus joined it. Places are "10.0.0.2:7660".
+/// Robots heard on a radio since the bus joined it. Places are "10.0.0.2:7660".
 struct RadioSurvey {
   struct Robot {
     AgentId agent;
     std::string place;
     bool here = false;                      ///< on this machine
-    std::uint32_t domain = 0;               ///< whose port that is
+    std::uint32_t domain = 0;               ///< to which that port belongs
     Duration after{};                       ///< joining, when it was first heard
     std::optional<FleetSettings> settings;  ///< its last; empty: an operator's program
     bool multicast = false;                 ///< it listens to what goes out once for all
   };
   std::string problem;               ///< why the radio is silent; empty: it is not
   std::vector<Robot> robots;         ///< in the order in which they were first heard
-  std::size_t places = 0;            ///< where robots are looked for
-  std::vector<std::string> silent;   ///< addresses of other machines in `peers` from where nobody was heard
+  std::size_t places = 0;            ///< addresses at which robots are sought
+  std::vector<std::string> silent;   ///< addresses of other machines in `peers` without a robot so far
   std::vector<std::string> notices;  ///< robots with which no exchange is possible, a sentence each
 };
 

@@ -23,7 +23,7 @@ struct EndedWork {
   SteadyTime ended;
 };
 
-/// What a thread did since the last look at it: long work that ended, and what is under way.
+/// Work of a thread since the last check: long work that ended, and the work under way.
 struct ThreadActivity {
   std::vector<EndedWork> ended;
   std::optional<WorkUnderWay> under_way;
@@ -35,7 +35,7 @@ struct StallNews {
   bool goes_on = false;  ///< of a stall that was reported before
 };
 
-/// How often one thread was stuck.
+/// Counts the stalls of one thread.
 struct StallCounters {
   std::string thread;
   std::uint64_t times = 0;
@@ -46,11 +46,11 @@ struct StallCounters {
 /// Finds the work that keeps one thread busy for longer than its limit.
 class StallDetector {
  public:
-  /// A look that comes later than this means that the whole process stood still (stopped, suspended, or
-  /// without CPU); that time is not counted as the work's.
-  static constexpr Duration kLongestBetweenLooks = std::chrono::milliseconds(1500);
+  /// A check that is later than this shows that the whole process was paused (stopped, suspended, or without
+  /// CPU); that time does not count as the work's.
+  static constexpr Duration kMaxCheckInterval = std::chrono::milliseconds(1500);
 
-  /// Of one thread there is a line a minute, however slow the computer is.
+  /// Each thread logs a line a minute at most, however slow the computer is.
   static constexpr Duration kReportPeriod = std::chrono::minutes(1);
 
   StallDetector(std::string thread, Duration limit);
@@ -75,7 +75,7 @@ class StallDetector {
 
   Duration limit_;
   StallCounters counters_;
-  std::optional<SteadyTime> last_look_;
+  std::optional<SteadyTime> last_check_;
   std::vector<Pause> pauses_;              ///< that the work under way has seen
   std::optional<std::uint64_t> counted_;   ///< the work that was counted last
   std::optional<std::uint64_t> reported_;  ///< the work that has a line of its own

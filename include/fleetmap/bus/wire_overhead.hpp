@@ -14,13 +14,13 @@ struct WireOverhead {
   std::size_t max_datagram_payload = 1280;  ///< larger messages travel as fragments, each with the overhead
 };
 
-/// What the seal of a fleet with keys adds to a datagram: a header of 10 and a tag of 16, in which the RTPS
-/// header of 20 is left out.
+/// Bytes that the seal of a fleet with keys adds to a datagram: a header of 10 and a tag of 16, without the
+/// RTPS header of 20.
 inline constexpr std::size_t kSealBytes = 6;
 
-/// How many datagrams `payload` bytes travel in; an empty message is still one.
+/// The number of datagrams of a message of `payload` bytes; an empty message still takes one.
 std::size_t datagrams(std::size_t payload, const WireOverhead& overhead = {});
-/// What `payload` bytes cost on the wire, to one receiver.
+/// Bytes on the wire of a message of `payload` bytes, to one receiver.
 std::size_t wire_bytes(std::size_t payload, const WireOverhead& overhead = {});
 
 }  // namespace fleetmap::bus

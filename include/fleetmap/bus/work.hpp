@@ -7,8 +7,8 @@
 
 namespace fleetmap::bus {
 
-/// A callback, and the name that the log gives it while it blocks its thread. Any callable converts to one
-/// without a name.
+/// A callback, and its name in the log while it blocks its thread. Any callable converts to one without a
+/// name.
 struct Work {
   std::string name;
   std::function<void()> run;

@@ -4,21 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "fleetmap/cloud/ground_config.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::cloud {
-
-struct GroundConfig {
-  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();  ///< against gravity, in the cloud's frame, any length
-  float cell_m = 1.0f;         ///< m, edge of the cells that each hold one piece of ground surface
-  float thickness_m = 0.2f;    ///< m, points this close above the surface belong to it
-  float step_m = 0.2f;         ///< m, roughness: height step between neighbouring cells that is still ground
-  float max_slope_rad = 0.7f;  ///< rad, steeper is no ground
-  float max_bend_rad = 0.25f;  ///< rad, change of slope from cell to cell that is still ground
-  float min_area_m2 = 12.0f;   ///< m^2, smaller connected surfaces are no ground
-  Status validate() const;
-};
 
 struct GroundSplit {
   std::vector<std::size_t> kept;    ///< ascending
@@ -26,11 +16,10 @@ struct GroundSplit {
   std::size_t refused = 0;          ///< non-finite points, in neither
 };
 
-/// Tells ground from what stands on it. The lowest points of a grid of cells (in the plane normal to `up`)
-/// are fitted with small planes; planes that continue each other within slope, step and bend limits join into
-/// surfaces; a surface that stands above others next to it (a roof, a table of panels) is no ground. So
-/// slopes and rolling terrain go, and walls, posts and panels stay; a cloud that shows no ground loses
-/// nothing.
+/// Separates ground from objects. The lowest points of a grid of cells (in the plane normal to `up`) are
+/// fitted with small planes; planes that continue each other within slope, step and bend limits join into
+/// surfaces; a surface above neighbouring surfaces (a roof, a table of panels) is no ground. So slopes and
+/// rolling terrain are removed, and walls, posts and panels remain; a cloud without ground loses nothing.
 GroundSplit split_ground(const PointCloud& cloud, const GroundConfig& config);
 
 }  // namespace fleetmap::cloud

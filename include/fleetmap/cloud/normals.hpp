@@ -5,18 +5,11 @@
 #include <vector>
 
 #include "fleetmap/cloud/kd_tree.hpp"
+#include "fleetmap/cloud/normal_config.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::cloud {
-
-struct NormalConfig {
-  std::size_t neighbors = 15;     ///< nearest points, the point itself among them, at most 64
-  float max_radius_m = 2.0f;      ///< m, neighbours further off do not count
-  std::size_t min_neighbors = 5;  ///< with fewer there is no normal
-  Eigen::Vector3f viewpoint = Eigen::Vector3f::Zero();  ///< m, normals point towards it
-  Status validate() const;
-};
 
 struct Normals {
   std::vector<Eigen::Vector3f> normals;  ///< unit, or zero where there is none

@@ -3,16 +3,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "fleetmap/cloud/outlier_config.hpp"
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
 
 namespace fleetmap::cloud {
-
-struct OutlierConfig {
-  std::size_t neighbors = 10;  ///< nearest points, without the point itself, at most 63
-  double sigmas = 2.0;  ///< a point goes when its mean distance exceeds mean + sigmas * standard deviation
-  Status validate() const;
-};
 
 struct OutlierSplit {
   std::vector<std::size_t> kept;     ///< ascending

@@ -19,7 +19,7 @@ class VoxelSample {
     std::size_t operator()(const Voxel& voxel) const { return static_cast<std::size_t>(hash_of(voxel)); }
   };
   const std::unordered_set<Voxel, Hash>& voxels() const { return voxels_; }
-  /// Each voxel of the sample stands for 2^level distinct ones; at level 0 the sample is all of them.
+  /// Each voxel of the sample represents 2^level distinct ones; at level 0 the sample is all of them.
   unsigned level() const { return level_; }
 
  private:

@@ -7,14 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "fleetmap/config/fleet_config.hpp"
-#include "fleetmap/core/result.hpp"
+#include "fleetmap/config/override.hpp"
 
-/// What `fleetmap experiment` runs: studies, each a grid of fleets that differ in a few keys, and each fleet
-/// run once a seed.
+/// Contents of an experiment: studies, each a grid of fleets that differ in a few keys, and each fleet run
+/// once a seed.
 namespace fleetmap::config {
 
-/// A number that every case gives, and how it is shown.
+/// A number that every case yields, and its presentation.
 struct MetricSpec {
   std::string name;   ///< as in a case's result: map.rmse
   std::string title;  ///< of its plot and column
@@ -44,7 +43,7 @@ struct Axis {
 enum class Shape : std::uint8_t { kFalls, kRises, kFallsLessThanLinearly, kDoesNotRise, kDoesNotFall };
 const char* to_string(Shape shape);
 
-/// How a metric's mean must change along an axis, for every combination of the other axes.
+/// The required change of a metric's mean along an axis, for every combination of the other axes.
 struct Expectation {
   std::string metric;
   std::string over;
@@ -69,7 +68,7 @@ struct Study {
   std::vector<Expectation> expectations;
 };
 
-/// An experiment file, already narrowed down if it is the quick set that is asked for.
+/// An experiment file, already narrowed down if the quick set is requested.
 struct ExperimentConfig {
   std::string title;
   std::filesystem::path base;  ///< FLEET.yaml that every case starts from
@@ -81,13 +80,5 @@ struct ExperimentConfig {
 
   const MetricSpec* metric(const std::string& name) const;
 };
-
-/// All problems at once, with file and line; of `base` only that it exists and has agents enough.
-Result<ExperimentConfig> load_experiment(const std::filesystem::path& file, bool quick);
-
-/// A hash of what a run of `fleet_file` with `overrides` reads: that file and every file that it names, and
-/// those that they name. Folders and files above 64 MB count by names, sizes and times of change.
-Result<std::string> input_fingerprint(const std::filesystem::path& fleet_file,
-                                      const std::vector<Override>& overrides);
 
 }  // namespace fleetmap::config

@@ -9,8 +9,8 @@
 
 namespace fleetmap::config {
 
-/// What agents have around them in network namespaces (`fleetmap trial`): `field` of a fleet's file. Radios
-/// are one medium each that all share.
+/// The radios around agents in network namespaces (`fleetmap trial`): `field` of a fleet's file. Radios are
+/// one medium each that all share.
 struct FieldConfig {
   /// One medium.
   struct Medium {
@@ -34,7 +34,7 @@ struct FieldConfig {
   Status validate() const;
 };
 
-/// What `fleetmap trial` gives to deploy/netns/field.sh, beside robots, recordings and output.
+/// Options of `fleetmap trial` for deploy/netns/field.sh, beside robots, recordings and output.
 std::vector<std::string> field_options(const FieldConfig& field);
 
 }  // namespace fleetmap::config

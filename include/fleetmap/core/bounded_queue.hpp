@@ -8,8 +8,8 @@
 
 namespace fleetmap {
 
-/// First-in first-out with a limit: when full, the oldest item gives way and is counted.
-/// Not synchronised; the owner's mutex guards it.
+/// First-in first-out with a limit: a full queue drops and counts the oldest item. Not synchronised; the
+/// owner's mutex guards it.
 template <class T>
 class BoundedQueue {
  public:

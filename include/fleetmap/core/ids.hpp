@@ -30,7 +30,7 @@ class AgentId {
 /// A node (and so its submap and its graph vertex). `seq` holds the session of `agent` in its upper 16 bits
 /// and counts the nodes of that session in the lower ones, from 0 without gaps; alignments are numbered
 /// likewise. Each start of a robot's program draws its session at random, so that a robot whose store was
-/// lost, restored or replaced gives no name a second time.
+/// lost, restored or replaced assigns no name twice.
 struct NodeId {
   AgentId agent;
   std::uint32_t seq = 0;

@@ -6,9 +6,9 @@
 
 namespace fleetmap {
 
-/// What can fail in the field fails with a value that a person can act on.
+/// Errors that occur in the field are values on which a person can act.
 struct Error {
-  /// What is wrong, where, and what to do about it: "out/r1/store.db: disk is full; free space and start
+  /// Names the problem, its place and the remedy: "out/r1/store.db: disk is full; free space and start
   /// again".
   std::string message;
 };

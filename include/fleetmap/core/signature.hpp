@@ -5,7 +5,7 @@
 
 namespace fleetmap {
 
-/// Of an item by its maker: Ed25519, RFC 8032.
+/// A maker's signature of an item: Ed25519, RFC 8032.
 using Signature = std::array<std::uint8_t, 64>;
 
 }  // namespace fleetmap

@@ -1,32 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/eval/colours.hpp"
+#include "fleetmap/eval/image.hpp"
 
 namespace fleetmap::eval {
-
-struct Rgb {
-  std::uint8_t r = 0, g = 0, b = 0;
-  bool operator==(const Rgb&) const = default;
-};
-
-/// Rows from the top, three bytes a pixel.
-struct Image {
-  int width = 0, height = 0;
-  std::vector<Rgb> pixels;
-  Rgb& at(int x, int y) {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-  const Rgb& at(int x, int y) const { return const_cast<Image&>(*this).at(x, y); }
-};
 
 enum class Projection { kTop, kPerspective };
 
@@ -61,16 +43,5 @@ struct View {
 /// colour a point, in the order of the cloud. The view is fitted to all but the outermost points. Fails with
 /// a reason when there is nothing to draw.
 Result<Image> render(const cloud::PointCloud& cloud, const std::vector<Rgb>& colours, const View& view);
-
-/// Perceptually uniform (viridis) and strong (turbo) colour tables, `share` in [0, 1]; NaN is grey.
-Rgb viridis(double share);
-Rgb turbo(double share);
-/// Okabe and Ito's palette, which the colour-blind can tell apart too; it begins again after seven.
-Rgb robot_colour(std::size_t robot);
-/// "#rrggbb"
-std::string hex(Rgb colour);
-
-Result<std::vector<std::uint8_t>> encode_png(const Image& image);
-Status write_png(const std::filesystem::path& file, const Image& image);
 
 }  // namespace fleetmap::eval

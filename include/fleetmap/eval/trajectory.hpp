@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -8,20 +7,12 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::eval {
 
-struct StampedPose {
-  Stamp stamp;
-  Pose T_enu_base = Pose::Identity();
-};
-/// Stamps never go back.
-using Trajectory = std::vector<StampedPose>;
-
-/// A TUM file: `stamp_s x y z qx qy qz qw`; empty lines and those that begin with # are skipped. Fails with
-/// file and line on anything else, on a number that is not finite, and where stamps go back.
-Result<Trajectory> read_tum(const std::filesystem::path& file);
-Status write_tum(const std::filesystem::path& file, const Trajectory& trajectory);
+using output::StampedPose;
+using output::Trajectory;
 
 /// The pose at `stamp`, interpolated; nothing outside the trajectory or in a gap longer than a second.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp);

@@ -8,12 +8,15 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
 
-/// Of two orders for the same robots: whether `a` replaces `b`. The later stamp wins; at equal stamps the
-/// order to stand does.
+using messages::Hold;
+using messages::HoldOrder;
+
+/// Whether order `a` replaces order `b` for the same robots. The later stamp wins; at equal stamps an order
+/// to stop wins.
 bool replaces(const HoldOrder& a, const HoldOrder& b);
 /// The order of `orders` that is in force for `robot`: the latest that names it or all; nothing without one.
 std::optional<HoldOrder> order_for(const AgentId& robot, const std::vector<HoldOrder>& orders);
@@ -21,19 +24,19 @@ std::optional<HoldOrder> order_for(const AgentId& robot, const std::vector<HoldO
 /// whatever the clocks of those who gave them.
 Stamp later_than(const std::vector<HoldOrder>& orders, Stamp now);
 
-/// The operators' orders to stand still and to drive on, replicated over the fleet: one last-writer-wins
-/// register for each robot and one for all. An agent sends its registers when they change, to an operator
-/// that sends an order, to an agent that lacks one or that was silent, and from time to time; so a robot that
-/// missed an order gets it from any other. Nothing is sent while nobody ever gave an order.
+/// The operators' orders to stop and to drive on, replicated over the fleet: one last-writer-wins register
+/// for each robot and one for all. A robot sends its registers when they change, to an operator that sends
+/// an order, to a robot that lacks one or that was silent, and periodically; so a robot that missed an order
+/// receives it from any other. Without any order nothing is sent.
 class HoldOrders {
  public:
   HoldOrders(const AgentId& self, const std::set<AgentId>& fleet) : self_(self), fleet_(fleet) {}
 
   /// True if it replaced a register. Orders for robots that are not of the fleet are ignored.
   bool add(const HoldOrder& order);
-  /// True if an order that came replaced a register.
+  /// True if a received order replaced a register.
   bool on_hold(const Hold& hold);
-  /// A message of another agent of the fleet came.
+  /// A message of another robot of the fleet arrived.
   void on_heard(const AgentId& agent, Stamp now);
   /// The registers are to be sent with the next tick.
   void send_soon() { due_ = true; }

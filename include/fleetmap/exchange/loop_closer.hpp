@@ -7,11 +7,13 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/exchange/messages.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::exchange {
+
+using messages::ProximityMatch;
 
 /// A node of this robot and one of another. Both robots form the same pair from the same nodes.
 struct NodePair {
@@ -20,19 +22,19 @@ struct NodePair {
   auto operator<=>(const NodePair&) const = default;
 };
 
-/// What loop closing wants from the transport in one tick.
+/// Messages and clouds that loop closing demands from the transport in one tick.
 struct CloudDemand {
   struct Wanted {
     NodeId node;
-    double information = 0.0;  ///< nats, of the alignment that the cloud would give
+    double information = 0.0;  ///< nats, of the alignment that the cloud makes possible
   };
   std::vector<ProximityMatch> matches;  ///< to be sent to the peers
   std::vector<Wanted> wanted;           ///< clouds to request
-  std::vector<NodePair> withdrawn;      ///< no longer worth the bytes of either cloud
+  std::vector<NodePair> withdrawn;      ///< neither cloud is needed any more
 };
 
-/// Loop closing as the transport uses it. The transport reports items, matches, requests and received clouds
-/// in the order in which they come; each complete cloud is passed on once.
+/// Interface of loop closing to the transport. The transport reports items, matches, requests and received
+/// clouds in the order of their arrival, and each complete cloud once.
 class LoopCloser {
  public:
   virtual ~LoopCloser() = default;
@@ -41,7 +43,7 @@ class LoopCloser {
   virtual void on_node(const graph::Node& node, Stamp now) = 0;
   /// The name of a node became contested: the node is in no pair any more.
   virtual void on_contested(const NodeId& node) = 0;
-  /// An alignment was stored, whoever computed it.
+  /// An alignment was stored, computed by any robot.
   virtual void on_alignment(const graph::Alignment& alignment, Stamp now) = 0;
   virtual void on_match(const ProximityMatch& match, Stamp now) = 0;
   /// Any message of `peer` was received.
@@ -50,7 +52,7 @@ class LoopCloser {
   virtual void on_cloud_request(const AgentId& peer, const NodeId& ours) = 0;
   /// The whole encoded cloud of `theirs` was received.
   virtual void on_cloud(const NodeId& theirs, Bytes cloud) = 0;
-  /// The cloud of `theirs` was given up, or could not be requested.
+  /// The transfer of the cloud of `theirs` has failed, or could not begin.
   virtual void on_cloud_lost(const NodeId& theirs, Stamp now) = 0;
   /// `radio_has_room`: a cloud of little information delays nothing.
   virtual CloudDemand tick(Stamp now, bool radio_has_room) = 0;

@@ -4,15 +4,10 @@
 #include <deque>
 
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/pace_config.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
 
 namespace fleetmap::exchange {
-
-struct PaceConfig {
-  double burst_seconds = 0.2;     ///< s, of the rate, that may go at once after silence
-  double min_burst_bytes = 1400;  ///< B, at least one full fragment with its headers
-  double peak = 1.1;              ///< of the rate, in any second
-};
 
 /// Lets bytes out at a rate that may change, and in no second more than `peak` times the rate: the buckets of
 /// several robots alone would let their bursts fall into the same second.
@@ -23,9 +18,9 @@ class Pace {
   void set_rate(double bytes_per_second, Stamp now);
   double rate() const { return bucket_.rate(); }
   double burst() const { return bucket_.burst(); }
-  /// As TokenBucket::take. An item that would exceed the peak goes when none was taken for a second: one that
-  /// is larger than a second's worth, or that what else is sent leaves no room for. So a second has at most
-  /// the peak, or one item and what was spent; the rate holds for both together.
+  /// As TokenBucket::take. An item that would exceed the peak goes if none was taken for a second: it may be
+  /// larger than a second's share, or other traffic may leave no room for it. So a second has at most the
+  /// peak, or one item and the spent bytes; the rate holds for both together.
   bool take(double bytes, Stamp now, double reserve = 0.0);
   /// Something else sent `bytes` that count against the rate.
   void spend(double bytes, Stamp now);

@@ -11,7 +11,7 @@ namespace fleetmap::exchange {
 /// The same node, perhaps under another name.
 bool is_same_place(const graph::Node& a, const graph::Node& b);
 
-/// What naming own items anew needs of the agent.
+/// Services of the agent that naming own items anew requires.
 struct NewNames {
   std::uint16_t session = 0;                                 ///< the running one, which names alignments
   std::function<Result<std::uint16_t>()> session_for_frame;  ///< an unused session
@@ -19,11 +19,11 @@ struct NewNames {
   std::function<Result<graph::Alignment>(const graph::Alignment&)> quantised;
 };
 
-/// Tells the fleet again, under fresh names, each own item whose name is contested, so that a forged item
-/// costs the name and not the node. Nodes of one odometry frame go into a session of their own, since the
-/// running one may be another frame, and an alignment made of the odometry ties each of them to a neighbour
-/// that kept its name. What was named anew already is found by its content, so this may be repeated at any
-/// time, also after a restart. Returns how many nodes and alignments were told.
+/// Sends each own item whose name is contested again under a new name, so that a forged item costs the name
+/// and not the node. Nodes of one odometry frame get a session of their own, since the running session may
+/// be another frame, and an alignment from the odometry connects each of them to a neighbour that kept its
+/// name. Items that have a new name already are recognised by their content, so the call may be repeated at
+/// any time, also after a restart. Returns the number of nodes and alignments sent.
 Result<std::size_t> reissue_contested(Exchange& exchange, store::Store& store, const NewNames& names,
                                       Stamp now);
 

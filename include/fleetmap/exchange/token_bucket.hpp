@@ -21,12 +21,12 @@ class TokenBucket {
     tokens_ -= bytes;
     return true;
   }
-  /// Takes `bytes` that went already; a debt is at most what comes in within a second.
+  /// Takes `bytes` that were sent already; the debt is at most one second of the rate.
   void spend(double bytes, Stamp now) {
     refill(now);
     tokens_ = std::max(tokens_ - bytes, std::min(tokens_, -rate_));
   }
-  /// What was let in before `now` came at the rate before.
+  /// Changes the rate; the tokens until `now` accumulate at the old rate.
   void set_rate(double bytes_per_second, double burst_bytes, Stamp now) {
     refill(now);
     rate_ = bytes_per_second;

@@ -22,7 +22,7 @@ namespace fleetmap::fault_injection {
 struct Packet {
   Stamp at;
   AgentId from;
-  exchange::Outgoing outgoing;
+  messages::Outgoing outgoing;
   std::size_t wire_bytes = 0;  ///< on the radio with overhead and copies, on the short range the payload
 };
 
@@ -73,19 +73,19 @@ class ExchangeFleet {
   void put_back_store(const AgentId& name, const std::string& copy) const;
   void lose_store(const AgentId& name) const;
 
-  /// Arrives `delay` from now, from `from` as far as the link can tell.
-  void deliver(const AgentId& to, exchange::Reach reach, std::shared_ptr<const exchange::Message> message,
+  /// Delivers after `delay`, from `from` if the link can name the sender.
+  void deliver(const AgentId& to, messages::Reach reach, std::shared_ptr<const messages::Message> message,
                Duration delay, std::optional<AgentId> from = std::nullopt);
 
   virtual void on_sent(const Packet& packet) = 0;
-  /// What of the message is on the air; nothing: it is not sent.
-  virtual std::shared_ptr<const exchange::Message> on_air(const Packet& packet);
+  /// The message as it goes on the air; null: it is not sent.
+  virtual std::shared_ptr<const messages::Message> on_air(const Packet& packet);
   /// After which delays copies of `packet` arrive at `to`; none: it is lost.
   virtual std::vector<Duration> arrivals(const Packet& packet, const AgentId& to) = 0;
   virtual void on_event(const AgentId& name, Robot& robot, const exchange::Event& event) = 0;
   virtual void on_received(const AgentId& name, Robot& robot,
                            const loop_closure::ReceivedCloud& received) = 0;
-  /// Passes on what the robot's exchange and loop closing have to tell.
+  /// Passes on the events of the robot's exchange and loop closing.
   void pass_on(const AgentId& name, Robot& robot);
 
   exchange::ExchangeConfig config_;              ///< of the robots that start from now on
@@ -96,8 +96,8 @@ class ExchangeFleet {
     Stamp at;
     std::uint64_t order;
     AgentId to;
-    exchange::Reach reach;
-    std::shared_ptr<const exchange::Message> message;
+    messages::Reach reach;
+    std::shared_ptr<const messages::Message> message;
     std::optional<AgentId> from;
     bool operator>(const Flight& other) const {
       return std::tie(at, order) > std::tie(other.at, other.order);
@@ -106,7 +106,7 @@ class ExchangeFleet {
   std::filesystem::path file(const AgentId& name, const std::string& end) const {
     return folder_ / (name.str() + end);
   }
-  void send(const AgentId& from, const exchange::Outgoing& outgoing, const Robot& robot);
+  void send(const AgentId& from, const messages::Outgoing& outgoing, const Robot& robot);
 
   std::filesystem::path folder_;
   Duration tick_;

@@ -9,39 +9,10 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/fault_injection/fault.hpp"
+#include "fleetmap/fault_injection/scenario_config.hpp"
 
 namespace fleetmap::fault_injection {
-
-enum class FaultKind : std::uint8_t {
-  kLoss,         ///< a share `value` of packets is lost
-  kDelay,        ///< packets take up to `value` s more, so that they overtake each other
-  kDuplication,  ///< a share `value` of packets arrives twice
-  kOneWay,       ///< the first robot is not heard by the second
-  kPartition,    ///< the robots named and the others do not hear each other
-  kCrash,        ///< killed, and started again after `length`
-  kLostStore,    ///< killed, and started again on an empty disk
-  kOldStore,     ///< killed, and started again with the store of `value` s before
-  kFullDisk,     ///< every write to the store fails
-  kClockStep,    ///< killed, and started again with a clock that is `value` s off
-  kStranger,     ///< `value` packets a second of nobody of the fleet, and replayed ones
-  kForged,       ///< `value` packets a second in the names of robots of the fleet
-  kLiar,         ///< the robot lies in its digests, status and pieces of clouds and submaps
-};
-inline constexpr std::size_t kFaultKinds = 13;
-const char* to_string(FaultKind kind);
-/// Of names separated by commas, or "all".
-Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names);
-
-struct Fault {
-  FaultKind kind = FaultKind::kLoss;
-  Duration begin{};  ///< since the fleet's start
-  Duration length{};
-  std::vector<std::size_t> robots;  ///< whom it concerns; none: all
-  bool radio = true;                ///< of faults of links: on the long range
-  bool short_range = true;
-  double value = 0.0;
-};
-std::string to_string(const Fault& fault);
 
 /// A fleet, how long it maps, and what goes wrong meanwhile.
 struct Scenario {
@@ -51,12 +22,6 @@ struct Scenario {
   std::vector<Fault> faults;  ///< by their begin
 };
 
-struct ScenarioConfig {
-  std::size_t min_robots = 3, max_robots = 10;
-  Duration mapping = std::chrono::seconds(150);
-  std::size_t max_faults = 12;
-  std::set<FaultKind> kinds;
-};
 Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config);
 
 }  // namespace fleetmap::fault_injection

@@ -25,7 +25,7 @@ Vector6d se3_log(const Pose& T);
 /// Adjoint: T exp(xi) T^-1 = exp(Ad_T xi).
 Matrix6d adjoint(const Pose& T);
 
-/// Translation linear, rotation slerp; alpha 0 gives T_w_a, 1 gives T_w_b; alpha outside [0, 1] extrapolates.
+/// Translation linear, rotation slerp; alpha 0 is T_w_a, 1 is T_w_b; alpha outside [0, 1] extrapolates.
 Pose interpolate(const Pose& T_w_a, const Pose& T_w_b, double alpha);
 
 Pose make_pose(const Eigen::Matrix3d& R, const Eigen::Vector3d& t);

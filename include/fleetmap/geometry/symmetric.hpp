@@ -6,15 +6,15 @@
 
 namespace fleetmap {
 
-// Decompositions of covariances and information matrices, compiled once: each takes the compiler seconds in
-// every file that asks Eigen for it.
+// Decompositions of covariances and information matrices, compiled once, because each costs the compiler
+// seconds in every file that instantiates it.
 
 struct SymmetricEigen {
   Vector6d values;   ///< ascending
   Matrix6d vectors;  ///< columns, orthonormal
 };
 
-/// Of a symmetric matrix; only its lower triangle is read.
+/// Decomposes a symmetric matrix; only its lower triangle is read.
 SymmetricEigen eigen_of_symmetric(const Matrix6d& A);
 
 /// A = L L^T. Where A is not positive definite, what it answers is not to be used and may not be finite.

@@ -11,7 +11,7 @@
 
 namespace fleetmap::graph {
 
-/// One way in which the clouds of two nodes fit.
+/// A relative pose at which the clouds of two nodes fit.
 struct AlignmentMode {
   Pose T_i_j = Pose::Identity();  ///< maps base_link of node j into base_link of node i
   double rmse = 0.0;              ///< E_ij, inlier RMSE in m (Eq. 2)
@@ -21,10 +21,10 @@ struct AlignmentMode {
       Matrix6d::Identity();  ///< C_ij, inverse Fisher information, right tangent of T_i_j: [m, rad]
 };
 
-/// Result of registering the spherized clouds of two nodes (paper, section on spherized registration). Where
-/// the scene repeats itself, more than one relative pose may fit: then the alignment holds them all as
-/// alternatives, of which at most one is right, and only the agreement of many tells which. The nodes may be
-/// of one agent, and of one odometry frame (a loop closure). Immutable.
+/// Result of registering the spherized clouds of two nodes (Alg. 3 and Eq. 2 of the paper). In a scene that
+/// repeats itself several relative poses may fit; the alignment then holds all of them as alternatives, of
+/// which at most one is right, and the fleet graph decides by their consistency with other alignments. The
+/// nodes may be of one agent, and of one odometry frame (a loop closure). Immutable.
 struct Alignment {
   static constexpr std::size_t kMaxModes = 6;
 
@@ -37,7 +37,7 @@ struct Alignment {
   std::optional<Signature> signature{};  ///< of `computed_by`, over all the rest; none without keys
 
   const AlignmentMode& best() const { return modes.front(); }
-  /// The registration could not tell which of its modes is right.
+  /// True if the registration could not decide between several modes.
   bool ambiguous() const { return modes.size() > 1; }
 };
 

@@ -25,22 +25,23 @@ struct Node {
   NodeId id;
   std::uint16_t session = 0;  ///< the odometry frame of O is that of FrameId{id.agent, session}
   Stamp stamp;
-  /// T_enu_base at `stamp`, with covariance; none where GPS has not told, as indoors.
+  /// T_enu_base at `stamp`, with covariance; none without GPS, for example indoors.
   std::optional<GlobalPose> G;
   Pose T_odom_base = Pose::Identity();  ///< O: base_link in the agent's odometry frame at `stamp`
-  /// Of what the odometry lost since the previous node of the same frame: right tangent of T_previous_this,
-  /// [m, rad]. It sums along a chain of nodes; by how many millimetres each lies off in the local map, which
-  /// does not, is left out. Without meaning for the first node of a frame.
+  /// Covariance of the odometry since the previous node of the same frame: right tangent of T_previous_this,
+  /// [m, rad]. It adds up along a chain of nodes. The error of each pose within the local map (millimetres)
+  /// does not add up and is left out. Without meaning for the first node of a frame.
   Matrix6d odom_covariance = Matrix6d::Zero();
   /// Against gravity, in base_link: about 1 long.
   Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
-  /// What stands around (place::Descriptor::encode()), by which the place is known again without GPS; empty
-  /// where there was nothing to describe. At most kMaxDescriptorBytes.
+  /// Descriptor of the surroundings (place::Descriptor::encode()) for place recognition without GPS; empty
+  /// if the scan had too little structure. At most kMaxDescriptorBytes.
   Bytes descriptor;
   /// Names the encoded submap (the points seen since the last node, in base_link at `stamp`).
   ContentHash submap_hash{};
   std::uint32_t submap_bytes = 0;  ///< size of the encoded submap
-  /// Of the maker, over all the rest and so also over the submap's hash; none in a fleet without keys.
+  /// Signature of the maker over all other fields, including the submap's hash; none in a fleet without
+  /// keys.
   std::optional<Signature> signature{};
 
   static constexpr std::size_t kMaxDescriptorBytes = 200;

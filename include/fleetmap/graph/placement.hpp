@@ -3,11 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
-#include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
@@ -57,22 +55,5 @@ struct Placement {
   std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
   std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
 };
-
-struct PaperPlacementConfig {
-  double max_rmse = kGoodRmse;         ///< m, alignments with a larger E_ij do not count
-  double gps_correlation_time = 60.0;  ///< s, fixes closer in time than this share their error
-};
-
-/// The paper's scheme (method `paper`): one rigid transform per pair of agents, that of the alignment with
-/// the least E_ij, of those with one mode; each connected group of agents is then laid on its nodes' global
-/// poses G by least squares.
-Placement place_by_least_rmse(std::span<const Node> nodes, std::span<const Alignment> alignments,
-                              const LocalFrame& site, const PaperPlacementConfig& config = {});
-
-/// Least-squares T_enu_odom of nodes whose odometry poses are given in one common frame, weighted by the
-/// covariance of G. Errors of one agent closer in time than `gps_correlation_time` count as one.
-/// `T_common_node` runs parallel to `nodes`; `nodes` must not be empty.
-Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_common_node,
-                         const LocalFrame& site, double gps_correlation_time);
 
 }  // namespace fleetmap::graph

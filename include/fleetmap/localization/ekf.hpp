@@ -11,18 +11,18 @@
 
 namespace fleetmap::localization {
 
-/// Error-state EKF of GPS, IMU and wheel odometry at base_link: gives G of the paper with its covariance
+/// Error-state EKF of GPS, IMU and wheel odometry at base_link. Computes G of the paper with its covariance
 /// C_ekf.
 ///
-/// Any of the three may be missing or pause: without IMU a constant-velocity model steered by the wheels' yaw
-/// rate takes over, without wheels a non-holonomic constraint and GPS hold the velocity, and without GPS for
-/// a while the covariance grows. Level comes from gravity; heading from the IMU's reported orientation or
-/// from motion.
+/// Any of the three sensors may be missing or pause: without IMU a constant-velocity model steered by the
+/// wheels' yaw rate is used, without wheels a non-holonomic constraint and GPS bound the velocity, and
+/// without GPS the covariance grows. Roll and pitch are observed through gravity, heading through the IMU's
+/// reported orientation or through motion.
 ///
-/// Samples of different sensors may arrive in any order within `max_lateness`: a late one turns the filter
-/// back to its stamp and all later ones are applied again, so the result does not depend on the order of
-/// arrival. Samples of one sensor must have increasing stamps. Earth rotation and curvature within the site
-/// are neglected in the dynamics.
+/// Samples of different sensors may arrive in any order within `max_lateness`: a late sample turns the
+/// filter back to its stamp and all later ones are applied again, so the result does not depend on the order
+/// of arrival. Samples of one sensor must have increasing stamps. Earth rotation and curvature within the
+/// site are neglected in the dynamics.
 class Ekf {
  public:
   /// `config` must be valid.
@@ -33,16 +33,16 @@ class Ekf {
   bool add(const sensor::Wheel& wheel);
   bool add(const sensor::Fix& fix);
 
-  /// G at the newest sample. Empty until the first fixes are believed. While the heading is unknown its
-  /// variance is pi^2/3 (nothing known), and the position is that of the last fix with the distance driven
-  /// since as uncertainty.
+  /// G at the newest sample. Empty until the first fixes are accepted. While the heading is unknown its
+  /// variance is pi^2/3 (uniform), and the position is that of the last fix, with the distance driven since
+  /// as uncertainty.
   std::optional<GlobalPose> pose() const;
   /// G at `stamp`: interpolated between the samples around it, extrapolated up to max_extrapolation past the
   /// newest. Empty outside the history, and where there was no pose yet.
   std::optional<GlobalPose> pose_at(Stamp stamp) const;
 
   bool heading_known() const { return newest().phase == Phase::kTracking; }
-  /// ENU frame of the site, once known.
+  /// ENU frame of the site; none until its origin is set.
   std::optional<LocalFrame> frame() const { return newest().frame; }
   /// The estimate at the newest sample, with velocity and biases.
   const Filter& newest() const { return records_.empty() ? base_ : records_.back().after; }

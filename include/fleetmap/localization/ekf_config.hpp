@@ -29,7 +29,7 @@ struct ImuModel {
   bool use_orientation = true;
   double orientation_tilt_tolerance = 0.17;  ///< rad between reported vertical and measured gravity
   double orientation_yaw_sigma = 0.2;        ///< rad, when the device reports no variance
-  double orientation_yaw_floor = 0.05;       ///< rad, no reported heading is believed more than this
+  double orientation_yaw_floor = 0.05;       ///< rad, lower bound of the sigma of a reported heading
 };
 
 struct GpsModel {
@@ -45,8 +45,8 @@ struct GpsModel {
   double gate = 16.27;             ///< on the squared Mahalanobis distance, 3 degrees of freedom (99.9 %)
   double max_speed = 40.0;         ///< m/s between fixes, beyond which one of them is implausible
   double max_site_radius = 100e3;  ///< m from the origin of the site
-  int initial_fixes = 3;           ///< consecutive fixes that must agree before the first is believed
-  double recovery_time = 10.0;     ///< s of refused fixes that agree with one another until they are believed
+  int initial_fixes = 3;           ///< consecutive fixes that must agree before the first is accepted
+  double recovery_time = 10.0;  ///< s of rejected fixes that agree with one another until they are accepted
   double recovery_time_far = 60.0;  ///< s, the same for fixes outside max_site_radius (no configured origin)
 };
 
@@ -59,11 +59,11 @@ struct WheelModel {
   double turn_offset = 0.3;      ///< m from base_link to the point that does not slide sideways in turns
   double correlation_time =
       1.0;               ///< s over which these errors persist: faster samples do not add information
-  double timeout = 0.5;  ///< s after which a sample says nothing about the present
+  double timeout = 0.5;  ///< s after which a sample is too old to be used for prediction
   double gate = 21.1;    ///< on the squared Mahalanobis distance; beyond, samples weigh less (slip)
 };
 
-/// What is assumed of the robot where sensors say nothing.
+/// Motion model where no sensor measures the motion.
 struct MotionModel {
   double accel_noise = 1.0;             ///< m/s^2/sqrt(Hz), speed changes without an IMU
   double yaw_noise = 0.3;               ///< rad/sqrt(s), turning without IMU and yaw rate
@@ -71,7 +71,7 @@ struct MotionModel {
   double tilt_sigma = 0.1;              ///< rad, slopes of the ground without an IMU
   double tilt_time = 5.0;               ///< s over which such slopes persist
   double speed_sigma = 3.0;             ///< m/s, unknown speed
-  double heading_sigma = 0.2;  ///< rad, how well a heading from motion must be known to start with it
+  double heading_sigma = 0.2;  ///< rad, sigma of a heading from motion that suffices to start with it
 };
 
 /// Configuration of the EKF; see the parts for units.
@@ -81,10 +81,10 @@ struct EkfConfig {
   GpsModel gps;
   WheelModel wheel;
   MotionModel motion;
-  std::optional<GeoPoint> site_origin;  ///< of the ENU frame; else the first believed fix
+  std::optional<GeoPoint> site_origin;  ///< origin of the ENU frame; else the first accepted fix
   double history = 8.0;            ///< s of past poses that pose_at() can answer for; scans may wait so long
   double max_lateness = 0.5;       ///< s that a sample may be older than the newest of any sensor, <= history
-  double max_extrapolation = 0.3;  ///< s that pose_at() looks ahead
+  double max_extrapolation = 0.3;  ///< s that pose_at() may predict
   double max_time_jump = 10.0;     ///< s forward that need a second sample to confirm them
 
   /// The name of the field and the rule that it breaks.

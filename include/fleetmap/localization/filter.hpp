@@ -22,7 +22,7 @@ enum StateOffset : int { kPos = 0, kVel = 3, kAtt = 6, kGyroBias = 9, kAccelBias
 using Covariance = Eigen::Matrix<double, kStates, kStates>;
 using ErrorState = Eigen::Matrix<double, kStates, 1>;
 
-/// What became of the samples. Times refer to each sensor's own stamps.
+/// Counts how samples were used or why they were refused. Times refer to each sensor's own stamps.
 struct EkfCounters {
   std::uint64_t imu_used = 0;
   std::uint64_t imu_bad_value = 0;  ///< NaN, or beyond what any device measures
@@ -40,7 +40,7 @@ struct EkfCounters {
   std::uint64_t fix_implausible = 0;          ///< too far from the site, or from the last fix in that time
   std::uint64_t fix_gated = 0;                ///< beyond gps.gate
   std::uint64_t fix_covariance_replaced = 0;  ///< used with gps.default_sigma_*
-  std::uint64_t fix_recoveries = 0;      ///< refused fixes that agreed for so long that they were believed
+  std::uint64_t fix_recoveries = 0;      ///< rejected fixes that agreed for so long that they were accepted
   std::uint64_t heading_alignments = 0;  ///< heading taken from motion
   std::uint64_t heading_resets = 0;      ///< of these, those that overruled a heading already held
   std::uint64_t restarts = 0;            ///< the clock stepped back for good: everything began anew
@@ -49,14 +49,14 @@ struct EkfCounters {
 
 using Sample = std::variant<sensor::Imu, sensor::Wheel, sensor::Fix>;
 
-/// Where the filter stands in knowing the robot's pose.
+/// How much of the robot's pose the filter estimates.
 enum class Phase {
   kWaiting,   ///< no position yet
   kCoarse,    ///< position of the last fix, level, heading unknown
   kTracking,  ///< everything is estimated
 };
 
-/// A run of fixes that were not believed but may yet convince by agreeing with one another.
+/// A run of rejected fixes. It is accepted once enough of them agree with one another.
 struct FixRun {
   int count = 0;
   Stamp first;
@@ -87,7 +87,7 @@ struct Filter {
   std::optional<Stamp> last_fix;  ///< the last that was used
   GeoPoint last_fix_position;
   double last_fix_sigma = 0.0;  ///< m, worst axis
-  FixRun doubted;
+  FixRun rejected_run;
   double yaw_turned = 0.0;  ///< rad, dead reckoned since the start; never corrected
   HeadingAlignment alignment;
   int heading_contradictions = 0;  ///< consecutive estimates from motion that contradict R
@@ -97,7 +97,7 @@ struct Filter {
 /// Takes one sample whose stamp is not before `filter.stamp`.
 void apply(const EkfConfig& config, Filter& filter, const Sample& sample);
 
-/// Moves the filter to `stamp` with what it knows now (last IMU sample held, or the motion model).
+/// Predicts the filter to `stamp` (last IMU sample held, or the motion model).
 void predict_to(const EkfConfig& config, Filter& filter, Stamp stamp);
 
 Stamp stamp_of(const Sample& sample);

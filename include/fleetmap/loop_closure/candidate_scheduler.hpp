@@ -10,7 +10,9 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/loop_closer.hpp"
-#include "fleetmap/graph/alignment_worth.hpp"
+#include "fleetmap/geometry/uncertain_pose.hpp"
+#include "fleetmap/graph/alignment.hpp"
+#include "fleetmap/graph/node.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
 #include "fleetmap/loop_closure/loop_closure_config.hpp"
 
@@ -18,17 +20,17 @@ namespace fleetmap::loop_closure {
 
 struct LoopClosureStats {
   std::uint64_t by_position = 0;    ///< pairs within r^i (Alg. 2), or found so by a peer
-  std::uint64_t by_descriptor = 0;  ///< descriptor matches, where G does not give both positions
+  std::uint64_t by_descriptor = 0;  ///< descriptor matches, where not both nodes have a good G
   std::uint64_t by_transform = 0;   ///< pairs within r^i by an inter-frame transform, likewise
-  std::uint64_t redundant = 0;      ///< of these, too near to another candidate to be worth their bytes
+  std::uint64_t redundant = 0;      ///< dropped or refused, too near to another candidate
   std::uint64_t requested = 0;      ///< clouds
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t lost = 0;  ///< the cloud never came
+  std::uint64_t lost = 0;  ///< the cloud was not received
   std::uint64_t ended_by_peer =
-      0;                          ///< requested, and ended by the peer's good alignment before the cloud came
-  std::uint64_t yielded = 0;      ///< requested, and given up for the pair that the peer had chosen
-  std::uint64_t crowded_out = 0;  ///< dropped when too many waited
+      0;                      ///< requested, and ended by the peer's good alignment before the cloud arrived
+  std::uint64_t yielded = 0;  ///< requested, and dropped in favour of the pair that the peer had selected
+  std::uint64_t crowded_out = 0;    ///< dropped when too many waited
   std::uint64_t uninformative = 0;  ///< dropped while the radio was busy: below min_information
 };
 
@@ -57,7 +59,7 @@ class CandidateScheduler final : public exchange::LoopCloser {
   void on_node(const graph::Node& node, Stamp now) override;
   void on_contested(const NodeId& node) override;
   void on_alignment(const graph::Alignment& alignment, Stamp now) override;
-  void on_match(const exchange::ProximityMatch& match, Stamp now) override;
+  void on_match(const messages::ProximityMatch& match, Stamp now) override;
   void on_heard(const AgentId& peer, Stamp now) override { heard_[peer] = now; }
   void on_cloud_request(const AgentId& peer, const NodeId& ours) override;
   void on_cloud(const NodeId& theirs, Bytes cloud) override;
@@ -68,38 +70,27 @@ class CandidateScheduler final : public exchange::LoopCloser {
 
   /// The alignments that the fleet's graph uses now (graph::Placement::used).
   void on_used_alignments(std::span<const graph::Alignment> used);
-  /// Our registration of the pair was rejected. (An accepted one comes as on_alignment.)
+  /// This robot's registration of the pair was rejected. (An accepted one is reported by on_alignment.)
   void on_rejected(const NodePair& pair, Stamp now);
-  /// Candidates whose clouds came since the last call.
+  /// Candidates whose clouds were received since the last call.
   std::vector<ReceivedCloud> take_received();
-  /// T_ours_theirs by an inter-frame transform; none where G gives both positions, where the two frames have
-  /// no transform, and while it is distrusted.
+  /// T_ours_theirs by an inter-frame transform; none if both nodes have a good G, if the two frames have no
+  /// transform, or while it is distrusted.
   std::optional<UncertainPose> transform(const NodePair& pair) const;
   bool has_good_alignment(const AgentId& peer) const;
   LoopClosureStats stats() const;
 
  private:
   struct State;
-  struct Choice {
-    NodePair pair;
-    double information = 0.0;
-  };
-  /// By a transform: also a candidate that is known already counts as found by it.
+  /// Offers a candidate found by a transform; an existing candidate is marked as found by it.
   void offer_by_transform(const LoopCandidate& candidate, Stamp now);
   void yield_to(const NodePair& pair);
   void request(exchange::CloudDemand& demand, Stamp now, bool radio_has_room);
-  /// A failed candidate may be tried again.
-  bool retryable(const NodePair& pair, const ScheduledCandidate& candidate) const;
-  /// Candidates whose clouds may be requested; those that others have made redundant meanwhile are dropped.
-  std::vector<NodePair> ready(Stamp now);
-  /// Takes the next one to request out of `ready`, in the order of the configuration.
-  std::optional<Choice> choose(std::vector<NodePair>& ready, bool radio_has_room);
   void announce(exchange::CloudDemand& demand, Stamp now);
   bool heard(const AgentId& peer, Stamp now) const;
 
   AgentId self_;
   LoopClosureConfig config_;
-  graph::AlignmentWorth information_;
   std::unique_ptr<State> state_;
   std::map<AgentId, Stamp> heard_;
   std::vector<NodePair> withdrawn_;

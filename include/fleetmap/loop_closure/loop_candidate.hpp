@@ -10,13 +10,13 @@ namespace fleetmap::loop_closure {
 
 using exchange::NodePair;
 
-/// Two nodes whose clouds are worth a registration: the cloud of `source` onto that of `target`. The target
-/// is a node of this robot; the source is a node of another robot, or of this one.
+/// Two nodes whose clouds are to be registered: the cloud of `source` onto that of `target`. The target is a
+/// node of this robot; the source is a node of another robot, or of this one.
 struct LoopCandidate {
   enum class Origin : std::uint8_t {
     kPosition,    ///< both G lie within r^i (Alg. 2)
     kDescriptor,  ///< the descriptors match
-    kTransform,   ///< near by a transform between the odometry frames that alignments give
+    kTransform,   ///< near by a transform between the odometry frames, from alignments
     kOdometry,    ///< near by the odometry of one frame
     kPeer,        ///< found by the other robot
   };

@@ -36,7 +36,7 @@ class LoopClosing {
     registration::SpherizeConfig spherize;
     registration::RegistrationConfig registration;
   };
-  /// Where results go, on the bus's callback thread.
+  /// Receivers of the results, called on the bus's callback thread.
   struct Outputs {
     /// Every registration that ended, before anything else is done with it.
     std::function<void(const Registration&)> record;
@@ -52,7 +52,7 @@ class LoopClosing {
   LoopClosing(const LoopClosing&) = delete;
   LoopClosing& operator=(const LoopClosing&) = delete;
 
-  /// What the transport reports to and takes its orders from. Lives as long as this.
+  /// The interface to the transport. Lives as long as this.
   exchange::LoopCloser& scheduler() { return scheduler_; }
   LoopClosureStats stats() const { return scheduler_.stats(); }
   const RegistrationCounters& registrations() const;
@@ -61,7 +61,7 @@ class LoopClosing {
   void begin_session(std::uint16_t session);
   /// A node of this robot was made and stored.
   void on_own_node(const graph::Node& node);
-  /// A node of an earlier session came back from others.
+  /// A node of an earlier session was received from others.
   void on_returned_node(const graph::Node& node);
   /// The alignments that the fleet's graph uses now (graph::Placement::used).
   void on_used_alignments(std::span<const graph::Alignment> used) { scheduler_.on_used_alignments(used); }

@@ -21,7 +21,7 @@ struct RegistrationCounters {
   double spherization_seconds = 0.0;    ///< CPU
 };
 
-/// One registration of the cloud of `source` onto that of `target`, as it ended.
+/// A finished registration of the cloud of `source` onto that of `target`.
 struct Registration {
   graph::Node target;
   graph::Node source;

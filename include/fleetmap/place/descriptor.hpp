@@ -12,11 +12,11 @@
 
 namespace fleetmap::place {
 
-/// What stands around a node, seen from above: a square of 28 x 28 cells of 2.5 m about it, along base_link's
-/// heading and level, each cell unseen, ground, low (0.5 m above the ground around it) or high (1.5 m). What
-/// the place recognition of the fleet compares when no GPS tells where two robots are. After the bird's-eye
-/// grids of Scan Context (Kim and Kim, IROS 2018), but Cartesian, so that it can be shifted as well as
-/// turned: two robots never stand at the same spot.
+/// A bird's-eye grid of the surroundings of a node, for place recognition without GPS: a square of 28 x 28
+/// cells of 2.5 m around it, along base_link's heading and level; each cell is unseen, ground, low (0.5 m
+/// above the ground around it) or high (1.5 m). It follows Scan Context (Kim and Kim, IROS 2018), but is
+/// Cartesian, so that it can be shifted as well as turned, because two robots never stop at exactly the same
+/// position.
 class Descriptor {
  public:
   static constexpr int kCells = 28;           ///< along each side
@@ -48,10 +48,10 @@ class Descriptor {
   Rows high_{};  ///< high
 };
 
-/// How two surroundings fit best.
-struct Likeness {
-  /// [0, 1]: correlation of the heights over the cells that both have seen, less for a small overlap.
-  /// Repeating scenes (rows of panels) look alike everywhere: what is similar is a candidate, no more.
+/// The best fit of two descriptors.
+struct DescriptorMatch {
+  /// [0, 1]: correlation of the heights over the cells that both have seen, less for a small overlap. In a
+  /// repeating scene (rows of panels) unrelated places are similar, so a match is only a candidate.
   double similarity = 0.0;
   double yaw = 0.0;                                       ///< rad, of b as seen from a, both level
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< m, of b in a's level frame
@@ -66,7 +66,7 @@ class DescriptorQuery {
 
   explicit DescriptorQuery(const Descriptor& b);
   /// The best of all turns and shifts of b against `a`. Similarity 0 where they have too little in common.
-  Likeness compare(const Descriptor& a) const;
+  DescriptorMatch compare(const Descriptor& a) const;
 
  private:
   /// Rows two by two in one word; the second set is offset by one row.
@@ -78,11 +78,12 @@ class DescriptorQuery {
   std::array<Turned, kYaws> turned_;
 };
 
-/// Likeness of b as seen from a; one comparison by itself.
-Likeness compare(const Descriptor& a, const Descriptor& b);
+/// DescriptorMatch of b as seen from a; one comparison by itself.
+DescriptorMatch compare(const Descriptor& a, const Descriptor& b);
 
-/// T_a_b (base_link of b in that of a) that the likeness tells, given each one's direction against gravity;
-/// the heights are taken to be equal.
-Pose relative_pose(const Likeness& likeness, const Eigen::Vector3d& up_in_a, const Eigen::Vector3d& up_in_b);
+/// T_a_b (base_link of b in that of a) of the match, from each one's direction against gravity; the heights
+/// are taken to be equal.
+Pose relative_pose(const DescriptorMatch& match, const Eigen::Vector3d& up_in_a,
+                   const Eigen::Vector3d& up_in_b);
 
 }  // namespace fleetmap::place

@@ -3,17 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/place/node_generator_config.hpp"
 
 namespace fleetmap::place {
-
-struct NodeGeneratorConfig {
-  double spacing =
-      5.0;  ///< m, D_thresh: how far the robot goes, in odometry, before it freezes the next node
-
-  Status validate() const;
-};
 
 /// Alg. 1 of the paper: the first pose makes a node, and then each pose that lies farther than D_thresh from
 /// the last node's O. (The paper prints the comparison the wrong way round.)

@@ -9,9 +9,9 @@
 
 namespace fleetmap::recording {
 
-/// When samples are played. Where the recording tells when each was recorded, by these times, so that a
-/// sensor whose clock is off shows it as it did live; else at their stamps, but a sensor whose clock was set
-/// back goes on without a break.
+/// The times at which samples are played. With times of recording these are used, so that a sensor whose
+/// clock is off shows it as it did live; otherwise the stamps are, and a sensor whose clock was set back
+/// continues without a break.
 class PlayTimes {
  public:
   explicit PlayTimes(const LogClock& log_clock = {}) : log_clock_(log_clock) {}

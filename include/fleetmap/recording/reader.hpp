@@ -13,6 +13,8 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/recording/kitti_config.hpp"
+#include "fleetmap/recording/reader_config.hpp"
 #include "fleetmap/sensor/samples.hpp"
 #include "fleetmap/sensor/scan.hpp"
 
@@ -22,39 +24,7 @@ namespace fleetmap::recording {
 using Sample = std::variant<sensor::Scan, sensor::Imu, sensor::Fix, sensor::Wheel>;
 Stamp stamp_of(const Sample& sample);
 
-/// Topics of a bag ("/points"). Empty: the only topic of that type, or else the one with our own name.
-/// "none": not read. The config keys are recording.topics.points and so on.
-struct Topics {
-  std::string points;  ///< sensor_msgs/msg/PointCloud2; needed
-  std::string imu;     ///< sensor_msgs/msg/Imu
-  std::string fix;     ///< sensor_msgs/msg/NavSatFix
-  std::string wheel;   ///< nav_msgs/msg/Odometry
-};
-
-/// Makes a good position look like that of a cheap receiver: a first-order Gauss-Markov error on each ENU
-/// axis.
-struct FixDegradation {
-  double sigma = 1.5;              ///< m, standard deviation of each axis; reported as the fix's covariance
-  double correlation_time = 60.0;  ///< s
-  std::uint64_t seed = 1;
-};
-
-/// Folders of scans as KITTI keeps them.
-struct KittiConfig {
-  std::size_t first_frame = 0;
-  std::size_t last_frame = std::numeric_limits<std::size_t>::max();  ///< inclusive
-  double nominal_rate = 10.0;  ///< frames/s where no file says when; frame k is then at k / rate
-  std::optional<FixDegradation> fix_degradation;
-  bool wheel_yaw_rate = false;  ///< give the gyro's yaw rate as the wheels', too
-};
-
-struct ReaderConfig {
-  Topics topics;
-  KittiConfig kitti;
-  Status validate() const;
-};
-
-/// What was read and what was left out, and why.
+/// Counts of samples that were read, and of those left out with the reason.
 struct Counters {
   std::uint64_t scans = 0, imus = 0, fixes = 0, wheels = 0;  ///< given out
   std::uint64_t non_finite_points = 0;                       ///< of the scans read
@@ -74,22 +44,22 @@ struct Counters {
   std::vector<std::pair<std::string, std::uint64_t>> named() const;
 };
 
-/// Gives a recording's samples one by one; holds no more than one scan in memory. Each reason for leaving
+/// Reads a recording sample by sample; holds no more than one scan in memory. Each reason for leaving
 /// something out is logged once (warn) and counted.
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// The next sample; empty at the end. An Error says that the rest cannot be read; after it comes the end.
+  /// The next sample; empty at the end. After an Error the rest cannot be read, and the end follows.
   virtual Result<std::optional<Sample>> next() = 0;
-  /// When the sample that next() gave last was recorded; nothing where the recording does not tell.
+  /// The time at which the last sample of next() was recorded; empty if the recording lacks it.
   virtual std::optional<Stamp> recorded() const { return std::nullopt; }
   virtual const Counters& counters() const = 0;
 };
 
 /// Opens a rosbag2 folder (sqlite3 storage), a single .db3 file, a KITTI folder (raw: velodyne_points and
 /// oxts; odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of
-/// scans (.bin or .pcd, as everywhere also as .xz). What such a folder does not tell is assumed with a
-/// warning. Says what to do about other formats, compressed bags and topics that cannot be chosen.
+/// scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a folder are assumed with a
+/// warning. Errors name the remedy for other formats, compressed bags and topics that cannot be chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {});
 
 }  // namespace fleetmap::recording

@@ -10,14 +10,14 @@ namespace fleetmap::registration {
 /// A place that a robot passed while it made the map of a cloud.
 struct MapStop {
   Pose T_cloud_base = Pose::Identity();
-  /// Of the odometry since the stop before: right tangent of T_before_this, [m, rad]. Without meaning for the
-  /// first stop.
+  /// Covariance of the odometry since the stop before: right tangent of T_before_this, [m, rad]. Without
+  /// meaning for the first stop.
   Matrix6d step_covariance = Matrix6d::Zero();
 };
 
-/// How uncertain the inner shape of a cloud is: the stops its points were seen from, in the robot's order,
-/// and what odometry may have erred by from each to the next. The cloud's frame hangs on the stop nearest to
-/// its origin. Where nothing is known (no stops), straight() is assumed.
+/// Uncertainty of the inner shape of a cloud: the stops from which its points were seen, in the robot's
+/// order, and the covariance of the odometry from each stop to the next. The cloud's frame is fixed to the
+/// stop nearest to its origin. Without stops, straight() is assumed.
 struct MapDrift {
   std::vector<MapStop> stops;
 
@@ -28,7 +28,7 @@ struct MapDrift {
   Status validate() const;
 };
 
-/// Of both clouds of a registration.
+/// Drifts of both clouds of a registration.
 struct Drifts {
   MapDrift target, source;
 };

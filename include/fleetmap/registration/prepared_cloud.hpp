@@ -8,8 +8,8 @@
 
 namespace fleetmap::registration {
 
-/// A cloud with all that registration makes of it before it knows the other one. Immutable and cheap to copy:
-/// a cloud that is registered with many others pays once. May be used by several threads.
+/// A cloud with all data that registration computes independently of the other cloud. Immutable and cheap to
+/// copy: a cloud that is registered with many others is prepared once. May be used by several threads.
 class PreparedCloud {
  public:
   PreparedCloud() = default;

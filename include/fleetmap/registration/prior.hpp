@@ -5,7 +5,7 @@
 
 namespace fleetmap::registration {
 
-/// What is known of the relative pose before looking at the points (from both robots' G).
+/// Prior of the relative pose, from both robots' G or from another source.
 struct Prior {
   Pose T_target_source = Pose::Identity();
   double sigma_translation_m = 5.0;  ///< m, per horizontal axis

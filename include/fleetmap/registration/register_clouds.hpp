@@ -16,7 +16,7 @@ namespace fleetmap::registration {
 enum class Verdict { accepted, ambiguous, rejected };
 const char* to_string(Verdict verdict);
 
-/// One way in which the clouds fit.
+/// A pose at which the clouds fit.
 struct Mode {
   Pose T_target_source = Pose::Identity();
   /// [0, 1]: one less the mean misfit d^2 / (d^2 + misfit_m^2) of the points of both clouds that lie where
@@ -41,7 +41,7 @@ struct RegistrationResult {
   Matrix6d covariance = Matrix6d::Identity();
   double inlier_fraction = 0.0;  ///< inliers over source points, [0, 1]
   double overlap = 0.0;          ///< source points where the target's robot saw something over source points
-  double agreement = 0.0;        ///< of those that stand out of the floor, the share of inliers
+  double agreement = 0.0;        ///< share of inliers among the points above the floor
   /// rmse over that of each cloud against itself (noise, rounding, roughness), both together.
   double excess = 0.0;
   std::size_t inliers = 0;  ///< among the source points scored
@@ -52,16 +52,18 @@ struct RegistrationResult {
 };
 
 /// Spherized registration (paper, Alg. 3) by config.method:
-/// - `correlation` returns all poses T_target_source that fit, and whether one of them is certain. A
-///   correlation of both clouds' maps over every pose of the prior's window (over all poses in reach without
-///   one) gives candidates, point-to-surfel ICP refines them, and what each patch of ground says for one and
-///   against another, with the prior, weighs them. `drifts` go into the covariances.
-/// - `paper` returns the one pose that RANSAC over FPFH correspondences and point-to-plane ICP give. It uses
-///   neither prior nor drifts.
-/// Deterministic.
 ///
-/// Both clouds must be level within some 0.15 rad, after the prior's tilt if there is one. Non-finite points
-/// are left out; clouds too small to tell are rejected.
+/// - `correlation` returns all poses T_target_source that fit, and whether one of them is certain. The maps
+///   of both clouds are correlated over every pose of the prior's window (without a prior, over all poses in
+///   reach), after Olson, "Real-time correlative scan matching", ICRA 2009; point-to-surfel ICP refines the
+///   candidates; the misfits of all patches of ground and the prior weight the resulting modes. `drifts` are
+///   propagated into the covariances.
+///
+/// - `paper` returns the one pose of RANSAC over FPFH correspondences and point-to-plane ICP. It uses
+///   neither prior nor drifts.
+///
+/// Deterministic. Both clouds must be level within some 0.15 rad, after the prior's tilt if there is one.
+/// Non-finite points are left out; clouds with too few points are rejected.
 RegistrationResult register_clouds(const cloud::PointCloud& target, const cloud::PointCloud& source,
                                    const RegistrationConfig& config,
                                    const std::optional<Prior>& prior = std::nullopt,

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/registration/icp.hpp"
+#include "fleetmap/registration/icp_config.hpp"
 #include "fleetmap/registration/paper_config.hpp"
 
 namespace fleetmap::registration {
@@ -24,7 +24,7 @@ struct RegistrationConfig {
   // Search.
   float cell_m = 0.6f;               ///< m, of the maps that are correlated
   float yaw_step_rad = 0.022f;       ///< rad
-  double prior_sigmas = 4.0;         ///< how far from the prior poses are looked for
+  double prior_sigmas = 4.0;         ///< half width of the search window around the prior
   float max_search_m = 60.0f;        ///< m, at most
   double min_overlap = 0.25;         ///< share of the source that the target must have seen
   std::size_t max_candidates = 200;  ///< of the search, refined coarsely

@@ -14,7 +14,7 @@ namespace fleetmap::sensor {
 class ClockDrift {
  public:
   static constexpr Duration kBucket = std::chrono::seconds(30);
-  static constexpr std::size_t kFewest = 10, kMost = 60;  ///< buckets
+  static constexpr std::size_t kMinBuckets = 10, kMax = 60;  ///< buckets
 
   struct Line {
     double slope = 0.0;      ///< s of lag a second; positive: the sensor's clock is slow
@@ -26,7 +26,7 @@ class ClockDrift {
   /// True when a bucket was completed.
   bool add(Stamp arrival, double lag);
   void reset();
-  /// Nothing before kFewest buckets are complete.
+  /// Nothing before kMinBuckets buckets are complete.
   std::optional<Line> line() const;
   /// The least lag of the first bucket since the last reset (s).
   std::optional<double> first() const { return first_; }

@@ -26,19 +26,19 @@ const char* to_string(Source source);
 /// driver and is only reported. A clock that drifts against the right one is reported in ppm, and followed.
 class ClockOffsets {
  public:
-  static constexpr double kTold = 0.5;   ///< s
-  static constexpr double kWrong = 1.0;  ///< s
+  static constexpr double kReportedOffset = 0.5;  ///< s
+  static constexpr double kWrong = 1.0;           ///< s
 
-  /// `arrival` is of a clock that nobody sets.
+  /// `arrival` is of a steady clock.
   void add(Source source, Stamp stamp, Stamp arrival);
-  /// The stamps of `source` contradict those of another sensor, and it is too early to tell which is right:
+  /// The stamps of `source` contradict those of another sensor, and the wrong one cannot be determined yet:
   /// in its first 1.5 s, or, while its samples may only be late, in its first 10 s; and for 1.5 s after it
   /// went ahead.
   bool unclear(Source source) const;
-  /// What is to be added to the stamps of `source`; zero unless they are wrong.
+  /// The correction to add to the stamps of `source`; zero unless they are wrong.
   Duration correction(Source source) const;
-  /// How far the stamps of `source` are behind those of the clock that is right (s); nothing until that is
-  /// known.
+  /// The delay (s) of the stamps of `source` behind those of the reference clock; empty until it is
+  /// determined.
   std::optional<double> behind(Source source) const;
   /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
   std::optional<double> slow_ppm(Source source) const;
@@ -53,14 +53,14 @@ class ClockOffsets {
     ClockDrift drift;
     std::optional<double> behind_at_first;  ///< s, when the first bucket of `drift` was complete
     bool known = false;
-    bool certain = false;             ///< an offset that is found next is not that of late samples
-    std::optional<Stamp> leap_begun;  ///< since when the correction is wrong, if samples are not late
-    bool is_off = false;              ///< by a constant offset that is corrected
-    std::optional<double> slow;       ///< s/s, while it drifts
-    std::optional<double> told_slow;  ///< s/s, the drift that was told last
-    double correction = 0.0;          ///< s
-    double told = 0.0;                ///< s, the offset that was told last
-    std::optional<Stamp> untold_since;
+    bool certain = false;                 ///< an offset that is found next is not that of late samples
+    std::optional<Stamp> leap_begun;      ///< since when the correction is wrong, if samples are not late
+    bool is_off = false;                  ///< by a constant offset that is corrected
+    std::optional<double> slow;           ///< s/s, while it drifts
+    std::optional<double> reported_slow;  ///< s/s, the drift in the last report
+    double correction = 0.0;              ///< s
+    double reported = 0.0;                ///< s, the offset in the last report
+    std::optional<Stamp> unreported_since;
     double lag() const { return envelope.least(); }
     void forget_drift() {
       drift.reset();
@@ -76,8 +76,8 @@ class ClockOffsets {
   std::optional<ClockDrift::Line> right_rate() const;
   void find_drifts();
   void judge(Source source, double right, Duration since, Stamp arrival);
-  void tell_offset(Source source, double offset, Stamp arrival);
-  void tell_drift(Source source, double slow);
+  void report_offset(Source source, double offset, Stamp arrival);
+  void report_drift(Source source, double slow);
 
   std::array<Track, kSources> tracks_;
   std::optional<Stamp> last_arrival_;

@@ -16,8 +16,8 @@ namespace fleetmap::sensor {
 /// - samples come later than any queue holds them, all by the same lag.
 class LagEnvelope {
  public:
-  static constexpr double kLate = 1.0;      ///< s above the envelope: not on time
-  static constexpr double kMostLate = 5.0;  ///< s that drivers and queues hold a sample back at most
+  static constexpr double kLate = 1.0;         ///< s above the envelope: not on time
+  static constexpr double kMaxLateness = 5.0;  ///< s that drivers and queues hold a sample back at most
 
   /// True when the stamps made a step: what was learnt before is forgotten.
   bool add(Stamp stamp, Stamp arrival);

@@ -24,8 +24,8 @@ struct Imu {
 struct Fix {
   Stamp stamp;
   GeoPoint position;
-  bool valid = true;  ///< the receiver says it has a fix
-  /// ENU, m^2, as reported: may be zero, NaN or absurd; the EKF decides what to believe.
+  bool valid = true;  ///< the receiver reports a fix
+  /// ENU, m^2, as reported: may be zero, NaN or absurd; the EKF checks it.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 

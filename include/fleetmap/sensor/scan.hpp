@@ -12,12 +12,12 @@ namespace fleetmap::sensor {
 /// One return of a LiDAR.
 struct ScanPoint {
   Eigen::Vector3f position;  ///< m, in the LiDAR frame at the moment of firing (not motion compensated)
-  float intensity = 0.0f;    ///< as the device gives it
+  float intensity = 0.0f;    ///< in the device's units
   float time = 0.0f;         ///< s after Scan::stamp (may be negative); meaningful if Scan::has_time
   std::uint16_t ring = 0;    ///< laser index; meaningful if Scan::has_ring
 };
 
-/// One revolution (or frame) of a LiDAR, in the order in which the device gave the points.
+/// One revolution (or frame) of a LiDAR, in the device's order of points.
 struct Scan {
   Stamp stamp;
   bool has_time = false;
@@ -25,7 +25,7 @@ struct Scan {
   std::vector<ScanPoint> points;
 };
 
-/// When the last point was fired, as far as the points say; the stamp itself if they say nothing.
+/// The time at which the last point was fired, by the points' times; the stamp itself without such times.
 inline Stamp end_of(const Scan& scan) {
   float last = 0.0f;
   if (scan.has_time) {

@@ -7,8 +7,8 @@
 
 namespace fleetmap::sim {
 
-/// What a perfect map of `world` would hold, in ENU: sample_surface() of its mesh without what lies below the
-/// ground (the feet of posts and walls), where no LiDAR can see.
+/// The perfect map of `world`, in ENU: sample_surface() of its mesh without the points below the ground (the
+/// feet of posts and walls), which no LiDAR can see.
 cloud::PointCloud ground_truth(const World& world, double points_per_m2, std::uint64_t seed,
                                std::size_t max_points = 50'000'000);
 

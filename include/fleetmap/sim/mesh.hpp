@@ -9,7 +9,7 @@
 
 namespace fleetmap::sim {
 
-/// What a surface is made of: how a LiDAR sees it.
+/// The material of a surface, which determines its LiDAR returns.
 enum class Material : std::uint8_t { kGround, kGlass, kMetal, kConcrete, kVegetation };
 inline constexpr int kMaterials = 5;
 
@@ -29,9 +29,9 @@ void append(Mesh& mesh, const Mesh& other);
 double area(const Mesh& mesh);
 
 /// Points spread evenly over all triangles, `points_per_m2` of them on average: the ground truth of a map.
-/// Stratified along the triangles' order, so that every patch gets its share; the same seed gives the same
-/// points. Empty for a density that is not positive; fewer points than asked for, at the lower density that
-/// this takes, beyond `max_points`.
+/// Stratified along the triangles' order, so that every patch gets its share; the same seed yields the same
+/// points. Empty for a density that is not positive; the density is reduced where it would yield more than
+/// `max_points`.
 cloud::PointCloud sample_surface(const Mesh& mesh, double points_per_m2, std::uint64_t seed,
                                  std::size_t max_points = 50'000'000);
 

@@ -21,7 +21,7 @@ struct SiteDrawing {
   std::vector<Aisle> lanes;            ///< to map along, sorted across the site
   std::vector<Footprint> keep_out;     ///< rows of tables, buildings
   Footprint boundary;                  ///< the fence, or the edge of the ground
-  std::vector<Eigen::Vector2d> marks;  ///< other places that somebody marked, such as where robots set out
+  std::vector<Eigen::Vector2d> marks;  ///< other marked places, such as the robots' starts
 };
 
 /// The drawing as it lies on the ground if it is off by `error` metres: all of it is shifted by `error` into

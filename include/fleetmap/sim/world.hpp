@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/sim/drivable_config.hpp"
 #include "fleetmap/sim/mesh.hpp"
 #include "fleetmap/sim/site_drawing.hpp"
 
@@ -17,15 +18,6 @@ struct WorldBounds {
   bool contains(const Eigen::Vector2d& p) const {
     return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
   }
-};
-
-/// How a mesh is turned into ground to drive on.
-struct DrivableConfig {
-  double cell = 0.25;            ///< m, of the grid of heights and obstacles
-  double robot_height = 0.9;     ///< m: what hangs lower than this above the ground is in the way
-  double step_height = 0.15;     ///< m: what is lower than this is driven over
-  double max_slope_rad = 0.436;  ///< rad (25 deg): steeper ground is in the way
-  Status validate() const;
 };
 
 /// A site that robots drive on: its mesh, the ground under them and what is in the way. Immutable; shared by
@@ -53,7 +45,7 @@ class World {
   double ground_height(const Eigen::Vector2d& p) const;
   /// Upward unit normal of the ground, smoothed over about a robot's length.
   Eigen::Vector3d ground_normal(const Eigen::Vector2d& p) const;
-  /// Something a robot of this radius (m) would touch stands at `p`, or `p` is outside the world.
+  /// True if a robot of this radius (m) at `p` would touch an obstacle, or `p` is outside the world.
   bool blocked(const Eigen::Vector2d& p, double radius) const;
   /// m, from `p` to the nearest cell in the way, at most `limit`.
   double clearance(const Eigen::Vector2d& p, double limit) const;

@@ -21,10 +21,10 @@ struct MeshWorld {
   Status validate() const;
 };
 
-/// What a world is made from.
+/// The source of a world.
 using WorldSpec = std::variant<SolarFarmConfig, MeshWorld>;
 
-/// `seed` replaces a solar farm's own; a mesh has none. Errors say what to change and name the mesh's file.
+/// `seed` replaces a solar farm's own; a mesh has none. Errors name the remedy and the mesh's file.
 Result<std::shared_ptr<const World>> build_world(const WorldSpec& spec,
                                                  std::optional<std::uint64_t> seed = std::nullopt);
 

@@ -29,7 +29,7 @@ class SeqSet {
   std::uint64_t size() const { return size_; }
   /// Maximal intervals, by agent, then first.
   std::vector<SeqRange> ranges() const;
-  /// What is in this set and not in `other`: intervals as in ranges(), cut off after `limit` items.
+  /// Returns the items of this set that `other` lacks: intervals as in ranges(), cut off after `limit` items.
   std::vector<SeqRange> minus(const SeqSet& other, std::uint64_t limit = UINT64_MAX) const;
   bool operator==(const SeqSet& other) const { return intervals_ == other.intervals_; }
 

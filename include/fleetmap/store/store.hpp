@@ -16,6 +16,7 @@
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/store/seq_set.hpp"
+#include "fleetmap/store/store_config.hpp"
 
 namespace fleetmap::store {
 
@@ -26,16 +27,7 @@ struct AlignmentId {
   auto operator<=>(const AlignmentId&) const = default;
 };
 
-struct StoreConfig {
-  std::uint32_t max_submap_bytes = 8u << 20;  ///< bytes, nodes that announce a larger submap are refused
-  /// Own items and named values survive a power cut as soon as they are put (one disk sync each), and all
-  /// else after Store::sync(). Without it SQLite syncs its checkpoints alone.
-  bool power_safe = true;
-  std::string file_system;  ///< name of the SQLite VFS that holds the file; empty: the system's own
-  Status validate() const;
-};
-
-/// What became of an item that was put.
+/// The outcome of putting an item.
 enum class Put : std::uint8_t {
   kAdded,     ///< committed: a kill -9 from now on does not lose it
   kKnown,     ///< held already, the same; nothing changed
@@ -54,22 +46,24 @@ struct StoreStats {
       0;  ///< submaps that were damaged on disk; dropped, so that they are fetched again
 };
 
-/// The agent's durable set of immutable items: nodes, alignments, encoded submaps; also submaps that are half
-/// downloaded, and named values of the agent (site origin, counters). One SQLite file in WAL mode.
+struct StoreState;
+
+/// The agent's durable set of immutable items (nodes, alignments, encoded submaps), the chunks of submaps
+/// under download, and named values of the agent (site origin, counters). One SQLite file in WAL mode.
 ///
-/// Contested names: an honest maker gives each name once, so two contents under one name prove that one is
-/// forged (or that the maker equivocates), and nothing here tells which. Such a name keeps both contents as
-/// the evidence, stays in node_set() or alignment_set(), and has no item. A name therefore only moves up from
-/// unknown to one content to contested, whatever comes first: a join-semilattice (CvRDT, Shapiro et al.
-/// 2011), so robots that exchange what they hold end with the same set.
+/// Contested names: an honest maker uses each name once, so two contents under one name prove that one is
+/// forged, or that the maker equivocates; the store cannot decide which. Such a name keeps both contents as
+/// evidence, stays in node_set() or alignment_set(), and has no item. A name only moves from unknown to one
+/// content to contested, in any order of arrival: a join-semilattice (CvRDT, Shapiro et al. 2011), so robots
+/// that exchange their items end with the same set.
 ///
-/// Signatures are stored with their items and are no part of what makes two contents equal. Whoever puts an
-/// item has verified it.
+/// Signatures are stored with their items and do not count when contents are compared. The caller verifies an
+/// item before it puts it.
 ///
-/// Durability: what was put is committed before the call returns, so killing the process loses nothing. Own
-/// items and named values are also synced to the disk: after a power cut the agent must not give a second
-/// item a name that it has already told the others. Items of others are not; a power cut may lose those that
-/// came since the last sync(), which therefore comes before others are told what is held (Exchange::tick).
+/// Durability: a put is committed before the call returns, so a killed process loses nothing. Own items and
+/// named values are also synced to the disk, because after a power cut the agent must not reuse a name that
+/// it has announced. Items of other agents are synced by sync(), which therefore precedes every announcement
+/// (Exchange::tick).
 ///
 /// Nodes and alignments are held in memory as well; submaps stay on disk. One thread at a time. A Result that
 /// fails means that the file failed (disk full, I/O error, corrupt); the set in memory is then unchanged.
@@ -77,17 +71,17 @@ class Store {
  public:
   /// Bytes of one piece of a download; the last of a submap may be shorter.
   static constexpr std::uint32_t kChunkBytes = 8192;
-  /// Of the file. Whoever raises it adds a step to schema.cpp and a file to tests/store/versions.
+  /// Version of the file. A higher one needs a step in schema.cpp and a file in tests/store/versions.
   static constexpr std::int64_t kSchemaVersion = 6;
 
-  /// Opens or makes the store of `self`. A store of schema version 3 or later is brought to the present one.
-  /// Reads the whole file: rows and submaps that are damaged are dropped, and a file whose pages are is moved
-  /// aside and replaced by a store of what is whole in it; damage() says so. Fails with what to do when the
-  /// file is no store, is of a newer version, belongs to another agent, is open in another process for
-  /// writing, or cannot be written.
+  /// Opens or creates the store of `self`. A store of schema version 3 or later is migrated to the present
+  /// one. Reads the whole file: damaged rows and submaps are dropped, and a file with damaged pages is moved
+  /// aside and replaced by a store of its sound items; damage() lists all of this. Fails, with the remedy,
+  /// when the file is no store, is of a newer version, belongs to another agent, is open in another process
+  /// for writing, or cannot be written.
   static Result<Store> open(const std::filesystem::path& path, const AgentId& self,
                             const StoreConfig& config = {});
-  /// Opens any agent's store to look at it; a running agent does not mind. Puts fail.
+  /// Opens any agent's store for reading, also while its agent runs. Puts fail.
   static Result<Store> open_read_only(const std::filesystem::path& path);
 
   Store(Store&&) noexcept;
@@ -103,25 +97,25 @@ class Store {
   Result<Put> put_alignment(const graph::Alignment& alignment);
   /// A whole submap of a held node. kInvalid when its size or hash is not the node's.
   Result<Put> put_submap(const NodeId& id, ByteView encoded);
-  /// Bytes [chunk * kChunkBytes, ...) of a held node's submap; they survive a restart. The last missing one
-  /// completes the submap, or, if its hash is then wrong, drops all chunks and gives kInvalid.
+  /// Puts bytes [chunk * kChunkBytes, ...) of a held node's submap; they survive a restart. The last missing
+  /// chunk completes the submap or, if the hash is then wrong, drops all chunks and returns kInvalid.
   Result<Put> put_submap_chunk(const NodeId& id, std::uint32_t chunk, ByteView bytes);
 
   /// Completes a submap of which all chunks are held, though the disk had no room for the whole. kInvalid as
   /// from put_submap_chunk(), or when a chunk is missing.
   Result<Put> finish_download(const NodeId& id);
 
-  /// What resign() did.
+  /// Counts of resign().
   struct Resigned {
     std::size_t dropped_nodes = 0;       ///< contents
     std::size_t dropped_alignments = 0;  ///< contents
   };
   using SignNode = std::function<std::optional<Signature>(const graph::Node&)>;
   using SignAlignment = std::function<std::optional<Signature>(const graph::Alignment&)>;
-  /// Gives each content the signature that the functions return for it and drops those for which they return
-  /// none, with their submaps. A contested name of which one content is left has this as its item again. All
-  /// or nothing on the disk. Pointers to items become invalid, and revision() may fall: to be called before
-  /// anything else uses the store.
+  /// Stores for each content the signature that the functions return for it, and drops contents without one,
+  /// with their submaps. A contested name of which one content is left has this as its item again. All or
+  /// nothing on the disk. Pointers to items become invalid and revision() may fall, so this comes before any
+  /// other use of the store.
   Result<Resigned> resign(const SignNode& node, const SignAlignment& alignment);
 
   /// This content is held under its name, be the name contested or not. Signatures are not compared.
@@ -150,13 +144,13 @@ class Store {
   std::uint32_t alignment_print(const SeqRange& range) const;
   /// Grows with each change of nodes() and alignments().
   std::uint64_t revision() const;
-  /// What open() found damaged and where the damaged file lies, a sentence each.
+  /// Sentences about the damage that open() found and the place of the damaged file.
   const std::vector<std::string>& damage() const;
   /// The nodes held of `range`, in order.
   std::vector<const graph::Node*> nodes_from(const SeqRange& range) const;
   /// A submap of no bytes is held as soon as its node is.
   bool has_submap(const NodeId& id) const;
-  /// Reads from disk and checks the hash. A damaged submap is dropped, counted and gives an Error.
+  /// Reads from disk and checks the hash. A damaged submap is dropped and counted, and the call fails.
   Result<Bytes> submap(const NodeId& id);
   /// Bytes [offset, offset + length) of a held submap, cut at its end; the hash is not checked.
   Result<Bytes> submap_part(const NodeId& id, std::uint32_t offset, std::uint32_t length) const;
@@ -185,13 +179,8 @@ class Store {
   const std::filesystem::path& path() const;
 
  private:
-  struct State;
-  explicit Store(std::unique_ptr<State> state);
-  Result<Put> insert_node(const graph::Node& node, const ByteView* submap);
-  Status contest_node(const graph::Node& node, ByteView item);
-  Status contest_alignment(const graph::Alignment& alignment, ByteView item);
-  Status complete_submap(const graph::Node& node, ByteView encoded);
-  std::unique_ptr<State> state_;
+  explicit Store(std::unique_ptr<StoreState> state);
+  std::unique_ptr<StoreState> state_;
 };
 
 }  // namespace fleetmap::store

@@ -7,8 +7,8 @@
 
 namespace fleetmap::store {
 
-/// What later tiles need of submaps that were read, within a bound of bytes. Tiles are asked for in ascending
-/// order, so the next use of each submap is known, and the submap whose next use is last is evicted (Belady
+/// Keeps the points of submaps that later tiles need, within a bound of bytes. Tiles are merged in ascending
+/// order, so the next use of each submap is known, and the submap with the latest next use is evicted (Belady
 /// 1966).
 class TileCache {
  public:

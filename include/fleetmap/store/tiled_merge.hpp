@@ -8,17 +8,10 @@
 
 #include "fleetmap/cloud/voxel_tiles.hpp"
 #include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/tile_budget.hpp"
 #include "fleetmap/store/tile_cache.hpp"
 
 namespace fleetmap::store {
-
-/// What bounds the memory of a merge. The order of the points depends on it, so robots whose maps are to be
-/// the same bytes have the same.
-struct TileBudget {
-  std::size_t tile_voxels = 2'000'000;               ///< most points of a tile
-  std::size_t cache_bytes = std::size_t{128} << 20;  ///< of points that later tiles need
-  std::size_t sample_voxels = std::size_t{1} << 18;  ///< by which tiles are planned
-};
 
 struct MapTile {
   cloud::PointCloud cloud;
@@ -29,7 +22,7 @@ using TileSink = std::function<Status(const MapTile&)>;
 struct TiledMergeStats {
   std::size_t loads = 0;         ///< of submaps
   std::size_t largest_tile = 0;  ///< points
-  std::size_t most_cached_bytes = 0;
+  std::size_t max_cached_bytes = 0;
 };
 
 /// merge() in memory that does not grow with the map. The first pass reads every submap once and divides the

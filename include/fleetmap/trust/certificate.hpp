@@ -11,38 +11,19 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/signature.hpp"
 #include "fleetmap/core/time.hpp"
-
-struct evp_pkey_st;  // OpenSSL's key
+#include "fleetmap/trust/signing_key.hpp"
 
 namespace fleetmap::trust {
 
-/// What a member may do on the radios.
+/// The rights of a member on the radios.
 enum class Role : std::uint8_t { kRobot, kObserver };  ///< an observer reads only
 const char* to_string(Role role);
 Result<Role> parse_role(const std::string& text);
 
 /// First bytes of the SHA-256 of the fleet's authority key.
 using FleetId = std::array<std::uint8_t, 8>;
-using PublicKey = std::array<std::uint8_t, 32>;  ///< Ed25519
-using fleetmap::Signature;
 /// First bytes of the SHA-256 of a certificate.
 using Fingerprint = std::array<std::uint8_t, 4>;
-
-/// An Ed25519 private key.
-class SigningKey {
- public:
-  static SigningKey generate();
-  static Result<SigningKey> from_pem(const std::string& pem);
-  std::string to_pem() const;
-  PublicKey public_key() const;
-  Signature sign(ByteView message) const;
-  evp_pkey_st* handle() const { return key_.get(); }
-
- private:
-  explicit SigningKey(std::shared_ptr<evp_pkey_st> key) : key_(std::move(key)) {}
-  std::shared_ptr<evp_pkey_st> key_;
-};
-bool verify(const PublicKey& key, ByteView message, const Signature& signature);
 
 /// The fleet's authority as members know it: a self-signed X.509 certificate.
 struct Authority {

@@ -9,18 +9,9 @@
 #include <vector>
 
 #include "fleetmap/trust/certificate.hpp"
+#include "fleetmap/trust/fleet_keys.hpp"
 
 namespace fleetmap::trust {
-
-using SecretKey = std::array<std::uint8_t, 32>;
-
-/// The symmetric keys that all members share, by epoch. The last one seals; those before only serve to name
-/// who still uses them.
-using FleetKeys = std::map<std::uint16_t, SecretKey>;
-FleetKeys with_new_epoch(FleetKeys keys);
-/// A line an epoch: its number and 64 hexadecimal digits. Lines that begin with # are comments.
-std::string to_text(const FleetKeys& keys);
-Result<FleetKeys> parse_fleet_keys(const std::string& text);
 
 /// Files of a member's folder.
 namespace file {
@@ -40,7 +31,7 @@ class LearnedCertificates {
   std::vector<Certificate> all() const;
 
  private:
-  static constexpr std::size_t kMost = 1024;
+  static constexpr std::size_t kMax = 1024;
   mutable std::mutex mutex_;  ///< guards all below
   std::vector<Certificate> certificates_;
 };
@@ -59,9 +50,9 @@ struct Credentials {
   std::uint16_t epoch() const { return fleet_keys.rbegin()->first; }
 };
 
-/// Reads a member's folder. Fails with file, what is wrong and what to do: a file that is missing, not what
-/// its name says, of another fleet, or secret and readable by others; a key that is not the certificate's; a
-/// certificate that is revoked or not valid at `now`.
+/// Reads a member's folder. Fails with file, problem and remedy: a file that is missing, of another type, of
+/// another fleet, or secret and readable by others; a key that is not the certificate's; a certificate that
+/// is revoked or not valid at `now`.
 Result<Credentials> load_credentials(const std::filesystem::path& folder, Stamp now);
 
 }  // namespace fleetmap::trust

@@ -8,16 +8,11 @@
 #include <optional>
 #include <tl/expected.hpp>
 
+#include "fleetmap/trust/cipher.hpp"
 #include "fleetmap/trust/credentials.hpp"
 #include "fleetmap/trust/replay_window.hpp"
 
 namespace fleetmap::trust {
-
-/// Names one start of one robot on one radio: drawn at random for each, so that it is salt of the sender's
-/// key and challenge to others at once.
-using Session = std::array<std::uint8_t, 12>;
-/// `first` and 80 random bits: RTPS prefixes begin with their vendor.
-Session draw_session(const std::array<std::uint8_t, 2>& first);
 
 /// A datagram is a header, ChaCha20-Poly1305 (RFC 8439) of the message under the session's key, and the tag.
 /// The header is authenticated too.
@@ -29,30 +24,10 @@ Session draw_session(const std::array<std::uint8_t, 2>& first);
 /// The key of a session is HKDF-SHA256 (RFC 5869) of the fleet's key of that epoch with the session as salt;
 /// the nonce is the counter, which a sender never uses twice.
 enum class DatagramKind : std::uint8_t { kGreeting = 0x47, kMessage = 0x4d };
-inline constexpr std::size_t kTagBytes = 16;
 inline constexpr std::size_t kMessageHeaderBytes = 1 + 4 + 5;
 inline constexpr std::size_t kGreetingHeaderBytes = 1 + 4 + 2 + 8 + 12 + 5;
 
-/// Authenticated encryption under one key.
-class Cipher {
- public:
-  explicit Cipher(const SecretKey& key);
-  ~Cipher();
-  Cipher(Cipher&&) noexcept;
-  Cipher& operator=(Cipher&&) noexcept;
-  /// Appends the sealed message to `header`, which it authenticates. The counter is used once.
-  void seal(std::uint64_t counter, Bytes& header, ByteView message);
-  /// Empty if any bit is not as it was sealed.
-  std::optional<Bytes> open(std::uint64_t counter, ByteView header, ByteView sealed);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-SecretKey session_key(const SecretKey& fleet_key, const FleetId& fleet, std::uint16_t epoch,
-                      std::uint8_t radio, const Session& session);
-
-/// What one robot sends on one radio in one start.
+/// Seals the datagrams of one robot on one radio since one start.
 class DatagramSealer {
  public:
   DatagramSealer(const Credentials& credentials, const AgentId& name, std::uint8_t radio,
@@ -91,12 +66,12 @@ struct Opened {
   Bytes message;
 };
 
-/// What comes over one radio.
+/// Opens the datagrams of one radio.
 ///
-/// A greeting is opened for everyone who has the fleet's key. Messages of a session are opened once it was
-/// admitted, which takes a signed greeting with this start's challenge (introduction.hpp): so no packet of
-/// an earlier start of either side is ever accepted. Sessions stay known when a robot leaves, or its packets
-/// could be replayed to it as if it came back.
+/// A greeting is opened for every member, by the fleet's key. Messages of a session are opened once it was
+/// admitted, which takes a signed greeting with this start's challenge (introduction.hpp), so no packet of an
+/// earlier start of either side is ever accepted. Sessions are kept when a robot leaves, or its packets could
+/// be replayed to it after its return.
 class DatagramOpener {
  public:
   DatagramOpener(const Credentials& credentials, std::uint8_t radio);
@@ -114,7 +89,7 @@ class DatagramOpener {
     std::optional<Role> role;
   };
   using Tail = std::array<std::uint8_t, 4>;  ///< of a session, as messages carry it
-  static constexpr std::size_t kMostSessions = 4096, kMostClaims = 1024;
+  static constexpr std::size_t kMaxSessions = 4096, kMaxClaims = 1024;
 
   tl::expected<Opened, NotOpened> open_greeting(ByteView datagram);
   tl::expected<Opened, NotOpened> open_message(ByteView datagram);
@@ -126,7 +101,8 @@ class DatagramOpener {
   const std::uint8_t radio_;
   std::map<Session, Sender> senders_;
   std::map<Tail, Session> by_tail_;
-  std::map<Session, std::uint64_t> claims_;  ///< counters of the last greetings of who is not admitted
+  std::map<Session, std::uint64_t>
+      claims_;  ///< counters of the last greetings of sessions that are not admitted
   std::deque<Session> claims_by_age_;
 };
 

@@ -14,8 +14,8 @@ namespace fleetmap::trust {
 ///   flags 1, fingerprint of the sender's certificate 4, [signature 64], [certificate], size of all this 2
 struct Introduction {
   Bytes text;
-  bool knows_you = false;          ///< else the challenge in the text answers a claim that is not proved yet
-  bool knows_another = false;      ///< at the receiver's place
+  bool names_you = false;          ///< else the challenge in the text answers a claim that is not proved yet
+  bool names_another = false;      ///< at the receiver's place
   bool lacks_certificate = false;  ///< the receiver's, which is to come with the answer
   Fingerprint fingerprint{};
   std::optional<Signature> signature;
@@ -30,9 +30,9 @@ class Introducer {
   Introducer(const Credentials& credentials, std::uint8_t radio, const Session& session);
 
   struct Flags {
-    bool knows_you = false, knows_another = false, lacks_certificate = false;
+    bool names_you = false, names_another = false, lacks_certificate = false;
   };
-  /// A signature counts only in an answer to a challenge; the certificate goes to who lacks it.
+  /// A signature counts only in an answer to a challenge; the certificate is sent to robots that lack it.
   Bytes introduce(ByteView text, Flags flags, bool sign, bool with_certificate) const;
 
   bool has_certificate(const Fingerprint& fingerprint) const { return members_.contains(fingerprint); }
@@ -45,7 +45,7 @@ class Introducer {
  private:
   Bytes signed_bytes(ByteView text, std::uint8_t flags, const Session& sender) const;
 
-  static constexpr std::size_t kMostMembers = 1024;
+  static constexpr std::size_t kMaxMembers = 1024;
   const Authority authority_;
   const Certificate certificate_;
   const SigningKey key_;

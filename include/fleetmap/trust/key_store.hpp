@@ -40,7 +40,7 @@ class KeyStore {
   KeyStore(std::filesystem::path folder, SigningKey key, Authority authority)
       : folder_(std::move(folder)), key_(std::move(key)), authority_(std::move(authority)) {}
   Status save(Stamp now) const;
-  /// What all members have alike.
+  /// Writes the files that all members share.
   Status refresh(const std::filesystem::path& member_folder) const;
   Status read_issued();
 

@@ -15,7 +15,7 @@ class ReplayWindow {
     seen_.fill(~std::uint64_t{0});
     clear_above(last);
   }
-  /// False for a counter that was accepted before or is too old to tell.
+  /// False for a counter that was accepted before or is older than the window.
   bool accept(std::uint64_t counter);
 
  private:

@@ -34,35 +34,6 @@ const std::vector<std::string>& profiles_of(Link link) {
   return link == Link::kOnboard ? onboard : link == Link::kLongRange ? long_range : short_range;
 }
 
-const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
-  switch (link) {
-    case Link::kLongRange:
-      return config.long_range;
-    case Link::kShortRange:
-      return config.short_range;
-    case Link::kOnboard:
-      break;
-  }
-  return config.onboard;
-}
-
-Status DdsBusConfig::validate() const {
-  if (agent.empty()) return failure("agent must have a name");
-  if (onboard.multicast) return failure("onboard.multicast is for radios; leave it out");
-  for (const Link link : kLinks) {
-    const DdsLinkConfig& own = config_of(*this, link);
-    if (!own.enabled) continue;
-    if (auto status = bus::validate(own, to_string(link)); !status) return status;
-    for (const Link other : kLinks) {
-      const bool clash =
-          other < link && config_of(*this, other).enabled && config_of(*this, other).domain == own.domain;
-      if (clash)
-        return failure(std::string(to_string(link)) + ".domain must differ from " + to_string(other) + "'s");
-    }
-  }
-  return {};
-}
-
 struct DdsBus::State {
   const Stamp begun = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
   const Executor::Clock::time_point begun_steady = Executor::Clock::now();

@@ -16,7 +16,7 @@ void Executor::post(Work callback) {
 bool Executor::try_post(Work callback) {
   {
     const std::scoped_lock lock(mutex_);
-    if (posted_.size() >= kMostPosted) return false;
+    if (posted_.size() >= kMaxPosted) return false;
     posted_.push_back(std::move(callback));
   }
   changed_.notify_one();

@@ -20,14 +20,14 @@ class Executor {
  public:
   using Clock = std::chrono::steady_clock;
 
-  static constexpr std::size_t kMostPosted = 4096;
-  /// Of one callback: afterwards the thread is stuck.
+  static constexpr std::size_t kMaxPosted = 4096;
+  /// A callback that runs longer counts as stuck.
   static constexpr Duration kStuckAfter = std::chrono::seconds(2);
 
   /// From any thread, as the next three. For callers that bound what waits: one callback for each message in
   /// an inbox, one for each work item.
   void post(Work callback);
-  /// False, and nothing is posted, while kMostPosted callbacks wait.
+  /// False, and nothing is posted, while kMaxPosted callbacks wait.
   [[nodiscard]] bool try_post(Work callback);
   /// Makes a waiting run_one return.
   void wake();
@@ -41,7 +41,7 @@ class Executor {
   /// stopped.
   bool run_one(Clock::time_point deadline);
 
-  /// What the callback thread does.
+  /// The work of the callback thread.
   const std::shared_ptr<WorkRecord>& record() const { return record_; }
 
  private:

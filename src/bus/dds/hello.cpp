@@ -19,7 +19,7 @@ constexpr std::uint8_t kSchema = 3;
 constexpr std::uint8_t kFirstWithHead = 2;
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kHead = kEncapsulation + 28;  // to `port`, in every version
-constexpr std::size_t kMostBytes = kEncapsulation + 48 + 4 * kMostReads;
+constexpr std::size_t kMaxBytes = kEncapsulation + 48 + 4 * kMaxReads;
 
 template <class Name>
 std::optional<AgentId> parse_name(const Name& name) {
@@ -58,11 +58,11 @@ Bytes encode(const Hello& hello) {
 }
 
 std::optional<Hello> decode_hello(const Bytes& bytes) {
-  if (bytes.size() <= kEncapsulation || bytes.size() > kMostBytes || bytes[kEncapsulation] != kSchema)
+  if (bytes.size() <= kEncapsulation || bytes.size() > kMaxBytes || bytes[kEncapsulation] != kSchema)
     return std::nullopt;
   msg::Hello idl;
   try {
-    // Reading leaves the bytes alone; FastBuffer knows only mutable memory.
+    // Reading leaves the bytes unchanged; FastBuffer's interface takes only mutable memory.
     FastBuffer buffer(reinterpret_cast<char*>(const_cast<std::uint8_t*>(bytes.data())), bytes.size());
     Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
     cdr.read_encapsulation();
@@ -70,7 +70,7 @@ std::optional<Hello> decode_hello(const Bytes& bytes) {
   } catch (const std::exception&) {
     return std::nullopt;
   }
-  if (idl.reads().size() > kMostReads || idl.port() == 0) return std::nullopt;
+  if (idl.reads().size() > kMaxReads || idl.port() == 0) return std::nullopt;
   const auto sender = parse_name(idl.sender());
   const auto link = static_cast<Link>(idl.link());
   if (!sender || (link != Link::kLongRange && link != Link::kShortRange)) return std::nullopt;

@@ -14,17 +14,18 @@ namespace fleetmap::bus {
 
 /// fleetmap::msg::Hello, by which robots find each other on a radio.
 struct Hello {
-  std::array<std::uint8_t, 12> knows{};  ///< RTPS prefix of whom the sender knows at this place; zero: nobody
-  bool leaves = false;                   ///< the sender's last message
+  std::array<std::uint8_t, 12>
+      knows{};          ///< RTPS prefix of the peer that the sender has at this address; zero: none
+  bool leaves = false;  ///< the sender's last message
   AgentId sender;
   std::array<std::uint8_t, 4> address{};
   std::uint16_t port = 0;
   std::optional<FleetSettings> settings;  ///< empty: an operator's program
   Link link = Link::kLongRange;           ///< that the sender uses here
   bool multicast = false;                 ///< the sender listens at the group
-  std::vector<std::uint32_t> reads;       ///< entity ids of topics, at most kMostReads
+  std::vector<std::uint32_t> reads;       ///< entity ids of topics, at most kMaxReads
 };
-inline constexpr std::size_t kMostReads = 64;
+inline constexpr std::size_t kMaxReads = 64;
 
 /// A Hello that another version of fleetmap sent: what it has in common with this one's.
 struct OtherHello {

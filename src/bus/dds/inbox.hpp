@@ -15,10 +15,10 @@
 namespace fleetmap::bus {
 
 /// Messages of one topic between Fast DDS's threads, which put, and the callback thread, which takes. Bounded
-/// in messages and bytes; the oldest gives way and is counted.
+/// in messages and bytes; the oldest is dropped and counted.
 class Inbox {
  public:
-  /// A participant's RTPS prefix; zeros: not told.
+  /// A participant's RTPS prefix; zeros: unknown.
   using Sender = std::array<std::uint8_t, 12>;
   struct Message {
     Bytes cdr;

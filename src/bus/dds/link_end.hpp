@@ -15,7 +15,7 @@
 
 namespace fleetmap::bus {
 
-/// This robot's end of one link: its topics, who subscribed to them, and what came and went.
+/// This robot's end of one link: its topics, their subscribers and the traffic.
 class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
  public:
   virtual ~LinkEnd() = default;
@@ -27,15 +27,15 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   Handle subscribe(const Topic& topic, Bus::OnMessage on_message);
   DdsBus::Matches matches(const Topic& topic) const;
   void add_stats(std::vector<TopicStats>& all) const;
-  /// Appends what came from each robot since the last call. Only radios tell robots apart.
+  /// Appends the traffic of each robot since the last call. Only radios distinguish robots.
   virtual void take_heard_traffic(std::vector<HeardTraffic>&) {}
   /// B on the wire of this end's own, so far. Only radios have such.
   virtual std::uint64_t discovery_bytes() const { return 0; }
-  /// Who sent the message that is being dispatched; on the callback thread.
+  /// The sender of the message that is being dispatched; on the callback thread.
   const std::optional<AgentId>& sender() const { return sender_; }
-  /// What a radio heard.
+  /// The robots that a radio heard.
   virtual RadioSurvey survey() const { return {}; }
-  /// What the profile asks for and this machine has not; empty if all is there.
+  /// Features of the profile that this machine lacks; empty if it has all.
   const std::string& warning() const { return warning_; }
 
  protected:
@@ -52,9 +52,9 @@ class LinkEnd : public std::enable_shared_from_this<LinkEnd> {
   };
 
   LinkEnd(Link link, const DdsLinkConfig& config, std::shared_ptr<Executor> executor);
-  /// Throws std::logic_error for a topic that the link's profiles do not know.
+  /// Throws std::logic_error for a topic that the link's profiles lack.
   virtual std::unique_ptr<TopicEnd> make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) = 0;
-  /// The robot that the participant belongs to. Only radios know.
+  /// The robot to which the participant belongs. Empty onboard.
   virtual std::optional<AgentId> robot_of(const Inbox::Sender&) const { return std::nullopt; }
   /// A message of `topic` lies in its inbox. From any thread; takes no lock.
   Work dispatcher(const std::string& topic);

@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fleetmap/bus/shared_memory.hpp"
 #include "participant_qos.hpp"
 #include "raw_type.hpp"
+#include "shared_memory.hpp"
 
 namespace fleetmap::bus {
 namespace {
@@ -28,7 +28,7 @@ class WriterListener final : public dds::DataWriterListener {
   explicit WriterListener(std::shared_ptr<Executor> executor) : executor_(std::move(executor)) {}
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
     matched_ += status.current_count_change;
-    executor_->wake();  // whoever waits for it
+    executor_->wake();  // a call of matches() may wait for it
   }
   std::size_t matched() const { return static_cast<std::size_t>(std::max(0, matched_.load())); }
 
@@ -37,7 +37,7 @@ class WriterListener final : public dds::DataWriterListener {
   std::atomic<int> matched_ = 0;
 };
 
-/// Runs on Fast DDS's threads: only moves samples into the inbox and tells the callback thread.
+/// Runs on Fast DDS's threads: only moves samples into the inbox and wakes the callback thread.
 class ReaderListener final : public dds::DataReaderListener {
  public:
   ReaderListener(std::shared_ptr<Executor> executor, std::shared_ptr<Inbox> inbox, Work dispatch)
@@ -105,7 +105,7 @@ class OnboardLink::End final : public TopicEnd {
     reader_listener_.forget_matches();
   }
   bool write(const Bytes& cdr) override {
-    // Fast DDS only reads the sample, though its signature does not say so.
+    // Fast DDS only reads the sample, though its signature takes it as mutable.
     return writer_->write(const_cast<Bytes*>(&cdr), InstanceHandle_t()) == ReturnCode::RETCODE_OK;
   }
   DdsBus::Matches matches() const override {

@@ -33,7 +33,7 @@ bool is_ipv4(const std::string& text) {
 }
 
 constexpr const char* kDiscoveryGroup = "239.255.0.1";  // RTPS 2.2, 9.6.1.4.1
-constexpr std::uint32_t kParticipantsHere = 16;         // looked for on this machine
+constexpr std::uint32_t kParticipantsHere = 16;         // sought on this machine
 constexpr std::uint32_t kParticipantsElsewhere = 4;     // on it, in other domains
 
 struct Peer {
@@ -61,9 +61,9 @@ Locator_t to_locator(const Peer& peer) {
 }
 
 /// Fast DDS derives a participant's port in shared memory from its number, and numbers those of a process
-/// from 0. A process that starts anew after it was killed would get the port of the dead one, and who writes
-/// to that goes on writing to what is no longer read (Fast DDS 2.9.1; docs/reference/dds.md). So each start
-/// takes other numbers; UDP's discovery ports are named and stay.
+/// from 0. A process that restarts after it was killed would get the port of the dead one, to which writers
+/// continue to write though it is no longer read (Fast DDS 2.9.1; docs/reference/dds.md). So each start takes
+/// other numbers; UDP's discovery ports are named and stay.
 int unused_number() {
   static std::atomic<unsigned> next = std::random_device()();
   constexpr unsigned kFirst = 16;
@@ -84,7 +84,7 @@ void add_places(const Peer& first, std::uint32_t count, const PortParameters& po
   }
 }
 
-/// Of all peers, each with the ports where its participants may be.
+/// All peers, each with the ports that its participants may use.
 std::vector<Locator_t> places_of(const DdsLinkConfig& config, const std::string& own,
                                  const PortParameters& ports) {
   std::vector<Locator_t> places;

@@ -15,7 +15,7 @@ namespace fleetmap::bus {
 Status validate(const DdsLinkConfig& config, const std::string& link);
 
 /// Fails unless an interface of this machine that is up has `config.address`. Fast DDS would make a
-/// participant that reaches nobody and say so in its log only.
+/// participant without any connection and report this in its log only.
 Status check_address(const DdsLinkConfig& config, const std::string& link);
 
 /// The participant profile of a link's file.
@@ -34,7 +34,8 @@ eprosima::fastrtps::rtps::RTPSParticipantAttributes radio_attributes(
 std::uint32_t domain_of(std::uint32_t port, const eprosima::fastdds::dds::DomainParticipantQos& qos);
 /// The address that a robot has on a radio: the loopback where none is set.
 std::string own_address(const DdsLinkConfig& config);
-/// Where others may listen: the ports of each peer that `config` names, of this machine where it names none.
+/// Addresses at which others may listen: the ports of each peer that `config` names, and of this machine if
+/// it names none.
 std::vector<eprosima::fastrtps::rtps::Locator_t> listening_places(
     const DdsLinkConfig& config, const eprosima::fastdds::dds::DomainParticipantQos& qos);
 

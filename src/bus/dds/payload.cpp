@@ -7,7 +7,7 @@ namespace {
 
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 
-constexpr std::uint32_t kMostBytes = 4u << 20;  // of a message on a radio
+constexpr std::uint32_t kMaxBytes = 4u << 20;  // of a message on a radio
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::size_t kOptions = 3;       // last byte of the header ...
 constexpr std::uint8_t kPaddingBits = 3;  // ... whose two low bits count the padding at the end
@@ -25,7 +25,7 @@ bool write_payload(const Bytes& cdr, SerializedPayload_t& payload) {
   std::memset(payload.data + cdr.size(), 0, size - cdr.size());
   payload.data[kOptions] = static_cast<std::uint8_t>((cdr[kOptions] & ~kPaddingBits) | (size - cdr.size()));
   payload.length = static_cast<std::uint32_t>(size);
-  // The second byte of the header tells CDR's byte order: 0 big, 1 little endian.
+  // The second byte of the header is CDR's byte order: 0 big, 1 little endian.
   payload.encapsulation = (cdr[1] & 1u) != 0 ? CDR_LE : CDR_BE;
   return true;
 }
@@ -40,14 +40,14 @@ bool read_payload(const SerializedPayload_t& payload, Bytes& cdr) {
 }
 
 bool PayloadPool::get_payload(std::uint32_t size, Change& change) {
-  if (size > kMostBytes) return false;  // a fragment may announce 4 GiB
+  if (size > kMaxBytes) return false;  // a fragment may announce 4 GiB
   change.serializedPayload.reserve(size);
   change.payload_owner(this);
   return true;
 }
 
 bool PayloadPool::get_payload(Payload& data, IPayloadPool*& /*owner*/, Change& change) {
-  if (data.length > kMostBytes || !change.serializedPayload.copy(&data, false)) return false;
+  if (data.length > kMaxBytes || !change.serializedPayload.copy(&data, false)) return false;
   change.payload_owner(this);
   return true;
 }

@@ -7,9 +7,9 @@
 
 namespace fleetmap::bus {
 
-/// Bytes that `cdr` takes as a payload: RTPS fills it up to a multiple of 4. Fast DDS does so without saying
-/// how much, and the receiver would get bytes that nobody sent; so it is done here, and said in the
-/// encapsulation header (DDS-XTypes 1.3, 7.6.3.1.2).
+/// The size of `cdr` as a payload: RTPS pads it to a multiple of 4. Fast DDS does not report how much it
+/// padded, and the receiver would get bytes that were never sent; so the padding is done here and noted in
+/// the encapsulation header (DDS-XTypes 1.3, 7.6.3.1.2).
 std::uint32_t payload_size(const Bytes& cdr);
 /// False if it has no encapsulation header or does not fit.
 bool write_payload(const Bytes& cdr, eprosima::fastrtps::rtps::SerializedPayload_t& payload);

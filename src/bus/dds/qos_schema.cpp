@@ -10,8 +10,8 @@
 namespace fleetmap::bus {
 namespace {
 
-/// `element` may stand in a `parent`; its content is of type `content`. Types in lower case are nodes of this
-/// table, those in upper case are values, and A|B lists the words that may stand there.
+/// `element` is allowed in a `parent`; its content is of type `content`. Types in lower case are nodes of
+/// this table, those in upper case are values, and A|B lists the allowed words.
 struct Rule {
   std::string_view parent;
   std::string_view element;

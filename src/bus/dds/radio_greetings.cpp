@@ -1,9 +1,7 @@
-// How robots with keys find each other on a radio: the members of RadioLink that seal and check Hellos. A
-// robot is known once it has answered this start's challenge, so that recorded Hellos of the day before get
-// no further than an answer.
+// The members of RadioLink that seal and check Hellos of a fleet with keys. A robot becomes a peer once it
+// has answered this start's challenge, so that recorded Hellos of the day before are answered and nothing
+// more.
 #include <fastdds/rtps/participant/RTPSParticipant.h>
-#include <fastrtps/utils/IPLocator.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -15,7 +13,6 @@ namespace fleetmap::bus {
 namespace {
 
 using eprosima::fastrtps::rtps::GuidPrefix_t;
-using eprosima::fastrtps::rtps::IPLocator;
 
 constexpr int kAnswers = 2;  // to a claim that is not proved
 
@@ -27,26 +24,24 @@ trust::Session session_of(const GuidPrefix_t& prefix) {
 
 }  // namespace
 
-Bytes RadioLink::greeting_of(const Hello& hello, const Place& place) const {
+Bytes RadioLink::greeting_of(const Hello& hello, const RemoteLocator& remote) const {
   trust::Introducer& introducer = guard_->introducer();
-  const bool answers = place.claimed || place.robot;
+  const bool answers = remote.claimed || remote.robot;
   const trust::Introducer::Flags flags{
-      .knows_you = !place.claimed && place.robot,
-      .knows_another = place.claimed && place.robot,
-      .lacks_certificate = !place.certificate || !introducer.has_certificate(*place.certificate)};
-  return introducer.introduce(encode(hello), flags, answers, answers && place.lacks_ours);
+      .names_you = !remote.claimed && remote.robot,
+      .names_another = remote.claimed && remote.robot,
+      .lacks_certificate = !remote.certificate || !introducer.has_certificate(*remote.certificate)};
+  return introducer.introduce(encode(hello), flags, answers, answers && remote.lacks_our_certificate);
 }
 
-void RadioLink::take_greeting(const Prefix& sender, const Bytes& greeting) {
+void RadioLink::on_greeting(const Prefix& sender, const Bytes& greeting) {
   const auto introduction = trust::parse_introduction(greeting);
   if (!introduction) return;
   const auto hello = decode_hello(introduction->text);
-  if (!hello) return take_other(introduction->text);
-  Locator from;
-  from.kind = LOCATOR_KIND_UDPv4;
-  IPLocator::setIPv4(from, hello->address.data());
-  from.port = hello->port;
-  if (!plausible(from)) return;
+  if (!hello) return on_other_version(introduction->text);
+  const auto origin = origin_of(hello->address, hello->port);
+  if (!origin) return;
+  const Locator& from = *origin;
   const bool challenged = std::ranges::equal(hello->knows, guard_->session());
   const bool provable =
       guard_->introducer().has_certificate(introduction->fingerprint) || !introduction->certificate.empty();
@@ -55,35 +50,36 @@ void RadioLink::take_greeting(const Prefix& sender, const Bytes& greeting) {
     return;
   }
   if (prove(sender, from, *hello, *introduction))
-    take(sender, *hello, {introduction->knows_you, introduction->knows_another});
-  if (Place* place = place_at(from)) {
-    place->certificate = introduction->fingerprint;
-    place->lacks_ours = introduction->lacks_certificate;
-    if (place->claimed == sender) place->claimed.reset();
+    on_hello(sender, *hello, {introduction->names_you, introduction->names_another});
+  if (RemoteLocator* remote = remote_at(from)) {
+    remote->certificate = introduction->fingerprint;
+    remote->lacks_our_certificate = introduction->lacks_certificate;
+    if (remote->claimed == sender) remote->claimed.reset();
   }
 }
 
-/// Somebody says to be there, perhaps in a recording: answers with its challenge, and one of our own.
+/// Answers an unproved claim to an address, perhaps from a recording, with its challenge and one of our own.
 void RadioLink::answer_claim(const Prefix& sender, const Locator& from,
                              const trust::Introduction& introduction) {
-  Place* place = place_at(from);
-  if (place == nullptr) {
-    if (!add_place(from, /*configured=*/false)) return;
-    place = place_at(from);
-    if (place == nullptr) return;
+  RemoteLocator* remote = remote_at(from);
+  if (remote == nullptr) {
+    if (!add_remote(from, /*configured=*/false)) return;
+    remote = remote_at(from);
+    if (remote == nullptr) return;
   }
-  if (place->robot != sender) {
-    place->claimed = sender;
-    place->answers = kAnswers;
-  } else if (place->next == Clock::time_point::max()) {
-    place->asks_again = true;  // our last answer was lost
+  if (remote->robot != sender) {
+    remote->claimed = sender;
+    remote->answers = kAnswers;
+  } else if (remote->next == Clock::time_point::max()) {
+    remote->missed_answer = true;  // our last answer was lost
   }
-  place->certificate = introduction.fingerprint;
-  place->lacks_ours = introduction.lacks_certificate;
-  place->next = Clock::time_point::min();
+  remote->certificate = introduction.fingerprint;
+  remote->lacks_our_certificate = introduction.lacks_certificate;
+  remote->next = Clock::time_point::min();
 }
 
-/// Whether the sender is the member that it says to be; else it is named once, and what it sends is dropped.
+/// Returns whether the sender is the member that it claims to be; else it is reported once, and its messages
+/// are dropped.
 bool RadioLink::prove(const Prefix& sender, const Locator& from, const Hello& hello,
                       const trust::Introduction& introduction) {
   const trust::Session session = session_of(sender);
@@ -102,14 +98,15 @@ bool RadioLink::prove(const Prefix& sender, const Locator& from, const Hello& he
     return false;
   }
   if (member->role == trust::Role::kObserver)
-    refuse_once(to_text(from), hello.sender.str() + " may only read (observer): what it sends is dropped");
+    notices_.refuse(to_text(from),
+                    hello.sender.str() + " may only read (observer): what it sends is dropped");
   return guard_->admit(session, member->role);
 }
 
-void RadioLink::name_strangers() {
+void RadioLink::report_strangers() {
   if (!guard_) return;
   for (const RadioGuard::Stranger& stranger : guard_->take_strangers())
-    refuse_once(stranger.address, stranger.why);
+    notices_.refuse(stranger.address, stranger.why);
 }
 
 }  // namespace fleetmap::bus

@@ -54,7 +54,7 @@ std::optional<Bytes> RadioGuard::open(ByteView datagram, const std::string& from
   const auto header = rtps_header(opened->session);
   Bytes message(header.size() + opened->message.size());
   std::ranges::copy(opened->message, std::ranges::copy(header, message.begin()).out);
-  // Who is not admitted may greet and do nothing else.
+  // A sender that is not admitted may greet and do nothing else.
   if (opened->kind == trust::DatagramKind::kGreeting && !hello_in(message)) return std::nullopt;
   return message;
 }
@@ -100,7 +100,7 @@ std::string RadioGuard::reason(ByteView datagram, const trust::NotOpened& not_op
 
 void RadioGuard::note_stranger(ByteView datagram, const trust::NotOpened& not_opened,
                                const std::string& address) {
-  if (strangers_.size() >= kMostStrangers) return;
+  if (strangers_.size() >= kMaxStrangers) return;
   std::string why = reason(datagram, not_opened);
   const auto same = [&](const Stranger& other) { return other.address == address && other.why == why; };
   if (!why.empty() && std::ranges::none_of(strangers_, same)) strangers_.push_back({address, std::move(why)});

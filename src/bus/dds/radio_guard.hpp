@@ -21,7 +21,7 @@ class RadioGuard {
   RadioGuard(const trust::Credentials& credentials, const AgentId& name, Link link);
 
   const trust::Session& session() const { return session_; }
-  /// Of those that call others to let their Hellos be checked; on the callback thread.
+  /// Checks Hellos of the robots that introduce themselves; on the callback thread.
   trust::Introducer& introducer() { return introducer_; }
 
   /// From any thread: an RTPS message as a datagram, and back.
@@ -30,7 +30,7 @@ class RadioGuard {
   bool admit(const trust::Session& session, trust::Role role);
   void dismiss(const trust::Session& session);
 
-  /// Who sent what cannot be opened because of its keys, each once.
+  /// Senders whose datagrams cannot be opened because of their keys, each once.
   struct Stranger {
     std::string address;
     std::string why;
@@ -38,15 +38,16 @@ class RadioGuard {
   std::vector<Stranger> take_strangers();
 
  private:
-  static constexpr std::size_t kMostStrangers = 64;  ///< that wait for the callback thread
+  static constexpr std::size_t kMaxStrangers = 64;  ///< that wait for the callback thread
   void note_stranger(ByteView datagram, const trust::NotOpened& not_opened, const std::string& address);
   std::string reason(ByteView datagram, const trust::NotOpened& not_opened) const;
 
   const trust::Session session_;
   const std::uint16_t epoch_;
   trust::Introducer introducer_;
-  const trust::Introducer at_start_;  ///< for threads of Fast DDS: names whom the folder says to be revoked
-  std::mutex sealing_;                ///< guards sealer_
+  const trust::Introducer
+      at_start_;        ///< for threads of Fast DDS: recognises members that the folder lists as revoked
+  std::mutex sealing_;  ///< guards sealer_
   trust::DatagramSealer sealer_;
   std::mutex opening_;  ///< guards all below
   trust::DatagramOpener opener_;

@@ -4,6 +4,7 @@
 #include <fastdds/rtps/history/WriterHistory.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>
 #include <fastdds/rtps/reader/RTPSReader.h>
+#include <fastdds/rtps/writer/StatelessWriter.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <spdlog/spdlog.h>
 
@@ -22,6 +23,10 @@ namespace {
 namespace rtps = eprosima::fastrtps::rtps;
 using rtps::IPLocator;
 
+/// A peer that was heard more recently than this is still there. A robot that was killed and starts again
+/// waits for so long.
+constexpr auto kStillThere = std::chrono::seconds(2);
+constexpr std::size_t kMaxRemotes = 256;  // strangers may announce this many addresses
 constexpr auto kAddressPeriod = std::chrono::seconds(1);
 constexpr auto kJoinPause = std::chrono::seconds(30);      // after it failed
 constexpr std::int16_t kHelloReader = 1, kDataReader = 2;  // entity ids
@@ -35,6 +40,8 @@ RadioLink::RadioLink(Link link, const DdsBusConfig& config, QosFile qos, std::sh
       observes_(config.observes),
       qos_(std::move(qos)),
       guard_(config.keys ? std::make_shared<RadioGuard>(*config.keys, config.agent, link) : nullptr),
+      pacing_({config_.fleet_bits_per_second, guard_ != nullptr, observes_}),
+      notices_(link, config_.multicast, settings_),
       received_(std::make_shared<Received>()),
       hello_listener_(std::make_unique<HelloListener>(received_)),
       data_listener_(std::make_unique<DataListener>(received_, executor_, guard_ ? kSealBytes : 0)) {}
@@ -74,7 +81,7 @@ Status RadioLink::join() {
     rtps::RTPSDomain::removeRTPSParticipant(participant_);
     participant_ = nullptr;
     data_reader_ = nullptr;
-    places_.clear();
+    remotes_.clear();
   }
   opened_ = Clock::now();
   return joined;
@@ -111,13 +118,13 @@ Status RadioLink::make_entities() {
     return failure(name + ": Fast DDS is out of resources for two readers");
   hello_reader->enableMessagesFromUnkownWriters(true);
 
-  for (const Locator& place : listening_places(config_, profile_)) {
-    if (Status added = add_place(place, /*configured=*/true); !added) return added;
+  for (const Locator& remote : listening_places(config_, profile_)) {
+    if (Status added = add_remote(remote, /*configured=*/true); !added) return added;
   }
   return {};
 }
 
-/// Reliable radios repair without end what does not fit; the exchange asks for what it lacks.
+/// Reliable radios repair without end what does not fit the rate; the exchange requests what it lacks.
 Status RadioLink::check_best_effort() const {
   for (const std::string& profile : profiles_of(link_)) {
     if (writer_policy(qos_, profile).best_effort) continue;
@@ -132,14 +139,15 @@ RadioLink::~RadioLink() {
   if (participant_ != nullptr) {
     {
       const std::scoped_lock lock(mutex_);
-      for (const auto& place : places_) {
-        // Who was not heard may have heard; an observer has more places than a radio takes at once.
-        if (place->robot || !observes_) say_hello(*place, /*leaves=*/true);
+      for (const auto& remote : remotes_) {
+        // A robot that was not heard may have heard us; an observer has more addresses than a radio can carry
+        // at once.
+        if (remote->robot || !observes_) send_hello(*remote, /*leaves=*/true);
       }
     }
     rtps::RTPSDomain::removeRTPSParticipant(participant_);
   }
-  forget_topics();  // whose ends refer to members of this
+  forget_topics();  // the ends of topics refer to members of this
 }
 
 std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std::shared_ptr<Inbox>& inbox) {
@@ -147,15 +155,15 @@ std::unique_ptr<LinkEnd::TopicEnd> RadioLink::make(const Topic& topic, const std
   return std::make_unique<End>(*this, topic, inbox);
 }
 
-/// Joins once the own address is there, and says when it comes and goes: sockets are bound to it and outlive
+/// Joins once the own address is there, and logs when it comes and goes: sockets are bound to it and outlive
 /// its absence.
 void RadioLink::watch_address(Clock::time_point now) {
-  if (now < next_look_) return;
-  next_look_ = now + kAddressPeriod;
+  if (now < next_address_check_) return;
+  next_address_check_ = now + kAddressPeriod;
   const Status there = check_address(config_, to_string(link_));
   if (there && participant_ == nullptr) {
     if (const Status joined = join(); !joined) {
-      next_look_ = now + kJoinPause;
+      next_address_check_ = now + kJoinPause;
       return spdlog::error("{}", joined.error().message);
     }
   }
@@ -176,12 +184,12 @@ RadioSurvey RadioLink::survey() const {
     survey.problem =
         there ? std::string(to_string(link_)) + ": not joined; the log says why" : there.error().message;
   }
-  survey.robots = heard_;
-  survey.places = places_.size();
-  for (const auto& place : places_) {
-    if (elsewhere(*place) && !place->heard) survey.silent.push_back(to_text(place->locator));
+  survey.robots = notices_.robots();
+  survey.places = remotes_.size();
+  for (const auto& remote : remotes_) {
+    if (elsewhere(*remote) && !remote->heard) survey.silent.push_back(to_text(remote->locator));
   }
-  survey.notices = refused_;
+  survey.notices = notices_.refusals();
   return survey;
 }
 
@@ -215,8 +223,8 @@ rtps::ReaderProxyData RadioLink::reader_of(const Prefix& robot, const Peer& peer
   return data;
 }
 
-/// Where robots of this link listen besides: the group and port that RTPS has for data. A group of our own at
-/// the port of discovery would not be heard, since that socket is bound to discovery's group.
+/// The multicast group at which robots of this link also listen, with RTPS's port of data. A group of our own
+/// at the port of discovery would not be heard, since that socket is bound to discovery's group.
 RadioLink::Locator RadioLink::group() const {
   Locator locator;
   locator.kind = LOCATOR_KIND_UDPv4;
@@ -224,6 +232,92 @@ RadioLink::Locator RadioLink::group() const {
   const auto& ports = profile_.wire_protocol().port;
   locator.port = ports.portBase + ports.domainIDGain * config_.domain + ports.offsetd2;
   return locator;
+}
+
+/// Robots that share the medium with this one, as configured: what goes to this machine does not take it.
+bool RadioLink::elsewhere(const RemoteLocator& remote) const {
+  return remote.configured && !IPLocator::compareAddress(remote.locator, own_) &&
+         !IPLocator::isLocal(remote.locator);
+}
+
+/// The number of robots that send Hellos as this one does: all others while a fleet starts. An observer joins
+/// one that may be using the radio, and takes a quarter of the Hellos' part.
+double RadioLink::others() const {
+  if (observes_) return 3.0;
+  return static_cast<double>(
+      std::ranges::count_if(remotes_, [this](const auto& remote) { return elsewhere(*remote); }));
+}
+
+Status RadioLink::add_remote(const Locator& locator, bool configured) {
+  if (locator == own_ || (!configured && remotes_.size() >= kMaxRemotes)) return {};
+  auto remote = std::make_unique<RemoteLocator>();
+  remote->locator = locator;
+  remote->configured = configured;
+  remote->pause = pacing_.first_pause(others());
+  remote->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
+  auto attributes = best_effort<rtps::WriterAttributes>();
+  attributes.mode = rtps::SYNCHRONOUS_WRITER;
+  const std::uint32_t number = ++hello_writers_ % (0xffffff - kHelloWriters);
+  remote->writer = rtps::RTPSDomain::createRTPSWriter(participant_, writer_id(kHelloWriters + number),
+                                                      attributes, payloads_, remote->history.get());
+  auto* writer = dynamic_cast<rtps::StatelessWriter*>(remote->writer);
+  rtps::LocatorList_t there;
+  there.push_back(locator);
+  if (writer == nullptr || !writer->set_fixed_locators(there))
+    return failure(std::string(to_string(link_)) + ": Fast DDS makes no writer to " + to_text(locator));
+  remotes_.push_back(std::move(remote));
+  return {};
+}
+
+RadioLink::RemoteLocator* RadioLink::remote_at(const Locator& locator) {
+  const auto remote =
+      std::ranges::find_if(remotes_, [&](const auto& other) { return other->locator == locator; });
+  return remote == remotes_.end() ? nullptr : remote->get();
+}
+
+/// A Hello may claim any address; no robot listens at these.
+bool RadioLink::plausible(const Locator& locator) const {
+  const std::uint8_t first = IPLocator::getIPv4(locator)[0];
+  constexpr std::uint8_t kMulticast = 224;
+  return first != 0 && first < kMulticast && IPLocator::isLocal(locator) == IPLocator::isLocal(own_) &&
+         locator != own_;
+}
+
+/// Returns the address from which the Hello claims to come; empty if no robot can listen there.
+std::optional<RadioLink::Locator> RadioLink::origin_of(const std::array<std::uint8_t, 4>& address,
+                                                       std::uint16_t port) const {
+  Locator from;
+  from.kind = LOCATOR_KIND_UDPv4;
+  IPLocator::setIPv4(from, address.data());
+  from.port = port;
+  return plausible(from) ? std::optional(from) : std::nullopt;
+}
+
+std::optional<RadioLink::Clock::time_point> RadioLink::last_heard(const Prefix& robot) const {
+  const std::scoped_lock lock(received_->mutex);
+  const auto last = received_->robots.find(robot);
+  return last == received_->robots.end() ? std::nullopt : std::optional(last->second.heard);
+}
+
+bool RadioLink::heard_recently(const Prefix& robot) const {
+  const auto heard = last_heard(robot);
+  return heard && Clock::now() - *heard < kStillThere;
+}
+
+void RadioLink::forget(Prefix robot) {
+  if (peers_.erase(robot) == 0) return;
+  for (const auto& [key, end] : ends_) end->forget(robot);
+  std::erase_if(remotes_, [&](const auto& remote) {
+    if (remote->robot != robot) return false;
+    remote->robot.reset();
+    remote->next = {};  // as at the start
+    remote->claimed.reset();
+    remote->names_predecessor = remote->missed_answer = false;
+    if (!remote->configured) rtps::RTPSDomain::removeRTPSWriter(remote->writer);
+    return !remote->configured;
+  });
+  const std::scoped_lock lock(received_->mutex);
+  received_->robots.erase(robot);
 }
 
 }  // namespace fleetmap::bus

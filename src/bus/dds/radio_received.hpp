@@ -18,9 +18,9 @@
 
 namespace fleetmap::bus {
 
-/// What Fast DDS's threads leave for the callback thread. Its lock is never held while Fast DDS is called.
+/// Data from Fast DDS's threads for the callback thread. Its lock is never held while Fast DDS is called.
 struct RadioLink::Received {
-  static constexpr std::size_t kMostHellos = 256;  ///< that wait for the callback thread
+  static constexpr std::size_t kMaxHellos = 256;  ///< that wait for the callback thread
   struct Topic {
     std::shared_ptr<Inbox> inbox;
     Work dispatch;
@@ -28,7 +28,7 @@ struct RadioLink::Received {
   struct Robot {
     Clock::time_point heard;
     std::map<EntityKey, std::uint64_t> numbers;  ///< of the last message of each of its writers
-    HeardTraffic traffic;                        ///< since it was last asked for; `delay` is their sum
+    HeardTraffic traffic;  ///< since the last call of take_heard_traffic(); `delay` is their sum
   };
   std::mutex mutex;
   std::map<EntityKey, Topic> topics;
@@ -45,7 +45,7 @@ class RadioLink::HelloListener final : public eprosima::fastrtps::rtps::ReaderLi
     std::optional<Bytes> cdr = taken(*reader, change);
     if (!cdr) return;
     const std::scoped_lock lock(received_->mutex);
-    if (received_->hellos.size() < Received::kMostHellos)
+    if (received_->hellos.size() < Received::kMaxHellos)
       received_->hellos.emplace_back(sender, *std::move(cdr));
   }
 

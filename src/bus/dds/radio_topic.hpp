@@ -14,8 +14,7 @@
 
 namespace fleetmap::bus {
 
-/// This robot's end of one topic: a best-effort writer to whoever reads it, and a place in the link's data
-/// reader.
+/// This robot's end of one topic: a best-effort writer to its readers, and a place in the link's data reader.
 class RadioLink::End final : public TopicEnd {
  public:
   End(RadioLink& link, const Topic& topic, std::shared_ptr<Inbox> inbox)
@@ -67,7 +66,7 @@ class RadioLink::End final : public TopicEnd {
     bool anyone = false;
     for (auto& [robot, peer] : link_.peers_) {
       if (!peer.reads.contains(key_)) continue;
-      peer.told = now;
+      peer.last_sent = now;
       anyone = true;
     }
     return !anyone || send(*writer_, *history_, cdr, depth_);

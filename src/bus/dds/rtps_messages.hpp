@@ -18,7 +18,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
 
-/// What radio links need of Fast DDS's RTPS layer.
+/// The parts of Fast DDS's RTPS layer that radio links need.
 namespace fleetmap::bus {
 
 /// Entity ids of the writers of Hellos; those of topics lie below.
@@ -32,7 +32,7 @@ std::uint32_t key_of(const Topic& topic);
 /// "10.0.0.2:7660".
 std::string to_text(const eprosima::fastrtps::rtps::Locator_t& locator);
 
-/// Sends one change; what a full history holds gives way. False: refused.
+/// Sends one change; a full history drops its content. False: refused.
 bool send(eprosima::fastrtps::rtps::RTPSWriter& writer, eprosima::fastrtps::rtps::WriterHistory& history,
           const Bytes& cdr, std::size_t depth);
 /// Takes a change out of its reader's history; empty for what is no message.
@@ -43,7 +43,7 @@ Duration since(const eprosima::fastrtps::rtps::Time_t& stamp);
 
 eprosima::fastrtps::rtps::HistoryAttributes unbounded_history();
 
-/// What all endpoints on radios are.
+/// Attributes that all endpoints on radios share.
 template <class Attributes>
 Attributes best_effort() {
   Attributes attributes;

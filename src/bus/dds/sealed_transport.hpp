@@ -8,8 +8,8 @@
 
 namespace fleetmap::bus {
 
-/// Puts a seal on the transports of a participant, and gives it the guard's session as prefix: no byte of who
-/// is no member reaches Fast DDS.
+/// Seals the transports of a participant and sets its prefix to the guard's session, so that no byte of a
+/// stranger reaches Fast DDS.
 void seal_transports(eprosima::fastrtps::rtps::RTPSParticipantAttributes& attributes,
                      const std::shared_ptr<RadioGuard>& guard);
 

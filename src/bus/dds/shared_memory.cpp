@@ -1,4 +1,4 @@
-#include "fleetmap/bus/shared_memory.hpp"
+#include "shared_memory.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -21,7 +21,7 @@ bool is_lock_of_segment(const std::string& name) {
   return name.starts_with(kPrefix) && !name.starts_with(kPort) && name.ends_with(kLock);
 }
 
-/// Of a process that is gone. Others' segments cannot be opened and count as alive.
+/// True if the segment's process is gone. Others' segments cannot be opened and count as alive.
 bool is_dead(const fs::path& lock, std::chrono::seconds being_made) {
   const int file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;

@@ -30,7 +30,7 @@ void WorkRecord::end() {
   const std::scoped_lock lock(mutex_);
   busy_ = false;
   if (now - under_way_.begun < limit_) return;
-  if (ended_.size() < kMostEnded) ended_.push_back({under_way_, now});
+  if (ended_.size() < kMaxEnded) ended_.push_back({under_way_, now});
 }
 
 ThreadActivity WorkRecord::take() {

@@ -21,11 +21,11 @@ class WorkRecord {
 
   /// Runs `work` on the calling thread.
   void run(const Work& work);
-  /// What the thread does, and the long work that ended since the last call.
+  /// The thread's present work, and the long work that ended since the last call.
   ThreadActivity take();
 
  private:
-  static constexpr std::size_t kMostEnded = 16;
+  static constexpr std::size_t kMaxEnded = 16;
   void begin(const std::string& name);
   void end();
 

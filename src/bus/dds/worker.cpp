@@ -23,7 +23,7 @@ void Worker::finish() {
 bool Worker::add(Work work, std::function<void()> done) {
   {
     const std::scoped_lock lock(mutex_);
-    if (items_.size() >= Bus::kMostWork) return false;
+    if (items_.size() >= Bus::kMaxWork) return false;
     items_.push_back({std::move(work), std::move(done)});
   }
   changed_.notify_one();

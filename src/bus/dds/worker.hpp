@@ -24,9 +24,9 @@ class Worker {
 
   /// Waits for the item under way; the others, and those that are added later, are let go.
   void finish();
-  /// False, and it is not added, while Bus::kMostWork items wait.
+  /// False, and it is not added, while Bus::kMaxWork items wait.
   bool add(Work work, std::function<void()> done);
-  /// What the thread does.
+  /// The thread's present work.
   const std::shared_ptr<WorkRecord>& record() const { return record_; }
 
  private:

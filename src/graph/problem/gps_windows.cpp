@@ -33,8 +33,9 @@ Vector6d variance_of(const Node& node) {
   return variance;
 }
 
-/// The window holds no fix: without fixes the variances of height and heading only grow. Those of east and
-/// north may shrink when the robot returns to a place of small heading error, but not below `least`.
+/// True if the window holds no fix: without fixes the variances of height and heading only grow. Those of
+/// east and north may shrink when the robot returns to a position of small heading error, but not below
+/// `least`.
 bool is_dead_reckoned(const GpsWindow& window, const Vector6d& least) {
   return window.variance(2) > window.before(2) && window.variance(5) > window.before(5) &&
          window.variance.head<2>().sum() > least.head<2>().sum();

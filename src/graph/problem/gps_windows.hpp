@@ -13,8 +13,9 @@ struct GpsWindow {
   Vector6d variance = Vector6d::Zero();  ///< of G, the mean
   Vector6d before = Vector6d::Zero();    ///< of the window before, zero if there is none
   double seconds = 0.0;                  ///< since that one
-  /// Of the position: the least variance so far, plus that of dead reckoning since. Variance above it is
-  /// caused by the heading, comes and goes along the track, and is independent of the fixes.
+  /// Variance of the position without the heading's part: the least variance so far, plus that of dead
+  /// reckoning since. Variance above it is caused by the heading, varies along the track, and is independent
+  /// of the fixes.
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
 };
 

@@ -1,6 +1,6 @@
 #include "problem/initial_estimate.hpp"
 
-#include "fleetmap/graph/placement.hpp"
+#include "global_fit.hpp"
 
 namespace fleetmap::graph {
 namespace {

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "fleetmap/geometry/geodesy.hpp"
-#include "fleetmap/graph/fleet_placement.hpp"
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/graph/fleet_placement_config.hpp"
+#include "fleetmap/graph/node.hpp"
 
 namespace fleetmap::graph {
 

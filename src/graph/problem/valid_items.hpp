@@ -10,7 +10,7 @@
 
 namespace fleetmap::graph {
 
-/// Items in an order that depends on the set alone. Pointers into the given spans.
+/// Items in an order that depends on the set alone. The pointers refer to the caller's spans.
 struct SortedItems {
   std::vector<const Node*> nodes;            ///< valid ones, by id
   std::vector<const Alignment*> alignments;  ///< by (computed_by, seq)

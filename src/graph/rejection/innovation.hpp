@@ -9,8 +9,8 @@ namespace fleetmap::graph {
 /// Quantile of chi squared, six degrees of freedom, 1e-5: a candidate beyond it contradicts the graph.
 inline constexpr double kInnovationGate = 33.1;
 
-/// m, 1 sigma: a position that is certain to this tells rows of a plant apart. A graph of this certainty
-/// decides about single candidates.
+/// m, 1 sigma: a position of this certainty distinguishes neighbouring rows of a plant. A graph of this
+/// certainty decides about single candidates.
 inline constexpr double kCertainM = 1.2;
 
 /// Innovation of a measured relative pose: its deviation from the one that a solved graph predicts.

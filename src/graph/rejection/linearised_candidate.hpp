@@ -35,7 +35,7 @@ struct ConditionalResidual {
   /// The two are pairwise consistent (PCM): within the 1e-4 quantile of chi squared.
   bool is_consistent() const;
 };
-/// `b` given `a`. `S_ba` is Cov(e_b, e_a).
+/// Conditional distribution of `b` given `a`. `S_ba` is Cov(e_b, e_a).
 ConditionalResidual residual_given(const LinearisedCandidate& a, const LinearisedCandidate& b,
                                    const Matrix6d& S_ba);
 

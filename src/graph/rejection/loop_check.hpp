@@ -13,16 +13,16 @@ struct LoopCheck {
   bool repeated = false;  ///< frames were joined again, with exclusions
 };
 
-/// Searches for loops of hypotheses that do not close, such as a false one between two robots that both met a
-/// third. Of each the hypothesis without which the others are closest to the prior is excluded, and the
-/// frames are joined again, six times at most. If several hypotheses may be the false one, all are undecided
-/// and join nothing. This is the consistency of cycles, as in RRR (Latif et al., IJRR 2013), between
-/// hypotheses instead of single loop closures.
+/// Searches for loops of hypotheses that do not close, for example a false one between two robots that both
+/// met a third. In each loop it excludes the hypothesis without which the others are closest to the prior,
+/// and joins the frames again, six times at most. If several hypotheses may be the false one, all are
+/// undecided and join nothing. This is the consistency of cycles, as in RRR (Latif et al., IJRR 2013),
+/// between hypotheses instead of single loop closures.
 LoopCheck check_loops(const RejectionProblem& problem, const PriorEvidence& evidence,
                       const SolvedGraph& prior, JoinedFrames joined, GraphSolver& solver);
 
-/// Which of the hypotheses around a loop that does not close may be the false one: those without which the
-/// others are nearly as likely, given the prior, as without the best.
+/// Returns the hypotheses around a loop that does not close which may be the false one: without each of them
+/// the others are nearly as likely, given the prior, as without the best.
 std::vector<Hypothesis> outlier_candidates(std::span<const Candidate> all, std::span<const Hypothesis> loop,
                                            const SolvedGraph& prior);
 

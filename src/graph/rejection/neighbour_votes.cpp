@@ -15,7 +15,7 @@ constexpr int kMinContradictions = 2;
 
 /// Modes of one alignment.
 struct Modes {
-  Indices at;  ///< in the given candidates
+  Indices at;  ///< indices in the caller's candidates
   std::vector<LinearisedCandidate> candidates;
 };
 

@@ -22,8 +22,9 @@ struct Votes {
 std::vector<Votes> neighbour_votes(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                                    const SolvedGraph& solved);
 
-/// Candidates that at least two neighbours contradict, and more than are consistent with them. Of a frame
-/// pair whose compatible candidates would all be rejected none is: there the votes decide nothing.
+/// Returns the candidates that at least two neighbours contradict, and more than are consistent with them.
+/// If this rejects all compatible candidates of a frame pair, the votes decide nothing there and none is
+/// returned.
 std::set<std::size_t> rejected_by_neighbours(std::span<const Candidate> all, const PriorGating& gating,
                                              const SolvedGraph& prior);
 

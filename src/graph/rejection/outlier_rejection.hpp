@@ -11,7 +11,7 @@
 
 namespace fleetmap::graph {
 
-/// Which alignments are accepted, each in one mode, and the graph solved with them.
+/// The accepted alignments, each in one mode, and the graph solved with them.
 struct Rejection {
   bool solvable = true;  ///< GPS and odometry alone can be solved; if not, nothing is accepted or rejected
   std::vector<Candidate> candidates;                ///< without those of quarantined agents

@@ -45,8 +45,8 @@ Indices by_degree(const Consistency& consistent, std::span<const LinearisedCandi
   return order;
 }
 
-/// Greedy clique of the free vertices. Of the modes of one alignment that are consistent with the other
-/// members the most likely one replaces the member, because a mode of large covariance is consistent with
+/// Greedy clique of the free vertices. If several modes of one alignment are consistent with the other
+/// members, the most likely one replaces the member, because a mode of large covariance is consistent with
 /// everything.
 Indices greedy_clique(const Consistency& consistent, std::span<const LinearisedCandidate> candidates,
                       const std::vector<bool>& free) {
@@ -68,7 +68,7 @@ Indices greedy_clique(const Consistency& consistent, std::span<const LinearisedC
   return clique;
 }
 
-/// `weight`: number of candidates that each member stands for.
+/// `weight`: number of candidates that each member represents.
 Hypothesis hypothesis_of(std::span<const Candidate> all, const Indices& clique,
                          std::span<const LinearisedCandidate> candidates, const CrossCovariances& cross,
                          double weight) {
@@ -87,7 +87,7 @@ Hypothesis hypothesis_of(std::span<const Candidate> all, const Indices& clique,
   return hypothesis;
 }
 
-/// `candidate` given that member of a hypothesis that was measured nearest to it.
+/// Conditional distribution of `candidate` given the member of a hypothesis that was measured nearest to it.
 ConditionalResidual residual_given_nearest(std::span<const Candidate> all,
                                            std::span<const LinearisedCandidate> members,
                                            const LinearisedCandidate& candidate) {

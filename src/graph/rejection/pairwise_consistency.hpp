@@ -15,10 +15,11 @@ struct ConsistentSets {
   std::vector<Hypothesis> rejected;    ///< too far from the prior, though each member alone may be compatible
 };
 
-/// Partitions `candidates` of one frame pair into pairwise consistent sets: pairwise consistency maximisation
-/// (Mangelson et al., ICRA 2018) with greedy cliques, the consistency of two candidates given the whole
-/// solved graph with all correlations, and at most one mode of an alignment in a set. Of more than 16
-/// candidates 16, evenly spaced, stand for all. The solved graph must not contain any of them.
+/// Partitions `candidates` of one frame pair into pairwise consistent sets: pairwise consistency
+/// maximisation (Mangelson et al., ICRA 2018) with greedy cliques. Two candidates are tested against the
+/// whole solved graph with all correlations, and a set has at most one mode of an alignment. More than 16
+/// candidates are represented by 16 of them, evenly spaced. The solved graph must not contain any of the
+/// candidates.
 ConsistentSets consistent_sets(std::span<const Candidate> all, std::span<const std::size_t> candidates,
                                const SolvedGraph& solved);
 

@@ -21,8 +21,8 @@ struct PriorEvidence {
   std::set<std::size_t> rejected_by_neighbours;
   std::map<FramePair, ConsistentSets> sets;  ///< of the compatible ones that neighbours do not reject
   std::set<std::size_t> contradicting;       ///< candidates: alone, or as members of a rejected hypothesis
-  /// Of these the members of rejected hypotheses of several candidates, which are accepted as a whole or not
-  /// at all.
+  /// Members of rejected hypotheses of several candidates (a subset of the above), which are accepted as a
+  /// whole or not at all.
   std::set<std::size_t> contradicting_together;
 };
 

@@ -16,7 +16,7 @@ namespace {
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 
-/// A(R x C) -= L(R x N) M(N x C); of M the transpose is given, or itself.
+/// A(R x C) -= L(R x N) M(N x C), where the argument `m` is M or, if kTransposed, its transpose.
 template <int R, int N, int C, bool kTransposed>
 FLEETMAP_INLINE void subtract_product(double* a, const double* l, const double* m) {
   using Upper = std::conditional_t<R == 6, Four, Two>;
@@ -105,5 +105,7 @@ const BlockKernels& block_kernels() {
   static const BlockKernels& kernels = is_wide() ? kKernels<Wide> : kKernels<Plain>;
   return kernels;
 }
+
+const BlockKernels& plain_block_kernels() { return kKernels<Plain>; }
 
 }  // namespace fleetmap::graph

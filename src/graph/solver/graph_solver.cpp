@@ -10,7 +10,7 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr double kConverged = 1e-4;  // m or rad
-/// Where alignments contradict each other, Huber weights converge slowly: a last step this small is accepted.
+/// Huber weights converge slowly where alignments contradict each other: a last step this small is accepted.
 constexpr double kNearlyConverged = 0.01;  // m or rad
 /// The equations are factored anew after a step that turns anything by more, or that shrank to no less than
 /// this share of the one before; else only their right side is set up. The error of a reused matrix after a

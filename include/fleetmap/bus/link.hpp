@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fleetmap::bus {
+
+/// The three DDS domains of a robot.
+enum class Link : std::uint8_t { kOnboard, kLongRange, kShortRange };
+
+const char* to_string(Link link);
+
+}  // namespace fleetmap::bus

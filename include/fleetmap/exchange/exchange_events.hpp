@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/exchange/item_proof.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/messages/routing.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::exchange {
+
+using messages::AgentStatus;
+using messages::HoldOrder;
+using messages::MissionReport;
+using messages::Reach;
+
+/// A node of another robot was stored, or an own one that others returned after our store was lost.
+struct NodeAdded {
+  NodeId id;
+};
+struct AlignmentAdded {
+  store::AlignmentId id;
+};
+/// The whole submap of a node is in the store.
+struct SubmapAdded {
+  NodeId id;
+};
+/// `to` wants the spherized cloud around our node: answer with provide_cloud() or decline_cloud().
+struct CloudNeeded {
+  NodeId node;
+  AgentId to;
+};
+struct PeerStatus {
+  AgentStatus status;
+};
+struct MissionHeard {
+  MissionReport report;
+};
+/// Another order of an operator is in force for this agent.
+struct HoldChanged {
+  HoldOrder order;
+};
+/// Another content arrived under a name that is taken: a session number was drawn twice, or an item is
+/// forged or damaged. Where items are signed, the maker signed both: another robot has its key, as on a
+/// copied disk, or the maker equivocates. The name is contested from now on and has no item. An item of the
+/// running session that this robot has not made was refused. Own items get new names by reissue_contested().
+struct ItemConflict {
+  NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
+  bool alignment = false;
+  Reach link = Reach::kLongRange;  ///< over which it arrived
+  bool signed_twice = false;       ///< by its maker
+  std::optional<AgentId> from;     ///< the robot that sent it, where the link identifies it
+};
+/// An item was refused, because its signature does not prove that the robot in its name made it. Reported
+/// once for each maker, reason and sender. The genuine item is accepted when it arrives.
+struct ItemRefused {
+  NodeId id;  ///< of the node, or (computed_by, seq) of the alignment
+  bool alignment = false;
+  ItemProof proof = ItemProof::kUnsigned;
+  Reach link = Reach::kLongRange;  ///< over which it arrived
+  std::optional<AgentId> from;     ///< the robot that sent it, where the link identifies it
+};
+/// The store was of a time without keys, or of other keys.
+struct ItemsAdopted {
+  AdoptedItems items;
+};
+/// `peer` offers items that it does not deliver. Completion does not wait for them until it delivers again.
+struct OfferUndelivered {
+  AgentId peer;
+  std::uint64_t nodes = 0;
+  std::uint64_t alignments = 0;
+};
+/// `peer` holds items of this agent that are not in our store: it was lost, restored or replaced. Told once.
+struct OwnItemsElsewhere {
+  AgentId peer;
+  std::uint64_t nodes = 0;
+  std::uint64_t alignments = 0;
+};
+/// `peer` holds items of the running session that this agent has not made: its number was drawn before.
+struct SessionTaken {
+  AgentId peer;
+};
+/// A robot that is not of the fleet was heard. Told once of each.
+struct StrangerHeard {
+  AgentId name;
+};
+/// The store's file failed; nothing that failed was accepted.
+struct StoreFailed {
+  Error error;
+};
+/// Every known item is held. Reported again after more became known and was completed.
+struct MapComplete {
+  std::size_t nodes = 0;
+  std::size_t alignments = 0;
+};
+using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard,
+                           HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered,
+                           OwnItemsElsewhere, SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
+
+}  // namespace fleetmap::exchange

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <nlohmann/json_fwd.hpp>
+
+#include "fleetmap/experiment/case.hpp"
+
+namespace fleetmap::experiment {
+
+/// Runs a case as two child processes, `fleetmap run` and `fleetmap eval`, and gathers what they wrote. A
+/// crash fails this case alone, and its memory is given back.
+class ChildEngine {
+ public:
+  /// `threads` is how many each child may keep busy.
+  ChildEngine(const std::atomic<bool>& stop, unsigned threads) : stop_(&stop), threads_(threads) {}
+  Result<CaseResult> operator()(const Case& one, const std::filesystem::path& directory) const;
+
+ private:
+  const std::atomic<bool>* stop_;
+  unsigned threads_;
+};
+
+/// A file that a child has written. Fails with its name.
+Result<nlohmann::json> read_json(const std::filesystem::path& file);
+
+/// What a run (report.json) and its evaluation (evaluation.json) say, as one flat set: numbers by their
+/// dotted path ("map.rmse", "map.f1[0]"; the evaluation as it is, of the report what experiments compare),
+/// lists named "histogram" with the "bin" beside them, pictures by kind.
+CaseResult gather(const nlohmann::json& report, const nlohmann::json& evaluation);
+
+}  // namespace fleetmap::experiment

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <set>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/fault_injection/invariant.hpp"
+
+namespace fleetmap::fault_injection {
+
+struct RunConfig {
+  /// s after the last fault, in which all must have converged.
+  Duration settling = std::chrono::minutes(10);
+  std::set<Invariant> invariants;  ///< that are checked
+  bool trace = false;
+  /// Robots sign their items, forged items bear wrong signatures, and a liar alters items of others that it
+  /// hands over.
+  bool signatures = false;
+};
+
+}  // namespace fleetmap::fault_injection

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/messages/routing.hpp"
+
+/// Topics whose types are ours: link, name and type on the wire, and the QoS profile in qos/<link>.xml.
+namespace fleetmap::fleet_codec::topics {
+
+// ---- onboard; those of ROS 2's types are in ros_codec/topics.hpp
+bus::Topic global_pose();     ///< GlobalPose
+bus::Topic corrected_pose();  ///< GlobalPose: T_enu_odom of the fleet's graph, applied to the odometry
+/// GlobalPose, from whoever else knows where the robot is: the mission is driven by it instead of by G.
+bus::Topic guide_pose();
+/// messages::Hold, from a button on the robot.
+bus::Topic hold_onboard();
+
+// ---- the fleet's radios. What goes over both has the same name on both.
+/// Orders to stand still; operators publish here.
+bus::Topic hold();
+
+}  // namespace fleetmap::fleet_codec::topics
+
+namespace fleetmap::fleet_codec {
+
+/// Where a message is published: on a topic of its recipient if it has one, else on that of all.
+bus::Topic topic_of(const messages::Outgoing& outgoing);
+/// On its usual link, to the recipient that it names.
+bus::Topic topic_of(const messages::Message& message);
+/// The link that `link` is to the exchange.
+messages::Reach reach_of(bus::Link link);
+
+/// All topics on which messages for `self` arrive from other agents.
+std::vector<bus::Topic> inbox_topics(const AgentId& self);
+
+}  // namespace fleetmap::fleet_codec

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/graph/fleet_placement_config.hpp"
+#include "fleetmap/graph/paper_placement_config.hpp"
+
+namespace fleetmap::graph {
+
+enum class PlacementMethod {
+  paper,  ///< one rigid transform a pair of agents, that of least E_ij
+  graph,  ///< the fleet's robust pose graph
+};
+
+const char* to_string(PlacementMethod method);
+
+struct PlacementConfig {
+  PlacementMethod method = PlacementMethod::graph;
+  PaperPlacementConfig paper;
+  FleetPlacementConfig fleet;
+  Status validate() const;
+};
+
+}  // namespace fleetmap::graph

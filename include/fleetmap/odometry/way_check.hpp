@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "fleetmap/odometry/loam.hpp"
+#include "fleetmap/odometry/motion_covariance.hpp"
+
+namespace fleetmap::odometry {
+
+/// Whether an odometry kept its way, as far as it can tell: judged over the whole drive and along it, since a
+/// long drive hides a stretch that was lost. Updates are those of one odometry frame, in order.
+class WayCheck {
+ public:
+  void add(const OdometryUpdate& update);
+
+  double length() const { return length_; }  ///< m
+  /// Of the motion from the first to the last update.
+  Matrix6d covariance() const { return whole_.since_reference(); }
+  /// What makes the trajectory unreliable, each with where it is worst; empty if nothing does.
+  std::vector<std::string> doubts() const;
+
+ private:
+  struct Seen {
+    Stamp stamp;
+    bool lost;
+  };
+  struct Worst {
+    double value = 0.0;
+    Stamp at;  ///< end of the stretch
+  };
+
+  void judge_losses(const OdometryUpdate& update);
+  void judge_stretch(const OdometryUpdate& update);
+  std::string after_start(Stamp stamp) const;
+
+  Stamp first_;
+  Pose last_ = Pose::Identity();
+  std::size_t updates_ = 0, lost_ = 0;
+  double length_ = 0.0, stretch_begin_ = 0.0;  ///< m
+  MotionCovariance whole_, stretch_;
+  std::deque<Seen> recent_;
+  std::size_t recent_lost_ = 0;
+  Worst losses_;          ///< share of the scans
+  Worst vague_, turned_;  ///< m, rad, 1 sigma over a stretch
+};
+
+}  // namespace fleetmap::odometry

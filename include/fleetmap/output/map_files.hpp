@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/store/store.hpp"
+#include "fleetmap/store/tiled_merge.hpp"
+
+namespace fleetmap::output {
+
+/// The map of those nodes whose submaps the store holds, in the frame that their poses are in: as a whole, or
+/// planned to be merged tile by tile. `store` must outlive the latter.
+store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                            const store::MergeConfig& config);
+Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                                    const store::MergeConfig& config);
+
+struct WrittenMap {
+  store::MapOutline outline;
+  std::size_t points = 0;
+};
+/// Merges that map tile by tile into each of `files` (.ply or .pcd), all or none of which appear unless one
+/// cannot be renamed.
+Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                                const store::MergeConfig& config,
+                                std::span<const std::filesystem::path> files);
+
+/// The files of one merged map.
+struct MapFiles {
+  std::filesystem::path directory;
+  ContentHash made_of{};  ///< of all that the map is a function of: submaps, their poses, how they are merged
+  std::size_t points = 0;
+  std::size_t submaps = 0;
+  std::string hash;  ///< content hash of map.ply: equal on agents that hold the same set
+};
+
+/// Writes map.ply and map.pcd into `directory`, or copies those of `others` that are made of the
+/// same. Warns of submaps that cannot be read and leaves them out.
+Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                           const store::MergeConfig& config, const std::filesystem::path& directory,
+                           std::span<const MapFiles> others);
+/// Writes file_of(part) and returns how many submaps it shows.
+Result<std::size_t> write_part(store::Store& store, const MapPart& part, const store::MergeConfig& config,
+                               const std::filesystem::path& directory);
+/// Removes the parts of an earlier run: what nobody could place then may be on the map now.
+void remove_parts(const std::filesystem::path& directory);
+/// Removes what a program left that was killed while it merged a map: up to gigabytes that nobody reads.
+void remove_unfinished_maps(const std::filesystem::path& directory);
+
+}  // namespace fleetmap::output

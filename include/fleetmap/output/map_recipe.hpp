@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::output {
+
+/// How a map was made: what `fleetmap map export` needs to make the same one again.
+struct MapRecipe {
+  GeoPoint origin;
+  graph::PlacementConfig placement;
+  store::MergeConfig merge;
+};
+
+struct RecipeConfig {
+  std::optional<GeoPoint> site_origin;  ///< of ENU; absent: site_origin() of the store
+  graph::PlacementConfig placement;
+  store::MergeConfig map;
+};
+/// Stores how the agent's maps are made, so that what is made of the store later, whatever became of the
+/// agent, is the same.
+Status keep_recipe(store::Store& store, const RecipeConfig& config);
+/// By the last keep_recipe(); where no origin was configured, with that of what the store holds now. Empty if
+/// there was none, or there is no origin yet.
+std::optional<MapRecipe> map_recipe(const store::Store& store);
+
+}  // namespace fleetmap::output

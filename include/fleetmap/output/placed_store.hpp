@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/store.hpp"
+
+/// Where all that a store holds lies.
+namespace fleetmap::output {
+
+/// The origin of ENU: `configured`, else the position of the least node id held that has a G, so that agents
+/// with the same nodes agree on it; 0, 0 where none has: the map then lies nowhere on Earth. Empty while
+/// there is no node.
+std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured);
+
+/// Everything held, by name.
+std::vector<graph::Node> nodes_of(const store::Store& store);
+std::vector<graph::Alignment> alignments_of(const store::Store& store);
+
+/// Where every node of the store lies.
+graph::Placement place(const store::Store& store, const GeoPoint& origin,
+                       const graph::PlacementConfig& config, std::span<const NodeId> covariance_of = {});
+
+/// What map.ply shows: MapParts::main.
+store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
+                          const store::MergeConfig& config);
+
+}  // namespace fleetmap::output

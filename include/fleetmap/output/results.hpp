@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fleetmap/core/ids.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::output {
+
+/// What the results of an agent depend on, beside its store.
+struct ResultsConfig {
+  AgentId agent;
+  std::filesystem::path directory;  ///< holds the agent's trajectories, and gets the results
+  RecipeConfig recipe;
+};
+
+struct Results {
+  GeoPoint origin;
+  graph::Placement placement;
+  MapFiles map;
+  std::vector<MapPart> apart;       ///< not in map.ply, but in file_of(part)
+  std::size_t missing_submaps = 0;  ///< of nodes that are held
+  /// Odometry frames of which nobody knows where on Earth they are: no G in all that is tied to them.
+  std::vector<graph::FrameId> not_georeferenced;
+};
+
+/// Writes map.ply, map.pcd, one more file for each part of the fleet that nobody can lay onto that map,
+/// trajectory.tum, ekf.tum, alignments.csv and nodes.csv into the agent's directory. Fails when there is no
+/// node yet, or a file cannot be written. Where several agents of one process hold the same set, `others`
+/// spares them to merge it again: a map made of the same is copied.
+Result<Results> write_results(store::Store& store, const ResultsConfig& config,
+                              std::span<const MapFiles> others = {});
+
+}  // namespace fleetmap::output

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::place {
+
+struct NodeGeneratorConfig {
+  double spacing =
+      5.0;  ///< m, D_thresh: how far the robot goes, in odometry, before it freezes the next node
+
+  Status validate() const;
+};
+
+}  // namespace fleetmap::place

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/messages/mission_report.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+#include "fleetmap/planning/mission/mission_config.hpp"
+#include "fleetmap/planning/site/mission.hpp"
+
+namespace fleetmap::planning {
+
+using messages::MissionReport;
+using messages::MissionState;
+using messages::RowSet;
+
+class ExecutiveState;
+
+/// What a robot knows of itself, some times a second.
+struct MissionInput {
+  Stamp now;
+  Pose2 pose;
+  double battery = 1.0;  ///< share left, [0, 1]
+  /// The path that the follower is at (MissionAction::path_number), and what it says of it.
+  std::uint64_t path_number = 0;
+  bool finished = false;
+  bool stuck = false;
+  double progress = 0.0;  ///< m along the path
+  /// Everything that was to be exchanged at the rendezvous is.
+  bool maps_exchanged = false;
+  /// Robots within reach who hold all maps that this one holds, and the other way round.
+  std::vector<AgentId> exchanged_with = {};
+  /// Rows along which the fleet's nodes lie (RowCoverage).
+  RowSet surveyed = {};
+};
+
+struct MissionAction {
+  enum class Kind : std::uint8_t {
+    kFollow,  ///< drive `path`
+    kHold,    ///< stand where you are
+    kDone,    ///< the mission is over
+  };
+  Kind kind = Kind::kHold;
+  Polyline path;                  ///< ENU, m
+  std::uint64_t path_number = 0;  ///< a new number, a new path
+};
+
+/// One robot's part in a mission that nobody leads. All start from the same division; from then on each robot
+/// acts on its own knowledge and what it heard:
+/// - a row is driven if the robot that the plan gives it to says so, or if anyone does and the fleet's nodes
+/// lie along it;
+///   what is known is passed on in every report;
+/// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
+/// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
+/// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
+///   of them takes which, and whoever still sees nobody at a row after a while takes it;
+/// - a robot with many rows left gives some away when another one has none (the late one, the returned one);
+/// - two whom the plan lets stop to exchange maps drive there in the plan's order of rows and wait for each
+///   other, never for one who is lost or got other rows, nor for ever.
+/// So no row stays undone while a robot remains that can reach it; at worst one is driven twice.
+/// Deterministic, no clock of its own; not thread-safe.
+class MissionExecutive {
+ public:
+  /// Fails if `self` is not in the fleet.
+  static Result<MissionExecutive> create(std::shared_ptr<const FleetPlan> plan, const AgentId& self);
+  /// The same, planning for itself.
+  static Result<MissionExecutive> create(Mission mission, const AgentId& self,
+                                         std::span<const RobotAbility> fleet, const MissionConfig& config);
+  ~MissionExecutive();
+  MissionExecutive(MissionExecutive&&) noexcept;
+  MissionExecutive& operator=(MissionExecutive&&) noexcept;
+
+  /// Of another robot; unknown, own, old and broken ones are ignored.
+  void on_report(const MissionReport& report, Stamp now);
+  MissionAction update(const MissionInput& input);
+  /// As of the last update.
+  MissionReport report() const;
+
+  struct Abandoned {
+    RowId row = 0;
+    std::string why;  ///< this robot gave it up; empty: only others did, or no robot is left to drive it
+  };
+  struct Status {
+    MissionState state = MissionState::kDriving;
+    std::size_t rows = 0;
+    std::size_t done = 0;              ///< by anyone, as far as is known
+    std::size_t mine = 0;              ///< still claimed by this robot
+    std::vector<Abandoned> abandoned;  ///< rows that are not driven any more
+    std::vector<AgentId> lost;
+    std::vector<AgentId> expected;  ///< others who are to come to the meeting
+    std::uint64_t replans = 0;      ///< rows taken over or given away
+    std::size_t stops_kept = 0;     ///< maps were exchanged
+    std::size_t stops_dropped = 0;  ///< the partner did not come, or one of the two got other rows
+  };
+  Status status() const;
+  const FleetPlan& plan() const;
+
+ private:
+  explicit MissionExecutive(std::unique_ptr<ExecutiveState> state);
+  std::unique_ptr<ExecutiveState> state_;
+};
+
+}  // namespace fleetmap::planning

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/recording/kitti_config.hpp"
+
+namespace fleetmap::recording {
+
+/// Topics of a bag ("/points"). Empty: the only topic of that type, or else the one with our own name.
+/// "none": not read. The config keys are recording.topics.points and so on.
+struct Topics {
+  std::string points;  ///< sensor_msgs/msg/PointCloud2; needed
+  std::string imu;     ///< sensor_msgs/msg/Imu
+  std::string fix;     ///< sensor_msgs/msg/NavSatFix
+  std::string wheel;   ///< nav_msgs/msg/Odometry
+};
+
+struct ReaderConfig {
+  Topics topics;
+  KittiConfig kitti;
+  Status validate() const;
+};
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,125 @@
+#include "agent_lifetime.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "fleetmap/agent/navigator.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr Duration kNoScan = std::chrono::seconds(5);
+constexpr Duration kReportPeriod = std::chrono::seconds(10);
+/// What others get to come back and bring what is missing.
+constexpr Duration kPeerPatience = std::chrono::minutes(1);
+/// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
+constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);
+constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
+constexpr Duration kTrafficPeriod = std::chrono::seconds(1), kNodesPeriod = std::chrono::milliseconds(50);
+
+/// The LiDAR alone is silent: the rest looks well, but no map is made.
+bool misses_scans(const agent::Perception& perception) {
+  return perception.last_heard() - perception.last_scan() > kNoScan;
+}
+
+void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
+  const store::Store& store = agent.store();
+  const bool none_yet = agent.perception().counters().scans == 0;
+  if (misses_scans(agent.perception())) {
+    spdlog::warn(
+        "{}: other sensors are heard, but no scan on {} for {:.0f} s: is the LiDAR on? If its driver runs, "
+        "start it anew, or look at its shared memory (docs/reference/dds.md, A reader that is killed)",
+        agent.config().id.str(), agent.config().perception.topics.points,
+        to_seconds(bus.now() - agent.perception().last_scan()));
+  } else if (none_yet) {
+    spdlog::info("{}: no scan heard yet on {}: is the driver on, with ROS_DOMAIN_ID as dds.onboard.domain?",
+                 agent.config().id.str(), agent.config().perception.topics.points);
+  }
+  if (none_yet) return;
+  if (const agent::Navigator* navigator = agent.navigator()) {
+    if (const auto reason = navigator->stands())
+      spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
+    const auto mission = navigator->status();
+    spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
+                 agent.config().id.str(), messages::to_string(mission.state), mission.done, mission.rows,
+                 mission.mine);
+    for (const auto& row : mission.abandoned) {
+      spdlog::warn("{}: row {} is abandoned: {}", agent.config().id.str(), row.row,
+                   row.why.empty() ? "other robots gave it up" : row.why);
+    }
+  }
+  spdlog::info("{}: {} scans, {} nodes, {} alignments, {} of {} submaps, last sensor {:.1f} s ago",
+               agent.config().id.str(), agent.perception().counters().scans, store.nodes().size(),
+               store.alignments().size(), store.submap_set().size(), store.nodes().size(),
+               to_seconds(bus.now() - agent.last_sensor()));
+}
+
+/// Whether it is time to end by itself: the mission is done or the sensors are silent, the exchange has been
+/// silent for `patience`, everything is held, and nobody tells that more will come. Else others get a minute
+/// more to come and bring it.
+bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
+  const Duration start_allowance =
+      agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
+  if (agent.navigator() != nullptr && agent.navigator()->done()) {
+    // While the others are still here to take it: at the end they would have gone.
+    if (!std::exchange(rest_frozen, true)) {
+      agent.freeze_rest();
+      return false;
+    }
+    // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
+    const Duration silence = bus.now() - agent.link_counters().last_submap;
+    const bool all_told = agent.complete() && agent.fleet_caught_up();
+    return all_told ? silence > patience : silence > patience + kPeerPatience;
+  }
+  const bool sensors_silent =
+      bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
+  if (!sensors_silent) {
+    rest_frozen = false;
+    return false;
+  }
+  if (!std::exchange(rest_frozen, true)) {
+    agent.freeze_rest();
+    return false;
+  }
+  const Duration silence = bus.now() - agent.last_exchange();
+  const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up() && !agent.others_busy();
+  return settled ? silence > patience : silence > patience + kPeerPatience;
+}
+
+}  // namespace
+
+void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWatchdog* watchdog,
+                    double exit_after_idle, const std::atomic<bool>& stop) {
+  const bus::Handle report = bus.every(kReportPeriod, {"progress", [&] { print_progress(agent, bus); }});
+  const bus::Handle traffic = bus.every(
+      kTrafficPeriod, {"traffic log", [&] {
+                         log.add_traffic(bus.take_heard_traffic(), agent.asked_for_submaps(), bus.now());
+                       }});
+  const bus::Handle nodes =
+      bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().nodes(), bus.now()); }});
+  bus::Handle check;
+  bool rest_frozen = false;
+  if (exit_after_idle > 0.0) {
+    check = bus.every(kCheckPeriod, {"end of the mission", [&, patience = from_seconds(exit_after_idle)] {
+                                       if (time_to_end(agent, bus, patience, rest_frozen)) bus.stop();
+                                     }});
+  }
+  bus.run_until(stop);
+  // Before anything that takes time.
+  if (watchdog != nullptr) watchdog->stand();
+  agent.halt();
+  if (rest_frozen) return;
+  // Told to end: the last node goes to whoever is in reach, or their maps would lack what this robot's has.
+  agent.freeze_rest();
+  Stamp busy = bus.now();
+  bus.run_until(
+      [&] {
+        if (!agent.idle()) busy = bus.now();
+        return bus.now() - busy > kQuiet;
+      },
+      kFarewell);
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,115 @@
+#include "odometry_run.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <utility>
+
+#include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+/// Feeds a recording's samples to the odometry. Some recordings hold a scan at its start, before what gyro
+/// and wheels saw during its sweep, so scans wait until these have passed their end.
+class OdometryFeed {
+ public:
+  OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
+      : config_(config), loam_(config.odometry, config.lidar), times_(log_clock) {}
+
+  /// `recorded` as Reader::recorded() has it.
+  void add(recording::Sample sample, std::optional<Stamp> recorded) {
+    if (!correct_clock(sample, recorded)) return;
+    if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
+      const Stamp end = sensor::end_of(*scan);
+      waiting_.push_back({std::move(*scan), end});
+    } else if (const auto* imu = std::get_if<sensor::Imu>(&sample);
+               imu != nullptr && config_.odometry_uses_imu) {
+      loam_.add_imu(*imu);
+      imu_ = imu->stamp;
+    } else if (const auto* wheel = std::get_if<sensor::Wheel>(&sample);
+               wheel != nullptr && config_.odometry_uses_wheel) {
+      loam_.add_wheel(*wheel);
+      wheel_ = wheel->stamp;
+    }
+    while (!waiting_.empty() && due(waiting_.front())) {
+      add_scan(waiting_.front().scan);
+      waiting_.pop_front();
+    }
+  }
+  OdometryRun finish() {
+    for (const Waiting& waiting : waiting_) add_scan(waiting.scan);
+    run_.counters = loam_.counters();
+    return std::move(run_);
+  }
+
+ private:
+  /// So far may a sensor that was heard lag behind; one that lags more has stopped.
+  static constexpr Duration kPatience = std::chrono::milliseconds(250);
+
+  struct Waiting {
+    sensor::Scan scan;
+    Stamp end;  ///< of its sweep
+  };
+
+  /// False while it is too early to tell what the stamp means.
+  bool correct_clock(recording::Sample& sample, std::optional<Stamp> recorded) {
+    const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
+    now_ = std::max(now_, times_.of(sample, recorded));
+    clocks_.add(source, recording::stamp_of(sample), now_);
+    for (const std::string& news : clocks_.take_news()) spdlog::warn("{}", news);
+    std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
+    return !clocks_.unclear(source);
+  }
+
+  bool due(const Waiting& first) const {
+    const bool seen_through = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
+    return seen_through || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
+  }
+
+  void add_scan(const sensor::Scan& scan) {
+    const double cpu = thread_cpu_seconds();
+    const auto start = std::chrono::steady_clock::now();
+    const auto update = loam_.add_scan(scan);
+    run_.wall_ms.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    run_.cpu_s += thread_cpu_seconds() - cpu;
+    for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
+    if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
+    if (update) {
+      run_.poses.push_back({update->stamp, update->T_odom_base});
+      run_.way.add(*update);
+      run_.blind += update->degenerate_count > 0;
+      if (update->lost && !run_.first_lost) run_.first_lost = update->stamp;
+    } else if (run_.refused++ == 0) {
+      run_.first_refusal = update.error().message;
+    }
+  }
+
+  const agent::PerceptionConfig& config_;
+  odometry::Loam loam_;
+  OdometryRun run_;
+  std::deque<Waiting> waiting_;
+  std::optional<Stamp> imu_, wheel_;  ///< last heard
+  recording::PlayTimes times_;
+  sensor::ClockOffsets clocks_;
+  Stamp now_{};
+};
+
+}  // namespace
+
+Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
+                                 const agent::PerceptionConfig& config) {
+  OdometryFeed feed(config, log_clock);
+  while (true) {
+    auto sample = reader.next();
+    if (!sample) return tl::unexpected(sample.error());
+    if (!*sample) return feed.finish();
+    feed.add(std::move(**sample), reader.recorded());
+  }
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "fleetmap/bus/dds_bus.hpp"
+#include "fleetmap/exchange/hold_orders.hpp"
+
+namespace fleetmap::apps {
+
+/// An operator's order to hold or resume on its way over the long range, and which robots confirmed it.
+class OrderInForce {
+ public:
+  OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const messages::HoldOrder& order);
+
+  bool confirmed_by_all() const { return confirmed_.size() == addressed_.size(); }
+  const std::map<AgentId, messages::Hold::Driving>& confirmed() const { return confirmed_; }
+
+ private:
+  void send();
+  /// Sends when another robot was found, and again from time to time.
+  void repeat();
+  void on_hold(const messages::Hold& hold);
+
+  bus::DdsBus& bus_;
+  std::vector<AgentId> addressed_;
+  messages::HoldOrder order_;
+  std::map<AgentId, messages::Hold::Driving> confirmed_;
+  std::size_t readers_ = 0;
+  Stamp next_{};
+  int renewals_ = 0;
+  bus::Handle heard_;
+  bus::Handle timer_;
+};
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+
+#include "virtual_fleet.hpp"
+
+namespace fleetmap::apps {
+
+/// What became of a fleet's run whose results are in `folder`.
+void print_summary(std::ostream& out, const FleetOutcome& outcome, const std::filesystem::path& folder);
+
+}  // namespace fleetmap::apps

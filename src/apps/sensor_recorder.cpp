@@ -1,0 +1,47 @@
+#include "sensor_recorder.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <string>
+#include <utility>
+
+#include "sample_player.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+std::filesystem::path free_folder(const std::filesystem::path& directory) {
+  std::filesystem::path folder = directory;
+  std::error_code error;
+  for (int k = 1; std::filesystem::exists(folder, error); ++k)
+    folder = directory.string() + "-" + std::to_string(k);
+  return folder;
+}
+
+}  // namespace
+
+SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus)
+    : writer_(std::move(writer)) {
+  for (const bus::Topic& topic : sensor_topics(topics)) {
+    subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
+      const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
+      if (!written && !std::exchange(failed_, true))
+        spdlog::error("recording stopped: {}", written.error().message);
+    }));
+  }
+}
+
+Result<std::unique_ptr<SensorRecorder>> SensorRecorder::create(const std::filesystem::path& directory,
+                                                               const agent::SensorTopics& topics,
+                                                               bus::Bus& bus) {
+  auto writer = recording::BagWriter::create(free_folder(directory));
+  if (!writer) return tl::unexpected(writer.error());
+  return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, bus));
+}
+
+Status SensorRecorder::close() {
+  subscriptions_.clear();
+  return writer_.close();
+}
+
+}  // namespace fleetmap::apps

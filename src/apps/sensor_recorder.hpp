@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "fleetmap/agent/perception.hpp"
+#include "fleetmap/bus/bus.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/recording/bag_writer.hpp"
+
+namespace fleetmap::apps {
+
+/// Writes what arrives on the sensor topics into a bag.
+class SensorRecorder {
+ public:
+  /// In `directory`, or with a number behind it if it holds a bag of an earlier start.
+  static Result<std::unique_ptr<SensorRecorder>> create(const std::filesystem::path& directory,
+                                                        const agent::SensorTopics& topics, bus::Bus& bus);
+  Status close();
+
+ private:
+  SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus);
+
+  recording::BagWriter writer_;
+  bool failed_ = false;
+  std::vector<bus::Handle> subscriptions_;
+};
+
+}  // namespace fleetmap::apps

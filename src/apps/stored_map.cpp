@@ -1,0 +1,83 @@
+#include "stored_map.hpp"
+
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/store/thinned_map.hpp"
+
+namespace fleetmap::apps {
+
+// A file that SQLite would call damaged, or a disk error, is most often another one than was meant.
+Status check_store(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    return failure(file.string() + ": is a folder; give the store.db of a robot in it");
+  if (!std::filesystem::exists(file, error)) return failure(file.string() + ": no such file");
+  constexpr std::string_view kStart = "SQLite format 3";
+  std::string start(kStart.size(), ' ');
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return failure(file.string() + ": cannot be read; check its permissions");
+  if (!in.read(start.data(), static_cast<std::streamsize>(start.size())) || start != kStart)
+    return failure(file.string() + ": is no store; give the store.db of a robot");
+  return {};
+}
+
+Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& given,
+                           std::optional<double> voxel_m) {
+  if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
+  auto store = store::Store::open_read_only(file);
+  if (!store) return tl::unexpected(store.error());
+  const std::optional<output::MapRecipe> kept = output::map_recipe(*store);
+  output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
+  std::optional<GeoPoint> origin = given;
+  if (!origin && kept) origin = kept->origin;
+  origin = output::site_origin(*store, origin);
+  if (!origin || store->nodes().empty())
+    return failure(file.string() + ": holds no node, so there is no map");
+  if (!is_valid(*origin))
+    return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
+  recipe.origin = *origin;
+  if (voxel_m) recipe.merge.voxel_m = *voxel_m;
+  auto placement = output::place(*store, *origin, recipe.placement);
+  return StoredMap{std::move(*store), recipe, std::move(placement)};
+}
+
+std::map<NodeId, Pose> shown_poses(const StoredMap& map) {
+  return output::map_parts(output::nodes_of(map.store), map.placement).main.T_map_node;
+}
+
+void name_unreadable(const store::MapOutline& outline) {
+  for (const NodeId& id : outline.unreadable)
+    std::cerr << "submap of " << to_string(id) << " cannot be read and is left out\n";
+}
+
+Result<std::vector<run_evaluation::MapPicture>> pictures_of(StoredMap& map) {
+  constexpr double kDensityRadius = 1.0;  // m
+  auto merge = output::tiled_map(map.store, shown_poses(map), map.recipe.merge);
+  if (!merge) return tl::unexpected(merge.error());
+  store::ThinnedMap thinned(map.recipe.merge.voxel_m, run_evaluation::kMostDrawn);
+  const auto thin = [&](const store::MapTile& tile) -> Status {
+    thinned.add(tile);
+    return {};
+  };
+  if (const Status done = merge->stream(thin); !done) return tl::unexpected(done.error());
+  name_unreadable(merge->outline());
+  const store::MergedMap shown = thinned.map(merge->outline());
+  auto pictures = run_evaluation::pictures_by_robot(shown);
+  if (!pictures) return pictures;
+  std::vector<std::uint32_t> counts(shown.cloud.size());
+  const auto count = [&](const store::MapTile& tile) -> Status {
+    run_evaluation::add_density(shown.cloud, tile.cloud, kDensityRadius, counts);
+    return {};
+  };
+  if (const Status done = merge->stream(count); !done) return tl::unexpected(done.error());
+  auto density = run_evaluation::picture_of_density(shown.cloud, counts, kDensityRadius);
+  if (density) pictures->push_back(std::move(*density));
+  return pictures;
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/output/results.hpp"
+#include "fleetmap/run_evaluation/map_pictures.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::apps {
+
+/// A store with all that its map is made of.
+struct StoredMap {
+  store::Store store;
+  output::MapRecipe recipe;
+  graph::Placement placement;
+};
+
+/// Fails, with the remedy, unless the file is a store.
+Status check_store(const std::filesystem::path& file);
+
+/// Places the nodes of a store. `given`: the origin of ENU, else that of the agent's last map, or the least
+/// node's; `voxel_m`: else as in the agent's last map.
+Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& given,
+                           std::optional<double> voxel_m);
+
+/// Of the nodes that map.ply shows.
+std::map<NodeId, Pose> shown_poses(const StoredMap& map);
+
+/// The map's pictures, in memory for a map that is thinned to what can be drawn: its tiles come once for
+/// their points and once to be counted around these.
+Result<std::vector<run_evaluation::MapPicture>> pictures_of(StoredMap& map);
+
+/// Prints the submaps that are left out.
+void name_unreadable(const store::MapOutline& outline);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,83 @@
+#include "hello_pacing.hpp"
+
+#include <algorithm>
+
+namespace fleetmap::bus {
+namespace {
+
+/// On the wire, each of the two Hellos by which a pair meets; with keys there are three in the mean.
+constexpr double kHelloBits = 8.0 * 260.0, kGreetingBits = 8.0 * 345.0 * 3.0 / 2.0;
+/// The part of the link's fleet_bits_per_second that the Hellos of all robots may take: in the mean while a
+/// fleet starts, and in any second.
+constexpr double kMeanPart = 0.43, kMaxPart = 0.93;
+constexpr double kMaxSpread = 6.0;                   // s, so that a fleet is connected within ten
+constexpr double kFirstPause = 0.5;                  // s, of a pair alone
+constexpr auto kMaxPause = std::chrono::seconds(2);  // and a second for each other robot
+/// A robot that joins a connected fleet sends Hellos faster, since the others send none. It concludes that
+/// from this many answers while no other newcomer sent a Hello for a while.
+constexpr int kAnswersOfAFleet = 4;
+constexpr auto kNoNewcomer = std::chrono::seconds(10);
+constexpr double kNewcomerShares = 2.0;
+
+}  // namespace
+
+Executor::Clock::duration to_duration(double seconds) {
+  return std::chrono::duration_cast<Executor::Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+double HelloPacing::hello_bits() const { return config_.keys ? kGreetingBits : kHelloBits; }
+
+/// s that the Hellos of a fleet that starts at once, each robot's to each other's, take at `rate` (bit/s).
+double HelloPacing::hello_time(double others, double rate) const {
+  return others * (others + 1.0) * hello_bits() / rate;
+}
+
+HelloPacing::Clock::duration HelloPacing::spread(double others) const {
+  if (config_.observes) return {};
+  return to_duration(std::min(hello_time(others, kMeanPart * config_.fleet_bits_per_second), kMaxSpread));
+}
+
+HelloPacing::Clock::duration HelloPacing::first_pause(double others) const {
+  // A share of the time that all Hellos take at the highest rate. Three messages are lost more often than
+  // two, so with keys a repetition pays earlier.
+  const double answered = config_.keys ? 0.4 : 0.75;
+  return to_duration(
+      kFirstPause +
+      (config_.observes ? 0.0 : answered * hello_time(others, kMaxPart * config_.fleet_bits_per_second)));
+}
+
+HelloPacing::Clock::duration HelloPacing::pause_after(int hellos_sent, Clock::duration pause,
+                                                      Clock::time_point now) const {
+  return fleet_is_connected(now) && hellos_sent < kQuickHellos ? std::min(pause, to_duration(kNewcomerPause))
+                                                               : pause;
+}
+
+HelloPacing::Clock::duration HelloPacing::longer_pause(Clock::duration pause, double others,
+                                                       Clock::duration announcement) const {
+  // In a small fleet a robot that comes into reach again must be found within ten seconds.
+  const Clock::duration least = to_duration(kFirstPause);
+  const Clock::duration most = std::min<Clock::duration>(announcement, kMaxPause + to_duration(others));
+  return std::clamp(2 * pause, least, std::max(most, least));
+}
+
+HelloPacing::Clock::duration HelloPacing::pause_between(double others, Clock::time_point now) const {
+  const double shares = fleet_is_connected(now) ? std::min(kNewcomerShares, others + 1.0) : 1.0;
+  return to_duration((others + 1.0) * hello_bits() / (shares * kMaxPart * config_.fleet_bits_per_second));
+}
+
+bool HelloPacing::fleet_is_connected(Clock::time_point now) const {
+  const bool alone = newcomer_ == Clock::time_point{} || now - newcomer_ > kNoNewcomer;
+  return !config_.observes && alone && answers_ >= kAnswersOfAFleet;
+}
+
+bool HelloPacing::count_answer(bool names_us, bool names_another, Clock::time_point now) {
+  const bool was_connected = fleet_is_connected(now);
+  if (names_us) {
+    ++answers_;
+  } else if (!names_another) {
+    newcomer_ = now;
+  }
+  return !was_connected && fleet_is_connected(now);
+}
+
+}  // namespace fleetmap::bus

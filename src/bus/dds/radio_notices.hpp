@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fleetmap/bus/radio_survey.hpp"
+#include "hello.hpp"
+
+namespace fleetmap::bus {
+
+/// Robots that a radio heard and problems with them, for RadioLink::survey(). Each problem is logged once,
+/// and all lists are bounded, since strangers may send anything.
+class RadioNotices {
+ public:
+  /// `settings` and `multicast` are this robot's; no settings for an observer.
+  RadioNotices(Link link, bool multicast, std::optional<FleetSettings> settings)
+      : link_(link), multicast_(multicast), settings_(std::move(settings)) {}
+
+  /// Adds a robot, or updates what its Hello changed.
+  void note(RadioSurvey::Robot robot);
+  /// Warns of settings of another robot that must equal this one's.
+  void compare(const Hello& hello);
+  /// Reports that no exchange with the robot at `address` is possible.
+  void refuse(const std::string& address, const std::string& why);
+
+  const std::vector<RadioSurvey::Robot>& robots() const { return robots_; }
+  const std::vector<std::string>& refusals() const { return refusals_; }
+
+ private:
+  bool first_time(const std::string& warning);
+
+  Link link_;
+  bool multicast_;
+  std::optional<FleetSettings> settings_;
+  std::set<std::string> warnings_;
+  std::vector<RadioSurvey::Robot> robots_;
+  std::vector<std::string> refusals_;
+};
+
+}  // namespace fleetmap::bus

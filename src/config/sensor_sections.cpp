@@ -1,0 +1,125 @@
+#include "sensor_sections.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace fleetmap::config {
+namespace {
+
+void read_lidar(Section& top, agent::PerceptionConfig& perception) {
+  Section lidar = top.section("lidar");
+  std::string model = perception.lidar.name;
+  lidar.read("model", model);
+  if (const auto known = odometry::lidar_model(model)) {
+    perception.lidar = *known;
+  } else {
+    lidar.problem("model", known.error().message);
+  }
+  lidar.read_mount(perception.odometry.T_base_lidar);
+  lidar.read("max_range", perception.odometry.max_range);
+  lidar.read("min_range", perception.odometry.min_range);
+  lidar.read("range_noise", perception.odometry.range_noise);
+  lidar.read("scan_period", perception.lidar.scan_period);
+  lidar.read_degrees("elevations_deg", perception.lidar.vertical_angles);
+  lidar.finish();
+}
+
+/// ROS 2's "/points" is "rt/points" on the wire.
+void read_topics(Section& top, agent::SensorTopics& topics) {
+  Section section = top.section("topics");
+  for (const auto& [key, name] : {std::pair<const char*, std::string*>{"points", &topics.points},
+                                  {"imu", &topics.imu},
+                                  {"fix", &topics.fix},
+                                  {"wheel", &topics.wheel}}) {
+    section.read(key, *name);
+    if (name->starts_with("/")) *name = "rt" + *name;
+    if (name->empty()) section.problem(key, "expected the name of a topic, e.g. /velodyne_points");
+  }
+  section.finish();
+}
+
+void read_odometry(Section& top, agent::PerceptionConfig& perception) {
+  odometry::LoamConfig& loam = perception.odometry;
+  Section section = top.section("odometry");
+  section.read("use_imu", perception.odometry_uses_imu);
+  section.read("use_wheel", perception.odometry_uses_wheel);
+  section.read("deskew", loam.deskew);
+  section.read("match_spacing", loam.match_spacing);
+  section.read("insert_spacing", loam.insert_spacing);
+  // A map that reaches less far than the scans would leave their far points unmatched.
+  loam.map_radius = std::max(loam.map_radius, loam.max_range);
+  section.read("map_radius", loam.map_radius);
+  section.read("max_map_windows", loam.max_map_windows);
+  section.read("fine_resolution", loam.fine_resolution);
+  section.read("coarse_resolution", loam.coarse_resolution);
+  section.read("max_iterations", loam.max_iterations);
+  section.read("initial_speed", loam.initial_speed);
+  section.read("linear_acceleration", loam.linear_acceleration);
+  section.read("angular_acceleration", loam.angular_acceleration);
+  section.read("gyro_noise", loam.gyro_noise);
+  section.read("wheel_speed_noise", loam.wheel_speed_noise);
+  std::uint32_t waiting = static_cast<std::uint32_t>(perception.waiting_scans);
+  section.read("waiting_scans", waiting);
+  perception.waiting_scans = waiting;
+  section.finish();
+  const Status valid = loam.validate();
+  if (valid) return;
+  Section lidar = top.section("lidar");  // holds some of the odometry's settings
+  (lidar.names(valid.error().message) ? lidar : section).check(valid);
+}
+
+void read_imu(Section& top, agent::PerceptionConfig& perception) {
+  localization::EkfConfig& ekf = perception.localization;
+  Section imu = top.section("imu");
+  imu.read_mount(ekf.mounting.T_base_imu);
+  perception.odometry.q_base_imu = Eigen::Quaterniond(ekf.mounting.T_base_imu.linear());
+  imu.read("gyro_noise", ekf.imu.gyro_noise);
+  imu.read("accel_noise", ekf.imu.accel_noise);
+  imu.read("gyro_bias_sigma", ekf.imu.gyro_bias_sigma);
+  imu.read("accel_bias_sigma", ekf.imu.accel_bias_sigma);
+  imu.read("gyro_bias_walk", ekf.imu.gyro_bias_walk);
+  imu.read("accel_bias_walk", ekf.imu.accel_bias_walk);
+  imu.read("max_gap", ekf.imu.max_gap);
+  imu.read("use_orientation", ekf.imu.use_orientation);
+  imu.finish();
+}
+
+void read_gps(Section& top, localization::EkfConfig& ekf) {
+  Section gps = top.section("gps");
+  gps.read("translation", ekf.mounting.p_base_antenna);
+  gps.read("correlation_time", ekf.gps.correlation_time);
+  gps.read("correlated_share", ekf.gps.correlated_share);
+  gps.read("default_sigma_h", ekf.gps.default_sigma_h);
+  gps.read("default_sigma_v", ekf.gps.default_sigma_v);
+  gps.read("sigma_floor", ekf.gps.sigma_floor);
+  gps.read("max_speed", ekf.gps.max_speed);
+  gps.read("max_site_radius", ekf.gps.max_site_radius);
+  gps.finish();
+}
+
+void read_wheel(Section& top, localization::EkfConfig& ekf) {
+  Section wheel = top.section("wheel");
+  wheel.read("speed_sigma", ekf.wheel.speed_sigma);
+  wheel.read("speed_scale", ekf.wheel.speed_scale);
+  wheel.read("yaw_rate_sigma", ekf.wheel.yaw_rate_sigma);
+  wheel.read("lateral_sigma", ekf.wheel.lateral_sigma);
+  wheel.read("vertical_sigma", ekf.wheel.vertical_sigma);
+  wheel.read("turn_offset", ekf.wheel.turn_offset);
+  wheel.finish();
+}
+
+}  // namespace
+
+void read_perception(Section& top, agent::PerceptionConfig& perception) {
+  read_topics(top, perception.topics);
+  read_lidar(top, perception);
+  read_imu(top, perception);
+  read_gps(top, perception.localization);
+  read_wheel(top, perception.localization);
+  read_odometry(top, perception);
+  top.check(perception.lidar.validate());
+  top.check(perception.localization.validate());
+}
+
+}  // namespace fleetmap::config

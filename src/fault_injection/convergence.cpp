@@ -1,0 +1,67 @@
+#include "convergence.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/store/map_merge.hpp"
+#include "synthetic_survey.hpp"
+
+namespace fleetmap::fault_injection {
+
+std::string why_not_converged(const Robots& robots, Stamp now) {
+  const store::Store& first = *robots.begin()->second.store;
+  for (const auto& [name, robot] : robots) {
+    const store::Store& store = *robot.store;
+    if (!(store.node_set() == first.node_set())) return name.str() + " holds other nodes";
+    if (!(store.alignment_set() == first.alignment_set())) return name.str() + " holds other alignments";
+    if (!(store.submap_set() == first.submap_set())) return name.str() + " holds other submaps";
+    if (!robot.exchange->fleet_caught_up()) return name.str() + " finds that another lacks something";
+    if (!robot.exchange->idle(now + robot.clock_offset)) return name.str() + " is not idle";
+  }
+  return "";
+}
+
+std::string why_incomplete(const Robots& robots) {
+  for (const auto& [name, robot] : robots) {
+    if (!robot.exchange->complete()) return name.str() + " finds that it lacks something";
+  }
+  return "";
+}
+
+graph::Placement placement_of(const ExchangeFleet::Robot& robot, const LocalFrame& site) {
+  return graph::compute_placement(output::nodes_of(*robot.store), output::alignments_of(*robot.store), site,
+                                  {});
+}
+
+std::vector<MapDifference> map_differences(const Robots& robots, const LocalFrame& site) {
+  std::vector<MapDifference> differences;
+  std::optional<graph::Placement> first;
+  std::optional<store::MergedMap> first_map;
+  for (const auto& [name, robot] : robots) {
+    graph::Placement placement = placement_of(robot, site);
+    const auto load = [&store = *robot.store](const NodeId& id) -> Result<cloud::PointCloud> {
+      const auto bytes = store.submap(id);
+      if (!bytes) return tl::unexpected(bytes.error());
+      return SyntheticSurvey::decode_submap(*bytes);
+    };
+    store::MergedMap map = store::merge(placement.T_enu_node, load, {});
+    if (!first) {
+      first = std::move(placement);
+      first_map = std::move(map);
+      continue;
+    }
+    const bool same_placement =
+        std::ranges::equal(placement.T_enu_node, first->T_enu_node, [](const auto& a, const auto& b) {
+          return a.first == b.first && a.second.matrix() == b.second.matrix();
+        });
+    if (!same_placement) differences.push_back({name, "other places"});
+    if (map.cloud.points != first_map->cloud.points || map.unreadable != first_map->unreadable)
+      differences.push_back({name, "other points"});
+  }
+  return differences;
+}
+
+}  // namespace fleetmap::fault_injection

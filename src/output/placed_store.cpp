@@ -1,0 +1,40 @@
+#include "fleetmap/output/placed_store.hpp"
+
+#include "fleetmap/output/map_files.hpp"
+#include "fleetmap/output/map_parts.hpp"
+
+namespace fleetmap::output {
+
+std::optional<GeoPoint> site_origin(const store::Store& store, const std::optional<GeoPoint>& configured) {
+  if (configured) return configured;
+  if (store.nodes().empty()) return std::nullopt;
+  for (const auto& [id, node] : store.nodes()) {
+    if (node.G) return node.G->position;
+  }
+  return GeoPoint{};
+}
+
+std::vector<graph::Node> nodes_of(const store::Store& store) {
+  std::vector<graph::Node> nodes;
+  for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
+  return nodes;
+}
+
+std::vector<graph::Alignment> alignments_of(const store::Store& store) {
+  std::vector<graph::Alignment> alignments;
+  for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
+  return alignments;
+}
+
+graph::Placement place(const store::Store& store, const GeoPoint& origin,
+                       const graph::PlacementConfig& config, std::span<const NodeId> covariance_of) {
+  return graph::compute_placement(nodes_of(store), alignments_of(store), LocalFrame(origin), config,
+                                  covariance_of);
+}
+
+store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
+                          const store::MergeConfig& config) {
+  return merged_map(store, map_parts(nodes_of(store), placement).main.T_map_node, config);
+}
+
+}  // namespace fleetmap::output

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fleetmap/messages/mission_report.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+
+namespace fleetmap::planning {
+
+using messages::MissionReport;
+using messages::MissionState;
+using messages::RowSet;
+
+/// What one robot knows of the whole mission: from its own work and from the others' reports. Rows and robots
+/// are indices in the plan.
+class MissionBoard {
+ public:
+  MissionBoard(std::shared_ptr<const FleetPlan> plan, std::size_t self);
+
+  void begin(Stamp now) { begun_ = now; }
+  void hear(const MissionReport& report, Stamp now);
+  void set_own(const MissionReport& report) { own_ = report; }
+  void set_done(std::size_t row);
+  /// Rows along which the fleet's nodes lie.
+  void set_surveyed(const RowSet& rows);
+
+  std::size_t rows() const { return plan_->mission.rows.size(); }
+  std::size_t robots() const { return plan_->fleet.size(); }
+  /// A row counts as driven if this robot drove it, if the last report of the robot that the plan gives it to
+  /// says so, or if any report said so and nodes lie along it. So a forged report lasts until the next one of
+  /// that robot, and nobody repeats for good what it says.
+  const RowSet& done() const { return done_; }
+  /// Heard of lately (or not yet missed), and able to take rows.
+  bool available(std::size_t robot, Stamp now) const;
+  bool lost(std::size_t robot, Stamp now) const;
+  /// Available, but has no rows.
+  bool idle(std::size_t robot, Stamp now) const;
+  bool claims(std::size_t robot, std::size_t row) const;
+  bool under_way(std::size_t robot, std::size_t row) const;
+  bool failed(std::size_t robot, std::size_t row) const;
+  Eigen::Vector2d position(std::size_t robot) const;
+  MissionState state(std::size_t robot, Stamp now) const;
+
+  /// Another available robot's claim goes before ours.
+  bool outclaimed(std::size_t row, bool ours_under_way, Stamp now) const;
+  /// Two of those who are left gave it up, or the only one who is.
+  bool abandoned(std::size_t row, Stamp now) const;
+  /// No robot, this one included, can drive rows.
+  bool nobody_left(Stamp now) const;
+  /// Done or abandoned.
+  bool settled(std::size_t row, Stamp now) const { return done_.has(row) || abandoned(row, now); }
+  bool all_settled(Stamp now) const;
+  /// Not settled and claimed by nobody who is available, by us neither.
+  std::vector<std::size_t> orphans(Stamp now) const;
+  /// s that a robot still needs for what it claims, roughly.
+  double remaining(std::size_t robot) const;
+
+  /// Which robot takes each of the orphans, so that the fleet is done early.
+  std::vector<std::size_t> takers(const std::vector<std::size_t>& orphans, Stamp now) const;
+  /// The rows of `mine` that we had better give to idle robots; empty if that gains less than `gain` (s).
+  std::vector<std::size_t> to_give_away(const std::vector<std::size_t>& mine, double busy, const Pose2& pose,
+                                        double gain, Stamp now) const;
+
+ private:
+  struct Peer {
+    std::optional<MissionReport> last;
+    Stamp heard;
+  };
+  const MissionReport* report_of(std::size_t robot) const;
+  void settle_done();
+
+  std::shared_ptr<const FleetPlan> plan_;
+  std::size_t self_;
+  std::vector<RowSet> planned_;  ///< of each robot, from the start
+  std::vector<Peer> peers_;
+  MissionReport own_;
+  RowSet driven_;    ///< by this robot
+  RowSet reported_;  ///< by anyone, ever
+  RowSet surveyed_;
+  RowSet done_;
+  Stamp begun_;
+};
+
+}  // namespace fleetmap::planning

@@ -1,0 +1,284 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "fleetmap/bus/cdr.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "ros_time.hpp"
+#include "sensor_msgs.h"
+#include "type_names.hpp"
+
+namespace fleetmap::ros_codec {
+namespace {
+
+using sensor_msgs::msg::dds_::PointCloud2_;
+using sensor_msgs::msg::dds_::PointField_;
+
+enum Datatype : std::uint8_t { kInt8 = 1, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+constexpr std::array<std::size_t, 9> kSizes{0, 1, 1, 2, 2, 4, 4, 4, 8};
+
+constexpr std::uint32_t kMaxFields = 256;
+constexpr double kMaxScanSeconds = 10.0;     // point times further from the stamp are not relative to it
+constexpr double kNanosecondsBeyond = 1e12;  // a float time beyond this is in ns: 1e12 s is no date
+
+/// One field of every point, in its own type and byte order.
+struct Field {
+  std::size_t offset = 0;
+  std::uint8_t datatype = 0;
+  bool swap = false;
+
+  template <class T>
+  double load(const std::uint8_t* at) const {
+    std::array<std::uint8_t, sizeof(T)> raw;
+    std::memcpy(raw.data(), at + offset, sizeof(T));
+    if (swap) std::reverse(raw.begin(), raw.end());
+    return static_cast<double>(std::bit_cast<T>(raw));
+  }
+  double value(const std::uint8_t* point) const {
+    switch (datatype) {
+      case kInt8:
+        return load<std::int8_t>(point);
+      case kUint8:
+        return load<std::uint8_t>(point);
+      case kInt16:
+        return load<std::int16_t>(point);
+      case kUint16:
+        return load<std::uint16_t>(point);
+      case kInt32:
+        return load<std::int32_t>(point);
+      case kUint32:
+        return load<std::uint32_t>(point);
+      case kFloat32:
+        return load<float>(point);
+      default:
+        return load<double>(point);
+    }
+  }
+  bool is_float() const { return datatype == kFloat32 || datatype == kFloat64; }
+};
+
+struct Layout {
+  std::array<Field, 3> xyz;
+  std::optional<Field> intensity, ring, time;
+};
+
+tl::unexpected<Error> refused(const std::string& what) {
+  return failure(std::string(type_name::kPointCloud2) + ": " + what);
+}
+
+Status check_extent(const PointCloud2_& in) {
+  const std::uint64_t height = in.height(), width = in.width();
+  const std::uint64_t point_step = in.point_step(), row_step = in.row_step();
+  if (height == 0 || width == 0) return {};
+  if (point_step == 0) return refused("point_step is 0");
+  // Unorganised clouds of some drivers leave row_step at 0.
+  const std::uint64_t row_bytes = row_step == 0 && height == 1 ? width * point_step : row_step;
+  if (row_bytes < width * point_step) {
+    return refused("row_step " + std::to_string(row_step) + " is less than width " + std::to_string(width) +
+                   " x point_step " + std::to_string(point_step));
+  }
+  if (in.data().size() < (height - 1) * row_bytes + width * point_step) {
+    return refused("data has " + std::to_string(in.data().size()) + " bytes, too few for height " +
+                   std::to_string(height) + " x row_step " + std::to_string(row_bytes));
+  }
+  return {};
+}
+
+/// The field of one of the `names`, if its datatype is among `types`.
+template <std::size_t N, std::size_t M>
+std::optional<Field> find_field(const PointCloud2_& in, const std::array<const char*, N>& names,
+                                const std::array<Datatype, M>& types) {
+  for (const char* name : names) {
+    for (const PointField_& field : in.fields()) {
+      const bool wanted = field.name() == name && std::ranges::find(types, field.datatype()) != types.end();
+      if (!wanted || std::uint64_t{field.offset()} + kSizes[field.datatype()] > in.point_step()) continue;
+      const bool foreign = in.is_bigendian() != (std::endian::native == std::endian::big);
+      return Field{field.offset(), field.datatype(), foreign};
+    }
+  }
+  return std::nullopt;
+}
+
+Result<Layout> read_layout(const PointCloud2_& in) {
+  constexpr std::array kAny{kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64};
+  constexpr std::array kNames{"x", "y", "z"};
+  Layout layout;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto field = find_field(in, std::array{kNames[axis]}, std::array{kFloat32});
+    if (!field) {
+      std::string present;
+      for (const PointField_& f : in.fields())
+        present += (present.empty() ? "" : ", ") + f.name().substr(0, 32);
+      return refused(std::string("no field '") + kNames[axis] +
+                     "' of float32 within point_step; fields: " + present);
+    }
+    layout.xyz[axis] = *field;
+  }
+  layout.intensity = find_field(in, std::array{"intensity"}, kAny);
+  layout.ring = find_field(in, std::array{"ring", "channel"}, std::array{kUint8, kUint16, kUint32});
+  layout.time = find_field(in, std::array{"time", "t", "timestamp", "offset_time", "time_stamp"},
+                           std::array{kUint32, kFloat32, kFloat64});
+  return layout;
+}
+
+/// Point times as read, in the field's own unit, become seconds after the stamp.
+void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, DecodedScan& out) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double time : times) {
+    if (!std::isfinite(time)) return;  // no time at all is better than some that are not
+    least = std::min(least, time);
+    most = std::max(most, time);
+  }
+  const bool nanoseconds =
+      !field.is_float() || std::max(std::abs(least), std::abs(most)) > kNanosecondsBeyond;
+  const double unit = nanoseconds ? 1e-9 : 1.0;
+  double zero = 0.0;
+  if (times.size() > 1 && most == least) return;  // a driver that leaves the field at a constant
+  if (std::max(std::abs(least), std::abs(most)) * unit > kMaxScanSeconds) {
+    if (field.datatype == kFloat32) return;  // cannot resolve a scan in absolute time
+    // Absolute. The stamp in the field's unit has the field's own rounding, so the difference is exact
+    // enough.
+    const double start = nanoseconds ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp);
+    out.foreign_clock = (std::abs(least - start) * unit > kMaxScanSeconds);
+    zero = out.foreign_clock ? least : start;
+  }
+  if ((most - least) * unit > kMaxScanSeconds) return;  // not the time within one scan
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    out.scan.points[k].time = static_cast<float>((times[k] - zero) * unit);
+  }
+  out.scan.has_time = true;
+}
+
+void read_points(const PointCloud2_& in, const Layout& layout, DecodedScan& out) {
+  std::vector<double> times;
+  const std::size_t count = std::size_t{in.height()} * in.width();
+  out.scan.has_ring = layout.ring.has_value();
+  if (count == 0) return;  // billions of rows without a point would still be walked
+  out.scan.points.reserve(count);
+  if (layout.time) times.reserve(count);
+  for (std::uint32_t row = 0; row < in.height(); ++row) {
+    const std::uint8_t* at = in.data().data() + std::size_t{row} * in.row_step();
+    for (std::uint32_t column = 0; column < in.width(); ++column, at += in.point_step()) {
+      sensor::ScanPoint point;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        point.position[static_cast<int>(axis)] = static_cast<float>(layout.xyz[axis].value(at));
+      }
+      if (!point.position.allFinite()) {
+        ++out.non_finite_points;
+        continue;
+      }
+      if (point.position.isZero(0.0f)) {
+        ++out.origin_points;
+        continue;
+      }
+      if (layout.intensity) point.intensity = static_cast<float>(layout.intensity->value(at));
+      if (layout.ring) point.ring = static_cast<std::uint16_t>(std::min(layout.ring->value(at), 65535.0));
+      if (layout.time) times.push_back(layout.time->value(at));
+      out.scan.points.push_back(point);
+    }
+  }
+  if (layout.time && !times.empty()) resolve_times(times, *layout.time, out.scan.stamp, out);
+}
+
+/// Refuses an absurd number of fields before they are allocated.
+void look_at_fields(eprosima::fastcdr::Cdr& cdr) {
+  std_msgs::msg::dds_::Header_ header;
+  std::uint32_t height = 0, width = 0, fields = 0;
+  header.deserialize(cdr);
+  cdr >> height >> width >> fields;
+  if (fields > kMaxFields) throw std::length_error(std::to_string(fields) + " point fields");
+}
+
+void add_field(PointCloud2_& out, const char* name, std::uint32_t offset, Datatype datatype) {
+  PointField_ field;
+  field.name(name);
+  field.offset(offset);
+  field.datatype(datatype);
+  field.count(1);
+  out.fields().push_back(field);
+}
+
+}  // namespace
+
+Bytes encode(const sensor::Scan& scan, std::string_view frame_id) {
+  PointCloud2_ out;
+  out.header().stamp(to_ros(scan.stamp));
+  out.header().frame_id(std::string(frame_id));
+  std::uint32_t step = 0;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    add_field(out, name, step, kFloat32);
+    step += 4;
+  }
+  const std::uint32_t time_offset = step;
+  if (scan.has_time) {
+    add_field(out, "time", step, kFloat32);
+    step += 4;
+  }
+  const std::uint32_t ring_offset = step;
+  if (scan.has_ring) {
+    add_field(out, "ring", step, kUint16);
+    step += 2;
+  }
+  out.height(1);
+  out.width(static_cast<std::uint32_t>(scan.points.size()));
+  out.point_step(step);
+  out.row_step(static_cast<std::uint32_t>(step * scan.points.size()));
+  out.is_bigendian(std::endian::native == std::endian::big);
+  out.is_dense(true);
+  out.data().resize(step * scan.points.size());
+  std::uint8_t* at = out.data().data();
+  for (const sensor::ScanPoint& point : scan.points) {
+    std::memcpy(at, point.position.data(), 12);
+    std::memcpy(at + 12, &point.intensity, 4);
+    if (scan.has_time) std::memcpy(at + time_offset, &point.time, 4);
+    if (scan.has_ring) std::memcpy(at + ring_offset, &point.ring, 2);
+    at += step;
+  }
+  return bus::to_cdr(out);
+}
+
+Result<Stamp> stamp_of_scan(ByteView cdr) {
+  constexpr std::size_t kStampBytes = 8;  // first in the header: int32 s, uint32 ns
+  if (auto status = bus::check_encapsulation(cdr, type_name::kPointCloud2); !status)
+    return tl::unexpected(status.error());
+  if (cdr.size() < bus::kEncapsulationBytes + kStampBytes)
+    return failure(std::string(type_name::kPointCloud2) + ": ends within its header");
+  const bool little_endian = cdr[1] == 1;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k) value = (value << 8) | cdr[at + (little_endian ? 3 - k : k)];
+    return value;
+  };
+  builtin_interfaces::msg::dds_::Time_ time;
+  time.sec(static_cast<std::int32_t>(number(bus::kEncapsulationBytes)));
+  time.nanosec(number(bus::kEncapsulationBytes + 4));
+  return from_ros(time, type_name::kPointCloud2);
+}
+
+Result<DecodedScan> decode_scan(ByteView cdr) {
+  const auto in = bus::from_cdr<PointCloud2_>(cdr, type_name::kPointCloud2, look_at_fields);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kPointCloud2);
+  if (!stamp) return tl::unexpected(stamp.error());
+  if (auto extent = check_extent(*in); !extent) return tl::unexpected(extent.error());
+  const auto layout = read_layout(*in);
+  if (!layout) return tl::unexpected(layout.error());
+  DecodedScan out;
+  out.scan.stamp = *stamp;
+  read_points(*in, *layout, out);
+  return out;
+}
+
+template <>
+Result<sensor::Scan> decode(ByteView cdr) {
+  auto decoded = decode_scan(cdr);
+  if (!decoded) return tl::unexpected(decoded.error());
+  return std::move(decoded->scan);
+}
+
+}  // namespace fleetmap::ros_codec

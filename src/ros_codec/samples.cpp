@@ -1,0 +1,229 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fleetmap/bus/cdr.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "nav_msgs.h"
+#include "ros_time.hpp"
+#include "sensor_msgs.h"
+#include "type_names.hpp"
+
+namespace fleetmap::ros_codec {
+namespace {
+
+namespace geometry = geometry_msgs::msg::dds_;
+namespace sensors = sensor_msgs::msg::dds_;
+using nav_msgs::msg::dds_::Odometry_;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kYawRateVariance = 35;
+constexpr std::int8_t kNoFix = -1;
+enum CovarianceType : std::uint8_t { kUnknown = 0, kKnown = 3 };
+
+geometry::Vector3_ to_ros(const Eigen::Vector3d& v) {
+  geometry::Vector3_ out;
+  out.x(v.x());
+  out.y(v.y());
+  out.z(v.z());
+  return out;
+}
+geometry::Quaternion_ to_ros(const Eigen::Quaterniond& q) {
+  geometry::Quaternion_ out;
+  out.x(q.x());
+  out.y(q.y());
+  out.z(q.z());
+  out.w(q.w());
+  return out;
+}
+Eigen::Vector3d from_ros(const geometry::Vector3_& v) { return {v.x(), v.y(), v.z()}; }
+Eigen::Quaterniond from_ros(const geometry::Quaternion_& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+/// Unit, or close enough that rounding explains the rest.
+bool is_rotation(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= 1e-2; }
+
+tl::unexpected<Error> refused(const char* type, const char* what) {
+  return failure(std::string(type) + ": " + what);
+}
+
+}  // namespace
+
+Bytes encode(const sensor::Imu& imu, std::string_view frame_id) {
+  sensors::Imu_ out;
+  out.header().stamp(to_ros(imu.stamp));
+  out.header().frame_id(std::string(frame_id));
+  out.orientation(to_ros(imu.q_enu_imu.value_or(Eigen::Quaterniond::Identity())));
+  std::array<double, 9> covariance{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    covariance[4 * axis] = imu.orientation_variance[static_cast<int>(axis)];
+  if (!imu.q_enu_imu) covariance = {-1.0};
+  out.orientation_covariance(covariance);
+  out.angular_velocity(to_ros(imu.angular_velocity));
+  out.linear_acceleration(to_ros(imu.specific_force));
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<sensor::Imu> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<sensors::Imu_>(cdr, type_name::kImu);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kImu);
+  if (!stamp) return tl::unexpected(stamp.error());
+  sensor::Imu imu;
+  imu.stamp = *stamp;
+  imu.angular_velocity = from_ros(in->angular_velocity());
+  imu.specific_force = from_ros(in->linear_acceleration());
+  if (!imu.angular_velocity.allFinite()) return refused(type_name::kImu, "angular_velocity is not finite");
+  if (!imu.specific_force.allFinite()) return refused(type_name::kImu, "linear_acceleration is not finite");
+  const Eigen::Quaterniond q = from_ros(in->orientation());
+  const auto& covariance = in->orientation_covariance();
+  if (covariance[0] != -1.0 && is_rotation(q)) {
+    imu.q_enu_imu = q.normalized();
+    const Eigen::Vector3d variance(covariance[0], covariance[4], covariance[8]);
+    if (variance.allFinite()) imu.orientation_variance = variance.cwiseMax(0.0);
+  }
+  return imu;
+}
+
+Bytes encode(const sensor::Fix& fix, std::string_view frame_id) {
+  sensors::NavSatFix_ out;
+  out.header().stamp(to_ros(fix.stamp));
+  out.header().frame_id(std::string(frame_id));
+  out.status().status(fix.valid ? 0 : kNoFix);
+  out.status().service(1);
+  out.latitude(fix.position.latitude / kDegree);
+  out.longitude(fix.position.longitude / kDegree);
+  out.altitude(fix.position.altitude);
+  std::array<double, 9> covariance{};
+  for (std::size_t k = 0; k < 9; ++k) {
+    covariance[k] = fix.covariance(static_cast<int>(k) / 3, static_cast<int>(k) % 3);
+  }
+  out.position_covariance(covariance);
+  out.position_covariance_type(fix.covariance.isZero(0.0) ? kUnknown : kKnown);
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<sensor::Fix> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<sensors::NavSatFix_>(cdr, type_name::kNavSatFix);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kNavSatFix);
+  if (!stamp) return tl::unexpected(stamp.error());
+  sensor::Fix fix;
+  fix.stamp = *stamp;
+  fix.position = geo_point_from_degrees(in->latitude(), in->longitude(), in->altitude());
+  fix.valid = in->status().status() > kNoFix && is_valid(fix.position);
+  if (in->position_covariance_type() != kUnknown) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      fix.covariance(static_cast<int>(k) / 3, static_cast<int>(k) % 3) = in->position_covariance()[k];
+    }
+  }
+  return fix;
+}
+
+Bytes encode(const sensor::Wheel& wheel) {
+  Odometry_ out;
+  out.header().stamp(to_ros(wheel.stamp));
+  out.header().frame_id("odom");
+  out.child_frame_id("base_link");
+  out.pose().pose().orientation(to_ros(Eigen::Quaterniond::Identity()));
+  out.twist().twist().linear().x(wheel.forward_speed);
+  out.twist().twist().angular().z(wheel.yaw_rate.value_or(0.0));
+  if (!wheel.yaw_rate) out.twist().covariance()[kYawRateVariance] = -1.0;
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<sensor::Wheel> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<Odometry_>(cdr, type_name::kOdometry);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kOdometry);
+  if (!stamp) return tl::unexpected(stamp.error());
+  sensor::Wheel wheel;
+  wheel.stamp = *stamp;
+  wheel.forward_speed = in->twist().twist().linear().x();
+  if (!std::isfinite(wheel.forward_speed))
+    return refused(type_name::kOdometry, "twist.linear.x is not finite");
+  const double yaw_rate = in->twist().twist().angular().z();
+  if (std::isfinite(yaw_rate) && in->twist().covariance()[kYawRateVariance] >= 0.0) wheel.yaw_rate = yaw_rate;
+  return wheel;
+}
+
+Bytes encode(const OdometryMsg& odometry) {
+  Odometry_ out;
+  out.header().stamp(to_ros(odometry.stamp));
+  out.header().frame_id("odom");
+  out.child_frame_id("base_link");
+  const Eigen::Vector3d t = odometry.T_odom_base.translation();
+  out.pose().pose().position().x(t.x());
+  out.pose().pose().position().y(t.y());
+  out.pose().pose().position().z(t.z());
+  out.pose().pose().orientation(to_ros(Eigen::Quaterniond(odometry.T_odom_base.linear())));
+  for (std::size_t k = 0; k < 36; ++k) {
+    out.pose().covariance()[k] = odometry.covariance(static_cast<int>(k) / 6, static_cast<int>(k) % 6);
+  }
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<OdometryMsg> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<Odometry_>(cdr, type_name::kOdometry);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kOdometry);
+  if (!stamp) return tl::unexpected(stamp.error());
+  const auto& position = in->pose().pose().position();
+  const Eigen::Quaterniond q = from_ros(in->pose().pose().orientation());
+  const Eigen::Vector3d t(position.x(), position.y(), position.z());
+  if (!t.allFinite()) return refused(type_name::kOdometry, "pose.position is not finite");
+  if (!is_rotation(q)) return refused(type_name::kOdometry, "pose.orientation is not a unit quaternion");
+  OdometryMsg odometry{*stamp, make_pose(q, t), Matrix6d::Zero()};
+  for (std::size_t k = 0; k < 36; ++k) {
+    odometry.covariance(static_cast<int>(k) / 6, static_cast<int>(k) % 6) = in->pose().covariance()[k];
+  }
+  if (!odometry.covariance.allFinite()) return refused(type_name::kOdometry, "pose.covariance is not finite");
+  return odometry;
+}
+
+Bytes encode(const VelocityCommand& command) {
+  geometry::Twist_ out;
+  out.linear().x(command.forward_speed);
+  out.angular().z(command.yaw_rate);
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<VelocityCommand> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<geometry::Twist_>(cdr, type_name::kTwist);
+  if (!in) return tl::unexpected(in.error());
+  const VelocityCommand command{in->linear().x(), in->angular().z()};
+  if (!std::isfinite(command.forward_speed) || !std::isfinite(command.yaw_rate)) {
+    return refused(type_name::kTwist, "linear.x or angular.z is not finite");
+  }
+  return command;
+}
+
+Bytes encode(const sensor::Battery& battery) {
+  constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
+  sensors::BatteryState_ out;
+  out.header().stamp(to_ros(battery.stamp));
+  for (auto* value : {&out.voltage(), &out.temperature(), &out.current(), &out.charge(), &out.capacity(),
+                      &out.design_capacity()})
+    *value = kUnknownValue;
+  out.percentage(static_cast<float>(battery.share));
+  out.present(true);
+  return bus::to_cdr(out);
+}
+
+template <>
+Result<sensor::Battery> decode(ByteView cdr) {
+  const auto in = bus::from_cdr<sensors::BatteryState_>(cdr, type_name::kBatteryState);
+  if (!in) return tl::unexpected(in.error());
+  const auto stamp = from_ros(in->header().stamp(), type_name::kBatteryState);
+  if (!stamp) return tl::unexpected(stamp.error());
+  const double share = static_cast<double>(in->percentage());
+  if (!(share >= 0.0 && share <= 1.0))
+    return refused(type_name::kBatteryState, "percentage is not in [0, 1]");
+  return sensor::Battery{*stamp, share};
+}
+
+}  // namespace fleetmap::ros_codec

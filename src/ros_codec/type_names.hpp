@@ -1,0 +1,13 @@
+#pragma once
+
+/// Names of ROS 2's types as DDS announces them.
+namespace fleetmap::ros_codec::type_name {
+
+inline constexpr char kPointCloud2[] = "sensor_msgs::msg::dds_::PointCloud2_";
+inline constexpr char kImu[] = "sensor_msgs::msg::dds_::Imu_";
+inline constexpr char kNavSatFix[] = "sensor_msgs::msg::dds_::NavSatFix_";
+inline constexpr char kOdometry[] = "nav_msgs::msg::dds_::Odometry_";
+inline constexpr char kBatteryState[] = "sensor_msgs::msg::dds_::BatteryState_";
+inline constexpr char kTwist[] = "geometry_msgs::msg::dds_::Twist_";
+
+}  // namespace fleetmap::ros_codec::type_name

@@ -1,0 +1,52 @@
+#include "fleetmap/agent/event_log.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/captured_log.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+using bus::testing::CapturedLog;
+using ::testing::HasSubstr;
+
+const AgentId kR1 = AgentId::parse("r1").value();
+const AgentId kR2 = AgentId::parse("r2").value();
+const AgentId kR3 = AgentId::parse("r3").value();
+
+std::string logged(const exchange::Event& event) {
+  const CapturedLog log;
+  log_event(kR1, event);
+  return log.text();
+}
+
+TEST(EventLog, AConflictNamesTheItemTheLinkAndWhoHandedItOver) {
+  exchange::ItemConflict conflict{{kR2, 9}, true, messages::Reach::kShortRange, false, kR3};
+  std::string text = logged(conflict);
+  EXPECT_THAT(text, HasSubstr("error"));
+  EXPECT_THAT(text, HasSubstr("another alignment came over the Wi-Fi from r3 under the name r2"));
+  EXPECT_THAT(text, HasSubstr("forged"));
+  conflict = {{kR1, 9}, false, messages::Reach::kLongRange, true, std::nullopt};
+  text = logged(conflict);
+  EXPECT_THAT(text, HasSubstr("another node came over the radio under the name r1"));
+  EXPECT_THAT(text, HasSubstr("the own one is told under another name"));
+  EXPECT_THAT(text, HasSubstr("revoke r1"));
+}
+
+TEST(EventLog, AnItemOfAnUnknownMakerIsAWarningAndAForgedOneAnError) {
+  exchange::ItemRefused refused{{kR2, 9}, false, exchange::ItemProof::kUnknownMaker};
+  EXPECT_THAT(logged(refused), HasSubstr("warning"));
+  EXPECT_THAT(logged(refused), HasSubstr("until the certificate of r2 comes"));
+  refused.proof = exchange::ItemProof::kUnsigned;
+  EXPECT_THAT(logged(refused), HasSubstr("error"));
+  EXPECT_THAT(logged(refused), HasSubstr("compromised"));
+}
+
+TEST(EventLog, WhatTheAgentHandlesItselfIsNotLoggedHere) {
+  EXPECT_EQ(logged(exchange::SessionTaken{kR2}), "");
+  EXPECT_EQ(logged(exchange::CloudNeeded{{kR1, 1}, kR2}), "");
+}
+
+}  // namespace
+}  // namespace fleetmap::agent

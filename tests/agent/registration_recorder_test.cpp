@@ -1,0 +1,67 @@
+#include "fleetmap/agent/registration_recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+const AgentId kSelf = AgentId::parse("r1").value();
+
+loop_closure::Registration accepted() {
+  loop_closure::Registration one;
+  one.target.id = {kSelf, 3};
+  one.source.id = {AgentId::parse("r2").value(), 7};
+  one.cpu_seconds = 1.5;
+  registration::RegistrationResult result;
+  result.verdict = registration::Verdict::accepted;
+  result.rmse = 0.05;
+  result.inlier_fraction = 0.75;
+  result.overlap = 0.5;
+  one.result = result;
+  one.input = {one.target.id, one.source.id, "correlation", Bytes(30, 1), Bytes(40, 2), {}};
+  return one;
+}
+
+loop_closure::Registration failed() {
+  loop_closure::Registration one = accepted();
+  one.result = failure("no points");
+  one.input = {};
+  return one;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
+  const testing::TemporaryFolder folder;
+  RegistrationRecorder recorder(kSelf, folder.path());
+  recorder.add(accepted());
+  recorder.add(failed());
+  const std::string text = text_of(folder.path() / "registrations.csv");
+  EXPECT_NE(text.find(",accepted,0.05,0.75,0.5,1.5,\"\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(",failed,,,,1.5,\"no points\"\n"), std::string::npos) << text;
+  const auto log = store::RegistrationLog::open_read_only(folder.path() / store::kRegistrationLogFile);
+  ASSERT_TRUE(log) << log.error().message;
+  const auto kept = log->read();
+  ASSERT_TRUE(kept) << kept.error().message;
+  ASSERT_EQ(kept->size(), 1u);
+  EXPECT_EQ(kept->front().source, accepted().source.id);
+}
+
+TEST(RegistrationRecorder, GoesOnWithoutCloudsWhereTheirFileIsNone) {
+  const testing::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / store::kRegistrationLogFile);
+  RegistrationRecorder recorder(kSelf, folder.path());
+  recorder.add(accepted());
+  EXPECT_NE(text_of(folder.path() / "registrations.csv").find(",accepted,"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fleetmap::agent

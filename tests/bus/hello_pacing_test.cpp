@@ -1,0 +1,68 @@
+#include "bus/dds/hello_pacing.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fleetmap::bus {
+namespace {
+
+using std::chrono::seconds;
+
+double s(HelloPacing::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+const HelloPacing::Clock::time_point kStart = HelloPacing::Clock::time_point(std::chrono::hours(1));
+
+TEST(HelloPacing, HellosOfAFleetKeepToTheirPartOfTheRate) {
+  for (const bool keys : {false, true}) {
+    for (const double others : {1.0, 3.0, 19.0}) {
+      const HelloPacing pacing({145e3, keys, false});
+      const double bits = keys ? 8.0 * 345.0 * 1.5 : 8.0 * 260.0;
+      // All robots together send one Hello in each pause of one of them, divided by their number.
+      const double rate = (others + 1.0) * bits / s(pacing.pause_between(others, kStart));
+      EXPECT_NEAR(rate / 145e3, 0.93, 1e-6);
+      const double spread = s(pacing.spread(others));
+      EXPECT_LE(spread, 6.0);
+      if (spread < 6.0) {
+        EXPECT_NEAR(others * (others + 1.0) * bits / spread / 145e3, 0.43, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(HelloPacing, ARepetitionWaitsForTheAnswersOfAFleetThatStarts) {
+  const HelloPacing plain({145e3, false, false}), observer({145e3, false, true});
+  EXPECT_GT(plain.first_pause(19.0), plain.first_pause(3.0));
+  EXPECT_NEAR(s(plain.first_pause(0.0)), 0.5, 1e-9);
+  EXPECT_NEAR(s(observer.first_pause(19.0)), 0.5, 1e-9);
+  EXPECT_EQ(s(observer.spread(19.0)), 0.0);
+}
+
+TEST(HelloPacing, PausesDoubleUpToTheLeastOfAnnouncementAndASecondForEachRobot) {
+  const HelloPacing pacing({145e3, false, false});
+  EXPECT_EQ(pacing.longer_pause(seconds(1), 19.0, seconds(100)), seconds(2));
+  EXPECT_EQ(pacing.longer_pause(seconds(20), 19.0, seconds(100)), seconds(21));
+  EXPECT_EQ(pacing.longer_pause(seconds(20), 19.0, seconds(10)), seconds(10));
+}
+
+TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
+  HelloPacing pacing({145e3, false, false});
+  const auto alone = pacing.pause_between(5.0, kStart);
+  for (int answer = 0; answer < 3; ++answer) EXPECT_FALSE(pacing.count_answer(true, false, kStart));
+  EXPECT_TRUE(pacing.count_answer(true, false, kStart));
+  EXPECT_FALSE(pacing.count_answer(true, false, kStart)) << "reported once";
+  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kStart)), s(alone), 1e-8);
+  EXPECT_EQ(pacing.pause_after(0, seconds(5), kStart), seconds(1));
+  EXPECT_EQ(pacing.pause_after(HelloPacing::kQuickHellos, seconds(5), kStart), seconds(5));
+  pacing.count_answer(false, false, kStart);  // another newcomer
+  EXPECT_FALSE(pacing.fleet_is_connected(kStart + seconds(10)));
+  EXPECT_TRUE(pacing.fleet_is_connected(kStart + seconds(11)));
+}
+
+TEST(HelloPacing, HellosForTheRobotBeforeUsAreNoNewcomers) {
+  HelloPacing pacing({145e3, false, false});
+  for (int answer = 0; answer < 4; ++answer) pacing.count_answer(true, false, kStart);
+  pacing.count_answer(false, true, kStart);
+  EXPECT_TRUE(pacing.fleet_is_connected(kStart));
+}
+
+}  // namespace
+}  // namespace fleetmap::bus

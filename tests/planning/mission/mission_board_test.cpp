@@ -1,0 +1,149 @@
+#include "mission/mission_board.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "planning/sites.hpp"
+
+namespace fleetmap::planning {
+namespace {
+
+Stamp at(double seconds) { return Stamp{} + from_seconds(seconds); }
+
+std::shared_ptr<const FleetPlan> plan_for(int robots) {
+  testing::SiteSpec spec;
+  spec.width = spec.depth = 80.0;
+  MissionConfig config;
+  config.division.search_rounds = 10;
+  auto plan = plan_fleet(testing::site(spec), testing::fleet(robots), config);
+  EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
+  return *plan;
+}
+
+class MissionBoardTest : public ::testing::Test {
+ protected:
+  MissionBoardTest() { board_.begin(at(0.0)); }
+
+  std::size_t rows() const { return plan_->mission.rows.size(); }
+  /// A row that the plan gives to `robot`.
+  std::size_t row_of(std::size_t robot, std::size_t k = 0) const {
+    const RowId id = plan_->division.routes[robot].visits.at(k).row;
+    return static_cast<std::size_t>(std::ranges::find(plan_->mission.rows, id, &Row::id) -
+                                    plan_->mission.rows.begin());
+  }
+  MissionReport report(std::size_t robot, double stamp) const {
+    MissionReport report;
+    report.from = plan_->fleet[robot].id;
+    report.stamp = at(stamp);
+    report.position = plan_->fleet[robot].start.position;
+    report.done = report.claimed = report.failed = RowSet(rows());
+    return report;
+  }
+
+  std::shared_ptr<const FleetPlan> plan_ = plan_for(3);
+  MissionBoard board_{plan_, 1};
+};
+
+TEST_F(MissionBoardTest, ARobotIsBelievedOfItsOwnRows) {
+  MissionReport mine = report(0, 1.0);
+  mine.done.set(row_of(0));
+  board_.hear(mine, at(1.0));
+  EXPECT_TRUE(board_.done().has(row_of(0)));
+  // A later report that takes it back is believed, too.
+  board_.hear(report(0, 2.0), at(2.0));
+  EXPECT_FALSE(board_.done().has(row_of(0)));
+}
+
+TEST_F(MissionBoardTest, HearsayCountsOnlyWhereNodesLie) {
+  MissionReport hearsay = report(0, 1.0);
+  hearsay.done.set(row_of(2));
+  board_.hear(hearsay, at(1.0));
+  EXPECT_FALSE(board_.done().has(row_of(2)));
+  RowSet surveyed(rows());
+  surveyed.set(row_of(2));
+  board_.set_surveyed(surveyed);
+  EXPECT_TRUE(board_.done().has(row_of(2)));
+}
+
+TEST_F(MissionBoardTest, ReportsThatAreOwnUnknownOldOrBrokenAreIgnored) {
+  MissionReport broken = report(0, 1.0);
+  broken.position.x() = std::nan("");
+  MissionReport own = report(1, 1.0);
+  MissionReport unknown = report(0, 1.0);
+  unknown.from = testing::name(9);
+  for (MissionReport* one : {&broken, &own, &unknown}) {
+    for (std::size_t row = 0; row < rows(); ++row) one->done.set(row);
+    board_.hear(*one, at(1.0));
+  }
+  EXPECT_TRUE(board_.done().none());
+  board_.hear(report(0, 5.0), at(5.0));
+  MissionReport old = report(0, 4.0);
+  old.done.set(row_of(0));
+  board_.hear(old, at(6.0));
+  EXPECT_FALSE(board_.done().has(row_of(0)));
+}
+
+TEST_F(MissionBoardTest, ARobotWithoutReportsIsLostAndItsRowsAreOrphans) {
+  EXPECT_FALSE(board_.lost(0, at(59.0)));
+  EXPECT_TRUE(board_.orphans(at(59.0)).empty());
+  EXPECT_TRUE(board_.lost(0, at(61.0)));
+  EXPECT_EQ(board_.state(0, at(61.0)), MissionState::kLost);
+  const auto orphans = board_.orphans(at(61.0));
+  EXPECT_TRUE(std::ranges::binary_search(orphans, row_of(0)));
+  EXPECT_TRUE(std::ranges::binary_search(orphans, row_of(2)));
+  EXPECT_FALSE(std::ranges::binary_search(orphans, row_of(1)));
+  board_.hear(report(0, 61.0), at(61.0));
+  EXPECT_FALSE(board_.lost(0, at(120.0)));
+}
+
+TEST_F(MissionBoardTest, OfTwoClaimsTheOneUnderWayAndThenTheLowerNameGoesFirst) {
+  const std::size_t row = row_of(1);
+  const auto claim = [&](std::size_t robot, bool under_way, double stamp) {
+    MissionReport report = this->report(robot, stamp);
+    report.claimed.set(row);
+    if (under_way) report.current = static_cast<std::uint32_t>(row);
+    board_.hear(report, at(stamp));
+  };
+  claim(2, false, 1.0);  // a higher name
+  EXPECT_FALSE(board_.outclaimed(row, false, at(1.0)));
+  claim(2, true, 2.0);
+  EXPECT_TRUE(board_.outclaimed(row, false, at(2.0)));
+  EXPECT_FALSE(board_.outclaimed(row, true, at(2.0)));
+  claim(2, false, 3.0);
+  claim(0, false, 3.0);  // a lower name
+  EXPECT_TRUE(board_.outclaimed(row, false, at(3.0)));
+  EXPECT_FALSE(board_.outclaimed(row, true, at(3.0)));
+}
+
+TEST_F(MissionBoardTest, ARowThatTwoGaveUpIsAbandoned) {
+  const std::size_t row = row_of(0);
+  for (const std::size_t robot : {0u, 2u}) {
+    EXPECT_FALSE(board_.abandoned(row, at(1.0)));
+    MissionReport failed = report(robot, 1.0);
+    failed.failed.set(row);
+    board_.hear(failed, at(1.0));
+  }
+  EXPECT_TRUE(board_.abandoned(row, at(1.0)));
+  EXPECT_TRUE(board_.settled(row, at(1.0)));
+  EXPECT_FALSE(board_.all_settled(at(1.0)));
+  // Once both are lost their word does not hold this robot back.
+  EXPECT_FALSE(board_.abandoned(row, at(100.0)));
+}
+
+TEST_F(MissionBoardTest, OrphansAreDividedAmongThoseWhoAreLeft) {
+  board_.hear(report(0, 60.0), at(60.0));
+  MissionReport own = report(1, 60.0);
+  board_.set_own(own);
+  const Stamp now = at(61.0);
+  const auto orphans = board_.orphans(now);
+  ASSERT_FALSE(orphans.empty());
+  const auto takers = board_.takers(orphans, now);
+  ASSERT_EQ(takers.size(), orphans.size());
+  for (const std::size_t taker : takers) EXPECT_TRUE(taker == 0 || taker == 1) << taker;
+  EXPECT_GT(std::ranges::count(takers, 0u), 0);
+  EXPECT_GT(std::ranges::count(takers, 1u), 0);
+}
+
+}  // namespace
+}  // namespace fleetmap::planning

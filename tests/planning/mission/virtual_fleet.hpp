@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "fleetmap/planning/mission/mission_executive.hpp"
+#include "fleetmap/planning/mission/row_coverage.hpp"
+#include "planning/mission/map_radio.hpp"
+
+namespace fleetmap::planning::testing {
+
+/// Executives on robots that drive their paths exactly, with reports that get lost. One step is a second.
+class VirtualFleet {
+ public:
+  struct Robot {
+    std::unique_ptr<MissionExecutive> executive;  ///< none: killed, or not yet started
+    Pose2 pose;
+    double speed = 1.5;
+    double battery = 1.0;
+    double drain = 0.0;  ///< share a second
+    MissionAction action;
+    double along = 0.0;     ///< m of action.path
+    double standing = 0.0;  ///< s without getting on
+    bool exchanged = false;
+    double driven = 0.0;  ///< m
+    MissionState state = MissionState::kDriving;
+  };
+  struct Obstacle {
+    Eigen::Vector2d at;
+    double radius;
+  };
+
+  VirtualFleet(std::shared_ptr<const FleetPlan> shared, double loss, std::uint64_t seed);
+  void start(std::size_t k);
+  void kill(std::size_t k) { robots[k].executive.reset(); }
+
+  std::shared_ptr<const FleetPlan> plan;
+  std::vector<Robot> robots;
+  std::vector<Obstacle> obstacles;
+  std::function<bool(std::size_t, double)> silent = [](std::size_t, double) { return false; };
+  /// Without it, all maps are exchanged as soon as all wait at the meeting.
+  std::optional<MapRadio> radio;
+  double now = 0.0;
+
+  Stamp stamp() const;
+
+  void step();
+  /// s until all living robots are done, or `limit`.
+  double run(
+      double limit, const std::function<void()>& each = [] {});
+  /// Rows whose every metre some robot drove.
+  std::size_t rows_driven() const;
+
+ private:
+  void move(Robot& robot);
+  static Eigen::Vector2d point(const Polyline& path, double along);
+  void mark(const Eigen::Vector2d& p);
+  void report();
+  /// Maps flow when all who are alive and can move wait at the meeting.
+  void exchange();
+  void exchange_by_radio();
+
+  double loss_;
+  std::mt19937_64 random_;
+  std::map<RowId, std::set<int>> visited_;
+  RowCoverage coverage_;  ///< by the nodes of all, which every robot gets
+};
+
+}  // namespace fleetmap::planning::testing

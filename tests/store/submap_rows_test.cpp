@@ -1,0 +1,100 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include "fleetmap/store/store.hpp"
+#include "store/items.hpp"
+
+namespace fleetmap::store {
+namespace {
+
+using testing::agent;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::make_node;
+using testing::random_bytes;
+using testing::ScratchFolder;
+
+const AgentId kSelf = agent("r1");
+const AgentId kPeer = agent("r2");
+
+void run_sql(const std::filesystem::path& path, const char* sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+TEST(SubmapRows, keeps_the_chunks_of_a_download_over_a_restart) {
+  const ScratchFolder folder;
+  const Bytes submap = random_bytes(3 * Store::kChunkBytes + 5, 1);
+  const NodeId id{kPeer, 0};
+  const auto chunk = [&](std::uint32_t index) {
+    const ByteView all(submap);
+    const std::size_t offset = index * Store::kChunkBytes;
+    return all.subspan(offset, std::min<std::size_t>(Store::kChunkBytes, all.size() - offset));
+  };
+  {
+    auto store = Store::open(folder / "store.db", kSelf).value();
+    ASSERT_EQ(store.put_node(make_node(kPeer, 0, submap)).value(), Put::kAdded);
+    EXPECT_EQ(store.missing_chunks(id), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(store.put_submap_chunk(id, 3, chunk(3)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_submap_chunk(id, 1, chunk(1)).value(), Put::kAdded);
+    EXPECT_EQ(store.put_submap_chunk(id, 1, chunk(1)).value(), Put::kKnown);
+    EXPECT_EQ(store.put_submap_chunk(id, 4, chunk(3)).value(), Put::kInvalid);
+    EXPECT_EQ(store.put_submap_chunk(id, 0, chunk(3)).value(), Put::kInvalid);
+    EXPECT_FALSE(store.has_submap(id));
+  }
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  EXPECT_EQ(store.partial_submaps(), std::vector<NodeId>{id});
+  EXPECT_EQ(store.missing_chunks(id), (std::vector<std::uint32_t>{0, 2}));
+  ASSERT_EQ(store.put_submap_chunk(id, 0, chunk(0)).value(), Put::kAdded);
+  EXPECT_EQ(store.put_submap_chunk(id, 2, chunk(2)).value(), Put::kAdded);
+  EXPECT_TRUE(store.has_submap(id));
+  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_EQ(store.submap_part(id, Store::kChunkBytes, 10).value(),
+            Bytes(&submap[Store::kChunkBytes], &submap[Store::kChunkBytes + 10]));
+  EXPECT_TRUE(store.partial_submaps().empty());
+}
+
+TEST(SubmapRows, drops_a_download_with_the_wrong_content) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  const Bytes submap = random_bytes(Store::kChunkBytes + 7, 1);
+  const NodeId id{kPeer, 0};
+  ASSERT_EQ(store.put_node(make_node(kPeer, 0, submap)).value(), Put::kAdded);
+  ASSERT_EQ(store.put_submap_chunk(id, 0, random_bytes(Store::kChunkBytes, 9)).value(), Put::kAdded);
+  EXPECT_EQ(store.put_submap_chunk(id, 1, ByteView(submap).subspan(Store::kChunkBytes)).value(),
+            Put::kInvalid);
+  EXPECT_EQ(store.stats().bad_submaps, 1u);
+  EXPECT_EQ(store.missing_chunks(id).size(), 2u);
+  EXPECT_EQ(store.put_submap(id, submap).value(), Put::kAdded);
+  EXPECT_EQ(store.submap(id).value(), submap);
+}
+
+TEST(SubmapRows, drops_a_submap_that_the_disk_damaged) {
+  const ScratchFolder folder;
+  const auto path = folder / "store.db";
+  const Bytes submap = random_bytes(5000, 1);
+  {
+    auto store = Store::open(path, kSelf).value();
+    ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, submap), submap).value(), Put::kAdded);
+  }
+  const char* damage = "UPDATE submap SET bytes = zeroblob(5000)";
+  run_sql(path, damage);
+  auto store = Store::open(path, kSelf).value();
+  EXPECT_THAT(store.damage(), ElementsAre(HasSubstr("the submap of node r1/0 is damaged")));
+  EXPECT_FALSE(store.has_submap({kSelf, 0})) << "nobody need read it to find out";
+  // While it runs.
+  ASSERT_EQ(store.put_submap({kSelf, 0}, submap).value(), Put::kAdded);
+  run_sql(path, damage);
+  const auto read = store.submap({kSelf, 0});
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("damaged"));
+  EXPECT_FALSE(store.has_submap({kSelf, 0}));
+  EXPECT_EQ(store.missing_chunks({kSelf, 0}).size(), 1u);
+  EXPECT_EQ(store.put_submap({kSelf, 0}, submap).value(), Put::kAdded);
+}
+
+}  // namespace
+}  // namespace fleetmap::store
