@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/agent/results.hpp"
 #include "fleetmap/monitor/request_check.hpp"
 #include "fleetmap/monitor/server.hpp"
+#include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/submap_loader.hpp"
 #include "options.hpp"
 
@@ -78,14 +79,14 @@ Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
 
 /// Places what the store holds as the robot's own last map did.
 Status place_held(const store::Store& store, const fs::path& file, monitor::FleetView& view) {
-  const auto kept = agent::map_recipe(store);
-  const agent::MapRecipe recipe = kept.value_or(agent::MapRecipe{});
-  const auto origin = kept ? std::optional(kept->origin) : agent::site_origin(store, std::nullopt);
+  const auto kept = output::map_recipe(store);
+  const output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
+  const auto origin = kept ? std::optional(kept->origin) : output::site_origin(store, std::nullopt);
   if (!origin) return failure(file.string() + ": holds no node, so there is nothing to show");
   view.self = store.self();
   view.origin = *origin;
-  view.nodes = agent::nodes_of(store);
-  view.alignments = agent::alignments_of(store);
+  view.nodes = output::nodes_of(store);
+  view.alignments = output::alignments_of(store);
   std::map<AgentId, NodeId> last;
   for (const graph::Node& node : view.nodes) {
     view.has_submap.push_back(store.has_submap(node.id));
@@ -93,7 +94,7 @@ Status place_held(const store::Store& store, const fs::path& file, monitor::Flee
   }
   std::vector<NodeId> covariance_of;
   for (const auto& [robot, id] : last) covariance_of.push_back(id);
-  view.placement = agent::place(store, *origin, recipe.placement, covariance_of);
+  view.placement = output::place(store, *origin, recipe.placement, covariance_of);
   return {};
 }
 
