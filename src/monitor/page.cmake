@@ -50,5 +50,6 @@ else()
     COMMAND ${CMAKE_COMMAND} -E chdir ${FLEETMAP_MONITOR_PAGE_FOLDER} ${NODE_PROGRAM} build.mjs ${FLEETMAP_MONITOR_PAGE_SOURCE}
     COMMENT "Bundling the page of fleetmap monitor" VERBATIM)
 endif()
-set(FLEETMAP_NO_PAGE ${FLEETMAP_NO_PAGE} PARENT_SCOPE)
-set(FLEETMAP_MONITOR_PAGE_FOLDER ${FLEETMAP_MONITOR_PAGE_FOLDER} PARENT_SCOPE)
+# For tests/monitor, which is no folder below this one.
+set(FLEETMAP_NO_PAGE "${FLEETMAP_NO_PAGE}" CACHE INTERNAL "Why fleetmap monitor has no page; empty: it has")
+set(FLEETMAP_MONITOR_PAGE_FOLDER ${FLEETMAP_MONITOR_PAGE_FOLDER} CACHE INTERNAL "Where the page is bundled")
