@@ -114,7 +114,8 @@ class Grid {
                      heights.end());
     Eigen::Vector3d plane(heights[heights.size() / 2], 0.0, 0.0);
     const double step = static_cast<double>(config_.step_m);
-    for (double scale = 4.0 * step; scale > 0.4 * step; scale *= 0.5) {
+    for (const double factor : {4.0, 2.0, 1.0, 0.5}) {
+      const double scale = factor * step;
       Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
       Eigen::Vector3d b = Eigen::Vector3d::Zero();
       double weights = 0.0;
