@@ -96,7 +96,7 @@ class Bag {
   template <typename Sample>
   void add(const bus::Topic& topic, const Sample& sample, Stamp due) {
     last_ = std::max(last_, due);
-    if (status_) status_ = writer_.write(topic.name, topic.type, last_, fleet_codec::encode(sample));
+    if (status_) status_ = writer_.write(topic.name, topic.type, last_, ros_codec::encode(sample));
   }
   Status close() { return status_ ? writer_.close() : status_; }
 
@@ -138,7 +138,7 @@ Status export_drive(const Options& options, Files& files) {
   };
   if (!twin.run(listener)) return failure(options.source + ": the robot got stuck");
   if (const Status closed = bag.close(); !closed) return closed;
-  return agent::write_trajectory(options.out / "truth.tum", truth);
+  return output::write_tum(options.out / "truth.tum", truth);
 }
 
 Status run(const Options& options) {
