@@ -17,6 +17,7 @@
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/submap_loader.hpp"
 #include "options.hpp"
+#include "stored_map.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -69,9 +70,7 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
 }
 
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error))
-    return failure(file.string() + ": no such file; give a robot's store.db");
+  if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
   return std::make_unique<store::Store>(std::move(*store));
@@ -159,7 +158,7 @@ Result<monitor::ServerConfig> server_config(const MonitorOptions& options) {
       config.token.pop_back();
     const bool plain =
         std::ranges::all_of(config.token, [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
-    if (config.token.size() < monitor::kLeastTokenLength || !plain)
+    if (config.token.size() < monitor::kMinTokenLength || !plain)
       return failure(options.token_file + ": expected a token of at least 16 letters and digits");
   } else if (!monitor::is_loopback(options.address)) {
     config.token = monitor::random_token();
