@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include "fleetmap/store/store.hpp"
 #include "store/items.hpp"
+#include "store/run_sql.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -13,17 +13,11 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
+using testing::run_sql;
 using testing::ScratchFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
-
-void run_sql(const std::filesystem::path& path, const char* sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-  sqlite3_close(db);
-}
 
 TEST(StoreLoad, keeps_signatures_and_checks_them_with_the_row) {
   const ScratchFolder folder;

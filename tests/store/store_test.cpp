@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sqlite3.h>
 
 #include <random>
 
 #include "store/items.hpp"
+#include "store/run_sql.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -17,17 +17,11 @@ using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
+using testing::run_sql;
 using testing::ScratchFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
-
-void run_sql(const std::filesystem::path& path, const char* sql) {
-  sqlite3* db = nullptr;
-  ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
-  EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
-  sqlite3_close(db);
-}
 
 TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
   const ScratchFolder folder;

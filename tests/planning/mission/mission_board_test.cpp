@@ -4,22 +4,13 @@
 
 #include <algorithm>
 
-#include "planning/sites.hpp"
+#include "planning/mission/small_plan.hpp"
 
 namespace fleetmap::planning {
 namespace {
 
-Stamp at(double seconds) { return Stamp{} + from_seconds(seconds); }
-
-std::shared_ptr<const FleetPlan> plan_for(int robots) {
-  testing::SiteSpec spec;
-  spec.width = spec.depth = 80.0;
-  MissionConfig config;
-  config.division.search_rounds = 10;
-  auto plan = plan_fleet(testing::site(spec), testing::fleet(robots), config);
-  EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
-  return *plan;
-}
+using testing::at;
+using testing::plan_for;
 
 class MissionBoardTest : public ::testing::Test {
  protected:
