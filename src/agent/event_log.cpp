@@ -76,8 +76,7 @@ struct Log {
     spdlog::warn(
         "{}: {} holds {} nodes and {} alignments of this robot that its own store lacks: the store was lost, "
         "restored or replaced (they are fetched, and new ones bear other numbers), or another robot bears "
-        "this "
-        "name",
+        "this name",
         self.str(), found.peer.str(), found.nodes, found.alignments);
   }
   void operator()(const exchange::StrangerHeard& heard) const {

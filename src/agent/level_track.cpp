@@ -6,14 +6,14 @@
 namespace fleetmap::agent {
 namespace {
 
-constexpr double kBlock = 10.0;            // s; longer than a bend lasts
-constexpr double kOdometryTilt = 1.2e-8;   // rad^2/s, random walk of the odometry frame: 0.85 mrad a minute
-constexpr double kOffset = 5e-3;           // rad, 1 sigma, of mount and accelerometer
-constexpr double kOffsetWalk = 1e-9;       // rad^2/s: 0.8 mrad in ten minutes
-constexpr double kFirstVariance = 1e-4;    // rad^2, of a block's mean until innovations are there
-constexpr int kRemembered = 30;            // blocks that the estimated variance goes back
-constexpr double kLeastVariance = 2.5e-7;  // rad^2, of a block's mean
-constexpr double kIndependent = 60.0;      // s
+constexpr double kBlock = 10.0;           // s; longer than a bend lasts
+constexpr double kOdometryTilt = 1.2e-8;  // rad^2/s, random walk of the odometry frame: 0.85 mrad a minute
+constexpr double kOffset = 5e-3;          // rad, 1 sigma, of mount and accelerometer
+constexpr double kOffsetWalk = 1e-9;      // rad^2/s: 0.8 mrad in ten minutes
+constexpr double kFirstVariance = 1e-4;   // rad^2, of a block's mean until innovations are there
+constexpr int kRemembered = 30;           // blocks that the estimated variance goes back
+constexpr double kMinVariance = 2.5e-7;   // rad^2, of a block's mean
+constexpr double kIndependent = 60.0;     // s
 
 }  // namespace
 
@@ -49,7 +49,7 @@ void LevelTrack::update(const Block& block) {
     block_variance_ += weight * (0.5 * innovation.squaredNorm() - block_variance_);
   }
   updated_ = block.last;
-  const double noise = std::max(block_variance_, kLeastVariance);
+  const double noise = std::max(block_variance_, kMinVariance);
   const Eigen::Matrix2d S = H * P_ * H.transpose() + noise * Eigen::Matrix2d::Identity();
   const Eigen::Matrix<double, 4, 2> K = P_ * H.transpose() * S.inverse();
   x_ += K * innovation;

@@ -5,15 +5,16 @@
 namespace fleetmap::agent {
 namespace {
 
-constexpr float kVoxel = 0.4f;     // m: the cells of a descriptor are much larger
-constexpr double kReach = 30.0;    // m from the node
-constexpr std::size_t kMost = 12;  // submaps
+constexpr float kVoxel = 0.4f;           // m: the cells of a descriptor are much larger
+constexpr double kReach = 30.0;          // m from the node
+constexpr std::size_t kMaxSubmaps = 12;  // submaps
 
 }  // namespace
 
 void RecentSurroundings::add(const cloud::PointCloud& submap_in_odom, const Eigen::Vector3d& p_odom) {
   submaps_.push_back({p_odom, cloud::voxel_downsample(submap_in_odom, kVoxel)});
-  while (submaps_.size() > kMost || (submaps_.front().p_odom - p_odom).norm() > kReach) submaps_.pop_front();
+  while (submaps_.size() > kMaxSubmaps || (submaps_.front().p_odom - p_odom).norm() > kReach)
+    submaps_.pop_front();
 }
 
 place::Descriptor RecentSurroundings::describe(const Pose& T_odom_base,

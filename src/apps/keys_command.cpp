@@ -9,7 +9,7 @@
 namespace fleetmap::apps {
 namespace {
 
-constexpr std::uint64_t kMostDays = 7300;
+constexpr std::uint64_t kMaxDays = 7300;
 
 struct KeysOptions {
   std::string folder;
@@ -89,7 +89,7 @@ void add_keys(CLI::App& app, int& exit_code) {
   adds->add_option("name", options->name, "the robot, as its file's id")->required();
   adds->add_option("--role", options->role, "robot, or observer: reads only")
       ->check(CLI::IsMember({"robot", "observer"}));
-  adds->add_option("--days", options->days, "that they are valid")->check(whole_number(1, kMostDays));
+  adds->add_option("--days", options->days, "that they are valid")->check(whole_number(1, kMaxDays));
   CLI::App* revokes = add_action(*keys, options, "revoke",
                                  "withdraws the keys of a robot that was lost or stolen", revoke, exit_code);
   revokes->add_option("name", options->name, "the robot")->required();

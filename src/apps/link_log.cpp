@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
 constexpr const char* kNodesHeader = "time_ns,node";
-constexpr std::uintmax_t kMostTraceBytes = 32u << 20;
+constexpr std::uintmax_t kMaxTraceBytes = 32u << 20;
 /// On the radio whoever has nothing to tell says Hello every 20 s; on the Wi-Fi robots tell something each
 /// second.
 constexpr Duration kSilence = std::chrono::seconds(65), kSilenceNear = std::chrono::seconds(5);
@@ -58,7 +58,7 @@ void LinkLog::File::flush() {
 void LinkLog::begin_anew_when_full() {
   std::error_code none;
   const auto size = std::filesystem::file_size(trace_.path, none);
-  if (none || size < kMostTraceBytes) return;
+  if (none || size < kMaxTraceBytes) return;
   trace_.out.close();
   std::filesystem::rename(trace_.path, trace_.path.string() + ".before", none);
   if (auto begun = open_file(trace_.path, kTraceHeader)) trace_ = *std::move(begun);

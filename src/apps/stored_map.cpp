@@ -59,7 +59,7 @@ Result<std::vector<run_evaluation::MapPicture>> pictures_of(StoredMap& map) {
   constexpr double kDensityRadius = 1.0;  // m
   auto merge = output::tiled_map(map.store, shown_poses(map), map.recipe.merge);
   if (!merge) return tl::unexpected(merge.error());
-  store::ThinnedMap thinned(map.recipe.merge.voxel_m, run_evaluation::kMostDrawn);
+  store::ThinnedMap thinned(map.recipe.merge.voxel_m, run_evaluation::kMaxDrawn);
   const auto thin = [&](const store::MapTile& tile) -> Status {
     thinned.add(tile);
     return {};

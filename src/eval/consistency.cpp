@@ -7,10 +7,10 @@
 namespace fleetmap::eval {
 namespace {
 
-constexpr std::size_t kMostDimensions = 6;
+constexpr std::size_t kMaxDimensions = 6;
 /// Of the chi-square distribution with 1 to 6 degrees of freedom.
-constexpr std::array<double, kMostDimensions> kMedian{0.4549, 1.3863, 2.3660, 3.3567, 4.3515, 5.3481};
-constexpr std::array<double, kMostDimensions> kWithin95{3.8415, 5.9915, 7.8147, 9.4877, 11.0705, 12.5916};
+constexpr std::array<double, kMaxDimensions> kMedian{0.4549, 1.3863, 2.3660, 3.3567, 4.3515, 5.3481};
+constexpr std::array<double, kMaxDimensions> kWithin95{3.8415, 5.9915, 7.8147, 9.4877, 11.0705, 12.5916};
 
 /// At share q of the sorted values, between neighbours by line.
 double quantile(const std::vector<double>& sorted, double q) {
@@ -36,7 +36,7 @@ Consistency consistency(std::span<const StatedError> errors) {
   Consistency result;
   if (errors.empty()) return result;
   const Eigen::Index dimensions = errors.front().error.size();
-  if (dimensions < 1 || dimensions > static_cast<Eigen::Index>(kMostDimensions)) {
+  if (dimensions < 1 || dimensions > static_cast<Eigen::Index>(kMaxDimensions)) {
     result.refused = errors.size();
     return result;
   }

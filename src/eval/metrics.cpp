@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kTargetPoints = 300'000;
 constexpr std::size_t kSourcePoints = 30'000;
 constexpr std::size_t kDensityBins = 40;
-constexpr std::size_t kLeastInliers = 50;
+constexpr std::size_t kMinInliers = 50;
 
 /// Point-to-plane ICP from where the georeferences put the map.
 Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const MapMetricsConfig& config) {
@@ -179,7 +179,7 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.most_distances);
   const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
   const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
-  if (static_cast<std::size_t>(inliers) < std::min(kLeastInliers, chosen.size())) {
+  if (static_cast<std::size_t>(inliers) < std::min(kMinInliers, chosen.size())) {
     return failure("the map and the truth do not overlap: " + std::to_string(inliers) + " of " +
                    std::to_string(chosen.size()) +
                    " points have truth nearby; are both in ENU of the same origin?");

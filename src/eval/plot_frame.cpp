@@ -209,8 +209,8 @@ std::string PlotFrame::ticks_x() const {
       out += text(x_pixel(static_cast<double>(k)), bottom_ + 18, "middle", categories_[k]);
     return out;
   }
-  constexpr std::size_t kMostGiven = 12;
-  const bool given = !axes_.x_ticks.empty() && axes_.x_ticks.size() <= kMostGiven;
+  constexpr std::size_t kMaxGiven = 12;
+  const bool given = !axes_.x_ticks.empty() && axes_.x_ticks.size() <= kMaxGiven;
   for (const double tick : given ? axes_.x_ticks : round_ticks(x_.low, x_.high, kTicks)) {
     const double at = x_pixel(tick);
     out += line(at, top_, at, bottom_, 0.12);

@@ -7,10 +7,10 @@
 namespace fleetmap::fleet_codec {
 namespace {
 
-constexpr double kLeast = 1e-4;  // m or rad: what is less is not to be told from it
-constexpr double kMost = 100.0;
-// Rounding what was rounded must change nothing: only what is clearly beyond kMost is scaled down to it.
-constexpr double kClearlyBeyond = 1.1 * kMost;
+constexpr double kMinSigma = 1e-4;  // m or rad: what is less is not to be told from it
+constexpr double kMaxSigma = 100.0;
+// Rounding what was rounded must change nothing: only what is clearly beyond kMaxSigma is scaled down to it.
+constexpr double kClearlyBeyond = 1.1 * kMaxSigma;
 
 /// Of a number that is zero but for rounding no sign is left, which would differ between processors.
 std::uint16_t to_half(double value) {
@@ -33,11 +33,11 @@ bool is_covariance(const Matrix6d& C) {
 
 std::array<std::uint16_t, 21> encode_covariance(const Matrix6d& given) {
   Matrix6d C = given;
-  if (!is_covariance(given)) C = kMost * kMost * Matrix6d::Identity();
+  if (!is_covariance(given)) C = kMaxSigma * kMaxSigma * Matrix6d::Identity();
   Vector6d scale;
   for (int k = 0; k < 6; ++k) {
     const double stddev = std::sqrt(C(k, k));
-    scale(k) = stddev > kClearlyBeyond ? kMost / stddev : 1.0;
+    scale(k) = stddev > kClearlyBeyond ? kMaxSigma / stddev : 1.0;
   }
   C = scale.asDiagonal() * C * scale.asDiagonal();
   std::array<std::uint16_t, 21> codes{};
@@ -46,7 +46,8 @@ std::array<std::uint16_t, 21> encode_covariance(const Matrix6d& given) {
   for (int row = 0; row < 6; ++row) {
     for (int col = 0; col <= row; ++col) {
       const double rest = C(row, col) - L.row(row).head(col).dot(L.row(col).head(col));
-      const double value = row == col ? std::max(kLeast, std::sqrt(std::max(0.0, rest))) : rest / L(col, col);
+      const double value =
+          row == col ? std::max(kMinSigma, std::sqrt(std::max(0.0, rest))) : rest / L(col, col);
       L(row, col) = std::clamp(value, -kClearlyBeyond, kClearlyBeyond);
       codes[at++] = to_half(L(row, col));
     }
@@ -59,9 +60,9 @@ Matrix6d decode_covariance(const std::array<std::uint16_t, 21>& root, FieldCheck
   std::size_t at = 0;
   for (int row = 0; row < 6; ++row) {
     for (int col = 0; col <= row; ++col)
-      L(row, col) = check.within(from_half(root[at++]), 2.0 * kMost, member);
+      L(row, col) = check.within(from_half(root[at++]), 2.0 * kMaxSigma, member);
   }
-  const bool positive = (L.diagonal().array() >= 0.5 * kLeast).all();
+  const bool positive = (L.diagonal().array() >= 0.5 * kMinSigma).all();
   if (!positive) check.within(std::nan(""), 0.0, member);
   return L * L.transpose();
 }

@@ -8,9 +8,9 @@ namespace fleetmap::fleet_codec {
 /// The item, without a signature, as its encoding keeps it: encoding and decoding change nothing any more.
 template <class Item>
 Result<Item> rounded(Item item) {
-  constexpr int kMostRounds = 4;  // the first one settles nearly all
+  constexpr int kMaxRounds = 4;  // the first one settles nearly all
   item.signature.reset();
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const Bytes bytes = encode(item);
     Result<Item> again = decode<Item>(bytes);
     if (!again || encode(*again) == bytes) return again;

@@ -6,7 +6,7 @@
 namespace fleetmap::monitor {
 namespace {
 
-constexpr std::size_t kMostPointsAtOnce = 1u << 18;
+constexpr std::size_t kMaxPointsAtOnce = 1u << 18;
 
 std::size_t bytes_of(const QuantisedCloud& cloud) { return cloud.values.size() * sizeof(std::int16_t); }
 
@@ -69,7 +69,7 @@ Reply Content::submap(std::string_view target) {
     cloud = std::make_shared<const QuantisedCloud>(quantised(*loaded));
     cache_.keep(request->hash, cloud);
   }
-  const Bytes points = encoded_points(*cloud, request->from, std::min(request->count, kMostPointsAtOnce));
+  const Bytes points = encoded_points(*cloud, request->from, std::min(request->count, kMaxPointsAtOnce));
   return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
 }
 

@@ -24,8 +24,8 @@ namespace websocket = beast::websocket;
 using boost::system::error_code;
 using net::ip::tcp;
 
-constexpr std::uint32_t kMostHeaderBytes = 8192;
-constexpr std::size_t kMostHeardBytes = 1024;  // of a viewer, which has nothing to tell yet
+constexpr std::uint32_t kMaxHeaderBytes = 8192;
+constexpr std::size_t kMaxHeardBytes = 1024;  // of a viewer, which has nothing to tell yet
 
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
@@ -121,13 +121,13 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
     const auto on_bytes = [self = shared_from_this()](error_code error, std::size_t bytes) {
       self->buffer_.consume(self->buffer_.size());
       self->heard_ += bytes;
-      if (!error && self->heard_ <= kMostHeardBytes) return self->read();
+      if (!error && self->heard_ <= kMaxHeardBytes) return self->read();
       self->open_ = false;
       if (error != websocket::error::closed) ++self->state_.cut;
       // At once: a closing handshake would wait for one who may not answer.
       beast::get_lowest_layer(self->socket_).close();
     };
-    socket_.async_read_some(buffer_, kMostHeardBytes, on_bytes);
+    socket_.async_read_some(buffer_, kMaxHeardBytes, on_bytes);
   }
 
   State& state_;
@@ -149,7 +149,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void read() {
     parser_.emplace();
-    parser_->header_limit(kMostHeaderBytes);
+    parser_->header_limit(kMaxHeaderBytes);
     parser_->body_limit(0);
     stream_.expires_after(state_.config.request_timeout);
     http::async_read(stream_, buffer_, *parser_,
@@ -216,7 +216,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   State& state_;
   std::shared_ptr<Counted> counted_;
   beast::tcp_stream stream_;
-  beast::flat_buffer buffer_{2 * kMostHeaderBytes};
+  beast::flat_buffer buffer_{2 * kMaxHeaderBytes};
   std::optional<http::request_parser<http::empty_body>> parser_;
   Response response_;
 };
@@ -313,8 +313,8 @@ Status ServerConfig::validate() const {
   if (error) return failure("--address: " + address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
   if (token.empty() && !is_loopback(address))
     return failure("--address " + address + " is seen by others: a token is needed");
-  if (!token.empty() && token.size() < kLeastTokenLength)
-    return failure("the token is shorter than " + std::to_string(kLeastTokenLength) + " characters");
+  if (!token.empty() && token.size() < kMinTokenLength)
+    return failure("the token is shorter than " + std::to_string(kMinTokenLength) + " characters");
   if (max_viewers == 0 || max_connections == 0)
     return failure("max_viewers and max_connections must be positive");
   return {};

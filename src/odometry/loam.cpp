@@ -42,7 +42,7 @@ constexpr int kHangs = 3;                                                       
 constexpr double kStandsBelow = 0.1, kTurnsBelow = 0.05;                          // m/s, rad/s
 constexpr int kFirstInsertions = 6;  // scans that enter a new map at once, moving or not
 constexpr double kBiasGain = 0.02;
-constexpr double kLeastUpright = 60.0;  // features, to judge by
+constexpr double kMinUpright = 60.0;  // features, to judge by
 constexpr double kGoneShare = 0.2;  // of the usual ones: fewer are not seen from where the scans before were
 constexpr double kUprightGain = 0.2;  // over half a second
 constexpr double kCutRadius = 0.8;    // of a full map, again and again until ...
@@ -407,8 +407,8 @@ MatchResult Loam::Pipeline::straighten_first_scan(const MatchResult& match, doub
 bool Loam::Pipeline::elsewhere(const MatchResult& match) {
   const auto upright = static_cast<double>(match.upright);
   const auto inliers = static_cast<double>(match.upright_inliers);
-  const bool few = usual_upright_ > kLeastUpright && inliers < kGoneShare * usual_upright_;
-  const bool unfit = upright > kLeastUpright && inliers < config_.min_inlier_fraction * upright;
+  const bool few = usual_upright_ > kMinUpright && inliers < kGoneShare * usual_upright_;
+  const bool unfit = upright > kMinUpright && inliers < config_.min_inlier_fraction * upright;
   if (few || unfit) return true;
   usual_upright_ += kUprightGain * (inliers - usual_upright_);
   return false;

@@ -10,22 +10,20 @@ namespace {
 constexpr std::uint64_t kEvery = 10;  // scans
 constexpr int kSure = 3;              // scans that agree, and more than half
 constexpr std::size_t kStride = 16;   // points, of which the elevation is measured
-constexpr std::size_t kLeastPoints = 100;
-constexpr float kLeastRange = 0.5f;  // m
+constexpr std::size_t kMinPoints = 100;
+constexpr float kMinRange = 0.5f;  // m
 /// Points that lie evenly between the rings scatter by 0.29 of their spacing, those of a device by
 /// hundredths.
-constexpr double kMostScatter = 0.2;
-constexpr double kMostBeyond = 0.2;   // share of the points above and below all rings
+constexpr double kMaxScatter = 0.2;
+constexpr double kMaxBeyond = 0.2;    // share of the points above and below all rings
 constexpr double kAgainst = 0.8;      // share of the pairs of points
 constexpr double kAgainstAll = 0.98;  // the same, where no rotation tells more
-
 constexpr std::size_t kPairs = 2000;  // of points, whose times are compared
 
 constexpr const char* kBackwards =
     "the times of the points fall in the order of the points, against the sense in which the LiDAR turns: "
-    "the "
-    "motion compensation bends the scans; mend the time field of the driver (it must grow from the first "
-    "point to the last), or set odometry.deskew to false";
+    "the motion compensation bends the scans; mend the time field of the driver (it must grow from the "
+    "first point to the last), or set odometry.deskew to false";
 
 std::string wrong_rings(const LidarModel& model) {
   std::string text = "lidar.model '";
@@ -34,12 +32,11 @@ std::string wrong_rings(const LidarModel& model) {
   text += std::to_string(model.vertical_angles.size());
   text +=
       " rings, so their times and the motion compensation are wrong; set lidar.model to that of the device "
-      "or "
-      "to generic, or lidar.elevations_deg";
+      "or to generic, or lidar.elevations_deg";
   return text;
 }
 
-bool usable(const Eigen::Vector3f& p) { return p.allFinite() && p.squaredNorm() > kLeastRange * kLeastRange; }
+bool usable(const Eigen::Vector3f& p) { return p.allFinite() && p.squaredNorm() > kMinRange * kMinRange; }
 
 }  // namespace
 
@@ -86,8 +83,8 @@ bool ModelCheck::rings_differ(const sensor::Scan& scan) const {
     Moments& ring = rings[static_cast<std::size_t>(nearest - angles_.begin())];
     ring.n += 1, ring.sum += off, ring.square += off * off;
   }
-  if (points < kLeastPoints) return false;
-  if (static_cast<double>(beyond) > kMostBeyond * static_cast<double>(points)) return true;
+  if (points < kMinPoints) return false;
+  if (static_cast<double>(beyond) > kMaxBeyond * static_cast<double>(points)) return true;
   // Rings that come in the order of the points need no table, and a device's own need not be at these angles.
   if (model_.ring_source != RingSource::kElevation) return false;
   double square = 0.0, n = 0.0;
@@ -96,13 +93,13 @@ bool ModelCheck::rings_differ(const sensor::Scan& scan) const {
     square += ring.square - ring.sum * ring.sum / ring.n;
     n += ring.n - 1;
   }
-  return n > 0.0 && std::sqrt(square / n) > kMostScatter * spacing_;
+  return n > 0.0 && std::sqrt(square / n) > kMaxScatter * spacing_;
 }
 
 /// Against the order of the points and, where they come in rings, against the sense of rotation of the
 /// device: a cloud may be stored from its end, and a device may hang upside down.
 bool ModelCheck::times_run_backwards(const sensor::Scan& scan) const {
-  if (!scan.has_time || scan.points.size() < kLeastPoints) return false;
+  if (!scan.has_time || scan.points.size() < kMinPoints) return false;
   // Neighbours in firing order share a time.
   const std::size_t apart = std::max<std::size_t>(1, scan.points.size() / 100);
   const std::size_t step = std::max<std::size_t>(1, scan.points.size() / kPairs);
@@ -119,7 +116,7 @@ bool ModelCheck::times_run_backwards(const sensor::Scan& scan) const {
     ++turns;
     against += (left > 0.0f) == (b.time > a.time) ? model_.clockwise : !model_.clockwise;
   }
-  if (pairs < static_cast<double>(kLeastPoints)) return false;
+  if (pairs < static_cast<double>(kMinPoints)) return false;
   const bool spins = model_.has_rings() || scan.has_ring;
   return spins ? falls > kAgainst * pairs && against > kAgainst * turns : falls > kAgainstAll * pairs;
 }

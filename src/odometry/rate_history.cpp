@@ -7,7 +7,7 @@
 namespace fleetmap::odometry {
 namespace {
 
-constexpr std::ptrdiff_t kLeastForTrend = 5;
+constexpr std::ptrdiff_t kMinForTrend = 5;
 constexpr std::size_t kMaxSamples = 8192;
 constexpr Duration kClockJump = std::chrono::seconds(1);
 constexpr Duration kMaxGap = std::chrono::milliseconds(500);  // between samples that still cover an interval
@@ -93,7 +93,7 @@ std::optional<RateHistory::Trend> RateHistory::trend(Stamp from, Stamp to) const
   const auto last =
       std::upper_bound(first, samples_.end(), to, [](Stamp t, const Sample& s) { return t < s.stamp; });
   const auto n = static_cast<double>(last - first);
-  if (last - first < kLeastForTrend) return std::nullopt;
+  if (last - first < kMinForTrend) return std::nullopt;
   double time = 0.0, square_time = 0.0;
   Eigen::Vector3d rate = Eigen::Vector3d::Zero(), square_rate = rate, product = rate;
   for (auto it = first; it != last; ++it) {

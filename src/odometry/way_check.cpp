@@ -11,9 +11,9 @@ namespace fleetmap::odometry {
 namespace {
 
 /// A trajectory of which more than this share is prediction is no measurement.
-constexpr double kMostLost = 0.01;
+constexpr double kMaxLost = 0.01;
 /// Nor is a part of it that has more than this share of some seconds, and more than a scan or two.
-constexpr double kMostLostInAWhile = 0.05;
+constexpr double kMaxLostInAWhile = 0.05;
 constexpr Duration kWhile = std::chrono::seconds(10);
 constexpr std::size_t kFewLost = 2;
 /// m, and share of the length: an end that is stated less well than by both may be anywhere.
@@ -75,8 +75,8 @@ std::vector<std::string> WayCheck::doubts() const {
     doubts.push_back(text.str());
   };
   const auto share = static_cast<double>(lost_) / static_cast<double>(std::max<std::size_t>(1, updates_));
-  if (share > kMostLost) doubt(100.0 * share, " % of all scans are lost");
-  if (losses_.value > kMostLostInAWhile)
+  if (share > kMaxLost) doubt(100.0 * share, " % of all scans are lost");
+  if (losses_.value > kMaxLostInAWhile)
     doubt(100.0 * losses_.value, " % of the scans of 10 s are lost, ", after_start(losses_.at));
   const double sigma = translation_sigma(covariance());
   if (sigma > std::max(kVague, kVagueShare * length_)) doubt("the end is stated to ", sigma, " m only");

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr std::size_t kMostListed = 50;
+constexpr std::size_t kMaxListed = 50;
 
 json spread_json(std::vector<double> values) {
   const eval::Spread s = eval::spread(std::move(values));
@@ -145,7 +145,7 @@ json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::Tr
     }
     wrong_used += one.used ? 1u : 0u;
     wrong += one.ambiguous ? 0u : 1u;
-    if ((one.used || !one.ambiguous) && list.size() < kMostListed) list.push_back(listed(one));
+    if ((one.used || !one.ambiguous) && list.size() < kMaxListed) list.push_back(listed(one));
   }
   json result = {{"held", held.alignments.size()},
                  {"count", judged.size()},

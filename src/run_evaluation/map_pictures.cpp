@@ -124,7 +124,7 @@ Result<MapPicture> picture_of_errors(const cloud::PointCloud& points, const std:
 
 Result<MapPicture> picture_of_density(const cloud::PointCloud& map, double radius) {
   cloud::PointCloud shown = map;
-  for (float voxel = 0.1f; shown.size() > kMostDrawn; voxel *= 1.5f) {
+  for (float voxel = 0.1f; shown.size() > kMaxDrawn; voxel *= 1.5f) {
     cloud::VoxelMerger merger(voxel);
     merger.add(shown);
     shown = merger.cloud();

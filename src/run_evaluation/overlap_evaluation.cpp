@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kPlace = 1.0;              ///< m, edge of a place
-constexpr std::uint32_t kLeastReturns = 5;  ///< of a robot in a place, for it to have seen it
+constexpr double kPlace = 1.0;            ///< m, edge of a place
+constexpr std::uint32_t kMinReturns = 5;  ///< of a robot in a place, for it to have seen it
 constexpr std::size_t kTwoRobots = 2;
 
 json scores(const eval::MapMetrics& metrics) {
@@ -71,7 +71,7 @@ class OverlapEvaluation::TrueSubmaps {
   const store::MergeConfig& merge_;
   const eval::TruePoses& truth_;
   std::map<AgentId, std::size_t> robots_;
-  eval::PlacesSeen seen_{kPlace, kLeastReturns};
+  eval::PlacesSeen seen_{kPlace, kMinReturns};
 };
 
 OverlapEvaluation::OverlapEvaluation(store::Store& store, const store::MergeConfig& merge,

@@ -25,7 +25,7 @@ using ::testing::HasSubstr;
 const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr auto kPatience = std::chrono::minutes(6);
 /// Lanes lie 7 m apart; GPS errs by some 1 m, the drawing by 0.5 m, so the ends of a row may be missed.
-constexpr double kBesideRow = 2.5, kLeastShare = 0.8;
+constexpr double kBesideRow = 2.5, kMinShare = 0.8;
 
 /// Share of a straight row that has a pose of the trajectory within kBesideRow.
 double share_driven(const planning::Row& row, const output::Trajectory& truth) {
@@ -74,7 +74,7 @@ class DdsMission : public ::testing::Test {
     std::set<planning::RowId> rows;
     if (!drawing || !truth) return rows;
     for (const planning::Row& row : drawing->rows) {
-      if (share_driven(row, *truth) >= kLeastShare) rows.insert(row.id);
+      if (share_driven(row, *truth) >= kMinShare) rows.insert(row.id);
     }
     return rows;
   }

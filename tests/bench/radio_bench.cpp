@@ -27,7 +27,7 @@ constexpr int kNodes = 40;                             // of each robot
 constexpr auto kNodePeriod = std::chrono::seconds(3);  // at 1.3 m/s
 constexpr double kSpacing = 4.0;                       // m
 constexpr double kTrackStep = 40.0;  // m: tracks of 160 m, each along those of the next three robots
-constexpr auto kMostWait = std::chrono::minutes(20);  // for equal sets
+constexpr auto kMaxWait = std::chrono::minutes(20);  // for equal sets
 constexpr Duration kWindow = std::chrono::seconds(10);
 
 std::size_t robot_number(const AgentId& name) { return std::stoul(name.str().substr(1)) - 1; }
@@ -94,7 +94,7 @@ void measure(const Case& wanted) {
   const Stamp end = fleet.now();
   const std::size_t nodes = made.size();
   fleet.forget_sent();
-  fleet.run_for(kMostWait, [&] {
+  fleet.run_for(kMaxWait, [&] {
     if (fleet.sent().size() > 100'000) fleet.forget_sent();
     return fleet.equal_sets(nodes);
   });

@@ -26,7 +26,7 @@ std::string_view cookie_value(std::string_view cookie, std::string_view name);
 bool equal_secrets(std::string_view a, std::string_view b);
 /// 32 random hexadecimal digits.
 std::string random_token();
-inline constexpr std::size_t kLeastTokenLength = 16;
+inline constexpr std::size_t kMinTokenLength = 16;
 
 /// Empty if the request may be answered, else why not. An empty `token` asks for none.
 std::optional<std::string_view> refusal(const RequestHead& head, std::string_view token,

@@ -33,7 +33,7 @@ void add_density(const cloud::PointCloud& shown, const cloud::PointCloud& tile, 
                  std::vector<std::uint32_t>& counts);
 
 /// Most points that are worth drawing.
-inline constexpr std::size_t kMostDrawn = 3'000'000;
+inline constexpr std::size_t kMaxDrawn = 3'000'000;
 
 Status write_picture(const std::filesystem::path& directory, const MapPicture& picture);
 

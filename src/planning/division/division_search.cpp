@@ -14,9 +14,9 @@ using Routes = std::vector<TimedRoute>;
 
 constexpr double kOvertimeWeight = 100.0;  // a row that no battery allows is worse than any detour
 constexpr double kSumWeight = 0.01;        // among equal makespans the shorter routes
-constexpr double kLeastGain = 1e-6;        // s
-constexpr std::size_t kMostPermutations = 120;
-constexpr std::size_t kMostOrdered = 300;  // rows of a share; ordering more of them takes too long
+constexpr double kMinGain = 1e-6;          // s
+constexpr std::size_t kMaxPermutations = 120;
+constexpr std::size_t kMaxOrdered = 300;  // rows of a share; ordering more of them takes too long
 
 /// What is minimised: mostly the time of the last robot, in s.
 double price(const Routes& routes) {
@@ -54,7 +54,7 @@ struct Move {
 
 /// The best change between route a and the others.
 std::optional<Move> best_move(const Routes& routes, std::size_t a) {
-  Move best{Move::kRelocate, price(routes) - kLeastGain};
+  Move best{Move::kRelocate, price(routes) - kMinGain};
   bool found = false;
   const auto consider = [&](const Move& move) {
     if (move.price < best.price) {
@@ -82,7 +82,7 @@ std::optional<Move> best_move(const Routes& routes, std::size_t a) {
 
 /// The best exchange of tails between route a and the others: dearer to price, so tried last.
 std::optional<Move> best_tails(const Routes& routes, std::size_t a) {
-  Move best{Move::kTails, price(routes) - kLeastGain};
+  Move best{Move::kTails, price(routes) - kMinGain};
   bool found = false;
   const std::size_t size = routes[a].rows().size();
   for (std::size_t b = 0; b < routes.size(); ++b) {
@@ -134,7 +134,7 @@ void shorten(TimedRoute& route) {
         std::vector<std::size_t> order = route.rows();
         std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
                      order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-        better = route.time_of_order(order) < route.time() - kLeastGain;
+        better = route.time_of_order(order) < route.time() - kMinGain;
         if (better) route.assign(std::move(order));
       }
     }
@@ -145,7 +145,7 @@ void shorten(TimedRoute& route) {
       order.erase(order.begin() + static_cast<std::ptrdiff_t>(i));
       rest.assign(std::move(order));
       for (std::size_t j = 0; j < n && !better; ++j) {
-        if (rest.time_with(j, row) >= route.time() - kLeastGain) continue;
+        if (rest.time_with(j, row) >= route.time() - kMinGain) continue;
         order = rest.rows();
         order.insert(order.begin() + static_cast<std::ptrdiff_t>(j), row);
         route.assign(std::move(order));
@@ -234,7 +234,7 @@ Routes best_contiguous(const Routes& empty, std::span<const std::size_t> rows) {
       (longest <= limit ? high : low) = limit;
       if (price(routes) < price(best)) best = std::move(routes);
     }
-  } while (++tried < kMostPermutations && std::ranges::next_permutation(order).found);
+  } while (++tried < kMaxPermutations && std::ranges::next_permutation(order).found);
   return best;
 }
 
@@ -257,8 +257,8 @@ std::vector<TimedRoute> uniform_division(const TravelCosts& costs, std::span<con
                                    rows.begin() + static_cast<std::ptrdiff_t>(end));
     routes[k].assign(share);
     std::ranges::reverse(share);
-    if (routes[k].time_of_order(share) < routes[k].time() - kLeastGain) routes[k].assign(std::move(share));
-    if (end - first <= kMostOrdered) shorten(routes[k]);
+    if (routes[k].time_of_order(share) < routes[k].time() - kMinGain) routes[k].assign(std::move(share));
+    if (end - first <= kMaxOrdered) shorten(routes[k]);
   }
   return routes;
 }
@@ -280,7 +280,7 @@ std::vector<TimedRoute> search_division(const TravelCosts& costs, std::span<cons
     Routes trial = best;
     disturb(trial, random);
     improve(trial);
-    if (price(trial) < price(best) - kLeastGain) best = std::move(trial);
+    if (price(trial) < price(best) - kMinGain) best = std::move(trial);
   }
   return best;
 }

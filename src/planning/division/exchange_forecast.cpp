@@ -6,8 +6,8 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kEven = 1.0;          // B between two maps that are the same
-constexpr double kMostSteps = 5000.0;  // of a forecast; a longer one takes longer steps
+constexpr double kEven = 1.0;         // B between two maps that are the same
+constexpr double kMaxSteps = 5000.0;  // of a forecast; a longer one takes longer steps
 
 class Simulation {
  public:
@@ -33,11 +33,11 @@ class Simulation {
       longest = std::max(longest, time);
       begin_piece(k, 0.0);
     }
-    step_ = std::max(config.sample_period, longest / kMostSteps);
+    step_ = std::max(config.sample_period, longest / kMaxSteps);
   }
 
   Forecast run(double give_up) {
-    if (std::isfinite(give_up)) step_ = std::max(step_, give_up / kMostSteps);
+    if (std::isfinite(give_up)) step_ = std::max(step_, give_up / kMaxSteps);
     for (double now = 0.0; now <= give_up; now += step_) {
       for (std::size_t k = 0; k < robots_.size(); ++k) advance(k, now);
       if (std::ranges::all_of(robots_, &Robot::there)) {

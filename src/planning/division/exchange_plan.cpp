@@ -12,9 +12,9 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kWithinReach = 0.8;    // of C_max: what two who stop are apart at most
-constexpr std::size_t kBins = 8;        // of the time of the mission: one stop a pair is tried in each
-constexpr std::size_t kMostTried = 48;  // pairs of gaps between rows, before each stop that is added
+constexpr double kWithinReach = 0.8;   // of C_max: what two who stop are apart at most
+constexpr std::size_t kBins = 8;       // of the time of the mission: one stop a pair is tried in each
+constexpr std::size_t kMaxTried = 48;  // pairs of gaps between rows, before each stop that is added
 /// Robots are late by some percent; what is gained only if nobody is, is not gained.
 constexpr Pace kLate[] = {{1.05, 0}, {1.05, 1}};
 constexpr double kPrefersEarly = 0.02;  // s a second that a robot waits at a stop, even if it has time
@@ -140,7 +140,7 @@ class Planner {
       }
     }
     std::ranges::stable_sort(all, {}, &Gap::price);
-    if (all.size() > kMostTried) all.resize(kMostTried);
+    if (all.size() > kMaxTried) all.resize(kMaxTried);
     return all;
   }
   std::vector<std::size_t> open_pieces(std::size_t k) const {

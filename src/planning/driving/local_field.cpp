@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFine = 0.1;    // m, cells of the distances
 constexpr double kCoarse = 0.2;  // m, cells of the costs
-constexpr int kMostRounds = 6;   // of four sweeps: enough for any way that turns back less often
+constexpr int kMaxRounds = 6;    // of four sweeps: enough for any way that turns back less often
 
 }  // namespace
 
@@ -90,7 +90,7 @@ void LocalField::spread(std::span<const Source> sources, double radius) {
     const auto k = static_cast<std::size_t>(y * coarse_ + x);
     if (price_[k] > 0.0f) cost_[k] = std::min(cost_[k], static_cast<float>(source.cost));
   }
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     bool changed = false;
     for (const int y_step : {1, -1}) {
       for (const int x_step : {1, -1}) changed |= sweep(x_step, y_step);

@@ -8,10 +8,10 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kMostPairs = 4e6;     // looked at: a few seconds
+constexpr double kMaxPairs = 4e6;      // looked at: a few seconds
 constexpr double kNeighbours = 300.0;  // of each corner that are looked at on larger sites
 constexpr double kLattice = 30.0;      // m, between the points that join far corners on huge sites
-constexpr std::size_t kMostVertices = 60'000;
+constexpr std::size_t kMaxVertices = 60'000;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -71,7 +71,7 @@ std::vector<Corner> corners_of(const Mission& mission, const SiteGrid& grid, dou
       add_corner(polygon, k, orientation, hold_off, found);
     }
     for (const Corner& corner : found) {
-      if (grid.clear(corner.at) && corners.size() < kMostVertices) corners.push_back(corner);
+      if (grid.clear(corner.at) && corners.size() < kMaxVertices) corners.push_back(corner);
     }
   };
   for (const KeepOut& polygon : mission.keep_out) add(polygon, signed_area(polygon) >= 0.0 ? 1.0 : -1.0);
@@ -97,7 +97,7 @@ VisibilityGraph VisibilityGraph::of(const Mission& mission, const SiteGrid& grid
   VisibilityGraph graph;
   graph.reach = std::numeric_limits<double>::infinity();
   const auto count = static_cast<double>(corners.size());
-  if (0.5 * count * count > kMostPairs) {
+  if (0.5 * count * count > kMaxPairs) {
     const Eigen::Vector2d size = grid.high() - grid.low();
     const double share = kNeighbours / count;
     graph.reach = std::max(2.0 * kLattice, std::sqrt(share * size.x() * size.y() / 3.1416));

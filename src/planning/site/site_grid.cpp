@@ -8,7 +8,7 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kMostCells = 24e6;  // of a raster: 24 MB; larger sites get coarser cells
+constexpr double kMaxCells = 24e6;  // of a raster: 24 MB; larger sites get coarser cells
 
 struct Box {
   Eigen::Vector2d low, high;
@@ -42,7 +42,7 @@ SiteGrid::SiteGrid(const Mission& mission, double clearance, double cell, double
   const Box box = extent(mission, margin, also);
   const Eigen::Vector2d size = box.high - box.low;
   low_ = box.low;
-  cell_ = std::max(cell, std::sqrt(size.x() * size.y() / kMostCells));
+  cell_ = std::max(cell, std::sqrt(size.x() * size.y() / kMaxCells));
   width_ = static_cast<int>(std::ceil(size.x() / cell_));
   height_ = static_cast<int>(std::ceil(size.y() / cell_));
   zones_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
