@@ -102,6 +102,24 @@ TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) 
   EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(1000)));
 }
 
+TEST(Pace, an_item_that_fits_a_second_waits_for_the_hellos_of_a_start) {
+  // The share of one of ten robots: an item and what discovery sends do not fit into the same second.
+  constexpr double kShare = 1812.0, kHello = 200.0, kItem = 1400.0;
+  Pace pace(kShare, {});
+  double first_second = 0.0;
+  int went_at = 0;
+  for (int ms = 0; ms < 6000; ms += 50) {
+    const Stamp now = kStart + std::chrono::milliseconds(ms);
+    double sent = 0.0;
+    if (ms % 250 == 0) pace.spend(sent = kHello, now);
+    if (went_at == 0 && pace.take(kItem, now)) went_at = ms, sent += kItem;
+    if (ms < 1000) first_second += sent;
+  }
+  EXPECT_LE(first_second, 1.1 * kShare);
+  EXPECT_GE(went_at, 1000);
+  EXPECT_LE(went_at, 4000) << "traffic that never ends holds it back no longer";
+}
+
 TEST(Pace, hellos_to_absent_robots_hold_back_no_fragment_for_ever) {
   // The share of one of twenty robots, and Hellos to fifteen absent ones: no second is silent.
   constexpr double kShare = 18'125.0 / 20.0, kHello = 260.0, kFragment = 1250.0;
