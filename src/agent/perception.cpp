@@ -97,7 +97,7 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
 
 void Perception::watch_clock(sensor::Source source, Stamp stamp) {
   clock_offsets_.add(source, stamp, bus_.now());
-  for (const std::string& news : clock_offsets_.take_news()) spdlog::warn("{}", news);
+  for (const std::string& news : clock_offsets_.take_warnings()) spdlog::warn("{}", news);
 }
 
 void Perception::on_scan(const Bytes& cdr) {
@@ -144,7 +144,7 @@ void Perception::start_next() {
 void Perception::finish(Job& job) {
   busy_ = false;
   loam_counters_ = loam_.counters();
-  for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
+  for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);

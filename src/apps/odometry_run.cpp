@@ -60,7 +60,7 @@ class OdometryFeed {
     const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
     now_ = std::max(now_, times_.of(sample, recorded));
     clocks_.add(source, recording::stamp_of(sample), now_);
-    for (const std::string& news : clocks_.take_news()) spdlog::warn("{}", news);
+    for (const std::string& news : clocks_.take_warnings()) spdlog::warn("{}", news);
     std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
     return !clocks_.unclear(source);
   }
@@ -77,7 +77,7 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
-    for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
+    for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
     if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
       run_.poses.push_back({update->stamp, update->T_odom_base});

@@ -28,7 +28,7 @@ struct OdometryRun {
   odometry::WayCheck way;
 
   /// As far as it can tell.
-  bool kept_its_way() const { return counters.map_restarts == 0 && way.doubts().empty(); }
+  bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
 };
 
 /// Runs the odometry over the whole recording. Fails if it cannot be read to its end.

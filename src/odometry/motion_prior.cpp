@@ -18,8 +18,8 @@ double square(double value) { return value * value; }
 }  // namespace
 
 MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance,
-                         double dt, const std::optional<SeenRotation>& gyro,
-                         const std::optional<SeenWay>& way_seen)
+                         double dt, const std::optional<MeasuredRotation>& gyro,
+                         const std::optional<MeasuredDisplacement>& way_seen)
     : dt_(dt), previous_twist_(previous.twist), twist_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;

@@ -66,7 +66,7 @@ std::string WayCheck::after_start(Stamp stamp) const {
   return text.str();
 }
 
-std::vector<std::string> WayCheck::doubts() const {
+std::vector<std::string> WayCheck::warnings() const {
   std::vector<std::string> doubts;
   const auto doubt = [&](const auto&... parts) {
     std::ostringstream text;

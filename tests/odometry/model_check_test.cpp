@@ -31,7 +31,7 @@ std::vector<std::string> news(const sensor::Scan& scan, const LidarModel& model)
   std::vector<std::string> all;
   for (int k = 0; k < 30; ++k) {
     check.add(scan);
-    std::ranges::move(check.take_news(), std::back_inserter(all));
+    std::ranges::move(check.take_warnings(), std::back_inserter(all));
   }
   return all;
 }

@@ -50,7 +50,7 @@ TEST(MotionPrior, TheLastPoseIsKnownNoBetterThanItWas) {
   MotionState previous;
   Matrix12d covariance = covariance_of(0.0, 1e-9);
   covariance(1, 1) = 0.04 * 0.04;
-  const MotionPrior::SeenRotation left{rotation_from_rpy(0.0, 0.0, 0.5 * std::numbers::pi), 1e-4};
+  const MotionPrior::MeasuredRotation left{rotation_from_rpy(0.0, 0.0, 0.5 * std::numbers::pi), 1e-4};
   const MotionPrior turned(LoamConfig{}, previous, covariance, 0.1, left);
   const Matrix12d after_turn = turned.linearised(turned.predicted()).H.inverse();
   EXPECT_NEAR(std::sqrt(after_turn(0, 0)), 0.04, 0.002);

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
-#include "fleetmap/agent/failure_log.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/node_factory.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/registration_recorder.hpp"
+#include "fleetmap/agent/store_failures.hpp"
+#include "fleetmap/agent/track_recorder.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
-#include "fleetmap/output/global_track.hpp"
-#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::agent {
@@ -91,7 +90,7 @@ class Agent {
 
  private:
   Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
-        std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file);
+        std::uint16_t session, TrackRecorder tracks);
   Status start();
   /// Robots that were not heard of for long on a mission.
   std::set<AgentId> lost() const;
@@ -126,7 +125,6 @@ class Agent {
   void handle(const exchange::MapComplete&) {}
   /// Own items whose names are contested get others.
   void name_contested_anew();
-  void note_store_that_works();
 
   /// The alignment gets a name, is stored, and goes to the fleet. False: it was refused.
   bool publish(graph::Alignment alignment);
@@ -139,9 +137,7 @@ class Agent {
   std::uint16_t session_;
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
-  /// None: it could not be begun, and holds no other frame.
-  std::optional<output::TrajectoryFile> odometry_file_;
-  output::GlobalTrackFile global_file_;
+  TrackRecorder tracks_;
   double odometry_seconds_ = 0.0;  ///< CPU
   RegistrationRecorder registrations_;
   NodeFactory nodes_;
@@ -159,8 +155,7 @@ class Agent {
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
   Stamp session_begun_{};  ///< if it was not with the program's start
-  FailureLog store_failures_;
-  std::uint64_t added_before_failure_ = 0;  ///< StoreStats::added
+  StoreFailures store_failures_;
 };
 
 }  // namespace fleetmap::agent

@@ -17,7 +17,7 @@ class ModelCheck {
 
   void add(const sensor::Scan& scan);
   /// What has been found since the last call, each once, with the key to set. Three scans must agree.
-  std::vector<std::string> take_news();
+  std::vector<std::string> take_warnings();
 
  private:
   struct Finding {

@@ -39,21 +39,21 @@ struct NormalEquations {
 class MotionPrior {
  public:
   /// Rotation of base_link from the last reference instant to this one, as a gyro saw it.
-  struct SeenRotation {
+  struct MeasuredRotation {
     Eigen::Matrix3d R_previous_now;
     double sigma;  ///< rad
   };
 
   /// Where base_link is now, from where it was at the last reference instant, as wheels and gyro saw it.
-  struct SeenWay {
+  struct MeasuredDisplacement {
     Eigen::Vector3d p_previous_now;  ///< m
     double sigma;                    ///< m
   };
 
   /// `covariance` of `previous`, [d_pose, d_twist]; `dt` s since then, > 0. `way` needs a `gyro`.
   MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance, double dt,
-              const std::optional<SeenRotation>& gyro = std::nullopt,
-              const std::optional<SeenWay>& way = std::nullopt);
+              const std::optional<MeasuredRotation>& gyro = std::nullopt,
+              const std::optional<MeasuredDisplacement>& way = std::nullopt);
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);

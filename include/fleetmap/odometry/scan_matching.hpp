@@ -71,13 +71,19 @@ class ScanMatcher {
     const Surface* plane = nullptr;
   };
   static constexpr int kTimeBins = 16;
+  struct Linearisation;
 
   /// At `state`, of every `stride`-th feature.
   void linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                  LocalMap& map, const MotionState& state, double slack, std::size_t stride);
+  void add_planes(const Linearisation& at, const std::vector<FeaturePoint>& planes, LocalMap& map);
+  /// `p` in base_link, `q` in the map's frame.
+  void add_feature(const Linearisation& at, const FeaturePoint& feature, const Eigen::Vector3d& p,
+                   const Eigen::Vector3d& q, const Surface* surface, bool edge);
   void add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base, double residual,
                double weight);
   NormalEquations collect() const;
+  void fill_statistics(MatchResult& result) const;
   void find_degeneracy(const Matrix12d& H, MatchResult& result) const;
 
   LoamConfig config_;

@@ -20,7 +20,7 @@ class WayCheck {
   /// Of the motion from the first to the last update.
   Matrix6d covariance() const { return whole_.since_reference(); }
   /// What makes the trajectory unreliable, each with where it is worst; empty if nothing does.
-  std::vector<std::string> doubts() const;
+  std::vector<std::string> warnings() const;
 
  private:
   struct Seen {
