@@ -181,7 +181,7 @@ void Agent::on_perceived(Perceived&& perceived) {
 
 void Agent::navigate() {
   const bool meeting = navigator_->status().state == messages::MissionState::kMeeting;
-  // What was seen since the last node belongs to the maps that are exchanged at the meeting.
+  // Freezes the points since the last node, so that the meeting exchanges them too.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
   navigator_->tick(complete() && fleet_caught_up(), exchange_->in_sync_with(bus_.now()));

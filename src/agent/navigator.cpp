@@ -15,7 +15,7 @@
 namespace fleetmap::agent {
 namespace {
 
-/// Who leads a robot and falls silent no longer does: it is on its own G again, or stands.
+/// A guide that is silent for so long no longer guides: the robot uses its own G again, or stands still.
 constexpr Duration kGuidePatience = std::chrono::seconds(1);
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
-/// What others get to come back and bring what is missing.
+/// Time for others to come back and bring missing items.
 constexpr Duration kPeerPatience = std::chrono::minutes(1);
 /// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
 constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);

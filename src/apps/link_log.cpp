@@ -75,7 +75,7 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& heard,
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
                       fetched_from_.contains(traffic.from);
     const bool is_new = heard_.insert_or_assign({traffic.link, traffic.from}, now).second;
-    // What was lost while it was out of reach is told of by the row of that time.
+    // Messages that were lost while the robot was out of reach were counted in the row of that time.
     if (traffic.messages > 0) add_row(traffic, is_new ? 0 : traffic.lost, before, now, full);
   }
   add_silent(now);

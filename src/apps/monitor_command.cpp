@@ -32,7 +32,7 @@ struct MonitorOptions {
   std::size_t viewers = 8;
 };
 
-/// What was found of a finished run: the view of one robot, and its store, which holds the submaps.
+/// A finished run: the view of one robot, and its store, which holds the submaps.
 struct FinishedRun {
   std::unique_ptr<store::Store> store;
   monitor::FleetView view;

@@ -27,7 +27,7 @@ using config::RobotConfig;
 constexpr const char* kNever = "never heard";
 /// For the answers to the last Hellos, and to those that are repeated because the radio lost one.
 constexpr double kAnswerTime = 2.0;  // s
-/// What an observer's Hello takes of the budget: bit, at the rate of the whole fleet.
+/// Share of the budget that an observer's Hello uses: bits, at the rate of the whole fleet.
 constexpr double kHelloBits = 9425.0;
 
 /// An observer that has the radios of `robot`.
@@ -53,7 +53,7 @@ std::string seconds(Duration duration) {
 /// "10.0.0.2" of "10.0.0.2:7660".
 std::string address_of(const std::string& place) { return place.substr(0, place.find(':')); }
 
-/// What one radio heard beside what was to be heard.
+/// Checks one radio: compares what it received with what it should receive.
 class LinkCheck {
  public:
   LinkCheck(Link link, const RobotConfig& robot, RadioSurvey survey)

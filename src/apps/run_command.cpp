@@ -61,7 +61,7 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
   if (config.twin) {
     auto setup = set_up_twin(config);
     if (!setup) return tl::unexpected(setup.error());
-    // What perception and background work take on a robot; also lets the robots' work overlap.
+    // Time that perception and background work take on a robot; it also lets the robots' work overlap.
     config.network.perception_time = kPerceptionTime;
     config.network.background_time = kBackgroundTime;
     std::vector<sim::RobotTwinConfig> robots;

@@ -28,7 +28,7 @@ Status check_store(const std::filesystem::path& file);
 Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& given,
                            std::optional<double> voxel_m);
 
-/// Of the nodes that map.ply shows.
+/// Poses of the nodes that map.ply contains.
 std::map<NodeId, Pose> shown_poses(const StoredMap& map);
 
 /// The map's pictures, in memory for a map that is thinned to what can be drawn: its tiles come once for

@@ -32,7 +32,7 @@ struct Completion {
   std::optional<double> lane_share;  ///< of the twin's lanes, truly driven
 };
 
-/// What a run in virtual time gave.
+/// Result of a run in virtual time.
 struct FleetOutcome {
   struct AgentOutcome {
     AgentId id;
@@ -95,7 +95,7 @@ class VirtualFleet {
   void switch_on(std::size_t member);
   Status begin();
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
-  /// What the network and the agents learn of the robots once a second: where they are, their batteries.
+  /// Passes the robots' positions and batteries to the network and the agents once a second.
   void update_states();
   /// By the feed, else by its own G.
   std::optional<bus::EnuPosition> position_of(std::size_t member) const;
@@ -109,7 +109,7 @@ class VirtualFleet {
   bool settled();
   void report_progress(Duration elapsed) const;
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
-  /// Of a member that is switched off at the end.
+  /// Outcome of a member that is switched off at the end.
   FleetOutcome::AgentOutcome results_of_store(std::size_t member);
 
   config::FleetConfig config_;

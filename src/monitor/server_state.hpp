@@ -15,8 +15,8 @@ namespace fleetmap::monitor {
 
 class Viewer;
 
-/// What the listener, the connections and the viewers of one server share. The server's thread alone uses it,
-/// but for the atomic counters and `io`, to which other threads post.
+/// State shared by the listener, the connections and the viewers of one server. Only the server's thread uses
+/// it, except the atomic counters and `io`, to which other threads post.
 struct Server::State {
   State(const ServerConfig& config_, store::SubmapLoader load, std::span<const PageFile> page)
       : config(config_), content(page, std::move(load), config_.cached_bytes) {}

@@ -73,11 +73,11 @@ PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
 void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
   const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
   if (!d.allFinite()) return;
-  // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
+  // Unmeasured components follow the prior, so their misfit says nothing about it and is not counted.
   const Vector12d told =
       Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
   const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
-  // What it shares with rotation can make a part of a square negative.
+  // The cross terms with the rotation can make a part of the square negative.
   translation_misfit_.add(std::max(0.0, misfit.head<3>().sum() + misfit.segment<3>(6).sum()),
                           told.head<3>().sum() + told.segment<3>(6).sum());
   if (gyro) return;
@@ -85,7 +85,7 @@ void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& cov
                        told.segment<3>(3).sum() + told.tail<3>().sum());
 }
 
-/// Of pose and velocity at the scan's reference instant.
+/// Covariance of pose and velocity at the scan's reference instant.
 Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
   const MatchResult& match = scan.match;
   Matrix12d information = match.prior_information;
@@ -110,7 +110,7 @@ Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
   return 0.5 * (error + error.transpose());
 }
 
-/// What stays unknown is unknown at the next scan, too; but no velocity is known less than at the start.
+/// Keeps the covariance for the next scan. The velocity's is bounded by its value at the start.
 void PoseUncertainty::remember(const Matrix12d& at_reference) {
   Vector12d scale = Vector12d::Ones();
   for (int i = 6; i < 12; ++i) {

@@ -34,10 +34,10 @@ double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   return longest;
 }
 
-/// What the points tell when the map may be bent within every sweep by a velocity e of these standard
+/// Information of the points if the map may be bent within every sweep by a velocity e of these standard
 /// deviations (m/s, rad/s): a point fired at s moves with d_pose + s (d_twist + e), and e is marginalised.
-/// Without it the velocity would be measured against the map's own bend, which has no anchor: it would drift
-/// away from the way between the poses, and the map with it.
+/// Otherwise the velocity would be measured against the map's own bend, which has no anchor, and both would
+/// drift away from the motion between the poses.
 NormalEquations with_bent_map(const NormalEquations& points, double speed, double turn_rate) {
   Vector6d known;
   known << Eigen::Vector3d::Constant(1.0 / square(speed)), Eigen::Vector3d::Constant(1.0 / square(turn_rate));

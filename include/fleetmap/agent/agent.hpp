@@ -81,7 +81,7 @@ class Agent {
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
   loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
-  /// What drives the robot, if this agent does.
+  /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of each scan, as LOAM took them.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
@@ -98,8 +98,8 @@ class Agent {
   void on_perceived(Perceived&& perceived);
   /// Makes the node at the last scan, stores it and tells the fleet.
   void freeze_node();
-  /// What the odometry computes from now on is in another frame. `why` is for people. False: the store
-  /// failed.
+  /// Begins a session, since the odometry continues in another frame. `why` is for the log. Returns false if
+  /// the store failed.
   bool begin_session(const char* why);
   bool numbers_run_out() const;
   void navigate();

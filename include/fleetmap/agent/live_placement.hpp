@@ -12,8 +12,8 @@
 
 namespace fleetmap::agent {
 
-/// Where the robot is by all that its store holds: solves the fleet's graph off the callbacks when something
-/// is new, and carries the odometry on from the newest node. The odometry itself never jumps.
+/// The robot's pose on Earth from everything in its store. Solves the fleet's graph in the background when
+/// items have arrived, and extrapolates from the newest node by the odometry, which itself never jumps.
 class LivePlacement {
  public:
   /// Hears the alignments that the graph uses, after every solution.
@@ -26,7 +26,7 @@ class LivePlacement {
   void refresh(std::uint16_t session);
   /// Nothing is under way, and the last solution holds all that there is.
   bool idle() const { return !under_way_ && !due(); }
-  /// Of all solutions.
+  /// CPU seconds that all solutions took.
   double cpu_seconds() const { return cpu_seconds_; }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const output::StampedPose& odometry);

@@ -25,7 +25,7 @@ class NodeFactory {
   /// The configurations must be valid.
   NodeFactory(const AgentId& self, const SubmapConfig& submap, const place::NodeGeneratorConfig& nodes);
 
-  /// What was gathered since the last node enters none.
+  /// Discards the points since the last node.
   void drop_rest();
   /// A new odometry frame has begun: nothing of the last one is left.
   void begin_frame();

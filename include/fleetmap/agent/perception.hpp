@@ -33,7 +33,7 @@ struct PerceptionConfig {
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
 };
 
-/// What a scan gave: O with the points, and G at the same instant once the EKF knows it.
+/// Result of one scan: O with the points, and G at the same instant if the EKF has one.
 struct Perceived {
   odometry::OdometryUpdate odometry;
   std::optional<GlobalPose> G;

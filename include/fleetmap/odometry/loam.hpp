@@ -18,17 +18,18 @@
 
 namespace fleetmap::odometry {
 
-/// What one scan told.
+/// Result of one scan: pose, motion-compensated points and how well the scan was matched.
 struct OdometryUpdate {
   Stamp stamp;  ///< Scan::stamp, wherever in the sweep it lies (LidarModel::stamp_phase for scans without
                 ///< times)
   /// base_link at `stamp` in the odometry frame O, which is base_link at the first scan's stamp. Never jumps.
   Pose T_odom_base = Pose::Identity();
-  /// What the motion since the previous update adds to the drift, [m, rad] in base_link at `stamp`:
-  /// T <- T exp(d). Sums of these (moved by adjoint()) are the drift over many scans; MotionCovariance does
-  /// it.
+  /// Covariance that the motion since the previous update adds to the drift, right tangent [m, rad] of
+  /// T_odom_base at `stamp`: T <- T exp(d). Sums of these, moved by adjoint(), are the drift over many scans
+  /// (MotionCovariance).
   Matrix6d covariance = Matrix6d::Zero();
-  /// Of this pose in the local map, same tangent: does not sum, a motion has that of its two ends.
+  /// Covariance of this pose in the local map, same tangent. It does not accumulate: a motion has that of its
+  /// two ends.
   Matrix6d pose_noise = Matrix6d::Zero();
   Vector6d twist = Vector6d::Zero();  ///< of base_link in base_link, mean over the sweep, [m/s, rad/s]
   /// All valid returns within L_max in base_link at `stamp`, motion compensated, with intensity.
@@ -70,9 +71,9 @@ class Loam {
   Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
 
   const LoamCounters& counters() const;
-  /// What of the scans contradicts the LiDAR's model, each once and as a sentence for the log.
+  /// Contradictions between the scans and the LiDAR's model, each reported once as a sentence for the log.
   std::vector<std::string> take_warnings();
-  /// Of the local map after the last scan.
+  /// Size of the local map after the last scan.
   LocalMapSize map_size() const;
 
  private:

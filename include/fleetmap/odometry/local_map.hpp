@@ -10,13 +10,13 @@
 
 namespace fleetmap::odometry {
 
-/// What a local map holds.
+/// Size of a local map.
 struct LocalMapSize {
   std::size_t windows = 0;  ///< of all grids
   std::size_t bytes = 0;
 };
 
-/// What the robot has seen around it: surfaces at two scales, upright posts among them, and edges.
+/// Local map around the robot: surfaces at two scales, upright posts among them, and edges.
 class LocalMap {
  public:
   explicit LocalMap(const LoamConfig& config);

@@ -16,7 +16,8 @@ class ModelCheck {
   explicit ModelCheck(LidarModel model);
 
   void add(const sensor::Scan& scan);
-  /// What has been found since the last call, each once, with the key to set. Three scans must agree.
+  /// Contradictions found since the last call, each reported once with the key to set. Three scans must
+  /// agree.
   std::vector<std::string> take_warnings();
 
  private:

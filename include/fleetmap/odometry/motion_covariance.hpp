@@ -15,7 +15,8 @@ class MotionCovariance {
   void add(const Pose& T_odom_base, const Matrix6d& growth, const Matrix6d& pose_noise);
   /// The last scan becomes the reference, as at a new node.
   void restart();
-  /// Of T_reference_last: T <- T exp(d). Zero before the first scan and at the reference itself.
+  /// Covariance of T_reference_last, right tangent: T <- T exp(d). Zero before the first scan and at the
+  /// reference itself.
   Matrix6d since_reference() const;
   /// The part that sums when motions follow each other. How well the scans at the ends lie in the local map
   /// cancels there: the end of one motion is the reference of the next.

@@ -33,18 +33,19 @@ struct NormalEquations {
   Vector12d g = Vector12d::Zero();
 };
 
-/// What is known of a sweep's motion before its points are looked at: the last state as well as that was
-/// known, and that velocity changes as white noise on acceleration (Barfoot, State Estimation for Robotics,
-/// 11.2); optionally gyro and wheels.
+/// Prior of a sweep's motion before its points are used: the last state with its covariance, a velocity that
+/// changes as white noise on acceleration (Barfoot, State Estimation for Robotics, 11.2), and optionally gyro
+/// and wheels.
 class MotionPrior {
  public:
-  /// Rotation of base_link from the last reference instant to this one, as a gyro saw it.
+  /// Rotation of base_link from the last reference instant to this one, measured by a gyro.
   struct MeasuredRotation {
     Eigen::Matrix3d R_previous_now;
     double sigma;  ///< rad
   };
 
-  /// Where base_link is now, from where it was at the last reference instant, as wheels and gyro saw it.
+  /// Displacement of base_link since the last reference instant, in its frame then, by dead reckoning from
+  /// wheels and gyro.
   struct MeasuredDisplacement {
     Eigen::Vector3d p_previous_now;  ///< m
     double sigma;                    ///< m
@@ -73,7 +74,7 @@ class MotionPrior {
   MotionState predicted() const;
   /// m, 1 sigma of the predicted position in its worst direction.
   double position_sigma() const;
-  /// Of the predicted pose: right tangent of T_odom_base, [m, rad].
+  /// Covariance of the predicted pose: right tangent of T_odom_base, [m, rad].
   Matrix6d pose_covariance() const { return covariance_.topLeftCorner<6, 6>(); }
   NormalEquations linearised(const MotionState& state) const;
 

@@ -10,7 +10,7 @@ namespace fleetmap::odometry {
 /// How far the prior was off over how far it was taken to be, of the last seconds.
 class PriorMisfit {
  public:
-  /// Of one scan: normalised squares, and in how many dimensions the points told them.
+  /// Adds one scan's normalised squared misfit and the number of dimensions that its points measured.
   void add(double squares, double dimensions);
   /// 1: as taken to be. Told by few points it is near 1.
   double variance() const;
@@ -49,7 +49,7 @@ class PoseUncertainty {
   };
   Stated state(const Matched& scan);
 
-  /// Of the last scan's pose in the local map and of its velocity, as the next scan's prior takes them.
+  /// Covariance of the last scan's pose in the local map and of its velocity, for the next scan's prior.
   const Matrix12d& covariance() const { return covariance_; }
 
  private:

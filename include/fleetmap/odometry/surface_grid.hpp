@@ -17,8 +17,8 @@ enum class Shape : std::uint8_t {
   kScatter,  ///< enough points, but neither plane nor line
 };
 
-/// What surface the points of one cubic window show. One cache line, and kept only of windows that the
-/// matching asked for.
+/// Surface of the points in one cubic window. One cache line, computed only for windows that the matching
+/// looks up.
 struct alignas(64) Surface {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< m, map frame
   /// Normal of a plane, on the side that it was seen from; or direction of a line.
@@ -26,7 +26,7 @@ struct alignas(64) Surface {
   float thickness = 0.0f;       ///< m^2, variance across the plane or line
   float angle_variance = 0.0f;  ///< rad^2, of the direction: thickness / (count * spread)
   float count = 0.0f;           ///< points that it was fitted to
-  /// Of the plane's other side, if it was seen; for SurfaceGrid.
+  /// Index of the plane's other side, if it was observed; for SurfaceGrid.
   std::uint32_t other_side = 0xffffffff;
   Shape shape = Shape::kUnknown;
 };
@@ -55,7 +55,7 @@ class SurfaceGrid {
   /// The surface of the window whose middle is nearest to `point`, of the side that is seen from there, or
   /// null. Valid until the next prune().
   const Surface* at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
-  /// Of the window whose middle is nearest.
+  /// Key of the window whose middle is nearest.
   CellKey cell_at(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d scaled = point * inverse_step_;
     return pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5),
@@ -83,7 +83,7 @@ class SurfaceGrid {
     Eigen::Matrix<float, 6, 1> square = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
     Eigen::Vector3f toward = Eigen::Vector3f::Zero();  ///< sum of the directions to the sensor
     std::uint32_t surface = kNone;                     ///< index, once at() asked
-    /// Of the plane that at() last found, times kNormalUnit; zero where it found none.
+    /// Normal of the plane that at() last found, times kNormalUnit; zero if it found none.
     std::array<std::int16_t, 3> normal{};
   };
   static_assert(sizeof(Window) == 64 && sizeof(Surface) == 64);

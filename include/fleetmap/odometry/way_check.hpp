@@ -17,9 +17,10 @@ class WayCheck {
   void add(const OdometryUpdate& update);
 
   double length() const { return length_; }  ///< m
-  /// Of the motion from the first to the last update.
+  /// Covariance of the motion from the first to the last update.
   Matrix6d covariance() const { return whole_.since_reference(); }
-  /// What makes the trajectory unreliable, each with where it is worst; empty if nothing does.
+  /// Reasons why the trajectory is unreliable, each with the time at which it is worst; empty if there are
+  /// none.
   std::vector<std::string> warnings() const;
 
  private:
