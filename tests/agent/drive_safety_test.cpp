@@ -1,5 +1,5 @@
-// What is promised of cmd_vel when something goes wrong, of whole agents that drive twins in virtual time.
-// The chassis obey their last command for ever.
+// cmd_vel when something goes wrong, with whole agents that drive twins in virtual time. The chassis obey
+// their last command for ever.
 #include <gtest/gtest.h>
 
 #include "agent/driven_fleet.hpp"

@@ -1,4 +1,4 @@
-// What only the Fast DDS bus can get wrong: its profile files and its configuration.
+// The parts that only the Fast DDS bus has: its profile files and its configuration.
 
 #include "fleetmap/bus/dds_bus.hpp"
 
@@ -351,7 +351,7 @@ class Multicast : public QosDirectory {
     EXPECT_TRUE(group.good());
     for (int n = 0; n < 20; ++n) sender->publish(topic, Bytes(200));
     EXPECT_TRUE(run_all([&] { return at_second >= 20 && at_third >= 20; }));
-    // What would come twice has been sent before this.
+    // Duplicates would arrive before this message.
     sender->publish(topic, Bytes(200));
     EXPECT_TRUE(run_all([&] { return at_second >= 21 && at_third >= 21; }));
     EXPECT_EQ(at_second, 21);

@@ -37,8 +37,7 @@ constexpr std::size_t kChunkPayload = 8192;
 constexpr std::uint32_t kWindow = 128;  // chunks
 constexpr double kBurstBytes = 3000.0;  // about two full datagrams
 
-/// What every message starts with; an answer carries the missing indices after it, and none when all is
-/// there.
+/// Header of every message. An answer carries the missing indices after it, and none when all have arrived.
 struct Header {
   std::int64_t stamp_ns = 0;  ///< of the first publish of the whole
   std::uint32_t id = 0;

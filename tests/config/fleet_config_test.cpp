@@ -192,7 +192,7 @@ TEST_F(FleetConfigTest, WhatRobotsMustHaveAlikeGoesToTheRadios) {
   const bus::FleetSettings own = settings("");
   EXPECT_EQ(own.submap_voxel, 1000);
   EXPECT_EQ(own.map_voxel, 1000);
-  // What may differ, does.
+  // Settings that may differ between robots do not change the result.
   EXPECT_EQ(settings("lidar: {model: os1-64}\ndds: {onboard: {domain: 7}}\n", "[r2, r1]"), own);
   EXPECT_NE(settings("", "[r1, r2, r3]").fleet, own.fleet);
   EXPECT_NE(settings("", "[r1, r3]").fleet, own.fleet);

@@ -34,7 +34,7 @@ TEST(MotionPrior, TheWayIsAsUncertainAsTheVelocityMakesIt) {
   }
 }
 
-/// What is predicted is what the prior finds most likely.
+/// The prediction is the mode of the prior.
 TEST(MotionPrior, ThePredictionIsItsMode) {
   MotionState previous;
   previous.twist << 1.0, 0.1, 0.0, 0.0, 0.1, 0.5;
@@ -44,8 +44,8 @@ TEST(MotionPrior, ThePredictionIsItsMode) {
   EXPECT_LT(prior.linearised(prior.predicted()).g.norm(), 1e-6);
 }
 
-/// What was not known of the last pose is not known of this one: an error to the left is one ahead after a
-/// turn to the left by a quarter, and an error of the heading one to the side after a way.
+/// The uncertainty of the last pose carries over: an error to the left becomes one ahead after a quarter turn
+/// to the left, and an error of the heading becomes one to the side after some distance.
 TEST(MotionPrior, TheLastPoseIsKnownNoBetterThanItWas) {
   MotionState previous;
   Matrix12d covariance = covariance_of(0.0, 1e-9);

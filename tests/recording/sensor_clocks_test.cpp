@@ -13,7 +13,7 @@ namespace {
 using fleetmap::testing::TemporaryFolder;
 using sensor::Source;
 
-/// What is wrong with one sensor's clock, and what is said of it.
+/// A fault of one sensor's clock, and the expected warning.
 struct WrongClock {
   const char* name;
   double off;        ///< s

@@ -90,7 +90,7 @@ TEST(ClockOffsets, LeavesSensorsOfOneClockAlone) {
   }
 }
 
-/// What is wrong with one sensor's clock, and what is said of it.
+/// A fault of one sensor's clock, and the expected warning.
 struct WrongClock {
   const char* name;
   double off;        ///< s
