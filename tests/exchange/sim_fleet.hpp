@@ -117,7 +117,10 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 /// No loop candidates, hence no clouds.
 void no_candidates(loop_closure::LoopClosureConfig& config);
 
-/// Those of one kind that a robot told.
+/// The robots drive on parallel tracks 8 m apart and make `nodes` nodes each, one every 2 s and 4 m.
+void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m = 0.0);
+
+/// Events of one kind of a robot.
 template <class Kind>
 std::vector<Kind> events(const SimFleet::Robot& robot) {
   std::vector<Kind> found;
