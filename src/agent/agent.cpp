@@ -269,8 +269,8 @@ bool Agent::publish(graph::Alignment alignment) {
   return false;
 }
 
-void Agent::handle(const exchange::MissionHeard& heard) {
-  if (navigator_) navigator_->on_report(heard.report);
+void Agent::handle(const exchange::MissionHeard& mission) {
+  if (navigator_) navigator_->on_report(mission.report);
 }
 
 void Agent::on_local_hold(const Bytes& cdr) {
@@ -294,9 +294,9 @@ void Agent::name_contested_anew() {
   const exchange::NewNames names{
       session_, [this] { return sessions_.draw(store_, config_.draw_session); },
       [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
-  const Result<std::size_t> told = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
-  if (!told) return handle(exchange::StoreFailed{told.error()});
-  if (*told > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *told);
+  const Result<std::size_t> reissued = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
+  if (!reissued) return handle(exchange::StoreFailed{reissued.error()});
+  if (*reissued > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *reissued);
 }
 
 void Agent::handle(const exchange::SessionTaken& taken) {

@@ -21,7 +21,7 @@ constexpr Duration kTrafficPeriod = std::chrono::seconds(1), kNodesPeriod = std:
 
 /// The LiDAR alone is silent: the rest looks well, but no map is made.
 bool misses_scans(const agent::Perception& perception) {
-  return perception.last_heard() - perception.last_scan() > kNoScan;
+  return perception.last_sample() - perception.last_scan() > kNoScan;
 }
 
 void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
@@ -39,7 +39,7 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   }
   if (none_yet) return;
   if (const agent::Navigator* navigator = agent.navigator()) {
-    if (const auto reason = navigator->stands())
+    if (const auto reason = navigator->stand_reason())
       spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
@@ -70,8 +70,8 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
     }
     // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
     const Duration silence = bus.now() - agent.link_counters().last_submap;
-    const bool all_told = agent.complete() && agent.fleet_caught_up();
-    return all_told ? silence > patience : silence > patience + kPeerPatience;
+    const bool complete = agent.complete() && agent.fleet_caught_up();
+    return complete ? silence > patience : silence > patience + kPeerPatience;
   }
   const bool sensors_silent =
       bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
@@ -108,7 +108,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
   }
   bus.run_until(stop);
   // Before anything that takes time.
-  if (watchdog != nullptr) watchdog->stand();
+  if (watchdog != nullptr) watchdog->stop_driving();
   agent.halt();
   if (rest_frozen) return;
   // Told to end: the last node goes to whoever is in reach, or their maps would lack what this robot's has.

@@ -66,8 +66,8 @@ class OdometryFeed {
   }
 
   bool due(const Waiting& first) const {
-    const bool seen_through = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
-    return seen_through || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
+    const bool covered = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
+    return covered || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
   }
 
   void add_scan(const sensor::Scan& scan) {

@@ -23,7 +23,7 @@ constexpr int kMaxRenewals = 3;
 
 OrderInForce::OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const HoldOrder& order)
     : bus_(bus), addressed_(std::move(addressed)), order_(order) {
-  heard_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
+  subscription_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
     if (const auto hold = fleet_codec::decode<Hold>(cdr)) on_hold(*hold);
   });
   bus_.advertise(fleet_codec::topics::hold());

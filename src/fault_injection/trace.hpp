@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/core/time.hpp"
@@ -14,7 +15,7 @@ class Trace {
  public:
   explicit Trace(bool on) : on_(on) {}
   void add(Duration time, const std::string& line);
-  std::vector<std::string> take() { return std::move(lines_); }
+  std::vector<std::string> take() { return std::exchange(lines_, {}); }
 
  private:
   bool on_;

@@ -19,7 +19,7 @@ double square(double value) { return value * value; }
 
 MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance,
                          double dt, const std::optional<MeasuredRotation>& gyro,
-                         const std::optional<MeasuredDisplacement>& way_seen)
+                         const std::optional<MeasuredDisplacement>& displacement)
     : dt_(dt), previous_twist_(previous.twist), twist_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;
@@ -42,11 +42,11 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, 
       Q(axis, axis) = square(gyro->sigma) + square(kRotationNoise);
     }
   }
-  if (gyro && way_seen) {
-    way.translation() = way_seen->p_previous_now;
+  if (gyro && displacement) {
+    way.translation() = displacement->p_previous_now;
     for (int axis = 0; axis < 3; ++axis) {
       F(axis, axis + 6) = Q(axis, axis + 6) = Q(axis + 6, axis) = 0.0;
-      Q(axis, axis) = square(way_seen->sigma) + square(kPoseNoise);
+      Q(axis, axis) = square(displacement->sigma) + square(kPoseNoise);
     }
   }
   F.topLeftCorner<6, 6>() = adjoint(way.inverse());

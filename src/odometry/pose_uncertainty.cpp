@@ -44,7 +44,7 @@ void PoseUncertainty::map_restarted() {
 
 void PoseUncertainty::hold() {
   last_noise_.setZero();
-  unheld_told_.setZero();
+  unheld_stated_.setZero();
   unheld_share_ = slid_ = 0.0;
 }
 
@@ -70,19 +70,19 @@ PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
 /// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
 /// less well. Rotation only without a gyro: a gyro's bias turns all scans alike, so that points and gyro
 /// agree from scan to scan says less.
-void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
+void PoseUncertainty::update_prior_misfit(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
   const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
   if (!d.allFinite()) return;
   // Unmeasured components follow the prior, so their misfit says nothing about it and is not counted.
-  const Vector12d told =
+  const Vector12d measured =
       Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
   const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
   // The cross terms with the rotation can make a part of the square negative.
   translation_misfit_.add(std::max(0.0, misfit.head<3>().sum() + misfit.segment<3>(6).sum()),
-                          told.head<3>().sum() + told.segment<3>(6).sum());
+                          measured.head<3>().sum() + measured.segment<3>(6).sum());
   if (gyro) return;
   rotation_misfit_.add(std::max(0.0, misfit.segment<3>(3).sum() + misfit.tail<3>().sum()),
-                       told.segment<3>(3).sum() + told.tail<3>().sum());
+                       measured.segment<3>(3).sum() + measured.tail<3>().sum());
 }
 
 /// Covariance of pose and velocity at the scan's reference instant.
@@ -98,7 +98,7 @@ Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
     // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
     // motion away from it, not as both were weighed.
     const bool gyro = scan.turn_acceleration_variance.has_value();
-    judge_prior(match, at_reference, gyro);
+    update_prior_misfit(match, at_reference, gyro);
     Vector12d scale = Vector12d::Ones();
     scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
     if (!gyro) scale.segment<3>(3).setConstant(std::sqrt(rotation_misfit_.variance()));
@@ -130,19 +130,19 @@ Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const Matrix6d A = adjoint(scan.T_before_now.inverse());
   const Matrix6d added = noise - A * last_noise_ * A.transpose();
   last_noise_ = noise;
-  unheld_told_ = (A * unheld_told_ * A.transpose()).eval();
+  unheld_stated_ = (A * unheld_stated_ * A.transpose()).eval();
   const bool unheld = scan.lost || match.degenerate_count > 0;
   const double renewed = scan.T_before_now.translation().norm() / kMapReach +
                          so3_log(scan.T_before_now.linear()).norm() / kMapTurn;
   unheld_share_ += std::min(1.0, renewed) * ((unheld ? 1.0 : 0.0) - unheld_share_);
-  if (!unheld) unheld_told_.setZero();
+  if (!unheld) unheld_stated_.setZero();
 
   Matrix6d growth = Matrix6d::Zero();
   growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
   growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
   if (scan.lost) {
     const Matrix6d stays = added.diagonal().cwiseMax(0.0).asDiagonal();
-    unheld_told_ += stays;
+    unheld_stated_ += stays;
     return growth + way * config_.drift_share * noise + stays;
   }
   Vector6d scale = Vector6d::Ones();  // of the degenerate directions: [m, m, m, and rotation times range]
@@ -165,10 +165,11 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
   for (int i = 0; i < match.degenerate_count; ++i) {
     const Vector6d across = scale.asDiagonal() * Vector6d(match.degenerate_directions.col(i));
     const Vector6d axis = scale.cwiseInverse().asDiagonal() * Vector6d(match.degenerate_directions.col(i));
-    const double untold = stays * across.dot(noise * across) - across.dot((unheld_told_ + growth) * across);
-    growth += std::max(0.0, untold) * axis * axis.transpose();
+    const double unstated =
+        stays * across.dot(noise * across) - across.dot((unheld_stated_ + growth) * across);
+    growth += std::max(0.0, unstated) * axis * axis.transpose();
   }
-  unheld_told_ += growth;
+  unheld_stated_ += growth;
   return growth;
 }
 

@@ -76,7 +76,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   result.state = start;
   result.speed_measured = prior.has_forward_speed();
   result.turn_rate_measured = prior.has_gyro_rate() || prior.has_yaw_rate();
-  looked_up_.assign(planes.size(), {});
+  lookups_.assign(planes.size(), {});
   const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
   const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
@@ -182,16 +182,16 @@ void ScanMatcher::add_planes(const Linearisation& at, const std::vector<FeatureP
       p[k] = at.in_base(planes[i]);
       q[k] = at.R * p[k] + at.t;
       const CellKey cell = map.cell_of(q[k]);
-      if (looked_up_[i].plane != nullptr && looked_up_[i].cell == cell) continue;
-      looked_up_[i] = {cell, nullptr};
+      if (lookups_[i].plane != nullptr && lookups_[i].cell == cell) continue;
+      lookups_[i] = {cell, nullptr};
       unknown[unknowns++] = q[k];
     }
     map.fetch_ahead(std::span(unknown).first(unknowns));
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = begin + k * at.stride;
-      const Surface* known = looked_up_[i].plane;
+      const Surface* known = lookups_[i].plane;
       const Surface* surface = known != nullptr ? known : map.surface_at(q[k], at.sensor);
-      if (surface != nullptr && surface->shape == Shape::kPlane) looked_up_[i].plane = surface;
+      if (surface != nullptr && surface->shape == Shape::kPlane) lookups_[i].plane = surface;
       add_feature(at, planes[i], p[k], q[k], surface, false);
     }
   }

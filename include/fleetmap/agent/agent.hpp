@@ -65,7 +65,7 @@ class Agent {
   /// Another robot still makes nodes or alignments.
   bool others_busy() const { return exchange_->others_busy(bus_.now()); }
   /// When a sensor was last heard, and when the last item moved, on the bus's clock.
-  Stamp last_sensor() const { return perception_->last_heard(); }
+  Stamp last_sensor() const { return perception_->last_sample(); }
   Stamp last_exchange() const { return link_->counters().last_useful; }
 
   const AgentConfig& config() const { return config_; }

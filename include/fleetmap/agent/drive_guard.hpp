@@ -36,8 +36,8 @@ class DriveGuard {
   explicit DriveGuard(const DriveGuardConfig& config = {}) : config_(config) {}
 
   void on_scan(Stamp now) { scan_ = now; }
-  /// The odometry has fitted the scan that came at `heard`.
-  void on_odometry(Stamp heard, Stamp now);
+  /// The odometry has fitted the scan that came at `arrival`.
+  void on_odometry(Stamp arrival, Stamp now);
   /// The robot's pose on the site came.
   void on_pose(Stamp now) { pose_ = now; }
   void set_held(bool held) { held_ = held; }

@@ -35,11 +35,12 @@ struct NavigatorConfig {
 /// DriveGuard::kPeriod.
 class Navigator {
  public:
-  using Tell = std::function<void(messages::MissionReport)>;
+  using SendReport = std::function<void(messages::MissionReport)>;
   /// `site`: the ENU frame of the plan. `tell` brings a report to the others. Fails if the plan does not know
   /// `self`.
   static Result<std::unique_ptr<Navigator>> create(const NavigatorConfig& config, const AgentId& self,
-                                                   const GeoPoint& site, bus::Bus& bus, Tell tell);
+                                                   const GeoPoint& site, bus::Bus& bus,
+                                                   SendReport send_report);
 
   ~Navigator();
 
@@ -58,7 +59,7 @@ class Navigator {
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.
-  std::optional<StandReason> stands() const { return stands_; }
+  std::optional<StandReason> stand_reason() const { return stand_reason_; }
 
   /// Nothing is left to do for this robot.
   bool done() const { return action_.kind == planning::MissionAction::Kind::kDone; }
@@ -69,7 +70,7 @@ class Navigator {
 
  private:
   Navigator(const NavigatorConfig& config, const AgentId& self, planning::MissionExecutive executive,
-            const GeoPoint& site, bus::Bus& bus, Tell tell);
+            const GeoPoint& site, bus::Bus& bus, SendReport send_report);
   /// Publishes the command, or zero if the guard has a reason.
   void drive(const planning::Command& command);
   void watch();
@@ -84,7 +85,7 @@ class Navigator {
   LocalFrame site_;
   AgentId self_;
   bus::Bus& bus_;
-  Tell tell_;
+  SendReport send_report_;
   planning::MissionExecutive executive_;
   planning::RowCoverage coverage_;
   planning::PathFollower follower_;
@@ -93,8 +94,8 @@ class Navigator {
   std::optional<planning::Pose2> guide_;  ///< the last that was told
   Stamp guided_at_{};
   DriveGuard guard_;
-  std::optional<StandReason> stands_;  ///< as of the last check
-  Stamp stands_since_{};
+  std::optional<StandReason> stand_reason_;  ///< as of the last check
+  Stamp standing_since_{};
   bool drove_ = false;             ///< the guard let a command pass
   std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;

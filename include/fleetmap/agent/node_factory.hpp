@@ -59,7 +59,7 @@ class NodeFactory {
   odometry::MotionCovariance motion_;           ///< since the last node
   std::optional<Perceived> last_;               ///< of this frame, not lost; without its points
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
-  bool told_of_missing_gps_ = false;
+  bool missing_gps_logged_ = false;
 };
 
 }  // namespace fleetmap::agent

@@ -41,7 +41,7 @@ class LocalMap {
  private:
   SurfaceGrid fine_, coarse_, posts_, edges_;
   Thinning coarse_thinning_;
-  std::vector<SurfaceGrid::SeenPoint> seen_, thin_;  ///< keep their memory between calls
+  std::vector<SurfaceGrid::ObservedPoint> observed_, thin_;  ///< keep their memory between calls
 };
 
 }  // namespace fleetmap::odometry

@@ -54,7 +54,7 @@ class PoseUncertainty {
 
  private:
   void remember(const Matrix12d& at_reference);
-  void judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro);
+  void update_prior_misfit(const MatchResult& match, const Matrix12d& covariance, bool gyro);
   Matrix12d error_at_reference(const Matched& scan);
   Matrix6d growth(const Matched& scan, const Matrix6d& noise);
   Matrix6d growth_unheld(const MatchResult& match, const Matrix6d& noise);
@@ -63,11 +63,11 @@ class PoseUncertainty {
 
   LoamConfig config_;
   Matrix12d covariance_ = Matrix12d::Zero();
-  Matrix6d last_noise_ = Matrix6d::Zero();   ///< of the last scan's pose at its reference instant
-  double unheld_share_ = 0.0;                ///< of the map near: built of scans that it does not hold
-  double slid_ = 0.0;                        ///< m, 1 sigma, since most of the map near is of that kind
-  MatchResult sliding_;                      ///< the last scan with degenerate directions
-  Matrix6d unheld_told_ = Matrix6d::Zero();  ///< growth since a scan was last held in all directions
+  Matrix6d last_noise_ = Matrix6d::Zero();     ///< of the last scan's pose at its reference instant
+  double unheld_share_ = 0.0;                  ///< of the map near: built of scans that it does not hold
+  double slid_ = 0.0;                          ///< m, 1 sigma, since most of the map near is of that kind
+  MatchResult sliding_;                        ///< the last scan with degenerate directions
+  Matrix6d unheld_stated_ = Matrix6d::Zero();  ///< growth since a scan was last held in all directions
   /// (rad/s^2)^2, mean square of how the turn rates changed from scan to scan.
   Eigen::Vector3d turn_change_ = Eigen::Vector3d::Zero();
   PriorMisfit translation_misfit_, rotation_misfit_;

@@ -66,7 +66,7 @@ class ScanMatcher {
   };
   /// The cell in which a plane feature was looked up and the plane found there, since the next iteration
   /// mostly looks up the same.
-  struct LookedUp {
+  struct PlaneLookup {
     CellKey cell = 0;
     const Surface* plane = nullptr;
   };
@@ -90,7 +90,7 @@ class ScanMatcher {
   std::array<TimeBin, kTimeBins> bins_;
   double half_span_ = 0.0;
   Sums sums_;
-  std::vector<LookedUp> looked_up_;  ///< of each plane feature, during one align()
+  std::vector<PlaneLookup> lookups_;  ///< of each plane feature, during one align()
 };
 
 }  // namespace fleetmap::odometry

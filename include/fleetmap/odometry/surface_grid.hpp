@@ -44,11 +44,11 @@ class SurfaceGrid {
   /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
   SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
 
-  struct SeenPoint {
+  struct ObservedPoint {
     Eigen::Vector3d point;   ///< m, map frame
     Eigen::Vector3f toward;  ///< direction to the sensor that saw it; zero for lines, which have no sides
   };
-  void add(std::span<const SeenPoint> seen);
+  void add(std::span<const ObservedPoint> points);
   /// Brings the surfaces that at() returns for these points into the caches. The map is far larger than they
   /// are, and most of the time of a lookup that comes alone is the way to memory.
   void fetch_ahead(std::span<const Eigen::Vector3d> points) const;
@@ -88,9 +88,9 @@ class SurfaceGrid {
   };
   static_assert(sizeof(Window) == 64 && sizeof(Surface) == 64);
 
-  void add_block(std::span<const SeenPoint> seen);
+  void add_block(std::span<const ObservedPoint> points);
   static void take(Window& window, const Eigen::Vector3f& from_middle, const Eigen::Vector3f& toward);
-  static bool seen_from_behind(const Window& window, const Eigen::Vector3f& toward);
+  static bool observed_from_behind(const Window& window, const Eigen::Vector3f& toward);
   Window& other_side_of(Window& window);
   const Surface& surface_of(Window& window, CellKey cell);
   void fit(const Window& window, CellKey cell, Surface& surface) const;

@@ -24,7 +24,7 @@ class WayCheck {
   std::vector<std::string> warnings() const;
 
  private:
-  struct Seen {
+  struct RecentScan {
     Stamp stamp;
     bool lost;
   };
@@ -33,8 +33,8 @@ class WayCheck {
     Stamp at;  ///< end of the stretch
   };
 
-  void judge_losses(const OdometryUpdate& update);
-  void judge_stretch(const OdometryUpdate& update);
+  void update_losses(const OdometryUpdate& update);
+  void update_stretch(const OdometryUpdate& update);
   std::string after_start(Stamp stamp) const;
 
   Stamp first_;
@@ -42,7 +42,7 @@ class WayCheck {
   std::size_t updates_ = 0, lost_ = 0;
   double length_ = 0.0, stretch_begin_ = 0.0;  ///< m
   MotionCovariance whole_, stretch_;
-  std::deque<Seen> recent_;
+  std::deque<RecentScan> recent_;
   std::size_t recent_lost_ = 0;
   Worst losses_;          ///< share of the scans
   Worst vague_, turned_;  ///< m, rad, 1 sigma over a stretch
