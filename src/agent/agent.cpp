@@ -22,7 +22,8 @@ constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 /// The graph is solved for the live pose at most this often, and only if anything is new.
 constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
-/// A session whose number was given before, or is said to be, gives way at most so often.
+/// Shortest time between two sessions that begin because another robot holds items under the session's
+/// number.
 constexpr Duration kSessionPause = std::chrono::minutes(1);
 
 loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config) {

@@ -8,7 +8,7 @@
 namespace fleetmap::odometry {
 namespace {
 
-/// 1 sigma of what a pose errs anew from scan to scan: those before it in the map do not tell it better.
+/// 1 sigma of the part of a pose's error that is independent from scan to scan.
 constexpr double kPoseNoise = 0.003;       // m
 constexpr double kRotationNoise = 0.0005;  // rad
 constexpr double kNominalPeriod = 0.1;     // s, for which the accelerations of the configuration are meant
@@ -54,7 +54,8 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, 
   covariance_ = F * covariance * F.transpose() + Q;
 }
 
-/// A measurement of one component of the velocity tells of the way, too, as far as both err together.
+/// Kalman update by one component of the velocity. It also corrects the pose, as far as the errors of both
+/// are correlated.
 void MotionPrior::measure_rate(int axis, double value, double sigma) {
   const Eigen::Index i = 6 + axis;
   const Vector12d gain = covariance_.col(i) / (covariance_(i, i) + square(sigma));

@@ -66,10 +66,10 @@ PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
   return stated;
 }
 
-/// How far the points move the translation away from the prior, against how far it was taken to be off: a
-/// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
-/// less well. Rotation only without a gyro: a gyro's bias turns all scans alike, so that points and gyro
-/// agree from scan to scan says less.
+/// Compares the correction of the translation by the points with the prior's variance: the motion of a robot
+/// that drives smoothly is predicted better than the prior's accelerations state, that of a shaken one less
+/// well. The rotation is used only without a gyro, because a gyro's bias turns all scans alike, so the
+/// agreement of points and gyro between scans shows less.
 void PoseUncertainty::update_prior_misfit(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
   const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
   if (!d.allFinite()) return;
@@ -121,9 +121,9 @@ void PoseUncertainty::remember(const Matrix12d& at_reference) {
   covariance_ = 0.5 * (capped + capped.transpose());
 }
 
-/// New ground enters the map at poses that err as `noise` does, that of the reference instant, for which a
-/// scan is matched: so the map drifts with the way. When lost, the map does not hold the motion at all, and
-/// what a scan adds to its error stays in the map.
+/// Growth of the drift by one scan. New surfaces enter the map with the error `noise` of the pose at the
+/// reference instant, so the map drifts with the distance. While the scan is lost, the map does not constrain
+/// the motion, and the added error stays in the map.
 Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const MatchResult& match = scan.match;
   const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
@@ -154,9 +154,9 @@ Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
          growth_sliding(match, way);
 }
 
-/// Along degenerate directions a pose errs as its prior does, and all that enters the map there errs alike.
-/// The next scan that the map holds takes that back, but for the share of the map that was built in such
-/// poses.
+/// Growth along degenerate directions. There a pose has the error of its prior, and all surfaces that enter
+/// the map share it. The next constrained scan corrects it, except for the share of the map that was built at
+/// such poses.
 Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d& noise) {
   const double stays = square(std::min(1.0, unheld_share_ / kMostlyUnheld));
   Vector6d scale = Vector6d::Ones();
@@ -173,8 +173,9 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
   return growth;
 }
 
-/// A map that was mostly built of scans that it did not hold is no witness where it seems to hold one again:
-/// both may have slid together. Only wheels and a gyro tell whether they did.
+/// Growth by sliding. A map that was built mostly of scans that it did not constrain may have slid together
+/// with them, so a scan that it seems to constrain again is no evidence. Only wheels and a gyro measure
+/// whether they slid.
 Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
   if (match.degenerate_count > 0) sliding_ = match;
   if (unheld_share_ < kSlidesFrom) slid_ = 0.0;

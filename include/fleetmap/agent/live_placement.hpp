@@ -16,15 +16,14 @@ namespace fleetmap::agent {
 /// items have arrived, and extrapolates from the newest node by the odometry, which itself never jumps.
 class LivePlacement {
  public:
-  /// Hears the alignments that the graph uses, after every solution.
+  /// Receives the alignments that the graph uses, after every solution.
   using OnUsed = std::function<void(std::span<const graph::Alignment>)>;
-  /// All outlive it, and the work under way.
+  /// All arguments must outlive it and the work under way.
   LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store, OnUsed on_used);
 
-  /// Begins a solution unless one is under way or nothing is new. `session` is the one that publish() will
-  /// tell of.
+  /// Begins a solution unless one is under way or nothing is new. publish() then uses the frame of `session`.
   void refresh(std::uint16_t session);
-  /// Nothing is under way, and the last solution holds all that there is.
+  /// True if no solution is under way and the last one includes all items.
   bool idle() const { return !under_way_ && !due(); }
   /// CPU seconds that all solutions took.
   double cpu_seconds() const { return cpu_seconds_; }

@@ -44,7 +44,7 @@ struct OdometryUpdate {
   /// `degenerate_count`); there the pose follows the motion prior and the covariance is large.
   int degenerate_count = 0;
   Matrix6d degenerate_directions = Matrix6d::Zero();
-  /// The scan did not fit the map; the pose is the prediction and the covariance says so.
+  /// The scan did not fit the map; the pose is the prediction, and the covariance is that of the prediction.
   bool lost = false;
 };
 

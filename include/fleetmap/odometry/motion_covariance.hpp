@@ -5,9 +5,9 @@
 
 namespace fleetmap::odometry {
 
-/// Covariance of the motion between two scans of one odometry frame, right tangent [m, rad]: what was lost on
-/// the way (sums) and how well the scans at its two ends lie in the local map (does not sum: the scans in
-/// between have no say). Give it every update of the frame.
+/// Covariance of the motion between two scans of one odometry frame, right tangent [m, rad]: the drift on the
+/// way, which sums, and the noise of the two end poses in the local map, which does not. Every update of the
+/// frame must be added.
 class MotionCovariance {
  public:
   /// The next scan of the motion; the first one is its reference.

@@ -15,8 +15,8 @@ using Matrix12d = Eigen::Matrix<double, 12, 12>;
 struct MotionState {
   Pose T_odom_base = Pose::Identity();
   Vector6d twist = Vector6d::Zero();  ///< in base_link, [m/s, rad/s]
-  /// rad/s^2 in base_link, steady during the sweep. A robot that sways or pitches over a bump turns by
-  /// milliradians more or less within a sweep than its mean velocity says.
+  /// rad/s^2 in base_link, constant during the sweep. A robot that sways or pitches over a bump turns by
+  /// milliradians more or less within a sweep than its mean velocity predicts.
   Eigen::Vector3d turn_acceleration = Eigen::Vector3d::Zero();
 
   /// T_reference_then: base_link `seconds` after the reference instant.

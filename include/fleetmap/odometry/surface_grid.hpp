@@ -11,7 +11,7 @@
 namespace fleetmap::odometry {
 
 enum class Shape : std::uint8_t {
-  kUnknown,  ///< too few points to tell, or they only show one line of a surface
+  kUnknown,  ///< too few points, or only one line of a surface
   kPlane,
   kLine,
   kScatter,  ///< enough points, but neither plane nor line
@@ -34,8 +34,8 @@ struct alignas(64) Surface {
 /// Windows of edge length 2h on a lattice of step h: each point lies in eight of them, and near the middle of
 /// one, so a lookup costs one hash probe and no surface is cut by a cell border.
 ///
-/// A plane has a side: the one that it was seen from. What is seen of the other side (of a solar panel, a
-/// sign, a wall) is another surface, off by its thickness, and has a window of its own.
+/// A plane has a side: the one that it was observed from. The other side (of a solar panel, a sign, a wall)
+/// is another surface, displaced by the thickness, and has a window of its own.
 class SurfaceGrid {
  public:
   enum class Seeks { kPlanes, kLines, kUprightLines };
@@ -82,7 +82,7 @@ class SurfaceGrid {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();                           ///< of positions
     Eigen::Matrix<float, 6, 1> square = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
     Eigen::Vector3f toward = Eigen::Vector3f::Zero();  ///< sum of the directions to the sensor
-    std::uint32_t surface = kNone;                     ///< index, once at() asked
+    std::uint32_t surface = kNone;                     ///< index, once at() needed it
     /// Normal of the plane that at() last found, times kNormalUnit; zero if it found none.
     std::array<std::int16_t, 3> normal{};
   };

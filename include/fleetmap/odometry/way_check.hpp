@@ -10,8 +10,8 @@
 
 namespace fleetmap::odometry {
 
-/// Whether an odometry kept its way, as far as it can tell: judged over the whole drive and along it, since a
-/// long drive hides a stretch that was lost. Updates are those of one odometry frame, in order.
+/// Checks whether a trajectory is reliable, over the whole drive and along it, since a long drive hides a
+/// stretch that was lost. All updates are of one odometry frame, in order.
 class WayCheck {
  public:
   void add(const OdometryUpdate& update);
