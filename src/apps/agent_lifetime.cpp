@@ -14,7 +14,8 @@ constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
 /// Time for others to come back and bring missing items.
 constexpr Duration kPeerPatience = std::chrono::minutes(1);
-/// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
+/// After SIGTERM the agent ends once it has had no request for kQuiet, and at the latest after kFarewell
+/// (service managers kill after ten seconds).
 constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 constexpr Duration kTrafficPeriod = std::chrono::seconds(1), kNodesPeriod = std::chrono::milliseconds(50);
@@ -56,9 +57,9 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
                to_seconds(bus.now() - agent.last_sensor()));
 }
 
-/// Whether it is time to end by itself: the mission is done or the sensors are silent, the exchange has been
-/// silent for `patience`, everything is held, and nobody tells that more will come. Else others get a minute
-/// more to come and bring it.
+/// True if the agent should end by itself: the mission is done or the sensors are silent, the exchange has
+/// been silent for `patience`, everything is held, and no robot announces more. Otherwise others get a minute
+/// more to bring it.
 bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
@@ -68,7 +69,7 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
       agent.freeze_rest();
       return false;
     }
-    // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
+    // Robots that wait beside each other keep finding loop candidates, so only the last submap counts.
     const Duration silence = bus.now() - agent.link_counters().last_submap;
     const bool complete = agent.complete() && agent.fleet_caught_up();
     return complete ? silence > patience : silence > patience + kPeerPatience;
@@ -111,7 +112,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
   if (watchdog != nullptr) watchdog->stop_driving();
   agent.halt();
   if (rest_frozen) return;
-  // Told to end: the last node goes to whoever is in reach, or their maps would lack what this robot's has.
+  // The last node is sent to the robots in reach before the end, or their maps would lack its points.
   agent.freeze_rest();
   Stamp busy = bus.now();
   bus.run_until(

@@ -13,7 +13,7 @@ namespace fleetmap::apps {
 /// the moment that `stop` is set until the end of the process, however long the maps take to be written.
 class DriveWatchdog {
  public:
-  /// `bus` and `stop` outlive this. To be made and destroyed while nobody runs the bus.
+  /// `bus` and `stop` must outlive this. To be constructed and destroyed while no thread runs the bus.
   DriveWatchdog(bus::DdsBus& bus, const std::atomic<bool>& stop);
   /// From now on publishes zero, as if `stop` were set.
   void stop_driving() { driving_stopped_ = true; }

@@ -23,7 +23,7 @@ struct FeedSeconds {
 /// Source of a fleet's sensor samples in virtual time. Members are numbered as in the fleet's configuration.
 class FleetFeed {
  public:
-  /// Puts a sample onto the member's onboard link; `stamp` is what a bag of it says.
+  /// Publishes a sample on the member's onboard link; `stamp` is the time at which a bag recorded it.
   using Deliver = std::function<void(std::size_t member, const recording::Sample& sample, Stamp stamp)>;
 
   virtual ~FleetFeed() = default;
@@ -56,7 +56,7 @@ class FleetFeed {
     static_cast<void>(member);
     return std::nullopt;
   }
-  /// Share of the battery that is left, if the feed knows.
+  /// State of charge of the battery, if the feed has one.
   virtual std::optional<double> battery(std::size_t member) const {
     static_cast<void>(member);
     return std::nullopt;

@@ -9,8 +9,7 @@ namespace {
 constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
 constexpr const char* kNodesHeader = "time_ns,node";
 constexpr std::uintmax_t kMaxTraceBytes = 32u << 20;
-/// On the radio whoever has nothing to tell says Hello every 20 s; on the Wi-Fi robots tell something each
-/// second.
+/// On the radio a robot sends a Hello at least every 20 s, on the Wi-Fi a message each second.
 constexpr Duration kSilence = std::chrono::seconds(65), kSilenceNear = std::chrono::seconds(5);
 
 /// A power cut leaves a line without its end.
@@ -71,7 +70,7 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
   if (before == Stamp{}) return;  // of what time these came is not known
   begin_anew_when_full();
   for (const bus::HeardTraffic& traffic : received) {
-    // Whoever was waited for at both ends of the second has sent as much as the link carries.
+    // A robot from which submaps were being fetched at both ends of the second has filled the link.
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
                       fetched_from_.contains(traffic.from);
     const bool is_new = last_received_.insert_or_assign({traffic.link, traffic.from}, now).second;

@@ -55,7 +55,7 @@ class OdometryFeed {
     Stamp end;  ///< of its sweep
   };
 
-  /// False while it is too early to tell what the stamp means.
+  /// False as long as the offset of the sensor's clock is undecided.
   bool correct_clock(recording::Sample& sample, std::optional<Stamp> recorded) {
     const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
     now_ = std::max(now_, times_.of(sample, recorded));

@@ -27,7 +27,7 @@ struct OdometryRun {
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
   odometry::WayCheck way;
 
-  /// As far as it can tell.
+  /// True if the odometry never restarted its map and the trajectory has no warnings.
   bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
 };
 

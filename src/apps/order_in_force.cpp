@@ -15,8 +15,8 @@ using messages::HoldOrder;
 
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(50);
 constexpr Duration kRepeat = std::chrono::seconds(1);
-/// Times that the order is given anew because a later one is in force: by a clock ahead of this one, not by
-/// another operator who insists.
+/// Times that the order is repeated because a later one is in force. That one may come from a clock ahead of
+/// this one; another operator may insist longer.
 constexpr int kMaxRenewals = 3;
 
 }  // namespace

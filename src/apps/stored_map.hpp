@@ -23,8 +23,8 @@ struct StoredMap {
 /// Fails, with the remedy, unless the file is a store.
 Status check_store(const std::filesystem::path& file);
 
-/// Places the nodes of a store. `configured`: the origin of ENU, else that of the agent's last map, or the least
-/// node's; `voxel_m`: else as in the agent's last map.
+/// Places the nodes of a store. `configured`: the origin of ENU, else that of the agent's last map, or the
+/// least node's; `voxel_m`: else as in the agent's last map.
 Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& configured,
                            std::optional<double> voxel_m);
 

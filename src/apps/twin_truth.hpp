@@ -19,7 +19,7 @@ class TruthTrack {
   output::Trajectory poses_;
 };
 
-/// How often who leads a robot is told where it is.
+/// Period of a guide's poses.
 constexpr Duration kGuidePeriod = std::chrono::milliseconds(100);
 
 /// True pose of the robot, without covariance; `site`: the twin's ENU.
