@@ -2,20 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <span>
 #include <vector>
 
 namespace fleetmap::odometry {
 namespace {
 
-/// Points of walls across the way at these x, and of two walls along it.
-std::vector<Eigen::Vector3d> corridor(const std::vector<double>& walls, double from, double to) {
+/// Points of walls across the way at these x, and of two walls along it every `step` m.
+std::vector<Eigen::Vector3d> corridor(const std::vector<double>& walls, double from, double to, double step) {
   std::vector<Eigen::Vector3d> points;
   for (double z = 0.05; z < 2.0; z += 0.1) {
     for (const double x : walls) {
       for (double y = -1.95; y < 2.0; y += 0.1) points.emplace_back(x, y, z);
     }
-    for (double x = from; x < to; x += 0.1) {
+    for (double x = from; x < to; x += step) {
       points.emplace_back(x, -3.0, z);
       points.emplace_back(x, 3.0, z);
     }
@@ -27,9 +26,9 @@ std::vector<Eigen::Vector3d> corridor(const std::vector<double>& walls, double f
 bool ambiguous_among(const std::vector<double>& walls) {
   const LoamConfig config;
   LocalMap map(config);
-  map.add_surfaces(corridor(walls, -15.0, 20.0), {0.0, 0.0, 1.0});
+  map.add_surfaces(corridor(walls, -15.0, 20.0, 0.1), {0.0, 0.0, 1.0});
   SelectedFeatures scan;
-  for (const Eigen::Vector3d& p : corridor({2.5, 5.0}, 0.0, 6.0)) {
+  for (const Eigen::Vector3d& p : corridor({2.5, 5.0}, 0.0, 6.0, 1.0)) {
     if (scan.match_planes.empty() || (scan.match_planes.back().position - p.cast<float>()).norm() > 0.25f)
       scan.match_planes.push_back({p.cast<float>()});
   }
