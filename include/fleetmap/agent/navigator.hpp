@@ -91,7 +91,7 @@ class Navigator {
   planning::PathFollower follower_;
   planning::MissionAction action_;
   std::optional<planning::Pose2> pose_;
-  std::optional<planning::Pose2> guide_;  ///< the last that was told
+  std::optional<planning::Pose2> guide_;  ///< the last pose of the guide
   Stamp guided_at_{};
   DriveGuard guard_;
   std::optional<StandReason> stand_reason_;  ///< as of the last check
