@@ -22,9 +22,9 @@ constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 /// The graph is solved for the live pose at most this often, and only if anything is new.
 constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
-/// A session whose number was given before, or is said to be, gives way at most so often.
+/// Shortest time between two sessions that begin because another robot holds items under the session's
+/// number.
 constexpr Duration kSessionPause = std::chrono::minutes(1);
-constexpr Duration kStoreFailurePeriod = std::chrono::seconds(30);
 
 loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config) {
   loop_closure::LoopClosing::Config loops{
@@ -52,28 +52,23 @@ Result<std::unique_ptr<Agent>> Agent::create(const AgentConfig& config, bus::Bus
   if (!sessions) return tl::unexpected(sessions.error());
   const Result<std::uint16_t> session = sessions->begin(*store, config.draw_session);
   if (!session) return tl::unexpected(session.error());
-  Result<output::TrajectoryFile> odometry =
-      output::TrajectoryFile::begin_session(config.directory, *sessions->index_of(*session));
-  if (!odometry) return tl::unexpected(odometry.error());
-  Result<output::GlobalTrackFile> track =
-      output::GlobalTrackFile::append_to(config.directory / "global_track.csv");
-  if (!track) return tl::unexpected(track.error());
+  Result<TrackRecorder> tracks = TrackRecorder::open(config.directory, *sessions->index_of(*session));
+  if (!tracks) return tl::unexpected(tracks.error());
   for (const std::string& damage : store->damage()) spdlog::warn("{}", damage);
-  std::unique_ptr<Agent> agent(new Agent(config, bus, std::move(*store), std::move(*sessions), *session,
-                                         std::move(*odometry), std::move(*track)));
+  std::unique_ptr<Agent> agent(
+      new Agent(config, bus, std::move(*store), std::move(*sessions), *session, std::move(*tracks)));
   if (const Status started = agent->start(); !started) return tl::unexpected(started.error());
   return agent;
 }
 
 Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
-             std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file)
+             std::uint16_t session, TrackRecorder tracks)
     : config_(config),
       bus_(bus),
       store_(std::move(store)),
       sessions_(std::move(sessions)),
       session_(session),
-      odometry_file_(std::move(odometry_file)),
-      global_file_(std::move(global_file)),
+      tracks_(std::move(tracks)),
       registrations_(config.id, config.directory),
       nodes_(config.id, config.submap, config.nodes),
       loop_closing_(
@@ -81,7 +76,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store
           {[this](const loop_closure::Registration& registration) { registrations_.add(registration); },
            [this](const graph::Alignment& alignment) { return publish(alignment); },
            [this] { on_events(); }}),
-      store_failures_(kStoreFailurePeriod) {
+      store_failures_(config.id.str(), store_.path().string()) {
   loop_closing_.begin_session(session_);
 }
 
@@ -153,9 +148,6 @@ WorkSeconds Agent::work_seconds() const {
   return all;
 }
 
-// ---- own map
-// ----------------------------------------------------------------------------------------------------
-
 void Agent::halt() {
   if (navigator_) navigator_->stop();
 }
@@ -184,22 +176,13 @@ void Agent::on_perceived(Perceived&& perceived) {
   odometry_seconds_ += perceived.cpu_seconds;
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
-  if (odometry_file_) {
-    if (const Status written = odometry_file_->add({update.stamp, update.T_odom_base}); !written) {
-      spdlog::error("{}", written.error().message);
-    }
-  }
-  if (perceived.G) {
-    if (const Status written = global_file_.add(*perceived.G); !written) {
-      spdlog::error("{}", written.error().message);
-    }
-  }
+  tracks_.add(perceived);
   if (nodes_.add(std::move(perceived), bus_.now())) freeze_node();
 }
 
 void Agent::navigate() {
   const bool meeting = navigator_->status().state == messages::MissionState::kMeeting;
-  // What was seen since the last node belongs to the maps that are exchanged at the meeting.
+  // Freezes the points since the last node, so that the meeting exchanges them too.
   if (meeting && !rest_frozen_for_meeting_) freeze_rest();
   rest_frozen_for_meeting_ = meeting;
   navigator_->tick(complete() && fleet_caught_up(), exchange_->in_sync_with(bus_.now()));
@@ -229,13 +212,7 @@ bool Agent::begin_session(const char* why) {
   const std::size_t index = *sessions_.index_of(session_);
   spdlog::warn("{}: {}: session {} ({})", config_.id.str(), why, index,
                to_string(graph::FrameId{config_.id, session_}));
-  Result<output::TrajectoryFile> file = output::TrajectoryFile::begin_session(config_.directory, index);
-  odometry_file_.reset();
-  if (file) {
-    odometry_file_.emplace(std::move(*file));
-  } else {
-    spdlog::error("{}", file.error().message);
-  }
+  tracks_.begin_session(index);
   return true;
 }
 
@@ -259,9 +236,6 @@ void Agent::freeze_node() {
 void Agent::freeze_rest() {
   if (nodes_.has_rest()) freeze_node();
 }
-
-// ---- others
-// -----------------------------------------------------------------------------------------------------
 
 void Agent::on_events() {
   for (const exchange::Event& event : exchange_->take_events()) {
@@ -296,8 +270,8 @@ bool Agent::publish(graph::Alignment alignment) {
   return false;
 }
 
-void Agent::handle(const exchange::MissionHeard& heard) {
-  if (navigator_) navigator_->on_report(heard.report);
+void Agent::handle(const exchange::MissionHeard& mission) {
+  if (navigator_) navigator_->on_report(mission.report);
 }
 
 void Agent::on_local_hold(const Bytes& cdr) {
@@ -321,9 +295,9 @@ void Agent::name_contested_anew() {
   const exchange::NewNames names{
       session_, [this] { return sessions_.draw(store_, config_.draw_session); },
       [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
-  const Result<std::size_t> told = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
-  if (!told) return handle(exchange::StoreFailed{told.error()});
-  if (*told > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *told);
+  const Result<std::size_t> reissued = exchange::reissue_contested(*exchange_, store_, names, bus_.now());
+  if (!reissued) return handle(exchange::StoreFailed{reissued.error()});
+  if (*reissued > 0) spdlog::warn("{}: {} own items have other names now", config_.id.str(), *reissued);
 }
 
 void Agent::handle(const exchange::SessionTaken& taken) {
@@ -339,20 +313,7 @@ void Agent::handle(const exchange::NodeAdded& added) {
 }
 
 void Agent::handle(const exchange::StoreFailed& failed) {
-  // A full or read-only disk refuses every item that comes.
-  added_before_failure_ = store_.stats().added;
-  if (!store_failures_.on_failure(bus_.now())) return;
-  spdlog::error(
-      "{}: {}; until it works nothing new is kept, and this is not said again; what others have is "
-      "fetched then",
-      config_.id.str(), failed.error.message);
-}
-
-void Agent::note_store_that_works() {
-  if (!store_failures_.failing() || store_.stats().added == added_before_failure_) return;
-  if (const std::uint64_t failures = store_failures_.on_success(); failures > 0)
-    spdlog::warn("{}: {} works again; {} writes were refused", config_.id.str(), store_.path().string(),
-                 failures);
+  store_failures_.on_failure(failed.error, store_.stats().added, bus_.now());
 }
 
 void Agent::update_status() {
@@ -368,7 +329,7 @@ void Agent::update_status() {
   if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
   name_contested_anew();
-  note_store_that_works();
+  store_failures_.check(store_.stats().added);
 }
 
 }  // namespace fleetmap::agent

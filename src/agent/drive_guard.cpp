@@ -18,8 +18,8 @@ const char* to_string(StandReason reason) {
   return "unknown";
 }
 
-void DriveGuard::on_odometry(Stamp heard, Stamp now) {
-  if (now >= heard && now - heard <= config_.max_latency) odometry_ = now;
+void DriveGuard::on_odometry(Stamp arrival, Stamp now) {
+  if (now >= arrival && now - arrival <= config_.max_latency) odometry_ = now;
 }
 
 bool DriveGuard::overdue(const std::optional<Stamp>& last, Stamp now) const {

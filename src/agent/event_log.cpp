@@ -65,12 +65,12 @@ struct Log {
         "have signed them",
         self.str(), adopted.items.signed_own, adopted.items.dropped);
   }
-  void operator()(const exchange::OfferUndelivered& doubted) const {
+  void operator()(const exchange::OfferUndelivered& offer) const {
     spdlog::warn(
         "{}: {} offers {} nodes and {} alignments and does not deliver them: its link works one way, or its "
         "digests are "
         "forged; they are not waited for until one comes",
-        self.str(), doubted.peer.str(), doubted.nodes, doubted.alignments);
+        self.str(), offer.peer.str(), offer.nodes, offer.alignments);
   }
   void operator()(const exchange::OwnItemsElsewhere& found) const {
     spdlog::warn(
@@ -79,10 +79,10 @@ struct Log {
         "this name",
         self.str(), found.peer.str(), found.nodes, found.alignments);
   }
-  void operator()(const exchange::StrangerHeard& heard) const {
+  void operator()(const exchange::StrangerHeard& stranger) const {
     spdlog::warn(
         "{}: heard {}, which is not of this fleet; if it should be, name it in `fleet` of every robot's file",
-        self.str(), heard.name.str());
+        self.str(), stranger.name.str());
   }
   template <class Other>
   void operator()(const Other&) const {}  // whoever handles it tells of it, or nobody needs to know

@@ -21,13 +21,13 @@ bool moves_items(const messages::Message& message) {
          !std::holds_alternative<messages::SubmapDigest>(message);
 }
 
-/// Someone still fills its map.
+/// Messages by which a robot still fills its map.
 bool moves_submaps(const messages::Message& message) {
   return std::holds_alternative<messages::SubmapRequest>(message) ||
          std::holds_alternative<messages::SubmapChunk>(message);
 }
 
-/// Whom we ask may be gone: to ask again and again moves nothing.
+/// Requests. The recipient may be gone, so repeating them is no progress.
 bool asks(const messages::Message& message) {
   return std::holds_alternative<messages::CloudRequest>(message) ||
          std::holds_alternative<messages::ProximityMatch>(message) ||

@@ -15,47 +15,27 @@
 namespace fleetmap::agent {
 namespace {
 
-/// Who leads a robot and falls silent no longer does: it is on its own G again, or stands.
+/// A guide that is silent for so long no longer guides: the robot uses its own G again, or stands still.
 constexpr Duration kGuidePatience = std::chrono::seconds(1);
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> obstacles_among(const std::vector<Eigen::Vector3f>& points_base,
-                                             const ObstacleConfig& config) {
-  std::vector<Eigen::Vector2d> obstacles;
-  const int half = static_cast<int>(std::ceil(config.reach / config.spacing)) + 1;
-  std::vector<bool> taken(static_cast<std::size_t>(4 * half * half));
-  const float reach2 = static_cast<float>(config.reach * config.reach);
-  for (const Eigen::Vector3f& point : points_base) {
-    if (!(point.head<2>().squaredNorm() <= reach2)) continue;
-    const Eigen::Vector3d p = point.cast<double>();
-    const double height = p.z() + config.base_height;
-    const double rise = config.slope * p.head<2>().norm();
-    if (!(height >= config.min_height + rise && height <= config.max_height + rise)) continue;
-    const Eigen::Vector2i cell = (p.head<2>() / config.spacing).array().floor().cast<int>() + half;
-    const auto index = static_cast<std::size_t>(cell.y() * 2 * half + cell.x());
-    if (taken[index]) continue;
-    taken[index] = true;
-    obstacles.emplace_back(p.head<2>());
-  }
-  return obstacles;
-}
-
 Result<std::unique_ptr<Navigator>> Navigator::create(const NavigatorConfig& config, const AgentId& self,
-                                                     const GeoPoint& site, bus::Bus& bus, Tell tell) {
+                                                     const GeoPoint& site, bus::Bus& bus,
+                                                     SendReport send_report) {
   auto executive = planning::MissionExecutive::create(config.plan, self);
   if (!executive) return tl::unexpected(executive.error());
   return std::unique_ptr<Navigator>(
-      new Navigator(config, self, std::move(*executive), site, bus, std::move(tell)));
+      new Navigator(config, self, std::move(*executive), site, bus, std::move(send_report)));
 }
 
 Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, planning::MissionExecutive executive,
-                     const GeoPoint& site, bus::Bus& bus, Tell tell)
+                     const GeoPoint& site, bus::Bus& bus, SendReport send_report)
     : config_(config),
       site_(site),
       self_(self),
       bus_(bus),
-      tell_(std::move(tell)),
+      send_report_(std::move(send_report)),
       executive_(std::move(executive)),
       coverage_(executive_.plan().mission),
       follower_(config.follower),
@@ -65,8 +45,8 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
     if (const auto battery = ros_codec::decode<sensor::Battery>(cdr)) battery_ = battery->share;
   }));
   handles_.push_back(bus_.subscribe(fleet_codec::topics::guide_pose(), [this](const Bytes& cdr) {
-    const auto told = fleet_codec::decode<GlobalPose>(cdr);
-    const auto pose = told ? pose_of(*told) : std::nullopt;
+    const auto guide = fleet_codec::decode<GlobalPose>(cdr);
+    const auto pose = guide ? pose_of(*guide) : std::nullopt;
     if (!pose) return;
     guide_ = pose;
     guided_at_ = bus_.now();
@@ -77,7 +57,7 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
 
 /// Also when an exception ends the program.
 Navigator::~Navigator() {
-  if (stands_ != StandReason::kStopping) stop();
+  if (stand_reason_ != StandReason::kStopping) stop();
 }
 
 std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
@@ -103,27 +83,27 @@ void Navigator::drive(const planning::Command& command) {
 
 void Navigator::note(const std::optional<StandReason>& reason) {
   drove_ |= !reason;
-  if (reason == stands_) return;
+  if (reason == stand_reason_) return;
   if (!reason) {
-    if (stands_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
+    if (standing_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
   } else if ((drove_ && !done()) || reason == StandReason::kHeld) {  // else there is nothing to warn of
     spdlog::log(reason == StandReason::kStopping ? spdlog::level::info : spdlog::level::warn,
                 "{}: stands still: {}", self_.str(), to_string(*reason));
   }
-  stands_ = reason;
-  stands_since_ = bus_.now();
+  stand_reason_ = reason;
+  standing_since_ = bus_.now();
 }
 
 void Navigator::watch() {
   const auto reason = guard_.check(bus_.now());
   if (reason == StandReason::kHeld) follower_.pause(bus_.now());
-  if (reason || stands_) drive({});
+  if (reason || stand_reason_) drive({});
 }
 
 bool Navigator::locate(const Perceived& perceived) {
   const Stamp now = bus_.now();
   const bool lost = perceived.odometry.lost;
-  if (!lost) guard_.on_odometry(perceived.heard, now);
+  if (!lost) guard_.on_odometry(perceived.arrival, now);
   if (guided()) {
     pose_ = guide_;
     return !lost;
@@ -152,7 +132,7 @@ void Navigator::on_node(const graph::Node& node) {
 }
 
 void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
-  if (stands_ == StandReason::kStopping || !pose_) return;
+  if (stand_reason_ == StandReason::kStopping || !pose_) return;
   planning::MissionInput input;
   input.now = bus_.now();
   input.pose = *pose_;
@@ -170,7 +150,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   action_ = std::move(next);
   if (next_report_ && input.now < *next_report_) return;
   next_report_ = input.now + config_.report_period;
-  tell_(executive_.report());
+  send_report_(executive_.report());
 }
 
 bool Navigator::all_rows_driven() const {
@@ -180,8 +160,8 @@ bool Navigator::all_rows_driven() const {
 
 /// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.
 bool Navigator::stuck(Stamp now) const {
-  if (stands_ == StandReason::kHeld) return false;
-  const bool blind = stands_ && now - stands_since_ > from_seconds(config_.follower.stuck_after);
+  if (stand_reason_ == StandReason::kHeld) return false;
+  const bool blind = stand_reason_ && now - standing_since_ > from_seconds(config_.follower.stuck_after);
   return blind || follower_.stuck(now);
 }
 

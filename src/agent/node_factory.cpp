@@ -48,12 +48,12 @@ bool NodeFactory::add(Perceived&& perceived, Stamp now) {
 bool NodeFactory::waits_for_gps(Stamp now) {
   if (!waiting_for_gps_until_) waiting_for_gps_until_ = now + kGpsPatience;
   if (now < *waiting_for_gps_until_) return true;
-  if (!told_of_missing_gps_) {
+  if (!missing_gps_logged_) {
     spdlog::warn(
         "{}: the global pose is unknown; nodes are made without, and known again by what they look like",
         self_.str());
   }
-  told_of_missing_gps_ = true;
+  missing_gps_logged_ = true;
   return false;
 }
 

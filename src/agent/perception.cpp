@@ -42,8 +42,8 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
       loam_(config.odometry, config.lidar),
       ekf_(config.localization),
       scans_(config.waiting_scans),
-      last_heard_(bus.now()),
-      last_scan_(last_heard_) {
+      last_sample_(bus.now()),
+      last_scan_(last_sample_) {
   bus_.advertise(ros_codec::topics::odometry());
   bus_.advertise(fleet_codec::topics::global_pose());
   subscribe();
@@ -81,7 +81,7 @@ template <class T, class Use>
 void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::uint64_t& count, Use use) {
   subscriptions_.push_back(
       bus_.subscribe(topic, [this, source, &count, use, name = topic.name](const Bytes& cdr) {
-        last_heard_ = bus_.now();
+        last_sample_ = bus_.now();
         Result<T> sample = ros_codec::decode<T>(cdr);
         if (!sample) {
           ++counters_.refused_messages;
@@ -97,11 +97,11 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
 
 void Perception::watch_clock(sensor::Source source, Stamp stamp) {
   clock_offsets_.add(source, stamp, bus_.now());
-  for (const std::string& news : clock_offsets_.take_news()) spdlog::warn("{}", news);
+  for (const std::string& news : clock_offsets_.take_warnings()) spdlog::warn("{}", news);
 }
 
 void Perception::on_scan(const Bytes& cdr) {
-  last_heard_ = last_scan_ = bus_.now();
+  last_sample_ = last_scan_ = bus_.now();
   ++counters_.scans;
   // One without a stamp is refused when it is decoded.
   if (const auto stamp = ros_codec::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
@@ -119,7 +119,7 @@ void Perception::start_next() {
   if (busy_ || scans_.empty()) return;
   busy_ = true;
   auto job = std::make_shared<Job>();
-  std::tie(job->heard, job->scan) = std::move(*scans_.pop());
+  std::tie(job->arrival, job->scan) = std::move(*scans_.pop());
   job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
@@ -144,7 +144,7 @@ void Perception::start_next() {
 void Perception::finish(Job& job) {
   busy_ = false;
   loam_counters_ = loam_.counters();
-  for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
+  for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);
@@ -157,7 +157,7 @@ void Perception::finish(Job& job) {
                         R.transpose() * Eigen::Vector3d::UnitZ(),
                         filter.attitude_set,
                         job.cpu_seconds,
-                        job.heard};
+                        job.arrival};
     if (perceived.G) bus_.publish(fleet_codec::topics::global_pose(), fleet_codec::encode(*perceived.G));
     on_perceived_(std::move(perceived));
   } else {

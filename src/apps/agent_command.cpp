@@ -75,7 +75,8 @@ RadioAccess radio_access(const bus::DdsBusConfig& dds, const bus::DdsBus& bus) {
   return access;
 }
 
-void say_who_may_join(const bus::DdsBusConfig& dds) {
+/// Logs whose keys the robot has, or that anyone may join.
+void log_keys(const bus::DdsBusConfig& dds) {
   if (!dds.keys) {
     return spdlog::warn(
         "{}: no keys: anyone on the radios may join, read all and send anything (fleetmap keys)",
@@ -93,6 +94,12 @@ void say_who_may_join(const bus::DdsBusConfig& dds) {
   }
 }
 
+void print_map(const std::filesystem::path& directory, const output::Results& results) {
+  std::cout << (directory / "map.ply").string() << "  " << results.map.points << " points from "
+            << results.map.submaps << " submaps, " << results.missing_submaps << " missing, hash "
+            << results.map.hash << '\n';
+}
+
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
@@ -104,7 +111,7 @@ int run(const AgentOptions& options) {
   if (!bus) return report(bus.error(), kBadConfiguration);
   for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))
     spdlog::warn("{}: {}", config->agent.id.str(), warning);
-  say_who_may_join(config->dds);
+  log_keys(config->dds);
   auto agent = agent::Agent::create(config->agent, **bus);
   if (!agent) return report(agent.error(), kFailed);
   auto log = LinkLog::open(config->agent.directory, config->agent.id);
@@ -134,11 +141,7 @@ int run(const AgentOptions& options) {
   const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
                                       radio_access(config->dds, **bus), (*bus)->stalls());
   if (!written) return report(written.error(), kFailed);
-  if (results) {
-    std::cout << (config->agent.directory / "map.ply").string() << "  " << results->map.points
-              << " points from " << results->map.submaps << " submaps, " << results->missing_submaps
-              << " missing, hash " << results->map.hash << '\n';
-  }
+  if (results) print_map(config->agent.directory, *results);
   if (const std::string lost = lost_ways((*agent)->perception().odometry_counters()); !lost.empty())
     std::cout << lost << '\n';
   if (results && results->missing_submaps > 0) {

@@ -12,16 +12,17 @@ namespace {
 
 constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr Duration kReportPeriod = std::chrono::seconds(10);
-/// What others get to come back and bring what is missing.
+/// Time for others to come back and bring missing items.
 constexpr Duration kPeerPatience = std::chrono::minutes(1);
-/// After SIGTERM: until nothing was asked for so long, and at most (service managers kill after ten).
+/// After SIGTERM the agent ends once it has had no request for kQuiet, and at the latest after kFarewell
+/// (service managers kill after ten seconds).
 constexpr Duration kQuiet = std::chrono::milliseconds(1500), kFarewell = std::chrono::seconds(5);
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(500);
 constexpr Duration kTrafficPeriod = std::chrono::seconds(1), kNodesPeriod = std::chrono::milliseconds(50);
 
 /// The LiDAR alone is silent: the rest looks well, but no map is made.
 bool misses_scans(const agent::Perception& perception) {
-  return perception.last_heard() - perception.last_scan() > kNoScan;
+  return perception.last_sample() - perception.last_scan() > kNoScan;
 }
 
 void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
@@ -39,7 +40,7 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   }
   if (none_yet) return;
   if (const agent::Navigator* navigator = agent.navigator()) {
-    if (const auto reason = navigator->stands())
+    if (const auto reason = navigator->stand_reason())
       spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
@@ -56,9 +57,9 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
                to_seconds(bus.now() - agent.last_sensor()));
 }
 
-/// Whether it is time to end by itself: the mission is done or the sensors are silent, the exchange has been
-/// silent for `patience`, everything is held, and nobody tells that more will come. Else others get a minute
-/// more to come and bring it.
+/// True if the agent should end by itself: the mission is done or the sensors are silent, the exchange has
+/// been silent for `patience`, everything is held, and no robot announces more. Otherwise others get a minute
+/// more to bring it.
 bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bool& rest_frozen) {
   const Duration start_allowance =
       agent.perception().counters().scans == 0 ? kPeerPatience : Duration::zero();
@@ -68,10 +69,10 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
       agent.freeze_rest();
       return false;
     }
-    // Robots that wait beside each other find ever new encounters; what counts is that nobody lacks a map.
+    // Robots that wait beside each other keep finding loop candidates, so only the last submap counts.
     const Duration silence = bus.now() - agent.link_counters().last_submap;
-    const bool all_told = agent.complete() && agent.fleet_caught_up();
-    return all_told ? silence > patience : silence > patience + kPeerPatience;
+    const bool complete = agent.complete() && agent.fleet_caught_up();
+    return complete ? silence > patience : silence > patience + kPeerPatience;
   }
   const bool sensors_silent =
       bus.now() - agent.last_sensor() > patience + start_allowance && agent.perception().idle();
@@ -108,10 +109,10 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
   }
   bus.run_until(stop);
   // Before anything that takes time.
-  if (watchdog != nullptr) watchdog->stand();
+  if (watchdog != nullptr) watchdog->stop_driving();
   agent.halt();
   if (rest_frozen) return;
-  // Told to end: the last node goes to whoever is in reach, or their maps would lack what this robot's has.
+  // The last node is sent to the robots in reach before the end, or their maps would lack its points.
   agent.freeze_rest();
   Stamp busy = bus.now();
   bus.run_until(

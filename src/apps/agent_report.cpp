@@ -38,7 +38,7 @@ json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::Loo
 }
 
 json perception_json(const agent::Agent& agent) {
-  const agent::PerceptionCounters& seen = agent.perception().counters();
+  const agent::PerceptionCounters& counters = agent.perception().counters();
   const odometry::LoamCounters& loam = agent.perception().odometry_counters();
   const Distribution cpu = distribution(agent.scan_seconds());
   json behind = json::object();
@@ -53,14 +53,14 @@ json perception_json(const agent::Agent& agent) {
   return {
       {"stamps_behind_s", behind},
       {"clocks_slow_ppm", slow},
-      {"scans", seen.scans},
-      {"imu", seen.imu},
-      {"fixes", seen.fixes},
-      {"wheel", seen.wheel},
-      {"refused_messages", seen.refused_messages},
-      {"refused_scans", seen.refused_scans},
-      {"dropped_scans", seen.dropped_scans},
-      {"unclear_stamps", seen.unclear_stamps},
+      {"scans", counters.scans},
+      {"imu", counters.imu},
+      {"fixes", counters.fixes},
+      {"wheel", counters.wheel},
+      {"refused_messages", counters.refused_messages},
+      {"refused_scans", counters.refused_scans},
+      {"dropped_scans", counters.dropped_scans},
+      {"unclear_stamps", counters.unclear_stamps},
       {"repeated_scans", loam.refused_repeated},
       {"lost_scans", loam.lost},
       {"local_maps_begun_anew", loam.map_restarts},

@@ -10,7 +10,7 @@
 
 namespace fleetmap::apps {
 
-/// What one agent saw, made, sent and refused.
+/// One agent's part of report.json: what it received, made, sent and refused.
 nlohmann::json agent_report(const agent::Agent& agent, const output::Results* results);
 
 /// Adds what the agent holds, and the map that was made of it.

@@ -31,8 +31,8 @@ struct CheckOptions {
   NetworkCheckOptions radios;
 };
 
-/// What there is to say of a valid fleet: of one of the twin that its world can be built and its mission
-/// planned from where its robots start.
+/// Checks and describes a fleet's file. For a fleet of the twin it also builds the world and plans the
+/// mission from the robots' starts.
 Result<std::string> check_fleet(const std::string& file, const std::vector<config::Override>& overrides,
                                 const std::optional<std::size_t>& agents) {
   auto fleet = config::load_fleet(file, overrides);

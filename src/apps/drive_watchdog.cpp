@@ -36,7 +36,7 @@ void DriveWatchdog::run(const std::stop_token& end) {
   bool was_stalled = false;
   while (!ended.wait_for(lock, end, kPeriod, [&] { return end.stop_requested(); })) {
     const bool is_stalled = stalled();
-    const bool ending = stop_ || stand_;
+    const bool ending = stop_ || driving_stopped_;
     if (is_stalled && !was_stalled && !ending)
       spdlog::warn("the robot stands still: the program was busy for more than {:.1f} s",
                    to_seconds(kPatience));

@@ -13,10 +13,10 @@ namespace fleetmap::apps {
 /// the moment that `stop` is set until the end of the process, however long the maps take to be written.
 class DriveWatchdog {
  public:
-  /// `bus` and `stop` outlive this. To be made and destroyed while nobody runs the bus.
+  /// `bus` and `stop` must outlive this. To be constructed and destroyed while no thread runs the bus.
   DriveWatchdog(bus::DdsBus& bus, const std::atomic<bool>& stop);
   /// From now on publishes zero, as if `stop` were set.
-  void stand() { stand_ = true; }
+  void stop_driving() { driving_stopped_ = true; }
 
  private:
   void run(const std::stop_token& end);
@@ -25,7 +25,7 @@ class DriveWatchdog {
 
   bus::DdsBus& bus_;
   const std::atomic<bool>& stop_;
-  std::atomic<bool> stand_ = false;
+  std::atomic<bool> driving_stopped_ = false;
   std::atomic<std::int64_t> last_beat_;  ///< ns of the steady clock
   bus::Handle beat_;
   std::jthread thread_;

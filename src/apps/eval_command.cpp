@@ -22,7 +22,7 @@ struct EvalOptions {
   bool no_overlap = false;
 };
 
-/// What --modes may name.
+/// Values that --modes accepts.
 std::set<std::string> mode_choices() {
   std::set<std::string> choices = run_evaluation::mode_names();
   choices.insert({"all", "none"});

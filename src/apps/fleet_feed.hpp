@@ -20,22 +20,21 @@ struct FeedSeconds {
   double driving = 0.0;  ///< motion and all other sensors
 };
 
-/// Where the sensor samples of a fleet in virtual time come from. Members are counted as in the fleet's
-/// configuration.
+/// Source of a fleet's sensor samples in virtual time. Members are numbered as in the fleet's configuration.
 class FleetFeed {
  public:
-  /// Puts a sample onto the member's onboard link; `stamp` is what a bag of it says.
+  /// Publishes a sample on the member's onboard link; `stamp` is the time at which a bag recorded it.
   using Deliver = std::function<void(std::size_t member, const recording::Sample& sample, Stamp stamp)>;
 
   virtual ~FleetFeed() = default;
 
   /// Virtual time at which the run begins.
   virtual Stamp start() const = 0;
-  /// Of ENU, if it is known before the run.
+  /// Origin of ENU, if it is known before the run.
   virtual std::optional<GeoPoint> origin() const = 0;
   /// Schedules samples on `network`; both arguments outlive the feed's events.
   virtual Status begin(bus::LocalNetwork& network, Deliver deliver) = 0;
-  /// What the member's base was told (cmd_vel): m/s forward, rad/s to the left. A recording cannot obey.
+  /// Commands the member's base (cmd_vel): m/s forward, rad/s to the left. A recording ignores it.
   virtual void command(std::size_t member, double forward_speed, double yaw_rate) {
     static_cast<void>(member), static_cast<void>(forward_speed), static_cast<void>(yaw_rate);
   }
@@ -48,16 +47,16 @@ class FleetFeed {
   /// Why the feed could not give all that it should; empty if it could.
   virtual std::string problem(std::size_t member) const = 0;
   virtual FeedSeconds cpu_seconds() const { return {}; }
-  /// What was skipped on reading.
+  /// Counters of what reading skipped.
   virtual recording::Counters counters(std::size_t member) const = 0;
-  /// Where the member really is, if the feed knows (ENU).
+  /// True position of the member in ENU, if the feed has one.
   virtual std::optional<bus::EnuPosition> position(std::size_t member) const = 0;
-  /// Where the member is, as who leads it is told; empty if nobody does.
+  /// Pose of the member as an external guide measures it; empty if none does.
   virtual std::optional<GlobalPose> guide(std::size_t member) const {
     static_cast<void>(member);
     return std::nullopt;
   }
-  /// Share of the battery that is left, if the feed knows.
+  /// State of charge of the battery, if the feed has one.
   virtual std::optional<double> battery(std::size_t member) const {
     static_cast<void>(member);
     return std::nullopt;

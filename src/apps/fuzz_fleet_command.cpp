@@ -40,11 +40,11 @@ struct FuzzOptions {
 };
 
 int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig config) {
-  const Scenario chosen = options.keep.empty() ? scenario : with_faults(scenario, options.keep);
+  const Scenario selected = options.keep.empty() ? scenario : with_faults(scenario, options.keep);
   config.trace = true;
-  const Outcome outcome = run(chosen, config);
+  const Outcome outcome = run(selected, config);
   for (const std::string& line : outcome.trace) std::cout << line << '\n';
-  std::cout << chosen.robots << " robots, " << outcome.nodes << " nodes, " << outcome.alignments
+  std::cout << selected.robots << " robots, " << outcome.nodes << " nodes, " << outcome.alignments
             << " alignments, " << outcome.packets << " packets, fingerprint " << std::hex
             << outcome.fingerprint << std::dec << '\n';
   for (const Violation& violation : outcome.violations)

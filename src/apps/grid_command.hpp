@@ -12,7 +12,7 @@
 
 namespace fleetmap::apps {
 
-/// What the commands that run a grid of cases have in common: `experiment` in the twin, `trial` on
+/// Options shared by the commands that run a grid of cases: `experiment` in the twin, `trial` on network
 /// interfaces.
 struct GridOptions {
   std::string config;

@@ -29,7 +29,7 @@ struct HoldOptions {
   std::vector<std::string> set;
 };
 
-/// Who is to be reached, and how.
+/// The robots that a command is sent to, and the DDS configuration that reaches them.
 struct Fleet {
   std::vector<AgentId> robots;
   bus::DdsBusConfig dds;

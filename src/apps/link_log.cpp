@@ -9,8 +9,7 @@ namespace {
 constexpr const char* kTraceHeader = "time_s,link,from,to,kbit_s,ms,loss_percent,used_kbit_s,messages";
 constexpr const char* kNodesHeader = "time_ns,node";
 constexpr std::uintmax_t kMaxTraceBytes = 32u << 20;
-/// On the radio whoever has nothing to tell says Hello every 20 s; on the Wi-Fi robots tell something each
-/// second.
+/// On the radio a robot sends a Hello at least every 20 s, on the Wi-Fi a message each second.
 constexpr Duration kSilence = std::chrono::seconds(65), kSilenceNear = std::chrono::seconds(5);
 
 /// A power cut leaves a line without its end.
@@ -64,18 +63,18 @@ void LinkLog::begin_anew_when_full() {
   if (auto begun = open_file(trace_.path, kTraceHeader)) trace_ = *std::move(begun);
 }
 
-void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& heard,
+void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
                           const std::vector<AgentId>& fetched_from, Stamp now) {
   const Stamp before = std::exchange(written_, now);
   const auto fetched_before = std::exchange(fetched_from_, {fetched_from.begin(), fetched_from.end()});
   if (before == Stamp{}) return;  // of what time these came is not known
   begin_anew_when_full();
-  for (const bus::HeardTraffic& traffic : heard) {
-    // Whoever was waited for at both ends of the second has sent as much as the link carries.
+  for (const bus::HeardTraffic& traffic : received) {
+    // A robot from which submaps were being fetched at both ends of the second has filled the link.
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
                       fetched_from_.contains(traffic.from);
-    const bool is_new = heard_.insert_or_assign({traffic.link, traffic.from}, now).second;
-    // What was lost while it was out of reach is told of by the row of that time.
+    const bool is_new = last_received_.insert_or_assign({traffic.link, traffic.from}, now).second;
+    // Messages that were lost while the robot was out of reach were counted in the row of that time.
     if (traffic.messages > 0) add_row(traffic, is_new ? 0 : traffic.lost, before, now, full);
   }
   add_silent(now);
@@ -93,7 +92,7 @@ void LinkLog::add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stam
 
 /// The row is of the time after the robot was last heard.
 void LinkLog::add_silent(Stamp now) {
-  std::erase_if(heard_, [&](const auto& entry) {
+  std::erase_if(last_received_, [&](const auto& entry) {
     const auto& [source, last] = entry;
     if (now - last < (source.first == bus::Link::kShortRange ? kSilenceNear : kSilence)) return false;
     trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(last),

@@ -25,8 +25,9 @@ class LinkLog {
   /// Goes on with the files of an earlier start. Fails with the file's name.
   static Result<LinkLog> open(const std::filesystem::path& directory, const AgentId& self);
 
-  /// Once a second: `heard` since the last call, and whom submaps are fetched from at this moment.
-  void add_traffic(const std::vector<bus::HeardTraffic>& heard, const std::vector<AgentId>& fetched_from,
+  /// To be called once a second. `received` since the last call; `fetched_from`: robots from which submaps
+  /// are being fetched.
+  void add_traffic(const std::vector<bus::HeardTraffic>& received, const std::vector<AgentId>& fetched_from,
                    Stamp now);
   /// Often: all nodes held.
   void add_nodes(const std::map<NodeId, graph::Node>& nodes, Stamp now);
@@ -48,9 +49,9 @@ class LinkLog {
   AgentId self_;
   File trace_, nodes_;
   std::set<NodeId> held_;
-  std::set<AgentId> fetched_from_;  ///< when the last second ended
-  std::map<Source, Stamp> heard_;   ///< robots that have not been said to be silent
-  Stamp written_{};                 ///< when the last second ended; zero: none has
+  std::set<AgentId> fetched_from_;         ///< when the last second ended
+  std::map<Source, Stamp> last_received_;  ///< of robots not yet logged as silent
+  Stamp written_{};                        ///< when the last second ended; zero: none has
 };
 
 }  // namespace fleetmap::apps

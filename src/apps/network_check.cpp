@@ -27,7 +27,7 @@ using config::RobotConfig;
 constexpr const char* kNever = "never heard";
 /// For the answers to the last Hellos, and to those that are repeated because the radio lost one.
 constexpr double kAnswerTime = 2.0;  // s
-/// What an observer's Hello takes of the budget: bit, at the rate of the whole fleet.
+/// Share of the budget that an observer's Hello uses: bits, at the rate of the whole fleet.
 constexpr double kHelloBits = 9425.0;
 
 /// An observer that has the radios of `robot`.
@@ -53,7 +53,7 @@ std::string seconds(Duration duration) {
 /// "10.0.0.2" of "10.0.0.2:7660".
 std::string address_of(const std::string& place) { return place.substr(0, place.find(':')); }
 
-/// What one radio heard beside what was to be heard.
+/// Checks one radio: compares what it received with what it should receive.
 class LinkCheck {
  public:
   LinkCheck(Link link, const RobotConfig& robot, RadioSurvey survey)
@@ -62,7 +62,7 @@ class LinkCheck {
       problems_.push_back(survey_.problem);
       return;
     }
-    for (const RadioSurvey::Robot& heard : survey_.robots) judge(heard);
+    for (const RadioSurvey::Robot& heard : survey_.robots) compare(heard);
     const exchange::ExchangeConfig& exchange = robot_.agent.exchange;
     for (const AgentId& expected : link == Link::kLongRange ? exchange.all_on_radio() : exchange.fleet) {
       if (expected != robot_.agent.id && !names_.contains(expected)) missing_.push_back(expected);
@@ -108,7 +108,7 @@ class LinkCheck {
     if (own_agent(heard)) return ", this robot's own agent";
     return of_fleet(heard.agent) ? "" : ", not of this fleet";
   }
-  void judge(const RadioSurvey::Robot& heard) {
+  void compare(const RadioSurvey::Robot& heard) {
     if (!heard.settings) return;
     names_[heard.agent].push_back(heard.place);
     if (!of_fleet(heard.agent)) {
@@ -211,8 +211,8 @@ Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& 
     if (!bus::config_of(robot.dds, link).enabled) continue;
     LinkCheck& check = checks[k++];
     if (check.joined() && !check.missing().empty()) {
-      if (const Status looked = find_in_other_domains(robot, options, link, check); !looked)
-        return tl::unexpected(looked.error());
+      if (const Status searched = find_in_other_domains(robot, options, link, check); !searched)
+        return tl::unexpected(searched.error());
     }
     check.print(std::cout);
     fine = fine && check.fine();

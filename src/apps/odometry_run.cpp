@@ -55,19 +55,19 @@ class OdometryFeed {
     Stamp end;  ///< of its sweep
   };
 
-  /// False while it is too early to tell what the stamp means.
+  /// False as long as the offset of the sensor's clock is undecided.
   bool correct_clock(recording::Sample& sample, std::optional<Stamp> recorded) {
     const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
     now_ = std::max(now_, times_.of(sample, recorded));
     clocks_.add(source, recording::stamp_of(sample), now_);
-    for (const std::string& news : clocks_.take_news()) spdlog::warn("{}", news);
+    for (const std::string& news : clocks_.take_warnings()) spdlog::warn("{}", news);
     std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
     return !clocks_.unclear(source);
   }
 
   bool due(const Waiting& first) const {
-    const bool seen_through = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
-    return seen_through || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
+    const bool covered = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
+    return covered || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
   }
 
   void add_scan(const sensor::Scan& scan) {
@@ -77,7 +77,7 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
-    for (const std::string& news : loam_.take_news()) spdlog::warn("{}", news);
+    for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
     if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
       run_.poses.push_back({update->stamp, update->T_odom_base});

@@ -27,8 +27,8 @@ struct OdometryRun {
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
   odometry::WayCheck way;
 
-  /// As far as it can tell.
-  bool kept_its_way() const { return counters.map_restarts == 0 && way.doubts().empty(); }
+  /// True if the odometry never restarted its map and the trajectory has no warnings.
+  bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
 };
 
 /// Runs the odometry over the whole recording. Fails if it cannot be read to its end.

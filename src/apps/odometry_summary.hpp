@@ -8,7 +8,7 @@ namespace fleetmap::apps {
 
 /// Scans, time and memory, a line each.
 void print_summary(std::ostream& out, const OdometryRun& run);
-/// What makes the trajectory less reliable.
+/// Prints why the trajectory is less reliable.
 void print_losses(std::ostream& out, const OdometryRun& run);
 
 }  // namespace fleetmap::apps

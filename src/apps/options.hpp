@@ -16,7 +16,7 @@ namespace fleetmap::apps {
 /// The values of --set.
 Result<std::vector<config::Override>> parse_overrides(const std::vector<std::string>& texts);
 
-/// What an option's text must be; refused before it is converted, which would wrap -1 round.
+/// Accepts whole numbers only, checked before the conversion, which would wrap -1 round.
 CLI::Validator whole_number(std::uint64_t least,
                             std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 CLI::Validator positive_number();

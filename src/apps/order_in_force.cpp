@@ -15,15 +15,15 @@ using messages::HoldOrder;
 
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(50);
 constexpr Duration kRepeat = std::chrono::seconds(1);
-/// Times that the order is given anew because a later one is in force: by a clock ahead of this one, not by
-/// another operator who insists.
+/// Times that the order is repeated because a later one is in force. That one may come from a clock ahead of
+/// this one; another operator may insist longer.
 constexpr int kMaxRenewals = 3;
 
 }  // namespace
 
 OrderInForce::OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const HoldOrder& order)
     : bus_(bus), addressed_(std::move(addressed)), order_(order) {
-  heard_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
+  subscription_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
     if (const auto hold = fleet_codec::decode<Hold>(cdr)) on_hold(*hold);
   });
   bus_.advertise(fleet_codec::topics::hold());

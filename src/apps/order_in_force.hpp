@@ -29,7 +29,7 @@ class OrderInForce {
   std::size_t readers_ = 0;
   Stamp next_{};
   int renewals_ = 0;
-  bus::Handle heard_;
+  bus::Handle subscription_;
   bus::Handle timer_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace fleetmap::apps {
 
-/// What each robot drives, and when all is done.
+/// Prints the rows of each robot, and when the mission is complete.
 void print_plan(std::ostream& out, const planning::FleetPlan& plan, const DrawnSite& site);
 
 }  // namespace fleetmap::apps

@@ -108,7 +108,7 @@ void RecordingFeed::play(std::size_t member) {
   Member& self = members_[member];
   deliver_(member, *self.next, network_->now() - self.shift);
   if (const Status read = advance(self); !read) {
-    // What was played so far is a recording too: say so and go on with the others.
+    // The samples played so far are still a recording, so the error is logged and the others continue.
     spdlog::error("{}", read.error().message);
     self.problem = read.error().message;
   }

@@ -52,7 +52,7 @@ json completion_json(const Completion& completion) {
   return all;
 }
 
-/// What went and came over the radios by kind of message, to all and to single robots together.
+/// Messages and bytes on the radios by kind of message, to all and to single robots together.
 json topics_json(const std::vector<bus::TopicStats>& stats) {
   constexpr std::string_view kOurs = "fleetmap/";
   std::map<std::pair<std::string, std::string>, bus::TopicStats> kinds;

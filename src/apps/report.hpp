@@ -17,7 +17,7 @@ std::string lost_ways(const odometry::LoamCounters& odometry);
 
 /// report.json and report.html of a fleet's run. Sizes in bytes, times in seconds.
 Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile);
-/// Who may use the radios.
+/// Access to the radios.
 struct RadioAccess {
   bool keys = false;                 ///< else anyone
   std::vector<std::string> refused;  ///< robots with which no exchange was possible, and why

@@ -64,7 +64,7 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
   if (config.twin) {
     auto setup = set_up_twin(config);
     if (!setup) return tl::unexpected(setup.error());
-    // What perception and background work take on a robot; also lets the robots' work overlap.
+    // Time that perception and background work take on a robot; it also lets the robots' work overlap.
     config.network.perception_time = kPerceptionTime;
     config.network.background_time = kBackgroundTime;
     std::vector<sim::RobotTwinConfig> robots;
@@ -77,6 +77,17 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
   std::vector<config::RecordingConfig> recordings;
   for (const auto& member : config.members) recordings.push_back(*member.recording);
   return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
+}
+
+/// Writes the true trajectory of each robot of the twin and returns them; none from recordings.
+Result<std::vector<output::Trajectory>> write_truths(const TwinFeed* twin, const FleetOutcome& outcome) {
+  std::vector<output::Trajectory> truths;
+  for (std::size_t k = 0; twin != nullptr && k < outcome.agents.size(); ++k) {
+    truths.push_back(twin->truth(k));
+    const Status written = write_truth(outcome.agents[k].directory, truths.back());
+    if (!written) return tl::unexpected(written.error());
+  }
+  return truths;
 }
 
 int run(const RunOptions& options) {
@@ -108,24 +119,19 @@ int run(const RunOptions& options) {
   auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
   if (!fleet) return report(fleet.error(), kFailed);
   if (setup) {
-    if (const Status written = write_truth_cloud(options.out, *setup->world); !written)
-      return report(written.error(), kFailed);
-    if (const Status written = write_site(options.out, *setup); !written)
-      return report(written.error(), kFailed);
+    Status written = write_truth_cloud(options.out, *setup->world);
+    if (written) written = write_site(options.out, *setup);
+    if (!written) return report(written.error(), kFailed);
   }
   const auto page = page_of_run(options.monitor, options.out);
   if (!page) return report(page.error(), kFailed);
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
-  std::vector<output::Trajectory> truths;
-  for (std::size_t k = 0; twin != nullptr && k < outcome->agents.size(); ++k) {
-    truths.push_back(twin->truth(k));
-    const Status written = write_truth(outcome->agents[k].directory, truths.back());
-    if (!written) return report(written.error(), kFailed);
-  }
+  const auto truths = write_truths(twin, *outcome);
+  if (!truths) return report(truths.error(), kFailed);
   if (setup && outcome->completion && on_own_drawing)
-    outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, truths);
+    outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, *truths);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const RunProfile profile = profile_of(*outcome, cpu_before, process_cpu_seconds(), wall.count());
   if (const Status written = write_report(options.out, *outcome, profile); !written)

@@ -7,7 +7,7 @@
 
 namespace fleetmap::apps {
 
-/// What became of a fleet's run whose results are in `folder`.
+/// Prints the outcome of a fleet's run whose results are in `folder`.
 void print_summary(std::ostream& out, const FleetOutcome& outcome, const std::filesystem::path& folder);
 
 }  // namespace fleetmap::apps

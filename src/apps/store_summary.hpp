@@ -6,9 +6,9 @@
 
 namespace fleetmap::apps {
 
-/// How many nodes, alignments and whole submaps (with the bytes of all submaps, whole or in part) a store
-/// holds, of all and of each robot, and `hash`: equal for stores that hold the same items, whoever they
-/// belong to.
+/// Numbers of nodes, alignments and whole submaps (with the bytes of all submaps, whole or in part) of a
+/// store, in total and for each robot, and `hash`, which is equal for stores that hold the same items, of
+/// whichever robot.
 nlohmann::json summary_of(const store::Store& store);
 
 }  // namespace fleetmap::apps

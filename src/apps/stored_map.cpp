@@ -26,14 +26,14 @@ Status check_store(const std::filesystem::path& file) {
   return {};
 }
 
-Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& given,
+Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& configured,
                            std::optional<double> voxel_m) {
   if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
   const std::optional<output::MapRecipe> kept = output::map_recipe(*store);
   output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
-  std::optional<GeoPoint> origin = given;
+  std::optional<GeoPoint> origin = configured;
   if (!origin && kept) origin = kept->origin;
   origin = output::site_origin(*store, origin);
   if (!origin || store->nodes().empty())

@@ -23,12 +23,12 @@ struct StoredMap {
 /// Fails, with the remedy, unless the file is a store.
 Status check_store(const std::filesystem::path& file);
 
-/// Places the nodes of a store. `given`: the origin of ENU, else that of the agent's last map, or the least
-/// node's; `voxel_m`: else as in the agent's last map.
-Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& given,
+/// Places the nodes of a store. `configured`: the origin of ENU, else that of the agent's last map, or the
+/// least node's; `voxel_m`: else as in the agent's last map.
+Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& configured,
                            std::optional<double> voxel_m);
 
-/// Of the nodes that map.ply shows.
+/// Poses of the nodes that map.ply contains.
 std::map<NodeId, Pose> shown_poses(const StoredMap& map);
 
 /// The map's pictures, in memory for a map that is thinned to what can be drawn: its tiles come once for

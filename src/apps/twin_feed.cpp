@@ -66,7 +66,7 @@ void TwinFeed::tick() {
 }
 
 void TwinFeed::deliver_pending() {
-  // What is delivered may not start new casts, so the queue is emptied in one go.
+  // A delivery must not start new casts, so the queue is emptied in one go.
   for (; !pending_.empty(); pending_.pop_front()) {
     Pending& next = pending_.front();
     const sim::LidarSpec& spec = robots_[next.member].twin.config().lidar;

@@ -41,7 +41,7 @@ class TwinFeed final : public FleetFeed {
   std::optional<GlobalPose> guide(std::size_t member) const override;
   std::optional<double> battery(std::size_t member) const override;
 
-  /// Where the member really was, at every 0.1 s, base_link in ENU.
+  /// True poses of the member every 0.1 s, base_link in ENU.
   const output::Trajectory& truth(std::size_t member) const { return robots_[member].truth.poses(); }
   const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
 

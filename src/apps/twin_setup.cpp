@@ -80,7 +80,7 @@ std::vector<Eigen::Vector2d> free_places(const sim::World& world, const Eigen::V
 }
 
 /// Robots that the fleet's file gives no start stand about where the drawing marks it.
-Status choose_starts(config::FleetConfig& config, const sim::World& world, const planning::Mission& site) {
+Status assign_starts(config::FleetConfig& config, const sim::World& world, const planning::Mission& site) {
   std::vector<Eigen::Vector2d> taken;
   std::size_t open = 0;
   for (const auto& member : config.members) {
@@ -177,7 +177,7 @@ Result<TwinSetup> set_up_twin(config::FleetConfig& config) {
   auto site = drawn_site(config, *setup.world, setup.origin);
   if (!site) return tl::unexpected(site.error());
   setup.site = std::move(*site);
-  if (const Status started = choose_starts(config, *setup.world, setup.site); !started)
+  if (const Status started = assign_starts(config, *setup.world, setup.site); !started)
     return tl::unexpected(started.error());
   if (twin.unknown_obstacles > 0) {
     std::vector<Eigen::Vector2d> starts;

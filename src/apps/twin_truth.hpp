@@ -8,7 +8,7 @@
 
 namespace fleetmap::apps {
 
-/// Where a robot of the twin really was, base_link in ENU, every 0.02 s.
+/// True trajectory of a robot of the twin, base_link in ENU, every 0.02 s.
 class TruthTrack {
  public:
   /// After every step of the twin.
@@ -19,13 +19,13 @@ class TruthTrack {
   output::Trajectory poses_;
 };
 
-/// How often who leads a robot is told where it is.
+/// Period of a guide's poses.
 constexpr Duration kGuidePeriod = std::chrono::milliseconds(100);
 
-/// Where the robot of the twin truly is; `site`: the twin's ENU. Of no covariance.
+/// True pose of the robot, without covariance; `site`: the twin's ENU.
 GlobalPose true_pose(const sim::RobotTwin& twin, const LocalFrame& site);
 
-/// What is left of the battery, [0, 1].
+/// State of charge of the battery, [0, 1].
 double battery_share(const sim::RobotTwin& twin);
 
 }  // namespace fleetmap::apps

@@ -43,7 +43,8 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     agent::AgentConfig& config = config_.members[k].agent;
     config.directory = out / config.id.str();
     if (origin_) config.site_origin = origin_;
-    // The same run gives the same numbers; those of a store that goes on are passed over.
+    // Sessions are numbered, so that the same run gives the same items; numbers that the store already has
+    // are skipped.
     config.draw_session = [session = std::uint16_t{0}]() mutable { return session++; };
     std::error_code error;
     if (std::filesystem::exists(config.directory / "store.db", error)) {
@@ -128,7 +129,7 @@ bool VirtualFleet::all_driven() const {
   });
 }
 
-/// One entry for each robot that gave a row up which nobody drove.
+/// The rows that were given up and not driven, once for each robot that has a reason.
 std::vector<Completion::Abandoned> VirtualFleet::abandoned_rows() const {
   std::vector<Completion::Abandoned> rows;
   for (const Member& member : members_) {
@@ -185,8 +186,8 @@ void VirtualFleet::update_states() {
       members_[k].position = *position;
       network_->set_position(id, *position);
     } else if (feed_->ended(k) && !members_[k].position) {
-      // Nobody knows where it drove: once its recording has ended it is with the others, so that maps can
-      // flow.
+      // The position of a recording is unknown. Once it has ended the robot counts as beside the others, so
+      // that maps can be exchanged.
       const auto known =
           std::ranges::find_if(members_, [](const Member& m) { return m.position.has_value(); });
       network_->set_position(id, known == members_.end() ? bus::EnuPosition{} : *known->position);

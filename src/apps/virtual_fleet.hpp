@@ -32,7 +32,7 @@ struct Completion {
   std::optional<double> lane_share;  ///< of the twin's lanes, truly driven
 };
 
-/// What a run in virtual time gave.
+/// Result of a run in virtual time.
 struct FleetOutcome {
   struct AgentOutcome {
     AgentId id;
@@ -75,8 +75,8 @@ class VirtualFleet {
     bus::Bus* bus = nullptr;              ///< null while it is switched off
     std::unique_ptr<agent::Agent> agent;  ///< null while it is switched off
     std::optional<recording::BagWriter> bag;
-    std::vector<bus::Handle> base;             ///< what it says to its base, and is told by who leads it
-    std::optional<bus::EnuPosition> position;  ///< the last that was known
+    std::vector<bus::Handle> base;             ///< its commands and its guide
+    std::optional<bus::EnuPosition> position;  ///< the last known one
     bool rest_frozen = false;
     agent::WorkSeconds work_before;  ///< of agents that were switched off
     bool lost = false;               ///< switched off, and stays so
@@ -84,32 +84,32 @@ class VirtualFleet {
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
   Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
-  /// Puts the member's agent onto a bus of its own; what the agent's store holds, it goes on from.
+  /// Starts the member's agent on a bus of its own. It continues from its store.
   Status start_agent(std::size_t member);
-  /// The member's commands move it, and who leads it tells it where it is.
+  /// Passes the agent's commands to the feed, and the guide's poses to the agent.
   void connect_base(std::size_t member);
   void schedule_power();
   void schedule_blackouts();
-  /// As when a process is killed: nothing is frozen, nothing is said.
+  /// Stops the agent as if its process were killed: no last node, no message.
   void switch_off(std::size_t member, bool for_ever);
   void switch_on(std::size_t member);
   Status begin();
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
-  /// What the network and the agents learn of the robots once a second: where they are, their batteries.
+  /// Passes the robots' positions and batteries to the network and the agents once a second.
   void update_states();
   /// By the feed, else by its own G.
   std::optional<bus::EnuPosition> position_of(std::size_t member) const;
   bool playing() const;
   bool has_mission() const;
   std::vector<Completion::Abandoned> abandoned_rows() const;
-  /// Tells the feed when nobody has anything left to drive, or time is up.
+  /// Ends the mission in the feed when no robot has anything left to drive, or time is up.
   void end_mission(Duration elapsed);
   bool all_driven() const;
   void note_completion(Duration elapsed);
   bool settled();
   void report_progress(Duration elapsed) const;
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
-  /// Of a member that is switched off at the end.
+  /// Outcome of a member that is switched off at the end.
   FleetOutcome::AgentOutcome results_of_store(std::size_t member);
 
   config::FleetConfig config_;

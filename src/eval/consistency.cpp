@@ -8,7 +8,7 @@ namespace fleetmap::eval {
 namespace {
 
 constexpr std::size_t kMaxDimensions = 6;
-/// Of the chi-square distribution with 1 to 6 degrees of freedom.
+/// Quantiles of the chi-square distribution with 1 to 6 degrees of freedom.
 constexpr std::array<double, kMaxDimensions> kMedian{0.4549, 1.3863, 2.3660, 3.3567, 4.3515, 5.3481};
 constexpr std::array<double, kMaxDimensions> kWithin95{3.8415, 5.9915, 7.8147, 9.4877, 11.0705, 12.5916};
 

@@ -30,7 +30,7 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
   in_truth.reserve(target.size());
   for (const Eigen::Vector3f& p : target.points) in_truth.push_back(truth.tree().nearest(p, 1.0f)->index);
   const std::vector<Eigen::Vector3f> normals = truth.normals_at(in_truth);
-  // Of two layers of a wrong map neither is to win.
+  // The points are shuffled so that neither of two layers of a wrong map is preferred.
   const cloud::PointCloud source = thinned_to(shuffled(map), 0.3, kSourcePoints);
   const auto first = static_cast<float>(config.registration_distance);
   const auto last = static_cast<float>(config.inlier_distance);

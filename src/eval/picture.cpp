@@ -36,7 +36,7 @@ struct Extent {
   double middle() const { return 0.5 * (low + high); }
 };
 
-/// Of all values but the outermost.
+/// Extent of all values but the outermost.
 Extent extent_of(std::vector<double>& values) {
   const auto cut = static_cast<std::ptrdiff_t>(kOutermost * static_cast<double>(values.size()));
   std::nth_element(values.begin(), values.begin() + cut, values.end());

@@ -9,7 +9,7 @@
 
 namespace fleetmap::eval {
 
-/// Where a point lies with respect to the truth.
+/// Foot point of a map point on the true surface.
 struct Foot {
   std::uint32_t truth = 0;        ///< index of the nearest truth point
   bool found = false;             ///< within the cap
@@ -30,7 +30,7 @@ class TruthSurface {
   float spacing() const { return spacing_; }
   /// Normals at `indices`; zero where the surface is not flat.
   std::vector<Eigen::Vector3f> normals_at(const std::vector<std::size_t>& indices) const;
-  /// Where each point lies; those with no truth point within `cap` (m) are not found.
+  /// Foot points of `points`; those with no truth point within `cap` (m) are not found.
   std::vector<Foot> feet_of(const std::vector<Eigen::Vector3f>& points, float cap) const;
 
  private:

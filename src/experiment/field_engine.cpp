@@ -28,7 +28,7 @@ Result<FieldEngine::Recordings> FieldEngine::recordings_of(const Case& one,
   if (!field.recordings.empty()) return Recordings{field.recordings, field.truth};
   const auto inputs = config::input_fingerprint(one.base, {});
   if (!inputs) return tl::unexpected(inputs.error());
-  // Of another file, or the same after an edit, they are others.
+  // Another file, or the same one after an edit, has other recordings.
   const std::string robots = std::to_string(one.agents);
   const std::string name = robots + "-" + inputs->substr(0, 8);
   const fs::path bags = directory_ / ("recordings-" + name), run = directory_ / ("recorded-" + name);

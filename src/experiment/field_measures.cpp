@@ -57,7 +57,7 @@ std::optional<double> number(const Row& row, const std::string& column) {
   return value;
 }
 
-/// Of values that are not empty.
+/// `values` must not be empty.
 double quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(at));

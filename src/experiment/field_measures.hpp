@@ -8,7 +8,8 @@
 
 namespace fleetmap::experiment {
 
-/// What a fleet left that ran in network namespaces (deploy/netns/field.sh --scenario trial), by name:
+/// Reads the metrics of a fleet that ran in network namespaces (deploy/netns/field.sh --scenario trial), by
+/// name:
 ///
 /// - field.all_know_s, ended_s: s; absent where it did not come to it
 /// - field.equal: 1 if all stores are whole and hold the same nodes, alignments and submaps

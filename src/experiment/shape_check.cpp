@@ -18,7 +18,7 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Of the mean; NaN for fewer than two values.
+/// Standard error of the mean; NaN for fewer than two values.
 double standard_error(const std::vector<double>& values) {
   const double n = static_cast<double>(values.size());
   if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
@@ -63,7 +63,7 @@ double slope_chance(const Curve& curve, const Residual& residual, double sign) {
 std::string step_back(const Curve& curve, const std::vector<double>& means, double sign, double allowed) {
   for (std::size_t k = 0; k + 1 < means.size(); ++k) {
     const double back = sign * (means[k] - means[k + 1]);
-    // What is equal but for the last digit is no step.
+    // A difference in the last digit is not counted as a step back.
     if (back > allowed && back > 1e-9 * std::abs(means[k])) {
       return "from " + short_number(curve.x[k]) + " to " + short_number(curve.x[k + 1]) + " it goes " +
              short_number(back) + " the other way, the seeds explain " + short_number(allowed);
@@ -110,7 +110,7 @@ Trend unjudged(const Curve& curve) {
   return trend;
 }
 
-/// Of the difference of two means over the seeds.
+/// Standard error of the difference of two means over the seeds.
 double error_of_difference(const Curve& curve, const Residual& residual) {
   return residual.sigma * std::sqrt(2.0 / static_cast<double>(curve.values.front().size()));
 }

@@ -41,7 +41,7 @@ struct Spread {
   std::size_t count = 0;
   double min = 0.0, mean = 0.0, max = 0.0, deviation = 0.0;  ///< deviation: of a sample, 0 for one value
 };
-/// Of the finite values; of a log-scale metric the geometric mean, and only positive values count.
+/// Spread of the finite values. A log-scale metric has the geometric mean, and only positive values count.
 Spread spread(const std::vector<double>& values, bool log_scale);
 
 /// Metrics that a study shows or expects, but none of the cases that came to their end gave.

@@ -1,7 +1,6 @@
 #include "faulty_fleet.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "convergence.hpp"
@@ -36,6 +35,7 @@ FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
     : ExchangeFleet(folder, exchange_config_of(scenario, config.signatures), kTick),
       scenario_(scenario),
       run_(config),
+      trace_(config.trace),
       start_(now()),
       survey_(scenario.seed, scenario.robots),
       links_(scenario.seed),
@@ -50,13 +50,6 @@ FaultyFleet::FaultyFleet(const Scenario& scenario, const RunConfig& config,
     member.disk = std::make_unique<FaultyFileSystem>();
     member.start_at = now() + from_seconds(draws_.between(0.0, 5.0));
   }
-}
-
-void FaultyFleet::trace(const std::string& line) {
-  if (!run_.trace) return;
-  char stamp[32];
-  std::snprintf(stamp, sizeof stamp, "%9.2f s  ", to_seconds(time()));
-  trace_.push_back(stamp + line);
 }
 
 void FaultyFleet::apply(const FaultChange& change) {
@@ -215,22 +208,16 @@ std::vector<Duration> FaultyFleet::arrivals(const Packet& packet, const AgentId&
 }
 
 void FaultyFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {
+  if (const auto line = trace_line(event)) trace(name.str() + ": " + *line);
   if (const auto* needed = std::get_if<exchange::CloudNeeded>(&event)) {
     const Status provided = robot.exchange->provide_cloud(
         needed->node, SyntheticSurvey::cloud_around(needed->node), clock(robot));
     if (!provided) monitor_.note(Invariant::kOwnItems, name, now(), provided.error().message);
   } else if (const auto* conflict = std::get_if<exchange::ItemConflict>(&event)) {
     monitor_.on_conflict(name, *conflict, now());
-    trace(name.str() + ": conflict " + to_string(conflict->id));
     if (conflict->id.agent == name) reissue(name, robot);
-  } else if (const auto* refused = std::get_if<exchange::ItemRefused>(&event)) {
-    trace(name.str() + ": " + to_string(refused->id) + " is refused: " + to_string(refused->proof));
   } else if (std::holds_alternative<exchange::SessionTaken>(event)) {
     begin_session(name, robot);
-  } else if (const auto* failed = std::get_if<exchange::StoreFailed>(&event)) {
-    trace(name.str() + ": " + failed->error.message);
-  } else if (const auto* elsewhere = std::get_if<exchange::OwnItemsElsewhere>(&event)) {
-    trace(name.str() + ": " + elsewhere->peer.str() + " holds own items that the store lacks");
   }
 }
 
@@ -346,7 +333,7 @@ Outcome FaultyFleet::run() {
     outcome.alignments = robots().begin()->second.store->alignments().size();
   }
   monitor_.fill(outcome);
-  outcome.trace = std::move(trace_);
+  outcome.trace = trace_.take();
   return outcome;
 }
 

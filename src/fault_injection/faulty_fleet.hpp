@@ -16,6 +16,7 @@
 #include "monitor.hpp"
 #include "registration_jobs.hpp"
 #include "synthetic_survey.hpp"
+#include "trace.hpp"
 
 namespace fleetmap::fault_injection {
 
@@ -49,7 +50,7 @@ class FaultyFleet : private ExchangeFleet {
   Member& member(const AgentId& name) { return members_.at(name); }
   const AgentId& name_of(std::size_t index) const { return config_.fleet[index]; }
   Stamp clock(const Robot& robot) const { return now() + robot.clock_offset; }
-  void trace(const std::string& line);
+  void trace(const std::string& line) { trace_.add(time(), line); }
 
   void apply(const FaultChange& change);
   void begin(const Fault& fault, std::size_t number);
@@ -72,6 +73,7 @@ class FaultyFleet : private ExchangeFleet {
 
   const Scenario& scenario_;
   const RunConfig& run_;
+  Trace trace_;
   Stamp start_;
   SyntheticSurvey survey_;
   LinkFaults links_;
@@ -86,7 +88,6 @@ class FaultyFleet : private ExchangeFleet {
   RegistrationJobs jobs_;
   bool mapping_ = true;
   Stamp next_check_;
-  std::vector<std::string> trace_;
 };
 
 }  // namespace fleetmap::fault_injection

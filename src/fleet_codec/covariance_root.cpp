@@ -12,7 +12,7 @@ constexpr double kMaxSigma = 100.0;
 // Rounding what was rounded must change nothing: only what is clearly beyond kMaxSigma is scaled down to it.
 constexpr double kClearlyBeyond = 1.1 * kMaxSigma;
 
-/// Of a number that is zero but for rounding no sign is left, which would differ between processors.
+/// Drops the sign of a number that rounds to zero, because it would differ between processors.
 std::uint16_t to_half(double value) {
   const std::uint16_t bits = Eigen::half(static_cast<float>(value)).x;
   return (bits & 0x7fff) == 0 ? std::uint16_t{0} : bits;

@@ -53,7 +53,7 @@ class FieldCheck {
   double within(double value, double limit, const char* member);
   /// Finite and 0 <= value <= limit.
   double size(double value, double limit, const char* member);
-  /// Of 64 bytes, or none.
+  /// Signature of 64 bytes, or none.
   std::optional<Signature> signature(const Bytes& bytes);
   Eigen::Vector3d translation(const std::array<float, 3>& t, const char* member);
 

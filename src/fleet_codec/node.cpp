@@ -17,7 +17,7 @@ constexpr LogScale<std::uint16_t> kPositionStddev{1e-4, 2048.0};  // m; steps of
 constexpr double kCorrelationUnit = 1.0 / 127.0;
 constexpr double kMaxCorrelation = 126.0 / 127.0;  // keeps the covariance invertible after rounding
 
-/// What a node keeps of G's covariance, in codes.
+/// Encodes the part of G's covariance that a node keeps.
 void write_covariance(const Matrix6d& C, msg::NodeFix& out) {
   std::array<std::uint16_t, 3> stddev{};
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,6 @@
 #include "fleetmap/localization/ekf_config.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,60 +12,68 @@ struct Field {
   double value;
 };
 
+/// Numbers that must be positive.
+auto positive(const EkfConfig& config) {
+  return std::array{
+      Field{"imu.gyro_noise", config.imu.gyro_noise},
+      Field{"imu.accel_noise", config.imu.accel_noise},
+      Field{"imu.gyro_bias_sigma", config.imu.gyro_bias_sigma},
+      Field{"imu.accel_bias_sigma", config.imu.accel_bias_sigma},
+      Field{"imu.gravity", config.imu.gravity},
+      Field{"imu.max_gap", config.imu.max_gap},
+      Field{"imu.orientation_tilt_tolerance", config.imu.orientation_tilt_tolerance},
+      Field{"imu.orientation_yaw_sigma", config.imu.orientation_yaw_sigma},
+      Field{"imu.orientation_yaw_floor", config.imu.orientation_yaw_floor},
+      Field{"gps.default_sigma_h", config.gps.default_sigma_h},
+      Field{"gps.default_sigma_v", config.gps.default_sigma_v},
+      Field{"gps.sigma_floor", config.gps.sigma_floor},
+      Field{"gps.gate", config.gps.gate},
+      Field{"gps.max_speed", config.gps.max_speed},
+      Field{"gps.max_site_radius", config.gps.max_site_radius},
+      Field{"gps.recovery_time", config.gps.recovery_time},
+      Field{"gps.recovery_time_far", config.gps.recovery_time_far},
+      Field{"wheel.speed_sigma", config.wheel.speed_sigma},
+      Field{"wheel.yaw_rate_sigma", config.wheel.yaw_rate_sigma},
+      Field{"wheel.lateral_sigma", config.wheel.lateral_sigma},
+      Field{"wheel.vertical_sigma", config.wheel.vertical_sigma},
+      Field{"wheel.timeout", config.wheel.timeout},
+      Field{"wheel.gate", config.wheel.gate},
+      Field{"motion.accel_noise", config.motion.accel_noise},
+      Field{"motion.yaw_noise", config.motion.yaw_noise},
+      Field{"motion.yaw_noise_with_wheels", config.motion.yaw_noise_with_wheels},
+      Field{"motion.tilt_sigma", config.motion.tilt_sigma},
+      Field{"motion.tilt_time", config.motion.tilt_time},
+      Field{"motion.speed_sigma", config.motion.speed_sigma},
+      Field{"motion.heading_sigma", config.motion.heading_sigma},
+      Field{"history", config.history},
+      Field{"max_time_jump", config.max_time_jump},
+  };
+}
+
+/// Numbers that must not be negative.
+auto not_negative(const EkfConfig& config) {
+  return std::array{
+      Field{"imu.gyro_bias_walk", config.imu.gyro_bias_walk},
+      Field{"imu.accel_bias_walk", config.imu.accel_bias_walk},
+      Field{"gps.correlation_time", config.gps.correlation_time},
+      Field{"wheel.speed_scale", config.wheel.speed_scale},
+      Field{"wheel.turn_offset", config.wheel.turn_offset},
+      Field{"wheel.correlation_time", config.wheel.correlation_time},
+      Field{"max_lateness", config.max_lateness},
+      Field{"max_extrapolation", config.max_extrapolation},
+      Field{"gps.correlated_share", config.gps.correlated_share},
+  };
+}
+
 }  // namespace
 
 Status EkfConfig::validate() const {
-  const Field positive[] = {
-      {"imu.gyro_noise", imu.gyro_noise},
-      {"imu.accel_noise", imu.accel_noise},
-      {"imu.gyro_bias_sigma", imu.gyro_bias_sigma},
-      {"imu.accel_bias_sigma", imu.accel_bias_sigma},
-      {"imu.gravity", imu.gravity},
-      {"imu.max_gap", imu.max_gap},
-      {"imu.orientation_tilt_tolerance", imu.orientation_tilt_tolerance},
-      {"imu.orientation_yaw_sigma", imu.orientation_yaw_sigma},
-      {"imu.orientation_yaw_floor", imu.orientation_yaw_floor},
-      {"gps.default_sigma_h", gps.default_sigma_h},
-      {"gps.default_sigma_v", gps.default_sigma_v},
-      {"gps.sigma_floor", gps.sigma_floor},
-      {"gps.gate", gps.gate},
-      {"gps.max_speed", gps.max_speed},
-      {"gps.max_site_radius", gps.max_site_radius},
-      {"gps.recovery_time", gps.recovery_time},
-      {"gps.recovery_time_far", gps.recovery_time_far},
-      {"wheel.speed_sigma", wheel.speed_sigma},
-      {"wheel.yaw_rate_sigma", wheel.yaw_rate_sigma},
-      {"wheel.lateral_sigma", wheel.lateral_sigma},
-      {"wheel.vertical_sigma", wheel.vertical_sigma},
-      {"wheel.timeout", wheel.timeout},
-      {"wheel.gate", wheel.gate},
-      {"motion.accel_noise", motion.accel_noise},
-      {"motion.yaw_noise", motion.yaw_noise},
-      {"motion.yaw_noise_with_wheels", motion.yaw_noise_with_wheels},
-      {"motion.tilt_sigma", motion.tilt_sigma},
-      {"motion.tilt_time", motion.tilt_time},
-      {"motion.speed_sigma", motion.speed_sigma},
-      {"motion.heading_sigma", motion.heading_sigma},
-      {"history", history},
-      {"max_time_jump", max_time_jump},
-  };
-  for (const Field& field : positive) {
+  for (const Field& field : positive(*this)) {
     if (!(field.value > 0.0) || !std::isfinite(field.value)) {
       return failure(std::string(field.name) + ": must be finite and > 0");
     }
   }
-  const Field not_negative[] = {
-      {"imu.gyro_bias_walk", imu.gyro_bias_walk},
-      {"imu.accel_bias_walk", imu.accel_bias_walk},
-      {"gps.correlation_time", gps.correlation_time},
-      {"wheel.speed_scale", wheel.speed_scale},
-      {"wheel.turn_offset", wheel.turn_offset},
-      {"wheel.correlation_time", wheel.correlation_time},
-      {"max_lateness", max_lateness},
-      {"max_extrapolation", max_extrapolation},
-      {"gps.correlated_share", gps.correlated_share},
-  };
-  for (const Field& field : not_negative) {
+  for (const Field& field : not_negative(*this)) {
     if (!(field.value >= 0.0) || !std::isfinite(field.value)) {
       return failure(std::string(field.name) + ": must be finite and >= 0");
     }

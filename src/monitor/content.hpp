@@ -41,7 +41,8 @@ class PointCache {
   std::map<std::string, std::list<Entry>::iterator> by_hash_;
 };
 
-/// What there is to see: the page's files, the state and the submaps. No name is ever a file's. One thread.
+/// Content of the server: the page's files, the state and the submaps. No path is ever opened as a file. Used
+/// by one thread.
 class Content {
  public:
   Content(std::span<const PageFile> page, store::SubmapLoader load, std::size_t cached_bytes)

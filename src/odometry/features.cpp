@@ -131,7 +131,7 @@ void FeatureExtractor::select_posts(std::span<const SweepPoint> points) {
   }
 }
 
-/// Where a smooth surface ends in front of something farther away.
+/// Selects borders: the points where a smooth surface ends in front of something farther away.
 void FeatureExtractor::select_borders(std::span<const SweepPoint> points) {
   for (std::size_t first = 0; first < points.size(); first = segment_end_[first]) {
     const std::size_t end = segment_end_[first];

@@ -22,28 +22,31 @@ LocalMap::LocalMap(const LoamConfig& config)
       coarse_thinning_(kCoarseSpacing * config.coarse_resolution) {}
 
 void LocalMap::add_surfaces(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& sensor) {
-  seen_.clear();
+  observed_.clear();
   for (const Eigen::Vector3d& point : points) {
-    seen_.push_back({point, (sensor - point).normalized().cast<float>()});
+    observed_.push_back({point, (sensor - point).normalized().cast<float>()});
   }
-  fine_.add(seen_);
+  fine_.add(observed_);
   // A coarser window has enough of a fraction of them.
   thin_.clear();
   coarse_thinning_.clear();
-  std::ranges::copy_if(seen_, std::back_inserter(thin_), [this](const SurfaceGrid::SeenPoint& seen) {
-    return coarse_thinning_.first_in_cube(seen.point.cast<float>());
-  });
+  std::ranges::copy_if(observed_, std::back_inserter(thin_),
+                       [this](const SurfaceGrid::ObservedPoint& observed) {
+                         return coarse_thinning_.first_in_cube(observed.point.cast<float>());
+                       });
   coarse_.add(thin_);
   // Posts are looked for only where no plane is.
-  std::erase_if(seen_, [this](const SurfaceGrid::SeenPoint& seen) { return fine_.known_plane(seen.point); });
-  for (SurfaceGrid::SeenPoint& seen : seen_) seen.toward = kNoSide;
-  posts_.add(seen_);
+  std::erase_if(observed_, [this](const SurfaceGrid::ObservedPoint& observed) {
+    return fine_.known_plane(observed.point);
+  });
+  for (SurfaceGrid::ObservedPoint& observed : observed_) observed.toward = kNoSide;
+  posts_.add(observed_);
 }
 
 void LocalMap::add_edges(std::span<const Eigen::Vector3d> points) {
-  seen_.clear();
-  for (const Eigen::Vector3d& point : points) seen_.push_back({point, kNoSide});
-  edges_.add(seen_);
+  observed_.clear();
+  for (const Eigen::Vector3d& point : points) observed_.push_back({point, kNoSide});
+  edges_.add(observed_);
 }
 
 const Surface* LocalMap::surface_at(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {

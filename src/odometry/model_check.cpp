@@ -58,7 +58,7 @@ void ModelCheck::add(const sensor::Scan& scan) {
   if (times_.add(times_run_backwards(scan))) news_.emplace_back(kBackwards);
 }
 
-std::vector<std::string> ModelCheck::take_news() { return std::exchange(news_, {}); }
+std::vector<std::string> ModelCheck::take_warnings() { return std::exchange(news_, {}); }
 
 bool ModelCheck::rings_differ(const sensor::Scan& scan) const {
   if (scan.has_ring || angles_.size() < 2) return false;

@@ -8,7 +8,7 @@
 namespace fleetmap::odometry {
 namespace {
 
-/// 1 sigma of what a pose errs anew from scan to scan: those before it in the map do not tell it better.
+/// 1 sigma of the part of a pose's error that is independent from scan to scan.
 constexpr double kPoseNoise = 0.003;       // m
 constexpr double kRotationNoise = 0.0005;  // rad
 constexpr double kNominalPeriod = 0.1;     // s, for which the accelerations of the configuration are meant
@@ -18,8 +18,8 @@ double square(double value) { return value * value; }
 }  // namespace
 
 MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance,
-                         double dt, const std::optional<SeenRotation>& gyro,
-                         const std::optional<SeenWay>& way_seen)
+                         double dt, const std::optional<MeasuredRotation>& gyro,
+                         const std::optional<MeasuredDisplacement>& displacement)
     : dt_(dt), previous_twist_(previous.twist), twist_(previous.twist) {
   const double linear = square(config.linear_acceleration) * kNominalPeriod;  // power spectral density
   const double angular = square(config.angular_acceleration) * kNominalPeriod;
@@ -42,11 +42,11 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, 
       Q(axis, axis) = square(gyro->sigma) + square(kRotationNoise);
     }
   }
-  if (gyro && way_seen) {
-    way.translation() = way_seen->p_previous_now;
+  if (gyro && displacement) {
+    way.translation() = displacement->p_previous_now;
     for (int axis = 0; axis < 3; ++axis) {
       F(axis, axis + 6) = Q(axis, axis + 6) = Q(axis + 6, axis) = 0.0;
-      Q(axis, axis) = square(way_seen->sigma) + square(kPoseNoise);
+      Q(axis, axis) = square(displacement->sigma) + square(kPoseNoise);
     }
   }
   F.topLeftCorner<6, 6>() = adjoint(way.inverse());
@@ -54,7 +54,8 @@ MotionPrior::MotionPrior(const LoamConfig& config, const MotionState& previous, 
   covariance_ = F * covariance * F.transpose() + Q;
 }
 
-/// A measurement of one component of the velocity tells of the way, too, as far as both err together.
+/// Kalman update by one component of the velocity. It also corrects the pose, as far as the errors of both
+/// are correlated.
 void MotionPrior::measure_rate(int axis, double value, double sigma) {
   const Eigen::Index i = 6 + axis;
   const Vector12d gain = covariance_.col(i) / (covariance_(i, i) + square(sigma));

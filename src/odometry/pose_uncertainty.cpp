@@ -44,7 +44,7 @@ void PoseUncertainty::map_restarted() {
 
 void PoseUncertainty::hold() {
   last_noise_.setZero();
-  unheld_told_.setZero();
+  unheld_stated_.setZero();
   unheld_share_ = slid_ = 0.0;
 }
 
@@ -66,26 +66,26 @@ PoseUncertainty::Stated PoseUncertainty::state(const Matched& scan) {
   return stated;
 }
 
-/// How far the points move the translation away from the prior, against how far it was taken to be off: a
-/// robot that drives smoothly knows its motion better than the prior's accelerations say, one that is shaken
-/// less well. Rotation only without a gyro: a gyro's bias turns all scans alike, so that points and gyro
-/// agree from scan to scan says less.
-void PoseUncertainty::judge_prior(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
+/// Compares the correction of the translation by the points with the prior's variance: the motion of a robot
+/// that drives smoothly is predicted better than the prior's accelerations state, that of a shaken one less
+/// well. The rotation is used only without a gyro, because a gyro's bias turns all scans alike, so the
+/// agreement of points and gyro between scans shows less.
+void PoseUncertainty::update_prior_misfit(const MatchResult& match, const Matrix12d& covariance, bool gyro) {
   const Vector12d d = match.prior_information.ldlt().solve(match.prior_gradient);
   if (!d.allFinite()) return;
-  // Where the points tell nothing the motion follows the prior, which says nothing of the prior.
-  const Vector12d told =
+  // Unmeasured components follow the prior, so their misfit says nothing about it and is not counted.
+  const Vector12d measured =
       Vector12d::Ones() - (match.prior_information * covariance).diagonal().cwiseMin(1.0).cwiseMax(0.0);
   const Vector12d misfit = d.cwiseProduct(match.prior_information * d);
-  // What it shares with rotation can make a part of a square negative.
+  // The cross terms with the rotation can make a part of the square negative.
   translation_misfit_.add(std::max(0.0, misfit.head<3>().sum() + misfit.segment<3>(6).sum()),
-                          told.head<3>().sum() + told.segment<3>(6).sum());
+                          measured.head<3>().sum() + measured.segment<3>(6).sum());
   if (gyro) return;
   rotation_misfit_.add(std::max(0.0, misfit.segment<3>(3).sum() + misfit.tail<3>().sum()),
-                       told.segment<3>(3).sum() + told.tail<3>().sum());
+                       measured.segment<3>(3).sum() + measured.tail<3>().sum());
 }
 
-/// Of pose and velocity at the scan's reference instant.
+/// Covariance of pose and velocity at the scan's reference instant.
 Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
   const MatchResult& match = scan.match;
   Matrix12d information = match.prior_information;
@@ -98,7 +98,7 @@ Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
     // The points err as far as they lie off their surfaces, and the prior as far as the points moved the
     // motion away from it, not as both were weighed.
     const bool gyro = scan.turn_acceleration_variance.has_value();
-    judge_prior(match, at_reference, gyro);
+    update_prior_misfit(match, at_reference, gyro);
     Vector12d scale = Vector12d::Ones();
     scale.head<3>().setConstant(std::sqrt(translation_misfit_.variance()));
     if (!gyro) scale.segment<3>(3).setConstant(std::sqrt(rotation_misfit_.variance()));
@@ -110,7 +110,7 @@ Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
   return 0.5 * (error + error.transpose());
 }
 
-/// What stays unknown is unknown at the next scan, too; but no velocity is known less than at the start.
+/// Keeps the covariance for the next scan. The velocity's is bounded by its value at the start.
 void PoseUncertainty::remember(const Matrix12d& at_reference) {
   Vector12d scale = Vector12d::Ones();
   for (int i = 6; i < 12; ++i) {
@@ -121,28 +121,28 @@ void PoseUncertainty::remember(const Matrix12d& at_reference) {
   covariance_ = 0.5 * (capped + capped.transpose());
 }
 
-/// New ground enters the map at poses that err as `noise` does, that of the reference instant, for which a
-/// scan is matched: so the map drifts with the way. When lost, the map does not hold the motion at all, and
-/// what a scan adds to its error stays in the map.
+/// Growth of the drift by one scan. New surfaces enter the map with the error `noise` of the pose at the
+/// reference instant, so the map drifts with the distance. While the scan is lost, the map does not constrain
+/// the motion, and the added error stays in the map.
 Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const MatchResult& match = scan.match;
   const double way = scan.T_before_now.translation().norm() + so3_log(scan.T_before_now.linear()).norm();
   const Matrix6d A = adjoint(scan.T_before_now.inverse());
   const Matrix6d added = noise - A * last_noise_ * A.transpose();
   last_noise_ = noise;
-  unheld_told_ = (A * unheld_told_ * A.transpose()).eval();
+  unheld_stated_ = (A * unheld_stated_ * A.transpose()).eval();
   const bool unheld = scan.lost || match.degenerate_count > 0;
   const double renewed = scan.T_before_now.translation().norm() / kMapReach +
                          so3_log(scan.T_before_now.linear()).norm() / kMapTurn;
   unheld_share_ += std::min(1.0, renewed) * ((unheld ? 1.0 : 0.0) - unheld_share_);
-  if (!unheld) unheld_told_.setZero();
+  if (!unheld) unheld_stated_.setZero();
 
   Matrix6d growth = Matrix6d::Zero();
   growth.diagonal().head<3>().array() += way * config_.drift_translation * config_.drift_translation;
   growth.diagonal().tail<3>().array() += way * config_.drift_rotation * config_.drift_rotation;
   if (scan.lost) {
     const Matrix6d stays = added.diagonal().cwiseMax(0.0).asDiagonal();
-    unheld_told_ += stays;
+    unheld_stated_ += stays;
     return growth + way * config_.drift_share * noise + stays;
   }
   Vector6d scale = Vector6d::Ones();  // of the degenerate directions: [m, m, m, and rotation times range]
@@ -154,9 +154,9 @@ Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
          growth_sliding(match, way);
 }
 
-/// Along degenerate directions a pose errs as its prior does, and all that enters the map there errs alike.
-/// The next scan that the map holds takes that back, but for the share of the map that was built in such
-/// poses.
+/// Growth along degenerate directions. There a pose has the error of its prior, and all surfaces that enter
+/// the map share it. The next constrained scan corrects it, except for the share of the map that was built at
+/// such poses.
 Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d& noise) {
   const double stays = square(std::min(1.0, unheld_share_ / kMostlyUnheld));
   Vector6d scale = Vector6d::Ones();
@@ -165,15 +165,17 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
   for (int i = 0; i < match.degenerate_count; ++i) {
     const Vector6d across = scale.asDiagonal() * Vector6d(match.degenerate_directions.col(i));
     const Vector6d axis = scale.cwiseInverse().asDiagonal() * Vector6d(match.degenerate_directions.col(i));
-    const double untold = stays * across.dot(noise * across) - across.dot((unheld_told_ + growth) * across);
-    growth += std::max(0.0, untold) * axis * axis.transpose();
+    const double unstated =
+        stays * across.dot(noise * across) - across.dot((unheld_stated_ + growth) * across);
+    growth += std::max(0.0, unstated) * axis * axis.transpose();
   }
-  unheld_told_ += growth;
+  unheld_stated_ += growth;
   return growth;
 }
 
-/// A map that was mostly built of scans that it did not hold is no witness where it seems to hold one again:
-/// both may have slid together. Only wheels and a gyro tell whether they did.
+/// Growth by sliding. A map that was built mostly of scans that it did not constrain may have slid together
+/// with them, so a scan that it seems to constrain again is no evidence. Only wheels and a gyro measure
+/// whether they slid.
 Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
   if (match.degenerate_count > 0) sliding_ = match;
   if (unheld_share_ < kSlidesFrom) slid_ = 0.0;

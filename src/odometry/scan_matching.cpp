@@ -34,10 +34,10 @@ double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   return longest;
 }
 
-/// What the points tell when the map may be bent within every sweep by a velocity e of these standard
+/// Information of the points if the map may be bent within every sweep by a velocity e of these standard
 /// deviations (m/s, rad/s): a point fired at s moves with d_pose + s (d_twist + e), and e is marginalised.
-/// Without it the velocity would be measured against the map's own bend, which has no anchor: it would drift
-/// away from the way between the poses, and the map with it.
+/// Otherwise the velocity would be measured against the map's own bend, which has no anchor, and both would
+/// drift away from the motion between the poses.
 NormalEquations with_bent_map(const NormalEquations& points, double speed, double turn_rate) {
   Vector6d known;
   known << Eigen::Vector3d::Constant(1.0 / square(speed)), Eigen::Vector3d::Constant(1.0 / square(turn_rate));
@@ -52,6 +52,19 @@ NormalEquations with_bent_map(const NormalEquations& points, double speed, doubl
   return result;
 }
 
+/// Removes the information along the degenerate directions, of the pose and of the velocity.
+void remove_degenerate(const MatchResult& result, NormalEquations& equations) {
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>().setConstant(1.0 / result.range);
+  const auto V = result.degenerate_directions.leftCols(result.degenerate_count);
+  const Matrix6d keep =
+      scale.asDiagonal() * (Matrix6d::Identity() - V * V.transpose()) * scale.cwiseInverse().asDiagonal();
+  Matrix12d K = Matrix12d::Zero();
+  K.topLeftCorner<6, 6>() = K.bottomRightCorner<6, 6>() = keep;
+  equations.H = K.transpose() * equations.H * K;
+  equations.g = K.transpose() * equations.g;
+}
+
 }  // namespace
 
 ScanMatcher::ScanMatcher(const LoamConfig& config) : config_(config) {}
@@ -63,7 +76,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   result.state = start;
   result.speed_measured = prior.has_forward_speed();
   result.turn_rate_measured = prior.has_gyro_rate() || prior.has_yaw_rate();
-  looked_up_.assign(planes.size(), {});
+  lookups_.assign(planes.size(), {});
   const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
   const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
@@ -77,17 +90,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     lidar.g /= config_.information_deflation;
     lidar = with_bent_map(lidar, config_.map_bend_speed, bend_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
-    if (result.degenerate_count > 0) {
-      Vector6d scale = Vector6d::Ones();
-      scale.tail<3>().setConstant(1.0 / result.range);
-      const auto V = result.degenerate_directions.leftCols(result.degenerate_count);
-      const Matrix6d keep =
-          scale.asDiagonal() * (Matrix6d::Identity() - V * V.transpose()) * scale.cwiseInverse().asDiagonal();
-      Matrix12d K = Matrix12d::Zero();
-      K.topLeftCorner<6, 6>() = K.bottomRightCorner<6, 6>() = keep;
-      lidar.H = K.transpose() * lidar.H * K;
-      lidar.g = K.transpose() * lidar.g;
-    }
+    if (result.degenerate_count > 0) remove_degenerate(result, lidar);
     const Vector12d step = -(lidar.H + known.H).ldlt().solve(lidar.g + known.g);
     if (!step.allFinite()) break;
     result.state.T_odom_base = result.state.T_odom_base * se3_exp(step.head<6>());
@@ -105,6 +108,11 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   }
   result.state.T_odom_base.linear() =
       Eigen::Quaterniond(result.state.T_odom_base.linear()).normalized().toRotationMatrix();
+  fill_statistics(result);
+  return result;
+}
+
+void ScanMatcher::fill_statistics(MatchResult& result) const {
   result.planes = sums_.planes;
   result.edges = sums_.edges;
   result.inlier_fraction =
@@ -114,8 +122,39 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   result.residual_variance =
       (sums_.inlier_normalised + kAssumedDistances) / (sums_.inlier_dimensions + kAssumedDistances);
   result.rms = std::sqrt(sums_.inlier_square / static_cast<double>(std::max<std::size_t>(1, sums_.inliers)));
-  return result;
 }
+
+/// The state at which the features are linearised, and the constants of their weights.
+struct ScanMatcher::Linearisation {
+  Linearisation(const LoamConfig& config, const MotionState& state, double half_span_, double slack_,
+                std::size_t stride_)
+      : motion(state.twist, state.turn_acceleration),
+        R(state.T_odom_base.linear()),
+        t(state.T_odom_base.translation()),
+        sensor(R * config.T_base_lidar.translation() + t),
+        half_span(half_span_),
+        bins_per_second(kTimeBins / (2.0 * half_span_)),
+        return_variance(square(config.range_noise)),
+        edge_variance(square(config.edge_noise)),
+        slack(slack_),
+        stride(stride_) {}
+
+  Eigen::Vector3d in_base(const FeaturePoint& feature) const {
+    return motion.at_reference(feature.position, feature.time).cast<double>();
+  }
+  std::size_t bin_at(double time) const {
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>((time + half_span) * bins_per_second), 0, kTimeBins - 1));
+  }
+
+  SweepMotion motion;
+  Eigen::Matrix3d R;  ///< of T_odom_base
+  Eigen::Vector3d t, sensor;
+  double half_span, bins_per_second;
+  double return_variance, edge_variance;
+  double slack;
+  std::size_t stride;
+};
 
 void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                             LocalMap& map, const MotionState& state, double slack, std::size_t stride) {
@@ -124,83 +163,77 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
     bin.g.setZero();
   }
   sums_ = {};
-  const SweepMotion motion(state.twist, state.turn_acceleration);
-  const Eigen::Matrix3d R = state.T_odom_base.linear();
-  const Eigen::Vector3d t = state.T_odom_base.translation();
-  const Eigen::Vector3d sensor = R * config_.T_base_lidar.translation() + t;
-  const double bins_per_second = kTimeBins / (2.0 * half_span_);
-  const double return_variance = square(config_.range_noise);
-  const double edge_variance = square(config_.edge_noise);
-  const auto share = static_cast<double>(stride);  // each stands for so many
+  const Linearisation at(config_, state, half_span_, slack, stride);
+  add_planes(at, planes, map);
+  for (std::size_t i = 0; i < edges.size(); i += stride) {
+    const Eigen::Vector3d at_base = at.in_base(edges[i]), at_map = at.R * at_base + at.t;
+    add_feature(at, edges[i], at_base, at_map, map.edge_at(at_map), true);
+  }
+}
 
-  auto visit = [&](const FeaturePoint& feature, const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                   const Surface* surface, bool edge) {
-    if (surface == nullptr) return;
-    const bool plane = surface->shape == Shape::kPlane;
-    const Eigen::Vector3d offset = q - surface->mean;
-    const Eigen::Vector3d direction = surface->direction.cast<double>();
-    const double distance2 = offset.squaredNorm();
-    const double variance = (edge ? edge_variance + square(feature.noise) : return_variance) +
-                            surface->thickness + distance2 * surface->angle_variance;
-    const double along = direction.dot(offset);
-    const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
-    // Geman-McClure; the slack lets far surfaces pull while the state is still off.
-    const double kernel = 9.0 * variance + slack * slack;
-    const double weight = share * square(kernel / (kernel + residual2)) / variance;
-    const int slot =
-        std::clamp(static_cast<int>((feature.time + half_span_) * bins_per_second), 0, kTimeBins - 1);
-    TimeBin& bin = bins_[static_cast<std::size_t>(slot)];
-    if (plane) {
-      add_row(bin, p, R.transpose() * direction, along, weight);
-      sums_.spurious += weight * surface->angle_variance;
-    } else {
-      const Eigen::Vector3d u = direction.unitOrthogonal();
-      const Eigen::Vector3d v = direction.cross(u);
-      add_row(bin, p, R.transpose() * u, u.dot(offset), weight);
-      add_row(bin, p, R.transpose() * v, v.dot(offset), weight);
-    }
-    sums_.weight += weight;
-    sums_.range += weight * p.norm();
-    ++sums_.points;
-    const bool upright = !plane || std::abs(direction.z()) < kLevel;
-    sums_.upright += upright;
-    ++(edge ? sums_.edges : sums_.planes);
-    if (residual2 < 9.0 * variance) {
-      ++sums_.inliers;
-      sums_.upright_inliers += upright;
-      sums_.inlier_square += residual2;
-      sums_.inlier_normalised += residual2 / variance;
-      sums_.inlier_dimensions += plane ? 1.0 : 2.0;
-    }
-  };
-  auto in_base = [&](const FeaturePoint& feature) -> Eigen::Vector3d {
-    return motion.at_reference(feature.position, feature.time).cast<double>();
-  };
+void ScanMatcher::add_planes(const Linearisation& at, const std::vector<FeaturePoint>& planes,
+                             LocalMap& map) {
   std::array<Eigen::Vector3d, kBlock> p, q, unknown;  // base_link, map frame
-  for (std::size_t begin = 0; begin < planes.size(); begin += kBlock * stride) {
-    const std::size_t count = std::min(kBlock, (planes.size() - begin + stride - 1) / stride);
+  for (std::size_t begin = 0; begin < planes.size(); begin += kBlock * at.stride) {
+    const std::size_t count = std::min(kBlock, (planes.size() - begin + at.stride - 1) / at.stride);
     std::size_t unknowns = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = begin + k * stride;
-      p[k] = in_base(planes[i]);
-      q[k] = R * p[k] + t;
+      const std::size_t i = begin + k * at.stride;
+      p[k] = at.in_base(planes[i]);
+      q[k] = at.R * p[k] + at.t;
       const CellKey cell = map.cell_of(q[k]);
-      if (looked_up_[i].plane != nullptr && looked_up_[i].cell == cell) continue;
-      looked_up_[i] = {cell, nullptr};
+      if (lookups_[i].plane != nullptr && lookups_[i].cell == cell) continue;
+      lookups_[i] = {cell, nullptr};
       unknown[unknowns++] = q[k];
     }
     map.fetch_ahead(std::span(unknown).first(unknowns));
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = begin + k * stride;
-      const Surface* known = looked_up_[i].plane;
-      const Surface* surface = known != nullptr ? known : map.surface_at(q[k], sensor);
-      if (surface != nullptr && surface->shape == Shape::kPlane) looked_up_[i].plane = surface;
-      visit(planes[i], p[k], q[k], surface, false);
+      const std::size_t i = begin + k * at.stride;
+      const Surface* known = lookups_[i].plane;
+      const Surface* surface = known != nullptr ? known : map.surface_at(q[k], at.sensor);
+      if (surface != nullptr && surface->shape == Shape::kPlane) lookups_[i].plane = surface;
+      add_feature(at, planes[i], p[k], q[k], surface, false);
     }
   }
-  for (std::size_t i = 0; i < edges.size(); i += stride) {
-    const Eigen::Vector3d at_base = in_base(edges[i]), at_map = R * at_base + t;
-    visit(edges[i], at_base, at_map, map.edge_at(at_map), true);
+}
+
+void ScanMatcher::add_feature(const Linearisation& at, const FeaturePoint& feature, const Eigen::Vector3d& p,
+                              const Eigen::Vector3d& q, const Surface* surface, bool edge) {
+  if (surface == nullptr) return;
+  const bool plane = surface->shape == Shape::kPlane;
+  const Eigen::Vector3d offset = q - surface->mean;
+  const Eigen::Vector3d direction = surface->direction.cast<double>();
+  const double distance2 = offset.squaredNorm();
+  const double variance = (edge ? at.edge_variance + square(feature.noise) : at.return_variance) +
+                          surface->thickness + distance2 * surface->angle_variance;
+  const double along = direction.dot(offset);
+  const double residual2 = plane ? along * along : std::max(0.0, distance2 - along * along);
+  // Geman-McClure; the slack lets far surfaces pull while the state is still off.
+  const double kernel = 9.0 * variance + at.slack * at.slack;
+  const auto share = static_cast<double>(at.stride);  // each feature stands for so many
+  const double weight = share * square(kernel / (kernel + residual2)) / variance;
+  TimeBin& bin = bins_[at.bin_at(feature.time)];
+  if (plane) {
+    add_row(bin, p, at.R.transpose() * direction, along, weight);
+    sums_.spurious += weight * surface->angle_variance;
+  } else {
+    const Eigen::Vector3d u = direction.unitOrthogonal();
+    const Eigen::Vector3d v = direction.cross(u);
+    add_row(bin, p, at.R.transpose() * u, u.dot(offset), weight);
+    add_row(bin, p, at.R.transpose() * v, v.dot(offset), weight);
+  }
+  sums_.weight += weight;
+  sums_.range += weight * p.norm();
+  ++sums_.points;
+  const bool upright = !plane || std::abs(direction.z()) < kLevel;
+  sums_.upright += upright;
+  ++(edge ? sums_.edges : sums_.planes);
+  if (residual2 < 9.0 * variance) {
+    ++sums_.inliers;
+    sums_.upright_inliers += upright;
+    sums_.inlier_square += residual2;
+    sums_.inlier_normalised += residual2 / variance;
+    sums_.inlier_dimensions += plane ? 1.0 : 2.0;
   }
 }
 

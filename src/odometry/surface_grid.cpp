@@ -53,7 +53,7 @@ inline void SurfaceGrid::take(Window& window, const Eigen::Vector3f& from_middle
   window.square[5] += d.z() * d.z();
 }
 
-inline bool SurfaceGrid::seen_from_behind(const Window& window, const Eigen::Vector3f& toward) {
+inline bool SurfaceGrid::observed_from_behind(const Window& window, const Eigen::Vector3f& toward) {
   return static_cast<float>(window.normal[0]) * toward.x() +
              static_cast<float>(window.normal[1]) * toward.y() +
              static_cast<float>(window.normal[2]) * toward.z() <
@@ -69,21 +69,21 @@ SurfaceGrid::Window& SurfaceGrid::other_side_of(Window& window) {
   return other_sides_[other];
 }
 
-void SurfaceGrid::add(std::span<const SeenPoint> seen) {
-  for (std::size_t begin = 0; begin < seen.size(); begin += kBlock) {
-    add_block(seen.subspan(begin, std::min(kBlock, seen.size() - begin)));
+void SurfaceGrid::add(std::span<const ObservedPoint> points) {
+  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
+    add_block(points.subspan(begin, std::min(kBlock, points.size() - begin)));
   }
 }
 
-void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
+void SurfaceGrid::add_block(std::span<const ObservedPoint> points) {
   struct Target {
     CellKey cell;
     std::uint32_t window;
   };
   std::array<Target, kBlock * kCorners> targets;
   std::array<Eigen::Array3d, kBlock> in_cell;  // m, from its least corner
-  for (std::size_t k = 0; k < seen.size(); ++k) {
-    const Eigen::Array3d scaled = seen[k].point.array() * inverse_step_;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Array3d scaled = points[k].point.array() * inverse_step_;
     const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
     for (int axis = 0; axis < 3; ++axis)
       in_cell[k][axis] = step_ * (scaled[axis] - static_cast<double>(cell[axis]));
@@ -96,7 +96,7 @@ void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
       index_.prefetch(target.cell);
     }
   }
-  const auto used = std::span(targets).first(seen.size() * kCorners);
+  const auto used = std::span(targets).first(points.size() * kCorners);
   for (Target& target : used) {
     target.window = index_.insert(target.cell);
     if (target.window == windows_.size()) {
@@ -106,12 +106,12 @@ void SurfaceGrid::add_block(std::span<const SeenPoint> seen) {
     }
   }
   for (std::size_t k = 0; k < used.size(); ++k) {
-    const Eigen::Vector3f& toward = seen[k / kCorners].toward;
+    const Eigen::Vector3f& toward = points[k / kCorners].toward;
     const std::size_t corner = k % kCorners;
     const Eigen::Array3d middle(corner & 1 ? step_ : 0.0, corner & 2 ? step_ : 0.0, corner & 4 ? step_ : 0.0);
     const Eigen::Vector3f from_middle = (in_cell[k / kCorners] - middle).matrix().cast<float>();
     Window& window = windows_[used[k].window];
-    take(seen_from_behind(window, toward) ? other_side_of(window) : window, from_middle, toward);
+    take(observed_from_behind(window, toward) ? other_side_of(window) : window, from_middle, toward);
   }
 }
 
@@ -134,7 +134,7 @@ const Surface* SurfaceGrid::at(const Eigen::Vector3d& point, const Eigen::Vector
   if (i == FlatIndex::kAbsent) return nullptr;
   Window& window = windows_[i];
   const Surface& surface = surface_of(window, cell);
-  if (!seen_from_behind(window, toward)) return &surface;
+  if (!observed_from_behind(window, toward)) return &surface;
   return surface.other_side == kNone ? nullptr : &surface_of(other_sides_[surface.other_side], cell);
 }
 
@@ -175,7 +175,7 @@ void SurfaceGrid::fit(const Window& window, CellKey cell, Surface& surface) cons
   surface.mean = step_ * unpack_cell(cell) + mean;
   const double thick2 = max_thickness_ * max_thickness_;
   const double extent2 = kMinExtent * kMinExtent * step_ * step_;
-  auto settle = [&](Shape shape, int axis, double across, double along) {
+  auto set_shape = [&](Shape shape, int axis, double across, double along) {
     surface.shape = shape;
     surface.direction = solver.eigenvectors().col(axis).cast<float>();
     surface.thickness = static_cast<float>(across + bend2_);
@@ -184,7 +184,7 @@ void SurfaceGrid::fit(const Window& window, CellKey cell, Surface& surface) cons
   if (seeks_ == Seeks::kPlanes) {
     if (l[1] <= extent2) return;
     if (l[0] < kPlaneRatio * l[1] && l[0] < thick2) {
-      settle(Shape::kPlane, 0, l[0], l[1]);
+      set_shape(Shape::kPlane, 0, l[0], l[1]);
       if (surface.direction.dot(window.toward) < 0.0f) surface.direction = -surface.direction;
     } else {
       surface.shape = Shape::kScatter;
@@ -195,7 +195,7 @@ void SurfaceGrid::fit(const Window& window, CellKey cell, Surface& surface) cons
   const bool upright = std::abs(solver.eigenvectors()(2, 2)) > kUpright;
   const double ratio = seeks_ == Seeks::kLines ? kLineRatio : upright ? kPostRatio : 0.0;
   if (l[1] < ratio * l[2] && l[1] < thick2 && l[2] > extent2) {
-    settle(Shape::kLine, 2, l[1], l[2]);
+    set_shape(Shape::kLine, 2, l[1], l[2]);
   } else {
     surface.shape = Shape::kScatter;
   }

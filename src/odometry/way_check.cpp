@@ -34,11 +34,11 @@ void WayCheck::add(const OdometryUpdate& update) {
   last_ = update.T_odom_base;
   lost_ += update.lost;
   whole_.add(update);
-  judge_losses(update);
-  judge_stretch(update);
+  update_losses(update);
+  update_stretch(update);
 }
 
-void WayCheck::judge_losses(const OdometryUpdate& update) {
+void WayCheck::update_losses(const OdometryUpdate& update) {
   recent_.push_back({update.stamp, update.lost});
   recent_lost_ += update.lost;
   while (update.stamp - recent_.front().stamp >= kWhile || update.stamp < recent_.front().stamp) {
@@ -50,7 +50,7 @@ void WayCheck::judge_losses(const OdometryUpdate& update) {
   if (share > losses_.value) losses_ = {share, update.stamp};
 }
 
-void WayCheck::judge_stretch(const OdometryUpdate& update) {
+void WayCheck::update_stretch(const OdometryUpdate& update) {
   stretch_.add(update);
   if (length_ - stretch_begin_ < kStretch) return;
   const Matrix6d C = stretch_.since_reference();
@@ -66,26 +66,26 @@ std::string WayCheck::after_start(Stamp stamp) const {
   return text.str();
 }
 
-std::vector<std::string> WayCheck::doubts() const {
-  std::vector<std::string> doubts;
-  const auto doubt = [&](const auto&... parts) {
+std::vector<std::string> WayCheck::warnings() const {
+  std::vector<std::string> warnings;
+  const auto warn = [&](const auto&... parts) {
     std::ostringstream text;
     text << std::fixed << std::setprecision(2);
     (text << ... << parts);
-    doubts.push_back(text.str());
+    warnings.push_back(text.str());
   };
   const auto share = static_cast<double>(lost_) / static_cast<double>(std::max<std::size_t>(1, updates_));
-  if (share > kMaxLost) doubt(100.0 * share, " % of all scans are lost");
+  if (share > kMaxLost) warn(100.0 * share, " % of all scans are lost");
   if (losses_.value > kMaxLostInAWhile)
-    doubt(100.0 * losses_.value, " % of the scans of 10 s are lost, ", after_start(losses_.at));
+    warn(100.0 * losses_.value, " % of the scans of 10 s are lost, ", after_start(losses_.at));
   const double sigma = translation_sigma(covariance());
-  if (sigma > std::max(kVague, kVagueShare * length_)) doubt("the end is stated to ", sigma, " m only");
+  if (sigma > std::max(kVague, kVagueShare * length_)) warn("the end is stated to ", sigma, " m only");
   if (vague_.value > kVagueStretch)
-    doubt("20 m of the way are stated to ", vague_.value, " m only, ", after_start(vague_.at));
+    warn("20 m of the way are stated to ", vague_.value, " m only, ", after_start(vague_.at));
   if (turned_.value > kTurned)
-    doubt("the heading over 20 m of the way is stated to ", turned_.value * 180.0 / std::numbers::pi,
-          " deg only, ", after_start(turned_.at));
-  return doubts;
+    warn("the heading over 20 m of the way is stated to ", turned_.value * 180.0 / std::numbers::pi,
+         " deg only, ", after_start(turned_.at));
+  return warnings;
 }
 
 }  // namespace fleetmap::odometry

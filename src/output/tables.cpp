@@ -21,8 +21,8 @@ std::ostream& write_pose(std::ostream& out, const Pose& T) {
              << q.w();
 }
 
-/// What became of each alignment, by name, and the mode that was taken, if any. Mode `paper` tells only what
-/// it used.
+/// Status of each alignment, by name, and the mode that was used, if any. Mode `paper` only distinguishes
+/// used alignments.
 struct Fate {
   std::string judgement;
   std::optional<std::size_t> mode;

@@ -118,7 +118,7 @@ double registration_seconds(const AgentFolder& agent) {
   return seconds;
 }
 
-/// What perception and registration took on the robots, mean of all; the twin and the exchange are not in it.
+/// CPU of perception and registration, mean over the robots. The twin and the exchange are not included.
 json cpu_json(const RunFolder& run) {
   const json agents = run.report.is_object() ? run.report.value("agents", json::object()) : json::object();
   double odometry = 0.0, registration = 0.0;
@@ -141,7 +141,7 @@ json cpu_json(const RunFolder& run) {
   return cpu;
 }
 
-/// What the robot holds whose map most share; nothing, with a note, where no store tells.
+/// The contents of a robot that has the map that most share; none, with a note, if no store is readable.
 std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<DistinctMap>& maps) {
   if (maps.empty()) return std::nullopt;
   auto held = open_held(maps.front().file.parent_path() / "store.db");

@@ -9,7 +9,7 @@
 
 namespace fleetmap::run_evaluation {
 
-/// Where the nodes truly were: by the true trajectories, at their stamps.
+/// True poses of the nodes, from the true trajectories at their stamps.
 eval::TruePoses true_poses(const RunFolder& run, const store::Store& store);
 
 /// NEES and what else eval::Consistency tells.

@@ -9,7 +9,7 @@
 
 namespace fleetmap::run_evaluation {
 
-/// What an agent holds, and where its last results placed it.
+/// The nodes and alignments of an agent, and their poses in its last results.
 struct HeldFleet {
   store::Store store;
   output::MapRecipe recipe;

@@ -19,7 +19,7 @@ json pose_json(const Pose& T) {
   return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
-/// What needs no truth.
+/// Metrics that need no truth.
 json description_json(const eval::MapMetrics& m, const eval::MapMetricsConfig& config) {
   return {{"map_points", m.map_points},     {"mapped_area", m.mapped_area},
           {"mean_density", m.mean_density}, {"density_histogram", m.density_histogram},

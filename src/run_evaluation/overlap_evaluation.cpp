@@ -39,7 +39,7 @@ class OverlapEvaluation::TrueSubmaps {
   std::size_t robots() const { return robots_.size(); }
   const eval::PlacesSeen& seen() const { return seen_; }
 
-  /// What of the submap lies where two robots saw.
+  /// The part of the submap that two robots observed.
   Result<cloud::PointCloud> shared_part(const NodeId& id) const {
     auto submap = load(id);
     if (!submap) return submap;

@@ -16,7 +16,7 @@
 
 namespace fleetmap::run_evaluation {
 
-/// What a run left of one robot; what is not there is empty.
+/// Files of one robot of a run; absent ones are empty.
 struct AgentFolder {
   AgentId id;
   std::filesystem::path directory;
@@ -24,7 +24,7 @@ struct AgentFolder {
   bool cut_off = false;  ///< it has a store, but neither a map nor a report
 };
 
-/// What `fleetmap run` left in a folder.
+/// Files that `fleetmap run` wrote into a folder.
 struct RunFolder {
   std::filesystem::path directory;
   std::vector<AgentFolder> agents;  ///< by name

@@ -226,6 +226,6 @@ bool ClockOffsets::unclear(Source source) const {
 
 Duration ClockOffsets::correction(Source source) const { return from_seconds(track(source).correction); }
 
-std::vector<std::string> ClockOffsets::take_news() { return std::exchange(news_, {}); }
+std::vector<std::string> ClockOffsets::take_warnings() { return std::exchange(news_, {}); }
 
 }  // namespace fleetmap::sensor

@@ -43,7 +43,7 @@ class DrivenFleet {
     Stamp last_scan{};  ///< when it was delivered
     Stamp last_guide{};
     GlobalPose G;  ///< the last that the agent published
-    // What still comes.
+    // The sensors that still publish.
     bool scans = true, points = true, guide = true, fixes = true, wheel = true;
     Duration clock{}, lidar_clock{};  ///< by which all stamps are ahead, and those of scans besides
     std::vector<bus::Handle> handles;
@@ -57,7 +57,7 @@ class DrivenFleet {
   void run_for(Duration time) { network_->run_until(now() + time); }
   /// Until all robots move at 0.5 m/s or more; false if they do not within 30 s.
   bool run_until_driving();
-  /// What an operator sends on the long range, once.
+  /// Sends an operator's order on the long range, once.
   void order(const std::string& robot, bool hold);
   messages::HoldOrder order_now(const std::string& robot, bool hold) const;
   /// As kill -9 and a new start do; the chassis stands meanwhile.

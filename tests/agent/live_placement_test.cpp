@@ -68,7 +68,7 @@ class LivePlacementTest : public ::testing::Test {
     network_->run_until(network_->now() + std::chrono::seconds(2));
     EXPECT_TRUE(live_->idle());
   }
-  /// What is heard when the odometry stands at our node `seq`.
+  /// Poses published while the odometry is at our node `seq`.
   std::vector<GlobalPose> heard_at(std::uint32_t seq) {
     heard_.clear();
     live_->publish({kSelf, 0}, {stamp_from_ns(1'000'000'000LL * (seq + 1)), T_odom_base(seq)});

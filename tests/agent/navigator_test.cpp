@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "fleetmap/bus/local_network.hpp"
@@ -13,50 +12,6 @@
 
 namespace fleetmap::agent {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// base_link is 0.1 m above the ground.
-constexpr float kGround = -0.1f;
-
-TEST(ObstaclesAmong, TheGroundIsNone) {
-  std::vector<Eigen::Vector3f> points;
-  for (float x = -6.0f; x <= 6.0f; x += 0.25f)
-    for (float y = -6.0f; y <= 6.0f; y += 0.25f) points.emplace_back(x, y, kGround);
-  EXPECT_TRUE(obstacles_among(points, {}).empty());
-}
-
-TEST(ObstaclesAmong, GroundThatRisesWithDistanceIsNone) {
-  std::vector<Eigen::Vector3f> points;
-  for (float x = 0.5f; x <= 6.0f; x += 0.1f) points.emplace_back(x, 0.0f, kGround + 0.1f * x);
-  EXPECT_TRUE(obstacles_among(points, {}).empty());
-}
-
-TEST(ObstaclesAmong, APostIsOneWhereItStands) {
-  std::vector<Eigen::Vector3f> points;
-  for (float z = 0.0f; z < 2.0f; z += 0.05f) points.emplace_back(3.01f, -1.01f, kGround + z);
-  const auto obstacles = obstacles_among(points, {});
-  ASSERT_EQ(obstacles.size(), 1u) << "one cell, one obstacle";
-  EXPECT_NEAR(obstacles[0].x(), 3.01, 1e-6);
-  EXPECT_NEAR(obstacles[0].y(), -1.01, 1e-6);
-}
-
-TEST(ObstaclesAmong, APanelOverheadAndWhatIsFarAreNone) {
-  EXPECT_TRUE(obstacles_among({{1.0f, 0.0f, kGround + 1.2f}, {6.5f, 0.0f, kGround + 1.5f}}, {}).empty());
-  ObstacleConfig tall;
-  tall.max_height = 1.5;
-  EXPECT_EQ(obstacles_among({{1.0f, 0.0f, kGround + 1.2f}}, tall).size(), 1u);
-}
-
-TEST(ObstaclesAmong, PointsThatAreNotFiniteAreLeftOut) {
-  const std::vector<Eigen::Vector3f> points{{kNan, 0.0f, 0.4f}, {1.0f, kNan, 0.4f},
-                                            {1.0f, 0.0f, kNan}, {kInfinity, 0.0f, 0.4f},
-                                            {2.0f, 0.0f, 0.4f}, {1.0f, 1.0f, kInfinity}};
-  const auto obstacles = obstacles_among(points, {});
-  ASSERT_EQ(obstacles.size(), 1u);
-  EXPECT_NEAR(obstacles[0].x(), 2.0, 1e-6);
-}
 
 /// Two rows of 20 m to the east for two robots on open ground.
 std::shared_ptr<const planning::FleetPlan> small_plan() {
@@ -110,7 +65,7 @@ class NavigatorTest : public ::testing::Test {
     network_->run_until(network_->now());
   }
   void see(Perceived perceived) {
-    perceived.heard = network_->now();
+    perceived.arrival = network_->now();
     navigator_->on_scan();
     navigator_->on_perceived(perceived);
   }
@@ -283,13 +238,13 @@ TEST_F(NavigatorTest, OnceStoppedItStandsForGood) {
   stand(at({0.0, 0.0}, 0.0), 2);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
-  EXPECT_EQ(navigator_->stands(), StandReason::kStopping);
+  EXPECT_EQ(navigator_->stand_reason(), StandReason::kStopping);
 }
 
 TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
   stand(at({0.0, 0.0}, 0.0), 2);
   network_->run_until(network_->now() + std::chrono::milliseconds(300));
-  EXPECT_EQ(navigator_->stands(), StandReason::kNoScan);
+  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoScan);
   commands_.clear();
   network_->run_until(network_->now() + std::chrono::seconds(1));
   EXPECT_GE(commands_.size(), 45u) << "whoever lost one gets the next";
@@ -307,10 +262,10 @@ TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
   commands_.clear();
   stand(doubtful, 1);
   expect_zeros();
-  EXPECT_EQ(navigator_->stands(), StandReason::kNoPose);
+  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoPose);
   doubtful.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
   stand(doubtful, 1);
-  EXPECT_EQ(navigator_->stands(), StandReason::kNoPose);
+  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoPose);
   stand(at({0.0, 0.0}, 0.0), 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
 }
@@ -323,7 +278,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   stand(lost, 1);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
-  EXPECT_EQ(navigator_->stands(), StandReason::kNoOdometry);
+  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoOdometry);
   commands_.clear();
   stand(lost, 1, fleet_codec::encode(*at({0.0, 0.0}, 0.0).G));
   expect_zeros();  // whoever leads it does not see what is in the way

@@ -1,4 +1,4 @@
-// What whole agents make of sensors whose clocks disagree or are set while they drive, in virtual time.
+// Whole agents in virtual time whose sensors' clocks disagree or are set while they drive.
 #include <gtest/gtest.h>
 
 #include <map>

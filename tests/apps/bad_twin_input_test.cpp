@@ -1,4 +1,4 @@
-// What a user of the twin gets wrong: each is refused before anything is simulated, with file, line and
+// Mistakes in the input of the twin: each is refused before anything is simulated, with file, line and
 // remedy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

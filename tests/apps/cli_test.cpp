@@ -1,5 +1,4 @@
-// What a user meets who makes a mistake: exit codes that scripts rely on, and a message that names the
-// remedy.
+// Mistakes on the command line: exit codes that scripts rely on, and a message that names the remedy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

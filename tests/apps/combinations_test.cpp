@@ -64,7 +64,7 @@ TEST(Combinations, OneRunOfModeFleetShowsAllFourFromTheSameEncounters) {
   // Another method gives other alignments, and so other places.
   EXPECT_NE(modes["paper_graph"]["alignments"]["errors_of_right"],
             modes["fleet"]["alignments"]["errors_of_right"]);
-  // Where the registrations were not kept, the columns that need them are left out, and a note says so.
+  // Without the registrations, the columns that need them are left out, and a note says so.
   for (const char* id : {"r1", "r2", "r3"}) fs::remove(run.out / id / "registrations.db");
   const json without = evaluated(run.out);
   EXPECT_EQ(without["modes"].size(), 2u);

@@ -97,7 +97,7 @@ TEST_F(DdsMission, AgentsDriveAllRowsOfADrawing) {
   EXPECT_EQ(sim.wait(), 0) << sim.output();
   EXPECT_TRUE(done) << r1.output() << r2.output() << sim.output();
 
-  // What the robots report is one thing, what their wheels did another.
+  // The rows are checked by the wheels, not by the robots' own reports.
   const std::set<planning::RowId> by_r1 = rows_driven("r1"), by_r2 = rows_driven("r2");
   std::set<planning::RowId> by_any = by_r1;
   by_any.insert(by_r2.begin(), by_r2.end());

@@ -27,7 +27,7 @@ std::string name(int robot) { return std::string("r").append(std::to_string(robo
 
 std::uint32_t domain_of_fleet() { return bus::testing::first_test_domain(); }
 
-/// What of a robot's file is not as the others'.
+/// The entries of a robot's file that differ from the others'.
 struct Other {
   std::uint32_t domain = domain_of_fleet();
   std::string lines{};

@@ -1,5 +1,5 @@
-// What is promised of cmd_vel, of real processes over DDS: `fleetmap sim`, whose chassis obey the last
-// command for ever, an agent or two, and the operator's commands.
+// cmd_vel of real processes over DDS: `fleetmap sim`, whose chassis obey the last command for ever, an agent
+// or two, and the operator's commands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ class CommandLog {
                             [&](const Command& c) { return c.zero || c.at - event <= kPromise; }))
         << name_ << " drove on";
   }
-  /// Of all that is published within two seconds nothing moves the robot.
+  /// Expects that no message within two seconds moves the robot.
   void expect_stands_now() {
     hear_for(200ms);  // what waits
     commands_.clear();

@@ -63,7 +63,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     true_poses.insert(true_poses.end(), robot.T_enu_base.begin(), robot.T_enu_base.end());
     trajectories.push_back(T);
   }
-  // What the run recorded gives the same odometry as what it read.
+  // The recording of the run gives the same odometry as its input.
   for (const char* bags : {"bags", "recorded"}) {
     testing::Process odometry({kFleetmap, "odometry", (folder.path() / bags / "r1").string(), "--out",
                                (folder.path() / bags / "r1.tum").string()});
@@ -72,7 +72,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   EXPECT_FALSE(text_of(folder.path() / "bags/r1.tum").empty());
   EXPECT_TRUE(text_of(folder.path() / "bags/r1.tum") == text_of(folder.path() / "recorded/r1.tum"));
 
-  // Where r2 began as seen from where r1 began, against the truth.
+  // The start of r2 relative to that of r1 is compared with the truth.
   const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();
   const Pose truth = fleet->robots[0].T_enu_base.front().inverse() * fleet->robots[1].T_enu_base.front();
   const Pose error = truth.inverse() * T_12;

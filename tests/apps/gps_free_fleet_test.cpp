@@ -40,7 +40,7 @@ class GpsFreeFleet : public ::testing::Test {
     const auto placed = output::read_growing_tum(out_ / robot / "trajectory.tum");
     return placed && !placed->empty() ? placed->front().T_w_base : Pose::Identity();
   }
-  /// Where r2 began as seen from where r1 began, against the truth.
+  /// Error of the start of r2 relative to that of r1, against the truth.
   Pose relative_error() const {
     const Pose truth = fleet_.robots[0].T_enu_base.front().inverse() * fleet_.robots[1].T_enu_base.front();
     return truth.inverse() * first_pose("r1").inverse() * first_pose("r2");

@@ -102,7 +102,7 @@ TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
     EXPECT_LE(agent["largest_cloud_bytes"].get<std::size_t>(), 25'000u);
   }
 
-  // Where r2's odometry frame lies in that of r1: frames 60 and 0 of the drive.
+  // r2's odometry frame in that of r1: frames 60 and 0 of the drive.
   const std::vector<Pose> t1 = poses_of(out / "r1/trajectory.tum");
   const std::vector<Pose> t2 = poses_of(out / "r2/trajectory.tum");
   ASSERT_EQ(t1.size(), 96u);

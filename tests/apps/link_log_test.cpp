@@ -60,7 +60,7 @@ TEST_F(LinkLogTest, ARobotThatFallsSilentIsSaidToBeOutOfReachOnce) {
   log_.add_traffic({}, {}, kStart);
   log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125)}, {}, kStart + 1s);
   for (int k = 2; k < 20; ++k) log_.add_traffic({}, {}, kStart + k * 1s);
-  // What was lost meanwhile is not told again.
+  // The loss meanwhile is not counted again.
   log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125, 60)}, {}, kStart + 20s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,short_range,r2,r1,,20.0,0.0,1.0,1",
                                   "1001.0,short_range,r2,r1,,,100.0,0.0,0",

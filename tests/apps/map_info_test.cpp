@@ -12,7 +12,7 @@ namespace {
 
 using testing::agent;
 
-/// What each of two robots made: three nodes with submaps each, and two alignments.
+/// The items of two robots: three nodes with submaps each, and two alignments.
 struct Items {
   std::vector<std::pair<graph::Node, Bytes>> nodes;
   std::vector<graph::Alignment> alignments;
@@ -32,7 +32,7 @@ struct Items {
 
 class MapInfo : public ::testing::Test {
  protected:
-  /// Of a robot that came to hold the items in this order, but for the submap of the last one if
+  /// Writes the store of a robot that received the items in this order, without the submap of the last one if
   /// `lacks_a_submap`.
   std::string write_store(const std::string& robot, bool backwards, std::size_t alignments,
                           bool lacks_a_submap) {

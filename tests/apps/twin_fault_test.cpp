@@ -1,5 +1,4 @@
-// What goes wrong on a real site, in virtual time: a robot dies, a robot is off for a while, radios are
-// silent.
+// Faults of a real site, in virtual time: a robot dies, a robot is off for a while, radios are silent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

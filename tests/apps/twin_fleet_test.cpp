@@ -37,7 +37,7 @@ double share_touching(const output::Trajectory& truth, const sim::World& world, 
   return static_cast<double>(touching) / static_cast<double>(truth.size());
 }
 
-/// What `fleetmap eval` finds.
+/// The result of `fleetmap eval`.
 nlohmann::json evaluated(const fs::path& out) {
   testing::Process judge(
       {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});

@@ -1,5 +1,5 @@
-// What a robot's exchange, store and loop closing cost after 20,000 own nodes (24 hours at one node every
-// 4.3 s), in virtual time with light clouds: the table of docs/results/performance.md.
+// Measures the cost of a robot's exchange, store and loop closing after 20,000 own nodes (24 hours at one
+// node every 4.3 s), in virtual time with light clouds: the table of docs/results/performance.md.
 //   bench_endurance [ROBOTS [NODES]]    3 robots, 20000 nodes each
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// What fleets of 5 to 50 robots make of one radio, in virtual time: the table of exchanges alone in
+// Measures fleets of 5 to 50 robots on one radio, in virtual time: the table of exchanges alone in
 // docs/results/field.md.
 //   bench_radio [ROBOTS...]    these alone
 #include <algorithm>

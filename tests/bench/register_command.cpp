@@ -70,7 +70,7 @@ Spot drawn_spot(const Site& site, std::mt19937_64& random) {
   return spot;
 }
 
-/// What the radio carries of the map of a robot that drove past `spot` and stands there in any heading.
+/// The cloud that a robot sends over the radio after it drove past `spot` and stopped there in any heading.
 MappedNode node_at(const Site& site, const Spot& spot, std::mt19937_64& random) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   Gathering how;

@@ -88,7 +88,7 @@ void open_and_check_all(benchmark::State& state) {
 }
 BENCHMARK(open_and_check_all)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond);
 
-/// What a digest costs after so many chunks of submaps came since the last one.
+/// Cost of a digest after so many chunks of submaps came since the last one.
 void sync_before_a_digest(benchmark::State& state) {
   const testing::ScratchFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();

@@ -1,4 +1,4 @@
-// What every Bus promises, run against each implementation.
+// The contract of Bus, tested with each implementation.
 
 #include <gmock/gmock.h>
 

@@ -10,7 +10,6 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -18,6 +17,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/exchange/token_bucket.hpp"
+#include "wire_meter.hpp"
 
 namespace {
 
@@ -37,8 +37,7 @@ constexpr std::size_t kChunkPayload = 8192;
 constexpr std::uint32_t kWindow = 128;  // chunks
 constexpr double kBurstBytes = 3000.0;  // about two full datagrams
 
-/// What every message starts with; an answer carries the missing indices after it, and none when all is
-/// there.
+/// Header of every message. An answer carries the missing indices after it, and none when all have arrived.
 struct Header {
   std::int64_t stamp_ns = 0;  ///< of the first publish of the whole
   std::uint32_t id = 0;
@@ -70,40 +69,6 @@ double percentile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
-
-/// Bytes that left an interface, Ethernet headers included, as the kernel counts them.
-class WireMeter {
- public:
-  explicit WireMeter(const std::string& iface) : path_("/sys/class/net/" + iface + "/statistics/tx_bytes") {
-    sample();
-  }
-  void sample() {  // every 100 ms
-    std::ifstream file(path_);
-    std::uint64_t bytes = 0;
-    file >> bytes;
-    samples_.push_back({std::chrono::steady_clock::now(), static_cast<double>(bytes)});
-  }
-  double mean_kbit_s() const { return rate_kbit_s(samples_.front(), samples_.back()); }
-  double peak_kbit_s() const {
-    double peak = 0.0;
-    for (std::size_t i = 10; i < samples_.size(); ++i) {
-      peak = std::max(peak, rate_kbit_s(samples_[i - 10], samples_[i]));
-    }
-    return peak;
-  }
-
- private:
-  struct Sample {
-    std::chrono::steady_clock::time_point time;
-    double bytes = 0.0;
-  };
-  static double rate_kbit_s(const Sample& from, const Sample& to) {
-    return (to.bytes - from.bytes) * 8e-3 / std::chrono::duration<double>(to.time - from.time).count();
-  }
-
-  std::string path_;
-  std::vector<Sample> samples_;
-};
 
 class LongSender {
  public:

@@ -1,4 +1,4 @@
-// Who is heard on a radio and what differs: in the log of the robots and in DdsBus::survey().
+// The robots heard on a radio and their differences, in the log of the robots and in DdsBus::survey().
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>

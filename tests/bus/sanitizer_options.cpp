@@ -1,5 +1,5 @@
-// What the sanitizers would say of Fast DDS 2.9.1 itself, which is not ours to mend. Without them nobody
-// calls these.
+// Suppresses the sanitizers' reports on Fast DDS 2.9.1 itself, which is not ours to repair. Without
+// sanitizers these functions are not called.
 
 extern "C" {
 

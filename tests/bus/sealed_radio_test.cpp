@@ -263,7 +263,7 @@ TEST_F(SealedRadio, AnObserverHearsAndIsNotHeard) {
   EXPECT_THAT(notices(first), ElementsAre(HasSubstr("o1 may only read (observer)")));
 }
 
-/// What r1 sent to r2, and to a place where nobody is, before both were started anew.
+/// Replays the messages that r1 sent to r2, and to an address without a robot, before both restarted.
 class Replay : public SealedRadio {
  protected:
   void record(const std::optional<Credentials>& first_keys, const std::optional<Credentials>& second_keys) {

@@ -1,4 +1,4 @@
-// What a process that was killed leaves in the folder of shared memory.
+// Files that a killed process leaves in the folder of shared memory.
 #include "bus/dds/shared_memory.hpp"
 
 #include <fcntl.h>

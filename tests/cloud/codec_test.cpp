@@ -135,7 +135,7 @@ TEST(Codec, FewBytesCannotClaimManyPoints) {
     EXPECT_THAT(decode(hostile).error().message, ::testing::HasSubstr("at most 200000 are accepted"))
         << claimed;
   }
-  // What is accepted is within the bound of 64 MB by far: 200,000 points are 3 MB as a cloud.
+  // The accepted sizes are far below the bound of 64 MB: 200,000 points are 3 MB as a cloud.
   static_assert(max_points_in(25'000) == 200'000);
   PointCloud same;
   same.points.assign(70'000, Eigen::Vector3f(1.0f, -2.0f, 3.0f));

@@ -1,4 +1,4 @@
-// Where the answer is known on paper.
+// Cases whose metrics can be computed by hand.
 #include "fleetmap/eval/metrics.hpp"
 
 #include <gtest/gtest.h>

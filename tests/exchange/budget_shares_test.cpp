@@ -53,7 +53,7 @@ class Fleet {
     }
   }
   double rate(const std::string& name) const { return robots_.at(agent(name)).shares.rate(now_); }
-  /// Of all robots that are there.
+  /// Sum over all robots that are there.
   double sum() const {
     double sum = 0.0;
     for (const auto& [name, robot] : robots_) sum += robot.there ? robot.shares.rate(now_) : 0.0;

@@ -1,4 +1,4 @@
-// What a robot has acknowledged to another one is still in its store after a power cut.
+// Items that a robot has acknowledged to another one are still in its store after a power cut.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -24,7 +24,7 @@ void insert_all(store::SeqSet& set, const std::vector<SeqRange>& ranges) {
   for (const SeqRange& range : ranges) set.insert(range);
 }
 
-/// What messages of one robot promise that it holds.
+/// The items that one robot's messages acknowledge.
 struct Acknowledged {
   store::SeqSet nodes, alignments, submaps;
   std::optional<Stamp> order;

@@ -159,4 +159,12 @@ void SimFleet::on_received(const AgentId& name, Robot& robot, const loop_closure
 
 void no_candidates(loop_closure::LoopClosureConfig& config) { config.proximity.min_radius = 0.1; }
 
+void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m) {
+  for (int k = 0; k < nodes; ++k) {
+    double offset = 0.0;
+    for (const auto& name : names) fleet.add_node(name, start_m + 4.0 * k + (offset += 1.0));
+    fleet.run_for(std::chrono::seconds(2));
+  }
+}
+
 }  // namespace fleetmap::testing

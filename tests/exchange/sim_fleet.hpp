@@ -30,7 +30,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
     double duplication = 0.0;
     Duration min_delay = std::chrono::milliseconds(5);
     Duration max_delay = std::chrono::milliseconds(60);
-    /// What all send on the short range passes one queue, in IP packets; nothing: it is not limited.
+    /// A queue that all short-range IP packets pass; none: unlimited.
     struct Queue {
       double bytes_per_second;
       double bytes;  ///< B that it holds
@@ -43,20 +43,20 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
            const std::function<void(exchange::ExchangeConfig&)>& adjust = {},
            const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops = {});
 
-  /// Of those that start from now on: these alone are on their radio.
+  /// Makes these robots, started from now on, share one radio of their own.
   void share_radio(std::span<const std::string> names);
   /// Those that start from now on sign their items.
   void authenticate(std::shared_ptr<const exchange::ItemAuthenticator> authenticator) {
     config_.authenticator = std::move(authenticator);
   }
-  /// Of a robot that starts from now on: its store lies in this SQLite VFS, which is synced as on a robot.
+  /// Puts the store of a robot that starts from now on into this SQLite VFS, which is synced as on a robot.
   void put_on_disk(const std::string& name, std::string file_system) {
     disks_[agent(name)] = std::move(file_system);
   }
   /// Goes on with the file that the robot left, in session `session`.
   void start(const std::string& name, std::uint16_t session = 0);
   void kill(const std::string& name) { ExchangeFleet::kill(agent(name)); }
-  /// Of a robot that is not running: its file as it is now, and back to what it was then (nothing: none).
+  /// Keeps the store file of a stopped robot as it is now, or restores it (none: removes it).
   void keep_store(const std::string& name) { ExchangeFleet::keep_store(agent(name), ".kept"); }
   void put_back_store(const std::string& name) { ExchangeFleet::put_back_store(agent(name), ".kept"); }
   void lose_store(const std::string& name) { ExchangeFleet::lose_store(agent(name)); }
@@ -79,7 +79,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   /// RMSE of the registration of a pair, nothing when it is rejected.
   std::function<std::optional<double>(const exchange::NodePair&)> registration =
       [](const exchange::NodePair&) { return std::optional(0.2); };
-  /// What comes to nobody.
+  /// Messages that no robot receives.
   std::function<bool(const Sent&)> lost = [](const Sent&) { return false; };
   std::size_t cloud_bytes = 24'000;
   bool register_clouds = true;
@@ -117,7 +117,10 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
 /// No loop candidates, hence no clouds.
 void no_candidates(loop_closure::LoopClosureConfig& config);
 
-/// Those of one kind that a robot told.
+/// The robots drive on parallel tracks 8 m apart and make `nodes` nodes each, one every 2 s and 4 m.
+void drive(SimFleet& fleet, const std::vector<std::string>& names, int nodes, double start_m = 0.0);
+
+/// Events of one kind of a robot.
 template <class Kind>
 std::vector<Kind> events(const SimFleet::Robot& robot) {
   std::vector<Kind> found;

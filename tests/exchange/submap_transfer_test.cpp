@@ -184,7 +184,7 @@ TEST(SubmapTransfer, ten_robots_on_one_channel_send_little_twice) {
       ASSERT_TRUE(fleet.all(whole)) << robots << " robots, " << mbit << " Mbit/s";
       const auto needed = static_cast<double>(6 * robots * (robots - 1) * kSubmap);
       const double used = needed / (to_seconds(fleet.now() - met) * mbit * 125'000.0);
-      // Of eight seeds the worst had 1.13, 0.27 and 0.64 at 15 Mbit/s, 1.15, 0.10 and 0.80 at 4; with a
+      // The worst of eight seeds had 1.13, 0.27 and 0.64 at 15 Mbit/s, 1.15, 0.10 and 0.80 at 4; with a
       // window for each peer alone ten robots lost 1.8 and 3.3 packets for each that passed.
       const double on_air = fleet.short_range_bytes() / needed;
       const double dropped =

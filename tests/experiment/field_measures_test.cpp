@@ -1,4 +1,4 @@
-// What `fleetmap trial` makes of the files that robots leave.
+// Metrics that `fleetmap trial` computes from the files of the robots.
 #include "field_measures.hpp"
 
 #include <gmock/gmock.h>

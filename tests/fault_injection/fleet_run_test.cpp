@@ -66,7 +66,7 @@ TEST(FleetRun, replays_a_seed_packet_by_packet) {
 }
 
 TEST(FleetRun, does_not_converge_in_less_time_than_a_partition_lasts) {
-  // What the fleet is checked for can fail.
+  // Shows that the check of the fleet can fail.
   Scenario scenario{1, 3, std::chrono::seconds(40), {}};
   Fault partition;
   partition.kind = FaultKind::kPartition;

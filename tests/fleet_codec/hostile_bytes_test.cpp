@@ -9,7 +9,7 @@
 #include "fleetmap_short_range.h"
 #include "random_messages.hpp"
 
-// What arrives from the network is anybody's bytes.
+// Anybody can send bytes over the network, so decoding must survive all of them.
 namespace fleetmap::fleet_codec {
 namespace {
 

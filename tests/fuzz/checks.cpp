@@ -10,7 +10,7 @@
 #include <fstream>
 
 extern "C" {
-// Of AddressSanitizer's runtime; null without it.
+// Part of AddressSanitizer's runtime; null without it.
 int __sanitizer_install_malloc_and_free_hooks(  // NOLINT(bugprone-reserved-identifier)
     void (*allocated)(const volatile void*, size_t), void (*freed)(const volatile void*))
     __attribute__((weak));

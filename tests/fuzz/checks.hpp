@@ -7,8 +7,8 @@
 
 #include "fleetmap/core/bytes.hpp"
 
-/// What the fuzz targets share. Each target is one file with LLVMFuzzerTestOneInput; deploy/fuzz.sh runs them
-/// under libFuzzer, and replay_test.cpp calls the same functions with the inputs of corpus/.
+/// Functions that the fuzz targets share. Each target is one file with LLVMFuzzerTestOneInput; deploy/fuzz.sh
+/// runs them under libFuzzer, and replay_test.cpp calls the same functions with the inputs of corpus/.
 namespace fleetmap::fuzz {
 
 /// Aborts with `what` unless it holds, so that libFuzzer keeps the input.
@@ -22,7 +22,7 @@ struct Input {
 Input split(const std::uint8_t* data, std::size_t size);
 std::string_view text_of(ByteView bytes);
 
-/// Of a build with AddressSanitizer.
+/// True in a build with AddressSanitizer.
 bool is_sanitized();
 
 /// Bytes on the heap at once, above those at the start. Counted by AddressSanitizer, 0 in builds without it.

@@ -26,7 +26,7 @@ void load(const std::filesystem::path& file) {
   const auto kind = config::check(file, {});
   if (!kind) {
     const std::string& why = kind.error().message;
-    // Of an experiment's base and of a sensor's file other files are named.
+    // An experiment's base and a sensor's file name other files.
     require(why.find(".yaml") != std::string::npos, "the error names no file");
   }
 }

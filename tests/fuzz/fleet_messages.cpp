@@ -8,7 +8,7 @@
 namespace fleetmap::fuzz {
 namespace {
 
-/// What decoding accepts could have been sent: its encoding decodes to itself.
+/// A decoded message could have been sent: its encoding decodes to itself.
 template <class T>
 void decode(ByteView cdr) {
   const MemoryPeak memory;

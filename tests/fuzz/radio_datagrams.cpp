@@ -1,5 +1,5 @@
-// What comes over a radio of a fleet with keys. The first byte chooses: a datagram of anybody, an
-// introduction of a greeting, a message of a member, a member's datagram that was changed on the way.
+// Datagrams on a radio of a fleet with keys. The first byte selects one: a datagram of anybody, an
+// introduction of a greeting, a message of a member, or a member's datagram that was changed on the way.
 #include <algorithm>
 
 #include "checks.hpp"

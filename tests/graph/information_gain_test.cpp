@@ -82,7 +82,7 @@ TEST(InformationGain, GoesThroughThirdRobotsAndGps) {
     for (std::uint32_t seq = 0; seq < 5; ++seq)
       graph.add(node(agent, seq, agent == kC ? std::nullopt : std::optional(seq == 2 ? 1.0 : 3.0)));
   }
-  // Of each track the best fix counts: errors of GPS stay for minutes.
+  // Only the best fix of each track counts, because errors of GPS last for minutes.
   EXPECT_NEAR(worth(graph, {kA, 2}, {kB, 2}), of_variance(2.0), 1e-3);
   EXPECT_GT(worth(graph, {kA, 2}, {kC, 2}), 9.0);
   graph.add(alignment({kA, 2}, {kC, 2}));

@@ -71,7 +71,7 @@ TEST(PlacementCovariance, CovariancesPromiseWhatErrorsAreWhereAFilterReckonsWith
   }
 }
 
-/// What a filter says between two fixes it has from its own heading, which bad GPS leaves false for long.
+/// Between two fixes a filter's positions follow its own heading, which bad GPS leaves wrong for long.
 TEST(PlacementCovariance, CovariancesPromiseWhatErrorsAreWhereGpsLeavesHeadingFalse) {
   SimulatedFleetConfig config;
   config.filtered = true;

@@ -42,7 +42,7 @@ Matrix6d SimulatedFleet::alignment_covariance() const {
 }
 
 AlignmentMode SimulatedFleet::seen_at(const NodeId& i, const Pose& T_enu_j) {
-  // What registration does not know of itself is the floor of the graph.
+  // The graph's noise floor covers the errors that registration does not state.
   Vector6d error;
   for (int k = 0; k < 6; ++k)
     error(k) = k < 3 ? gauss(std::hypot(config_.alignment_sigma, 0.01))

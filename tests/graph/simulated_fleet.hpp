@@ -39,7 +39,7 @@ struct SimulatedFleetConfig {
   int every = 3;                          ///< own nodes between registrations with one other robot
 };
 
-/// Of a long mission on interleaved lanes: each robot's nodes, and none aligned yet.
+/// Configuration of a long mission on interleaved lanes: each robot's nodes, and no alignments yet.
 SimulatedFleetConfig long_mission(int robots, int nodes_each);
 
 class SimulatedFilter;

@@ -36,7 +36,7 @@ class Drive {
   std::vector<Truth> states_;
 };
 
-/// What a robot's sensors make of a drive. Everything is drawn from `seed` alone.
+/// Sensors of a robot on a drive. Everything is drawn from `seed` alone.
 struct Sensors {
   unsigned seed = 1;
   double imu_rate = 100.0;

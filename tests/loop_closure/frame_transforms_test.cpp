@@ -74,7 +74,7 @@ TEST_F(FrameTransformsTest, NeedThreeAlignmentsThatAreInUse) {
   add_all();
   auto used = three();
   used.pop_back();
-  // Of one frame, or of a node that is not known.
+  // Alignments within one frame, or with an unknown node.
   used.push_back(alignment({kA, 1}, {kA, 30}));
   used.push_back(alignment({kA, 1}, {kB, kNodes}));
   transforms_.use(used);

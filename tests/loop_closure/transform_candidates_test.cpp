@@ -57,7 +57,7 @@ std::vector<NodePair> on_cloud(CandidateScheduler& scheduler, const NodeId& thei
   return pairs;
 }
 
-/// What is asked for once all that is to be searched has been.
+/// The clouds requested once everything searchable has been searched.
 std::vector<NodeId> wanted(CandidateScheduler& a) {
   std::vector<NodeId> all;
   for (int tick = 0; tick < 20; ++tick) {

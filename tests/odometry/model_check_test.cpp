@@ -25,13 +25,13 @@ sensor::Scan scan_of(const LidarModel& device, const ScanOptions& options) {
       0.0, device, options);
 }
 
-/// What is said of thirty such scans that are read by `model`.
+/// The warnings after thirty such scans that are read with `model`.
 std::vector<std::string> news(const sensor::Scan& scan, const LidarModel& model) {
   ModelCheck check(model);
   std::vector<std::string> all;
   for (int k = 0; k < 30; ++k) {
     check.add(scan);
-    std::ranges::move(check.take_news(), std::back_inserter(all));
+    std::ranges::move(check.take_warnings(), std::back_inserter(all));
   }
   return all;
 }

@@ -34,7 +34,7 @@ TEST(MotionPrior, TheWayIsAsUncertainAsTheVelocityMakesIt) {
   }
 }
 
-/// What is predicted is what the prior finds most likely.
+/// The prediction is the mode of the prior.
 TEST(MotionPrior, ThePredictionIsItsMode) {
   MotionState previous;
   previous.twist << 1.0, 0.1, 0.0, 0.0, 0.1, 0.5;
@@ -44,13 +44,13 @@ TEST(MotionPrior, ThePredictionIsItsMode) {
   EXPECT_LT(prior.linearised(prior.predicted()).g.norm(), 1e-6);
 }
 
-/// What was not known of the last pose is not known of this one: an error to the left is one ahead after a
-/// turn to the left by a quarter, and an error of the heading one to the side after a way.
+/// The uncertainty of the last pose carries over: an error to the left becomes one ahead after a quarter turn
+/// to the left, and an error of the heading becomes one to the side after some distance.
 TEST(MotionPrior, TheLastPoseIsKnownNoBetterThanItWas) {
   MotionState previous;
   Matrix12d covariance = covariance_of(0.0, 1e-9);
   covariance(1, 1) = 0.04 * 0.04;
-  const MotionPrior::SeenRotation left{rotation_from_rpy(0.0, 0.0, 0.5 * std::numbers::pi), 1e-4};
+  const MotionPrior::MeasuredRotation left{rotation_from_rpy(0.0, 0.0, 0.5 * std::numbers::pi), 1e-4};
   const MotionPrior turned(LoamConfig{}, previous, covariance, 0.1, left);
   const Matrix12d after_turn = turned.linearised(turned.predicted()).H.inverse();
   EXPECT_NEAR(std::sqrt(after_turn(0, 0)), 0.04, 0.002);

@@ -160,7 +160,7 @@ PoseUncertainty::Matched a_fifth_on(const MatchResult& scan) {
   return step;
 }
 
-/// Where the scene does not hold the motion, the error stays in the map that is built meanwhile, once.
+/// If the scene does not constrain the motion, the error stays once in the map that is built meanwhile.
 TEST(PoseUncertainty, AlongAnAisleTheErrorStays) {
   PoseUncertainty uncertainty = started();
   MatchResult scan = aisle();

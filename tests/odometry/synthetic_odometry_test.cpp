@@ -197,7 +197,7 @@ TEST(SyntheticOdometry, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
   }
 }
 
-/// Where nine of ten scans miss a direction, the error is metres, and stated so.
+/// If nine of ten scans do not constrain a direction, the error is metres, and the covariance states it.
 TEST(SyntheticOdometry, WhereHardlyAnyScanHoldsTheWayItIsStatedAsItErrs) {
   const Part part{"yard, 5 m", near, 60.0};
   expect_stated_as_it_errs(drive_with(testing::yard_world(), kErrands, part.keep, false), part, "LiDAR");
@@ -309,7 +309,7 @@ double stated_along(double shove) {
   return std::sqrt(stated);
 }
 
-/// Who drives smoothly knows the motion better than one who is shoved, though both are told alike.
+/// A smooth drive determines the motion better than a shaken one, though both have the same prior.
 TEST(SyntheticOdometry, NoiseIsStatedByHowTheMotionKeepsToItsPrior) {
   EXPECT_GT(stated_along(0.03), 1.3 * stated_along(0.0));
 }

@@ -20,14 +20,14 @@ class Drive {
     }
   }
   const WayCheck& check() const { return check_; }
-  bool kept() const { return check_.doubts().empty(); }
+  bool kept() const { return check_.warnings().empty(); }
 
  private:
   WayCheck check_;
   int number_ = 0;
 };
 
-TEST(WayCheck, OfNothingThereIsNoDoubt) { EXPECT_TRUE(WayCheck().doubts().empty()); }
+TEST(WayCheck, OfNothingThereIsNoDoubt) { EXPECT_TRUE(WayCheck().warnings().empty()); }
 
 TEST(WayCheck, ADriveThatIsStatedWellIsKept) {
   Drive drive;
@@ -50,10 +50,10 @@ TEST(WayCheck, ALongDriveDoesNotHideASecondThatWasLost) {
   drive.scans(1000);
   drive.scans(9, true);
   drive.scans(2000);
-  ASSERT_EQ(drive.check().doubts().size(), 1u);
-  EXPECT_NE(drive.check().doubts()[0].find("9.00 % of the scans of 10 s are lost, 100.8 s"),
+  ASSERT_EQ(drive.check().warnings().size(), 1u);
+  EXPECT_NE(drive.check().warnings()[0].find("9.00 % of the scans of 10 s are lost, 100.8 s"),
             std::string::npos)
-      << drive.check().doubts()[0];
+      << drive.check().warnings()[0];
 }
 
 /// 3 m on one stretch of 450 m: below 5 % of the way at its end.
@@ -62,8 +62,8 @@ TEST(WayCheck, ALongDriveDoesNotHideAVagueStretch) {
   drive.scans(1000);
   drive.scans(30, false, 3.0);
   drive.scans(2000);
-  ASSERT_EQ(drive.check().doubts().size(), 1u);
-  EXPECT_NE(drive.check().doubts()[0].find("20 m of the way are stated to"), std::string::npos);
+  ASSERT_EQ(drive.check().warnings().size(), 1u);
+  EXPECT_NE(drive.check().warnings()[0].find("20 m of the way are stated to"), std::string::npos);
 }
 
 TEST(WayCheck, AHeadingThatIsNotKnownIsNotKept) {
@@ -81,8 +81,8 @@ TEST(WayCheck, OneOfAHundredScansThatAreLostIsTooMany) {
     drive.scans(120);
     drive.scans(2, true);
   }
-  ASSERT_EQ(drive.check().doubts().size(), 1u);
-  EXPECT_NE(drive.check().doubts()[0].find("of all scans are lost"), std::string::npos);
+  ASSERT_EQ(drive.check().warnings().size(), 1u);
+  EXPECT_NE(drive.check().warnings()[0].find("of all scans are lost"), std::string::npos);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct SiteSpec {
   double table = 4.0;     ///< m, depth of a table
   double piece = 20.0;    ///< m, length of a table
   double missing = 0.05;  ///< share of tables that are not there
-  /// Where the outline cuts in, as a share of the width: 0 a rectangle, 1 down to nothing at one end.
+  /// Cut into the outline as a share of the width: 0 a rectangle, 1 down to nothing at one end.
   double taper = 0.0;
   double ragged = 0.0;  ///< share of the width by which lanes end at random
   double turned = 0.0;  ///< rad, of the rows from east

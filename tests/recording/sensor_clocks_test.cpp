@@ -13,7 +13,7 @@ namespace {
 using fleetmap::testing::TemporaryFolder;
 using sensor::Source;
 
-/// What is wrong with one sensor's clock, and what is said of it.
+/// A fault of one sensor's clock, and the expected warning.
 struct WrongClock {
   const char* name;
   double off;        ///< s
@@ -93,7 +93,7 @@ TEST_P(SensorClocks, AreFoundWhenABagIsPlayed) {
     last = played;
     if (!first) first = played;
     offsets.add(source, stamp, played);
-    for (std::string& text : offsets.take_news()) news.push_back(std::move(text));
+    for (std::string& text : offsets.take_warnings()) news.push_back(std::move(text));
     if ((*sample)->index() != wrong) {
       EXPECT_EQ(offsets.correction(source), Duration::zero());
       continue;

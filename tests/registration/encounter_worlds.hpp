@@ -50,8 +50,8 @@ struct MappedNode {
 MappedNode map_node(const Site& site, const sim::Aisle& lane, double along, double aside, bool backwards,
                     const Gathering& how, unsigned seed);
 
-/// What two robots believe of their relative pose when GPS errs by `sigma_m` (both together, per horizontal
-/// axis) and heading and tilt by their sigmas; drawn from exactly these.
+/// A prior of two robots' relative pose if GPS errs by `sigma_m` (both together, per horizontal axis) and
+/// heading and tilt by their sigmas; drawn from exactly these.
 Prior drawn_prior(const Pose& T_enu_target, const Pose& T_enu_source, double sigma_m, double sigma_yaw,
                   double sigma_tilt, unsigned seed);
 

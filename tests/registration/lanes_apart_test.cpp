@@ -1,4 +1,4 @@
-// What two robots see of the rows that stand between them, each from its own side.
+// Two robots observe the rows between them, each from its own side.
 #include <gtest/gtest.h>
 
 #include <string>

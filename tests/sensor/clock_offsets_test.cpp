@@ -40,7 +40,7 @@ class Robot {
       for (; !arrivals_.empty() && arrivals_.begin()->first <= time_; arrivals_.erase(arrivals_.begin()))
         arrive(arrivals_.begin()->first, arrivals_.begin()->second);
     }
-    for (std::string& text : offsets.take_news()) news.push_back(std::move(text));
+    for (std::string& text : offsets.take_warnings()) news.push_back(std::move(text));
   }
   double corrected(std::size_t k) const { return to_seconds(offsets.correction(static_cast<Source>(k))); }
   void forget_errors() {
@@ -90,7 +90,7 @@ TEST(ClockOffsets, LeavesSensorsOfOneClockAlone) {
   }
 }
 
-/// What is wrong with one sensor's clock, and what is said of it.
+/// A fault of one sensor's clock, and the expected warning.
 struct WrongClock {
   const char* name;
   double off;        ///< s

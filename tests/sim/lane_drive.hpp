@@ -41,7 +41,7 @@ class LaneDrive {
 
   double duration() const { return kStep * static_cast<double>(planar_.size() - 1); }
   Pose base(std::size_t step) const;
-  /// What the mast does to the LiDAR, in base_link.
+  /// Motion of the LiDAR by the mast, in base_link.
   Pose shaken(std::size_t step) const;
 
  private:

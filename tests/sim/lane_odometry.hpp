@@ -11,7 +11,7 @@
 
 namespace fleetmap::testing {
 
-/// What an odometry uses of a drive.
+/// Inputs that an odometry uses of a drive.
 struct OdometryUse {
   const char* name;
   bool deskew = true;
@@ -35,7 +35,7 @@ std::vector<LaneOdometry> odometry_of_lanes(const sim::World& world, const sim::
 /// The pose of the LiDAR during the scan `number` of a drive.
 sim::ScanJob scan_of(const LaneDrive& drive, const sim::LidarSpec& lidar, std::uint64_t number,
                      std::uint64_t seed);
-/// Of the LiDAR on its mast.
+/// Mounting of the LiDAR on its mast.
 Pose T_base_mast();
 
 }  // namespace fleetmap::testing

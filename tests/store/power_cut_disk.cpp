@@ -34,7 +34,7 @@ void make_change(const Change& change, Bytes& image) {
   std::ranges::copy(change.data, image.begin() + static_cast<std::ptrdiff_t>(change.offset));
 }
 
-/// What a file holds after a power cut, and what it has been told since.
+/// The content of a file after a power cut, and the writes since.
 struct Content {
   Bytes durable;
   std::vector<Change> pending;

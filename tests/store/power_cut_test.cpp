@@ -175,7 +175,7 @@ TEST(PowerCut, LosesNothingThatWasSyncedThoughSyncsFailedBeforeKills) {
   }
 }
 
-/// What a sync was to keep and did not is written again before the next one counts.
+/// Data that a failed sync lost are written again before the next sync counts.
 TEST(PowerCut, ASyncAfterOneThatFailedKeepsWhatThatOneLost) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
     const testing::ScratchFolder folder;
@@ -203,7 +203,8 @@ TEST(PowerCut, ASyncAfterOneThatFailedKeepsWhatThatOneLost) {
   }
 }
 
-/// What a killed program could not sync, its next start can read; that does not show that the disk has it.
+/// Data that a killed program did not sync are readable at its next start, which does not show that they are
+/// on the disk.
 TEST(PowerCut, TheNextStartKeepsWhatAKilledProgramLost) {
   const testing::ScratchFolder folder;
   PowerCutDisk disk(1);

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 constexpr const char* kNoMounts = "no mounts here";
 
-/// What opening a store says on a disk that was mounted read-only after the store had been made.
+/// The error of opening a store on a disk that was mounted read-only after the store had been made.
 std::string refusal_on_a_read_only_disk(const std::filesystem::path& folder) {
   const AgentId self = testing::agent("r1");
   const bool mounted = (unshare(CLONE_NEWNS) == 0 || unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0) &&

@@ -63,7 +63,7 @@ class StoreDamage : public ::testing::Test {
   /// Everything in the store is what was put, and of that at most so many are missing.
   void expect_whole_but(Store& store, std::size_t nodes, std::size_t alignments, std::size_t submaps) {
     for (const auto& [id, node] : store.nodes()) {
-      // Of the contested name either content may be left alone, until others show the evidence again.
+      // Either content of the contested name may remain alone until others send the evidence again.
       if (store.holds(make_node(kPeer, 1, submap_of(1), 30.0)) && id == NodeId{kPeer, 1}) continue;
       EXPECT_TRUE(store.holds(make_node(id.agent, id.seq, submap_of(id.seq)))) << to_string(id);
       EXPECT_EQ(node.signature.has_value(), id.seq % 3 == 0) << to_string(id);
@@ -77,7 +77,7 @@ class StoreDamage : public ::testing::Test {
     EXPECT_GE(store.node_set().size() + nodes, kNodes);
     EXPECT_GE(store.alignment_set().size() + alignments, kNodes);
     EXPECT_GE(store.submap_set().size() + submaps, kNodes - 1);  // without that of the contested name
-    // What is lost comes from others, the contested name last.
+    // The lost items come from others, the contested name last.
     for (std::uint32_t seq = 0; seq < kNodes; ++seq) {
       const AgentId& maker = seq % 2 == 0 ? kSelf : kPeer;
       const Bytes submap = submap_of(seq);
@@ -221,7 +221,7 @@ class StoreLog : public ::testing::Test {
     fs::copy_file(running_.string() + "-wal", log_);
   }
 
-  /// Of the nodes that were put first.
+  /// Expects the first `count` of the nodes that were put.
   void expect_nodes(std::size_t count) {
     auto store = Store::open(file_, kSelf);
     ASSERT_TRUE(store) << store.error().message;
@@ -241,7 +241,7 @@ class StoreLog : public ::testing::Test {
 TEST_F(StoreLog, IsReadWithoutItsDatabase) { expect_nodes(size_.size() - 1); }
 
 TEST_F(StoreLog, FramesThatAreTornReplaceNoSoundPages) {
-  // Of the frames after 80 nodes the first sector came to the disk.
+  // Only the first sector of each frame after 80 nodes reached the disk.
   for (std::uintmax_t frame = size_[80]; frame < size_.back(); frame += kFrame)
     overwrite(log_, frame + 512, Bytes(kFrame - 512));
   expect_nodes(80);

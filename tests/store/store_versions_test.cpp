@@ -75,7 +75,7 @@ void write_sql(const fs::path& file, const fs::path& sql) {
   }
 }
 
-/// What every file in tests/store/versions holds.
+/// Content of every file in tests/store/versions.
 void fill(const fs::path& file) {
   auto store = Store::open(file, kSelf).value();
   ASSERT_EQ(store.put_node_with_submap(make_node(kSelf, 0, kSubmap), kSubmap).value(), Put::kAdded);

@@ -13,7 +13,7 @@
 
 namespace fleetmap::testing {
 
-/// What is exactly true of one robot of the generated fleet.
+/// The truth of one robot of the generated fleet.
 struct GeneratedRobot {
   std::string id;
   std::vector<Stamp> stamps;  ///< of its scans

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
-#include "fleetmap/agent/failure_log.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/node_factory.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/registration_recorder.hpp"
+#include "fleetmap/agent/store_failures.hpp"
+#include "fleetmap/agent/track_recorder.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
-#include "fleetmap/output/global_track.hpp"
-#include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/sessions.hpp"
 
 namespace fleetmap::agent {
@@ -40,7 +39,7 @@ struct WorkSeconds {
   }
 };
 
-/// One robot: every component on one Bus, and the only place that knows their order.
+/// One robot: wires all components on one Bus and calls them in order.
 /// sensors -> O, G -> node -> ball tree -> exchange -> registration -> alignment -> placement -> merged map.
 class Agent {
  public:
@@ -50,23 +49,24 @@ class Agent {
   Agent(const Agent&) = delete;
   Agent& operator=(const Agent&) = delete;
 
-  /// Freezes what was seen since the last node, as when a mission ends. Goes on with the next scan.
+  /// Makes a node of the points since the last one, as at the end of a mission, and continues with the next
+  /// scan.
   void freeze_rest();
-  /// The robot stands still from now on; everything else goes on. The first thing to do when told to end.
+  /// Stops the robot; everything else continues. To be called first when the program ends.
   void halt();
-  /// Hears no more sensors and messages. Before the agent is destroyed, offloaded work must have ended, too.
+  /// Ends all subscriptions. Offloaded work must also have ended before the agent is destroyed.
   void stop();
-  /// Nothing waits: no scan, no registration, no message.
+  /// True if no scan, registration or message waits.
   bool idle() const;
-  /// Every node, alignment and submap that it has heard of is held. What only a robot had that the mission
-  /// counts as lost is not waited for.
+  /// True if every node, alignment and submap that it has heard of is held, except those of robots that the
+  /// mission counts as lost.
   bool complete() const { return exchange_->complete(lost()); }
-  /// Every other agent that is not lost has told that it holds our nodes and alignments.
+  /// True if every other agent that is not lost has reported that it holds our nodes and alignments.
   bool fleet_caught_up() const { return exchange_->fleet_caught_up(lost()); }
-  /// Another robot still makes nodes or alignments.
+  /// True if another robot still makes nodes or alignments.
   bool others_busy() const { return exchange_->others_busy(bus_.now()); }
-  /// When a sensor was last heard, and when the last item moved, on the bus's clock.
-  Stamp last_sensor() const { return perception_->last_heard(); }
+  /// Times of the last sensor sample and of the last item exchanged, on the bus's clock.
+  Stamp last_sensor() const { return perception_->last_sample(); }
   Stamp last_exchange() const { return link_->counters().last_useful; }
 
   const AgentConfig& config() const { return config_; }
@@ -74,7 +74,7 @@ class Agent {
   store::Store& store() { return store_; }
   const Perception& perception() const { return *perception_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
-  /// Whom submaps are fetched from at this moment.
+  /// Robots from which submaps are being fetched.
   std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
   /// Writes that the disk refused.
@@ -82,29 +82,29 @@ class Agent {
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
   loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
-  /// What drives the robot, if this agent does.
+  /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
-  /// CPU seconds of each scan, as LOAM took them.
+  /// CPU seconds of LOAM for each scan.
   const std::vector<double>& scan_seconds() const { return scan_seconds_; }
-  /// Counts what has come to its end.
+  /// Counts work that has finished.
   WorkSeconds work_seconds() const;
 
  private:
   Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store::Sessions sessions,
-        std::uint16_t session, output::TrajectoryFile odometry_file, output::GlobalTrackFile global_file);
+        std::uint16_t session, TrackRecorder tracks);
   Status start();
-  /// Robots that were not heard of for long on a mission.
+  /// Robots of the mission that have been silent for long.
   std::set<AgentId> lost() const;
 
   void on_perceived(Perceived&& perceived);
-  /// Makes the node at the last scan, stores it and tells the fleet.
+  /// Makes a node at the last scan, stores it and sends it to the fleet.
   void freeze_node();
-  /// What the odometry computes from now on is in another frame. `why` is for people. False: the store
-  /// failed.
+  /// Begins a session, since the odometry continues in another frame. `why` is for the log. Returns false if
+  /// the store failed.
   bool begin_session(const char* why);
   bool numbers_run_out() const;
   void navigate();
-  /// From a button on the robot.
+  /// Handles an order from a button on the robot.
   void on_local_hold(const Bytes& cdr);
   void on_events();
   void handle(const exchange::CloudNeeded& needed);
@@ -124,11 +124,10 @@ class Agent {
   void handle(const exchange::AlignmentAdded&) {}
   void handle(const exchange::SubmapAdded&) {}
   void handle(const exchange::MapComplete&) {}
-  /// Own items whose names are contested get others.
+  /// Gives new names to own items whose names are contested.
   void name_contested_anew();
-  void note_store_that_works();
 
-  /// The alignment gets a name, is stored, and goes to the fleet. False: it was refused.
+  /// Names the alignment, stores it and sends it to the fleet. Returns false if it was refused.
   bool publish(graph::Alignment alignment);
   void update_status();
 
@@ -139,9 +138,7 @@ class Agent {
   std::uint16_t session_;
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
-  /// None: it could not be begun, and holds no other frame.
-  std::optional<output::TrajectoryFile> odometry_file_;
-  output::GlobalTrackFile global_file_;
+  TrackRecorder tracks_;
   double odometry_seconds_ = 0.0;  ///< CPU
   RegistrationRecorder registrations_;
   NodeFactory nodes_;
@@ -159,8 +156,7 @@ class Agent {
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
   Stamp session_begun_{};  ///< if it was not with the program's start
-  FailureLog store_failures_;
-  std::uint64_t added_before_failure_ = 0;  ///< StoreStats::added
+  StoreFailures store_failures_;
 };
 
 }  // namespace fleetmap::agent

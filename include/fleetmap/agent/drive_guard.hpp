@@ -6,28 +6,28 @@
 
 namespace fleetmap::agent {
 
-/// Why a robot has to stand still.
+/// Reason for which a robot must stand still.
 enum class StandReason {
-  kStopping,    ///< the process was told to stop
+  kStopping,    ///< the process is ending
   kHeld,        ///< an operator's order
   kNoScan,      ///< the LiDAR is silent
   kNoOdometry,  ///< scans come, but the odometry is lost or too slow
-  kNoPose,      ///< neither G, well enough, nor another tells where the robot is
+  kNoPose,      ///< neither G with a small enough covariance nor a guide
 };
 const char* to_string(StandReason reason);
 
 struct DriveGuardConfig {
-  /// Since the last scan, since the odometry's last result and since the last pose. A LiDAR of 5 Hz may be
-  /// 60 ms late; with kPeriod the robot is told to stand at most 280 ms after the last of either, which
-  /// leaves 20 ms to the promised 300 ms.
+  /// Longest time since the last scan, the odometry's last result and the last pose. A LiDAR of 5 Hz may be
+  /// 60 ms late; with kPeriod the command to stop comes at most 280 ms after the last of either, which leaves
+  /// 20 ms of the promised 300 ms.
   Duration patience = std::chrono::milliseconds(260);
-  /// From the arrival of a scan to the odometry's result: one that comes later is none.
+  /// Longest time from the arrival of a scan to the odometry's result; a later result is ignored.
   Duration max_latency = std::chrono::milliseconds(300);
-  double max_position_sigma = 5.0;  ///< m, horizontal, 1 sigma of G; beyond, the robot does not know its lane
+  double max_position_sigma = 5.0;  ///< m, horizontal, 1 sigma of G; beyond, its lane is uncertain
 };
 
-/// Decides at any time whether a robot may be driven, from when its scans and poses came. Pure: all times are
-/// given. When the clock is set back, scans and poses before count as missing.
+/// Decides whether a robot may be driven, from the arrival times of its scans and poses. Pure: all times are
+/// arguments. If the clock is set back, earlier scans and poses count as missing.
 class DriveGuard {
  public:
   /// check() has to be called at least this often.
@@ -36,9 +36,9 @@ class DriveGuard {
   explicit DriveGuard(const DriveGuardConfig& config = {}) : config_(config) {}
 
   void on_scan(Stamp now) { scan_ = now; }
-  /// The odometry has fitted the scan that came at `heard`.
-  void on_odometry(Stamp heard, Stamp now);
-  /// The robot's pose on the site came.
+  /// The odometry matched the scan that arrived at `arrival`.
+  void on_odometry(Stamp arrival, Stamp now);
+  /// A pose of the robot on the site arrived.
   void on_pose(Stamp now) { pose_ = now; }
   void set_held(bool held) { held_ = held; }
   bool held() const { return held_; }

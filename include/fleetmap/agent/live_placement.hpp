@@ -12,21 +12,20 @@
 
 namespace fleetmap::agent {
 
-/// Where the robot is by all that its store holds: solves the fleet's graph off the callbacks when something
-/// is new, and carries the odometry on from the newest node. The odometry itself never jumps.
+/// The robot's pose on Earth from everything in its store. Solves the fleet's graph in the background when
+/// items have arrived, and extrapolates from the newest node by the odometry, which itself never jumps.
 class LivePlacement {
  public:
-  /// Hears the alignments that the graph uses, after every solution.
+  /// Receives the alignments that the graph uses, after every solution.
   using OnUsed = std::function<void(std::span<const graph::Alignment>)>;
-  /// All outlive it, and the work under way.
+  /// All arguments must outlive it and the work under way.
   LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store, OnUsed on_used);
 
-  /// Begins a solution unless one is under way or nothing is new. `session` is the one that publish() will
-  /// tell of.
+  /// Begins a solution unless one is under way or nothing is new. publish() then uses the frame of `session`.
   void refresh(std::uint16_t session);
-  /// Nothing is under way, and the last solution holds all that there is.
+  /// True if no solution is under way and the last one includes all items.
   bool idle() const { return !under_way_ && !due(); }
-  /// Of all solutions.
+  /// CPU seconds that all solutions took.
   double cpu_seconds() const { return cpu_seconds_; }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const output::StampedPose& odometry);

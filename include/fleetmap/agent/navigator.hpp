@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fleetmap/agent/drive_guard.hpp"
+#include "fleetmap/agent/obstacles.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/ids.hpp"
@@ -18,20 +19,6 @@
 
 namespace fleetmap::agent {
 
-/// Which LiDAR returns are obstacles: those at the height of the robot's body, seen from base_link.
-struct ObstacleConfig {
-  double min_height = 0.2;   ///< m above the ground under the robot; what is lower is driven over
-  double max_height = 1.0;   ///< m; what is higher is driven under
-  double slope = 0.12;       ///< m a metre: how much the ground may rise with distance
-  double reach = 6.0;        ///< m
-  double spacing = 0.1;      ///< m, at most one obstacle in a cell of this
-  double base_height = 0.1;  ///< m, of base_link above the ground
-};
-
-/// The obstacles among points in base_link, in base_link (x forward, y left).
-std::vector<Eigen::Vector2d> obstacles_among(const std::vector<Eigen::Vector3f>& points_base,
-                                             const ObstacleConfig& config);
-
 struct NavigatorConfig {
   /// The whole fleet's plan: the same on every robot.
   std::shared_ptr<const planning::FleetPlan> plan;
@@ -41,48 +28,49 @@ struct NavigatorConfig {
   Duration report_period = std::chrono::seconds(5);
 };
 
-/// Drives one robot through its part of the mission: pose and scan in, cmd_vel out; tells the others how far
-/// it is and takes over what they cannot do. Uses the EKF's pose for where to go, or while one is told that
-/// of fleet_codec::topics::guide_pose() (so a robot without GPS can be led), and the scan for where it is
-/// free. Every command passes a DriveGuard, and while that has a reason zero is published every
-/// DriveGuard::kPeriod.
+/// Drives one robot through its part of the mission: poses and scans in, cmd_vel out. Reports its progress to
+/// the others and takes over rows that they cannot drive. Navigates by the EKF's pose, or by that of
+/// fleet_codec::topics::guide_pose() while one arrives (so that a robot without GPS can be guided), and
+/// avoids obstacles by the scan. Every command passes a DriveGuard; while the guard has a reason, zero is
+/// published every DriveGuard::kPeriod.
 class Navigator {
  public:
-  using Tell = std::function<void(messages::MissionReport)>;
-  /// `site`: the ENU frame of the plan. `tell` brings a report to the others. Fails if the plan does not know
-  /// `self`.
+  using SendReport = std::function<void(messages::MissionReport)>;
+  /// `site`: the ENU frame of the plan. `send_report` sends a report to the others. Fails if `self` is not in
+  /// the plan.
   static Result<std::unique_ptr<Navigator>> create(const NavigatorConfig& config, const AgentId& self,
-                                                   const GeoPoint& site, bus::Bus& bus, Tell tell);
+                                                   const GeoPoint& site, bus::Bus& bus,
+                                                   SendReport send_report);
 
   ~Navigator();
 
-  /// When a scan comes.
+  /// To be called when a scan arrives.
   void on_scan() { guard_.on_scan(bus_.now()); }
-  /// After every scan.
+  /// To be called with the result of every scan.
   void on_perceived(const Perceived& perceived);
   void on_report(const messages::MissionReport& report);
-  /// Some times a second. `maps_exchanged`: this robot holds everything, and the others hold what it knows
-  /// of. `exchanged_with`: robots in reach with whom nothing is left to be exchanged.
+  /// To be called some times a second. `maps_exchanged`: this robot holds everything, and the others hold all
+  /// that it has heard of. `exchanged_with`: robots in reach with which nothing is left to exchange.
   void tick(bool maps_exchanged, std::vector<AgentId> exchanged_with = {});
-  /// A node of any robot became known: evidence that its surroundings were driven.
+  /// Adds a node of any robot as evidence that its surroundings were driven.
   void on_node(const graph::Node& node);
-  /// The order of an operator that is in force.
+  /// Follows the order of an operator that is in force.
   void obey(const messages::HoldOrder& order);
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.
-  std::optional<StandReason> stands() const { return stands_; }
+  std::optional<StandReason> stand_reason() const { return stand_reason_; }
 
   /// Nothing is left to do for this robot.
   bool done() const { return action_.kind == planning::MissionAction::Kind::kDone; }
-  /// Every row of the mission has been driven or given up by all, as far as this robot knows.
+  /// True if every row of the mission has been driven or given up, as far as reports have arrived.
   bool all_rows_driven() const;
   planning::MissionExecutive::Status status() const { return executive_.status(); }
   std::optional<double> battery() const { return battery_; }
 
  private:
   Navigator(const NavigatorConfig& config, const AgentId& self, planning::MissionExecutive executive,
-            const GeoPoint& site, bus::Bus& bus, Tell tell);
+            const GeoPoint& site, bus::Bus& bus, SendReport send_report);
   /// Publishes the command, or zero if the guard has a reason.
   void drive(const planning::Command& command);
   void watch();
@@ -97,17 +85,17 @@ class Navigator {
   LocalFrame site_;
   AgentId self_;
   bus::Bus& bus_;
-  Tell tell_;
+  SendReport send_report_;
   planning::MissionExecutive executive_;
   planning::RowCoverage coverage_;
   planning::PathFollower follower_;
   planning::MissionAction action_;
   std::optional<planning::Pose2> pose_;
-  std::optional<planning::Pose2> guide_;  ///< the last that was told
+  std::optional<planning::Pose2> guide_;  ///< the last pose of the guide
   Stamp guided_at_{};
   DriveGuard guard_;
-  std::optional<StandReason> stands_;  ///< as of the last check
-  Stamp stands_since_{};
+  std::optional<StandReason> stand_reason_;  ///< as of the last check
+  Stamp standing_since_{};
   bool drove_ = false;             ///< the guard let a command pass
   std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;

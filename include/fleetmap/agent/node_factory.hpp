@@ -25,7 +25,7 @@ class NodeFactory {
   /// The configurations must be valid.
   NodeFactory(const AgentId& self, const SubmapConfig& submap, const place::NodeGeneratorConfig& nodes);
 
-  /// What was gathered since the last node enters none.
+  /// Discards the points since the last node.
   void drop_rest();
   /// A new odometry frame has begun: nothing of the last one is left.
   void begin_frame();
@@ -59,7 +59,7 @@ class NodeFactory {
   odometry::MotionCovariance motion_;           ///< since the last node
   std::optional<Perceived> last_;               ///< of this frame, not lost; without its points
   std::optional<Stamp> waiting_for_gps_until_;  ///< for the first global pose
-  bool told_of_missing_gps_ = false;
+  bool missing_gps_logged_ = false;
 };
 
 }  // namespace fleetmap::agent

@@ -33,7 +33,7 @@ struct PerceptionConfig {
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
 };
 
-/// What a scan gave: O with the points, and G at the same instant once the EKF knows it.
+/// Result of one scan: O with the points, and G at the same instant if the EKF has one.
 struct Perceived {
   odometry::OdometryUpdate odometry;
   std::optional<GlobalPose> G;
@@ -42,7 +42,7 @@ struct Perceived {
   Eigen::Vector3d up_in_base = Eigen::Vector3d::UnitZ();
   bool up_is_measured = false;  ///< by the IMU
   double cpu_seconds = 0.0;     ///< that LOAM took
-  Stamp heard;                  ///< when the scan came, on the bus's clock
+  Stamp arrival;                ///< when the scan came, on the bus's clock
 };
 
 struct PerceptionCounters {
@@ -69,8 +69,8 @@ class Perception {
   bool idle() const { return !busy_ && scans_.empty(); }
   /// Hears no more sensors and forgets the scans that wait.
   void stop();
-  /// When a sensor was last heard, on the bus's clock.
-  Stamp last_heard() const { return last_heard_; }
+  /// When the last sample of a sensor arrived, on the bus's clock.
+  Stamp last_sample() const { return last_sample_; }
   /// When a scan was, or else when this was made.
   Stamp last_scan() const { return last_scan_; }
   std::optional<GlobalPose> global_pose() const { return ekf_.pose(); }
@@ -83,7 +83,7 @@ class Perception {
   /// A scan and the other samples that came since the scan before it.
   struct Job {
     Bytes scan;
-    Stamp heard;
+    Stamp arrival;
     Duration clock_correction{};  ///< of the scan's stamp
     std::vector<sensor::Imu> imu;
     std::vector<sensor::Wheel> wheel;
@@ -116,7 +116,7 @@ class Perception {
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;
   bool busy_ = false;
-  Stamp last_heard_, last_scan_;
+  Stamp last_sample_, last_scan_;
   std::uint64_t lost_in_a_row_ = 0;  ///< scans
   PerceptionCounters counters_;
   std::map<std::string, std::uint64_t> warned_;

@@ -40,7 +40,7 @@ class SubmapBuilder {
   /// Begins the next submap.
   void clear();
 
-  /// What it holds, in the odometry frame.
+  /// The merged points, in the odometry frame.
   cloud::PointCloud cloud() const { return merger_.cloud(); }
   std::size_t points() const { return merger_.voxels(); }
   std::size_t refused_points() const { return refused_points_; }

@@ -24,7 +24,7 @@ using TruePoses = std::map<NodeId, Pose>;
 /// the vertical, which both frames share. Identity without nodes in common.
 Pose laid_on_truth(const std::map<NodeId, Pose>& T_enu_node, const TruePoses& truth);
 
-/// What counts as right.
+/// Tolerance within which an alignment counts as right.
 struct RightPose {
   double translation = 0.5;                ///< m
   double rotation = 0.034906585039886591;  ///< rad, 2 deg
@@ -36,7 +36,7 @@ struct JudgedAlignment {
   bool ambiguous = false;
   bool used = false;            ///< by the placement
   bool between_robots = false;  ///< else a loop of one robot
-  /// What follows is of one mode: that which the placement took, else the best.
+  /// The following fields describe one mode: the one that the placement used, else the best.
   double translation = 0.0;  ///< m
   double rotation = 0.0;     ///< rad
   bool right = false;        ///< within RightPose

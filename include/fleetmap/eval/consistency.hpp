@@ -36,7 +36,7 @@ struct Consistency {
 /// All of the same dimensions, else those that differ from the first are refused.
 Consistency consistency(std::span<const StatedError> errors);
 
-/// Of a list of magnitudes; all 0 when it is empty.
+/// Statistics of a list of magnitudes; all 0 if it is empty.
 struct Spread {
   std::size_t count = 0;
   double rms = 0.0, p50 = 0.0, p90 = 0.0, p95 = 0.0, p99 = 0.0, max = 0.0;

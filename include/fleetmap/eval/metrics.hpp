@@ -66,7 +66,7 @@ Result<EvaluatedMap> evaluate_map_points(const cloud::PointCloud& map, const clo
 Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const cloud::PointCloud& truth,
                                            const Pose& T_truth_map, const MapMetricsConfig& config = {});
 
-/// What a map says of itself: density, area and number of points. The other fields stay 0.
+/// Metrics that need no truth: density, area and number of points. The other fields stay 0.
 MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& config = {});
 
 /// m, distance of each map point to the truth's surface as in MapMetrics, at most `cap`; `cap` for

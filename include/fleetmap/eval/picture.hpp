@@ -12,7 +12,7 @@ namespace fleetmap::eval {
 
 enum class Projection { kTop, kPerspective };
 
-/// What a picture shows besides the points.
+/// An entry of a picture's legend.
 struct LegendEntry {
   std::string text;
   Rgb colour;

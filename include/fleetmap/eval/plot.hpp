@@ -7,7 +7,7 @@
 
 namespace fleetmap::eval {
 
-/// What every plot has. Labels carry their unit: "RMSE [m]". All text is escaped.
+/// Axes and title of a plot. Labels carry their unit: "RMSE [m]". All text is escaped.
 struct Axes {
   std::string title = {};
   std::string x_label = {};

@@ -28,8 +28,8 @@ using messages::Outgoing;
 
 /// Queue of the long-range link, which keeps to this robot's share of the fleet's budget.
 ///
-/// Where the medium has no multicast, a message to all goes to one robot after the other: nine copies at once
-/// would be more than a second's share of a robot of ten.
+/// Without multicast a message to all goes to one robot after the other, because nine copies at once exceed
+/// what a robot of ten may send in a second.
 class SendQueue {
  public:
   /// `peers`: the other robots of the fleet; `payload_size`: bytes of a message as the bus publishes it.

@@ -25,7 +25,7 @@ struct Case {
   std::size_t agents = 1;      ///< the first of `base`
   std::vector<config::Override> overrides;
   bool pictures = true;  ///< of the map: drawn of the first seed only
-  // What takes the evaluation long, and only some metrics need.
+  // Slow parts of the evaluation, which only some metrics need.
   std::set<std::string> modes = {};  ///< combinations of registration and placement, as of `fleetmap eval`
   bool overlap = false;              ///< the map where two robots were
 };
@@ -36,7 +36,7 @@ struct Histogram {
   std::vector<double> shares;
 };
 
-/// What a case gave.
+/// Result of a case.
 struct CaseResult {
   std::map<std::string, double> metrics;  ///< finite; what a case could not measure is absent
   std::map<std::string, Histogram> histograms;
@@ -55,8 +55,8 @@ std::vector<Case> all_cases(const config::ExperimentConfig& config);
 /// Index of the case with this name. The error lists the names that are nearest to it.
 Result<std::size_t> case_named(const std::vector<Case>& cases, const std::string& name);
 
-/// What a case is to be run with, without its name, study and point: in one build of the program, equal
-/// inputs give equal results.
+/// Hash of a case's inputs, without its name, study and point. One build of the program gives equal results
+/// for equal inputs.
 Result<std::string> input_hash(const Case& one);
 
 /// A fleet's file that cannot be read with a point's keys is found before hours are spent on the others.

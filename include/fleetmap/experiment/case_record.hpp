@@ -21,7 +21,7 @@ struct CaseRecord {
   bool done() const { return result.has_value(); }
 };
 
-/// What result.json and results.json say of a case.
+/// The entry of a case in result.json and results.json.
 nlohmann::json to_json(const CaseRecord& record);
 
 /// Writes `directory`/result.json so that it is there whole or not at all.

@@ -23,8 +23,8 @@ class ChildEngine {
 /// A file that a child has written. Fails with its name.
 Result<nlohmann::json> read_json(const std::filesystem::path& file);
 
-/// What a run (report.json) and its evaluation (evaluation.json) say, as one flat set: numbers by their
-/// dotted path ("map.rmse", "map.f1[0]"; the evaluation as it is, of the report what experiments compare),
+/// Merges a run's report.json and evaluation.json into one flat set: numbers by their dotted path
+/// ("map.rmse", "map.f1[0]"; the whole evaluation, and those parts of the report that experiments compare),
 /// lists named "histogram" with the "bin" beside them, pictures by kind.
 CaseResult gather(const nlohmann::json& report, const nlohmann::json& evaluation);
 

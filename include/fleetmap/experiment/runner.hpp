@@ -10,7 +10,7 @@
 
 namespace fleetmap::experiment {
 
-/// Where the experiment stands, told whenever a case begins or ends.
+/// Progress of the experiment, reported whenever a case begins or ends.
 struct Progress {
   std::size_t total = 0;
   std::size_t finished = 0;  ///< failed ones and those of earlier starts too

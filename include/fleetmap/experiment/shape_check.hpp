@@ -15,8 +15,8 @@ struct Curve {
   double resolution = 0.0;  ///< values are rounded to multiples of it; 0: they are not
 };
 
-/// What is left of a curve's values when each seed's and each point's mean is taken away: sigma of a single
-/// run that no change of the axis explains.
+/// Residual of a curve's values after each seed's and each point's mean is subtracted: sigma of a single run
+/// that no change along the axis explains.
 struct Residual {
   double sigma = 0.0;
   double freedom = 0.0;  ///< degrees of freedom, (points - 1) * (seeds - 1)

@@ -11,7 +11,8 @@ namespace fleetmap::fault_injection {
 /// The seed's scenario with these of its faults alone.
 Scenario with_faults(Scenario scenario, const std::vector<std::size_t>& kept);
 
-/// What failed and, if `shrinks`, the fewest faults with which it does, with the command that replays them.
+/// Reports the failed invariants and, if `shrinks`, the fewest faults that still fail, with the command that
+/// replays them.
 std::string failure_report(const Scenario& scenario, const Outcome& outcome, const RunConfig& config,
                            bool shrinks);
 

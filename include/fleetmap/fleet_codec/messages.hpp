@@ -29,7 +29,7 @@ inline constexpr std::size_t kMaxHoldOrders = 32;            ///< in a Hold
 inline constexpr std::size_t kMaxLoans = 4;                  ///< in an AgentStatus
 inline constexpr std::uint32_t kMaxSubmapBytes = 64u << 20;  ///< of one encoded submap
 
-/// What encode() adds to the payload of a SpherizedCloud, in bytes.
+/// Bytes that encode() adds to the payload of a SpherizedCloud.
 inline constexpr std::size_t kSpherizedCloudOverhead = 36;
 /// Most bytes of an encoded cloud that CloudFragments can carry.
 inline constexpr std::size_t kMaxEncodedCloud = kMaxCloudPayload + kSpherizedCloudOverhead;
@@ -55,10 +55,10 @@ Bytes encode(const messages::Message& message);
 Bytes encode(const GlobalPose& pose);
 Bytes encode(const messages::SpherizedCloud& cloud);
 
-/// What the maker of an item signs: its encoding with schema version 0 and no signature, so that a new
-/// version which leaves the type as it is leaves signatures valid. decode() keeps these bytes, whatever the
-/// processor, and the store keeps what decode() made of them. decode() refuses a signed item that is not the
-/// encoding of what it decodes to, so that a signature holds for one content alone.
+/// The bytes that the maker of an item signs: its encoding with schema version 0 and without signature, so
+/// that signatures stay valid if a new version does not change the type. decode() returns values whose
+/// encoding is these bytes on every processor, and the store keeps them. decode() refuses a signed item that
+/// differs from the encoding of its decoded value, so a signature is valid for one content only.
 Bytes signed_bytes(const graph::Node& node);
 Bytes signed_bytes(const graph::Alignment& alignment);
 

@@ -25,9 +25,9 @@ bus::Topic hold();
 
 namespace fleetmap::fleet_codec {
 
-/// Where a message is published: on a topic of its recipient if it has one, else on that of all.
+/// The topic of a message: its recipient's if it has one, else the one that all read.
 bus::Topic topic_of(const messages::Outgoing& outgoing);
-/// On its usual link, to the recipient that it names.
+/// The topic of a message on its usual link, to the recipient that it names.
 bus::Topic topic_of(const messages::Message& message);
 /// The link that `link` is to the exchange.
 messages::Reach reach_of(bus::Link link);

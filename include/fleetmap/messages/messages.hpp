@@ -12,7 +12,7 @@
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/messages/mission_report.hpp"
 
-/// What robots send each other. Nodes and alignments (graph) are messages as they are.
+/// Messages between robots. Nodes and alignments (graph) are sent as they are.
 namespace fleetmap::messages {
 
 // ---- long range
@@ -60,9 +60,9 @@ struct CloudRequest {
   float information = 0.0f;  ///< nats, of the alignment that `from` hopes for (graph::InformationGain)
 };
 
-/// What `from` holds. Sent from time to time, so that whoever lacks something asks for it. Each range has a
-/// fingerprint of its contents (store::Store::node_print), so that two robots that hold other contents under
-/// the same names find that out; a range may be cut to say where (exchange::ContentCheck).
+/// The items that `from` holds, sent periodically so that others request what they lack. Each range has a
+/// fingerprint of its contents (store::Store::node_print), so that two robots with other contents under the
+/// same names detect it; a range may be divided to locate them (exchange::ContentCheck).
 struct Digest {
   AgentId from;
   std::vector<SeqRange> nodes;

@@ -47,9 +47,8 @@ class RowSet {
   Bytes bytes_;
 };
 
-/// What a robot tells the others of the mission, every few seconds over the long range; for 200 rows about
-/// 120 bytes. Any one of them, with the mission's file, is enough for a robot that was just restarted to go
-/// on.
+/// State of the mission as one robot has it, sent every few seconds over the long range; about 120 bytes for
+/// 200 rows. A robot that was just restarted can continue from any one of them and the mission's file.
 struct MissionReport {
   static constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 

@@ -30,9 +30,10 @@ struct Attempts {
 };
 Attempts parse_attempts(std::string_view csv, const AgentId& by);
 
-/// What happened and why, in one sentence. `status` is what the graph made of its alignment, if it has one.
+/// Describes the attempt and its outcome in one sentence. `status` is the graph's decision about its
+/// alignment, if it has one.
 std::string sentence(const Attempt& attempt, std::optional<graph::AlignmentStatus> status);
-/// What the graph made of an alignment, as the end of a sentence: "the graph uses it".
+/// The graph's decision about an alignment, as the end of a sentence: "the graph uses it".
 std::string fate(graph::AlignmentStatus status);
 
 }  // namespace fleetmap::monitor

@@ -38,7 +38,7 @@ struct FleetView {
 /// All robots that made a node or an alignment, ran a registration or hold something, by name.
 std::vector<AgentId> robots_of(const FleetView& view);
 
-/// What the placement made of each alignment, by (computed_by, seq). Mode `paper` tells only which it used.
+/// Status of each alignment in the placement, by (computed_by, seq). In mode `paper` only used ones have one.
 using Outcomes = std::map<std::pair<AgentId, std::uint32_t>, graph::AlignmentStatus>;
 Outcomes outcomes_of(const FleetView& view);
 

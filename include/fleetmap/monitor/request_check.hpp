@@ -7,7 +7,7 @@
 
 namespace fleetmap::monitor {
 
-/// What of a request decides whether it is answered; absent headers are empty.
+/// The headers that decide whether a request is answered; absent ones are empty.
 struct RequestHead {
   std::string_view host, origin, cookie, authorization;
 };

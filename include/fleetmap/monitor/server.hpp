@@ -64,7 +64,7 @@ class Server {
   void publish(std::shared_ptr<const FleetView> view);
   ServerStats stats() const;
 
-  struct State;  ///< of server.cpp
+  struct State;  ///< server_state.hpp
 
  private:
   explicit Server(std::unique_ptr<State> state);

@@ -16,7 +16,7 @@ enum class RingSource {
   kNone,        ///< no rings: non-repeating patterns
 };
 
-/// What has to be known about a LiDAR. Azimuth is atan2(y, x) in the LiDAR frame (x forward, z up).
+/// Model of a LiDAR. Azimuth is atan2(y, x) in the LiDAR frame (x forward, z up).
 struct LidarModel {
   std::string name;
   /// Elevation of each ring, rad, index = ring number. Empty: a device without rings.
@@ -29,7 +29,7 @@ struct LidarModel {
   /// Azimuth, rad, at which a revolution starts; empty: at the first point. Only used when a scan has no
   /// times.
   std::optional<double> sweep_start_azimuth;
-  /// Where in the revolution Scan::stamp lies, 0 = its start, 1 = its end. Only used when a scan has no
+  /// Position of Scan::stamp within the revolution, 0 = its start, 1 = its end. Only used if a scan has no
   /// times.
   double stamp_phase = 0.0;
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
@@ -14,23 +11,25 @@
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/odometry/loam_counters.hpp"
 #include "fleetmap/odometry/local_map.hpp"
 #include "fleetmap/sensor/samples.hpp"
 #include "fleetmap/sensor/scan.hpp"
 
 namespace fleetmap::odometry {
 
-/// What one scan told.
+/// Result of one scan: pose, motion-compensated points and how well the scan was matched.
 struct OdometryUpdate {
   Stamp stamp;  ///< Scan::stamp, wherever in the sweep it lies (LidarModel::stamp_phase for scans without
                 ///< times)
   /// base_link at `stamp` in the odometry frame O, which is base_link at the first scan's stamp. Never jumps.
   Pose T_odom_base = Pose::Identity();
-  /// What the motion since the previous update adds to the drift, [m, rad] in base_link at `stamp`:
-  /// T <- T exp(d). Sums of these (moved by adjoint()) are the drift over many scans; MotionCovariance does
-  /// it.
+  /// Covariance that the motion since the previous update adds to the drift, right tangent [m, rad] of
+  /// T_odom_base at `stamp`: T <- T exp(d). Sums of these, moved by adjoint(), are the drift over many scans
+  /// (MotionCovariance).
   Matrix6d covariance = Matrix6d::Zero();
-  /// Of this pose in the local map, same tangent: does not sum, a motion has that of its two ends.
+  /// Covariance of this pose in the local map, same tangent. It does not accumulate: a motion has that of its
+  /// two ends.
   Matrix6d pose_noise = Matrix6d::Zero();
   Vector6d twist = Vector6d::Zero();  ///< of base_link in base_link, mean over the sweep, [m/s, rad/s]
   /// All valid returns within L_max in base_link at `stamp`, motion compensated, with intensity.
@@ -45,50 +44,11 @@ struct OdometryUpdate {
   /// `degenerate_count`); there the pose follows the motion prior and the covariance is large.
   int degenerate_count = 0;
   Matrix6d degenerate_directions = Matrix6d::Zero();
-  /// The scan did not fit the map; the pose is the prediction and the covariance says so.
+  /// The scan did not fit the map; the pose is the prediction, and the covariance is that of the prediction.
   bool lost = false;
 };
 
-/// CPU of Loam's stages, s, in the order in which a scan passes them.
-struct StageTimes {
-  double sweep = 0.0;     ///< rings and times of the points
-  double features = 0.0;  ///< plane points, posts and borders
-  double thinning = 0.0;  ///< to evenly spread features
-  double matching = 0.0;  ///< with the local map
-  double mapping = 0.0;   ///< scans entering the local map, and its pruning
-  double points = 0.0;    ///< motion compensation of all returns
-
-  /// (name, s) of all.
-  std::array<std::pair<const char*, double>, 6> named() const {
-    return {{{"sweep", sweep},
-             {"features", features},
-             {"thinning", thinning},
-             {"matching", matching},
-             {"mapping", mapping},
-             {"points", points}}};
-  }
-};
-
-/// Loam's running totals since it was built.
-struct LoamCounters {
-  std::uint64_t scans = 0;             ///< handed to add_scan()
-  std::uint64_t updates = 0;           ///< that gave an update
-  std::uint64_t refused_time = 0;      ///< not later than the scan before
-  std::uint64_t refused_points = 0;    ///< empty, or too few usable points
-  std::uint64_t refused_repeated = 0;  ///< the very points of the scan before, though the robot moves
-  std::uint64_t lost = 0;              ///< updates that are predictions
-  std::uint64_t map_restarts = 0;      ///< new local maps after being lost for long
-  std::uint64_t map_overflows = 0;     ///< the local map was full; what lay farthest was forgotten
-  std::uint64_t clock_resets = 0;      ///< the clock went backwards and stayed there
-  std::uint64_t points_non_finite = 0;
-  std::uint64_t points_out_of_range = 0;
-  std::uint64_t points_bad_time = 0;
-  std::uint64_t rings_ignored = 0;  ///< scans whose ring field contradicts their points
-  std::uint64_t times_ignored = 0;  ///< scans whose times cannot be theirs
-  std::uint64_t imu_dropped = 0;    ///< samples: not finite, or out of order
-  std::uint64_t wheel_dropped = 0;
-  StageTimes cpu;
-};
+class LoamPipeline;
 
 /// LiDAR odometry and mapping, scan to local map. After Zhang and Singh, LOAM (RSS 2014): edge and plane
 /// features along each ring, motion compensation, Gauss-Newton on point-to-line and point-to-plane distances;
@@ -111,14 +71,13 @@ class Loam {
   Result<OdometryUpdate> add_scan(const sensor::Scan& scan);
 
   const LoamCounters& counters() const;
-  /// What of the scans contradicts the LiDAR's model, each once and as a sentence for the log.
-  std::vector<std::string> take_news();
-  /// Of the local map after the last scan.
+  /// Contradictions between the scans and the LiDAR's model, each reported once as a sentence for the log.
+  std::vector<std::string> take_warnings();
+  /// Size of the local map after the last scan.
   LocalMapSize map_size() const;
 
  private:
-  class Pipeline;
-  std::unique_ptr<Pipeline> pipeline_;
+  std::unique_ptr<LoamPipeline> pipeline_;
 };
 
 }  // namespace fleetmap::odometry

@@ -40,9 +40,9 @@ struct LoamConfig {
   double initial_turn_rate = 1.0;     ///< rad/s, 1 sigma at the first scan
   bool deskew = true;                 ///< compensate the motion during a scan
 
-  /// 1 sigma by which what the points of a sweep show of its velocity may be feigned by the map: a map of
-  /// sweeps that were all bent alike agrees with the next one bent alike. Far less is said by the way from
-  /// sweep to sweep, and of the turn rate by a gyro, with which the second one is not used.
+  /// 1 sigma of the velocity by which the map itself may be bent within every sweep: a map of sweeps that
+  /// were all bent alike agrees with the next one bent alike. The motion from sweep to sweep constrains it
+  /// far better, and so does a gyro for the turn rate, with which the second value is not used.
   double map_bend_speed = 0.3;       ///< m/s
   double map_bend_turn_rate = 0.15;  ///< rad/s
 

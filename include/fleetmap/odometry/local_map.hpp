@@ -10,13 +10,13 @@
 
 namespace fleetmap::odometry {
 
-/// What a local map holds.
+/// Size of a local map.
 struct LocalMapSize {
   std::size_t windows = 0;  ///< of all grids
   std::size_t bytes = 0;
 };
 
-/// What the robot has seen around it: surfaces at two scales, upright posts among them, and edges.
+/// Local map around the robot: surfaces at two scales, upright posts among them, and edges.
 class LocalMap {
  public:
   explicit LocalMap(const LoamConfig& config);
@@ -41,7 +41,7 @@ class LocalMap {
  private:
   SurfaceGrid fine_, coarse_, posts_, edges_;
   Thinning coarse_thinning_;
-  std::vector<SurfaceGrid::SeenPoint> seen_, thin_;  ///< keep their memory between calls
+  std::vector<SurfaceGrid::ObservedPoint> observed_, thin_;  ///< keep their memory between calls
 };
 
 }  // namespace fleetmap::odometry

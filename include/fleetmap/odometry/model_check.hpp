@@ -16,8 +16,9 @@ class ModelCheck {
   explicit ModelCheck(LidarModel model);
 
   void add(const sensor::Scan& scan);
-  /// What has been found since the last call, each once, with the key to set. Three scans must agree.
-  std::vector<std::string> take_news();
+  /// Contradictions found since the last call, each reported once with the key to set. Three scans must
+  /// agree.
+  std::vector<std::string> take_warnings();
 
  private:
   struct Finding {

@@ -5,9 +5,9 @@
 
 namespace fleetmap::odometry {
 
-/// Covariance of the motion between two scans of one odometry frame, right tangent [m, rad]: what was lost on
-/// the way (sums) and how well the scans at its two ends lie in the local map (does not sum: the scans in
-/// between have no say). Give it every update of the frame.
+/// Covariance of the motion between two scans of one odometry frame, right tangent [m, rad]: the drift on the
+/// way, which sums, and the noise of the two end poses in the local map, which does not. Every update of the
+/// frame must be added.
 class MotionCovariance {
  public:
   /// The next scan of the motion; the first one is its reference.
@@ -15,7 +15,8 @@ class MotionCovariance {
   void add(const Pose& T_odom_base, const Matrix6d& growth, const Matrix6d& pose_noise);
   /// The last scan becomes the reference, as at a new node.
   void restart();
-  /// Of T_reference_last: T <- T exp(d). Zero before the first scan and at the reference itself.
+  /// Covariance of T_reference_last, right tangent: T <- T exp(d). Zero before the first scan and at the
+  /// reference itself.
   Matrix6d since_reference() const;
   /// The part that sums when motions follow each other. How well the scans at the ends lie in the local map
   /// cancels there: the end of one motion is the reference of the next.

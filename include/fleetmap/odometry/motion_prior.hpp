@@ -15,8 +15,8 @@ using Matrix12d = Eigen::Matrix<double, 12, 12>;
 struct MotionState {
   Pose T_odom_base = Pose::Identity();
   Vector6d twist = Vector6d::Zero();  ///< in base_link, [m/s, rad/s]
-  /// rad/s^2 in base_link, steady during the sweep. A robot that sways or pitches over a bump turns by
-  /// milliradians more or less within a sweep than its mean velocity says.
+  /// rad/s^2 in base_link, constant during the sweep. A robot that sways or pitches over a bump turns by
+  /// milliradians more or less within a sweep than its mean velocity predicts.
   Eigen::Vector3d turn_acceleration = Eigen::Vector3d::Zero();
 
   /// T_reference_then: base_link `seconds` after the reference instant.
@@ -33,27 +33,28 @@ struct NormalEquations {
   Vector12d g = Vector12d::Zero();
 };
 
-/// What is known of a sweep's motion before its points are looked at: the last state as well as that was
-/// known, and that velocity changes as white noise on acceleration (Barfoot, State Estimation for Robotics,
-/// 11.2); optionally gyro and wheels.
+/// Prior of a sweep's motion before its points are used: the last state with its covariance, a velocity that
+/// changes as white noise on acceleration (Barfoot, State Estimation for Robotics, 11.2), and optionally gyro
+/// and wheels.
 class MotionPrior {
  public:
-  /// Rotation of base_link from the last reference instant to this one, as a gyro saw it.
-  struct SeenRotation {
+  /// Rotation of base_link from the last reference instant to this one, measured by a gyro.
+  struct MeasuredRotation {
     Eigen::Matrix3d R_previous_now;
     double sigma;  ///< rad
   };
 
-  /// Where base_link is now, from where it was at the last reference instant, as wheels and gyro saw it.
-  struct SeenWay {
+  /// Displacement of base_link since the last reference instant, in its frame then, by dead reckoning from
+  /// wheels and gyro.
+  struct MeasuredDisplacement {
     Eigen::Vector3d p_previous_now;  ///< m
     double sigma;                    ///< m
   };
 
   /// `covariance` of `previous`, [d_pose, d_twist]; `dt` s since then, > 0. `way` needs a `gyro`.
   MotionPrior(const LoamConfig& config, const MotionState& previous, const Matrix12d& covariance, double dt,
-              const std::optional<SeenRotation>& gyro = std::nullopt,
-              const std::optional<SeenWay>& way = std::nullopt);
+              const std::optional<MeasuredRotation>& gyro = std::nullopt,
+              const std::optional<MeasuredDisplacement>& way = std::nullopt);
 
   /// Mean angular rate of base_link during the sweep, rad/s, bias removed.
   void set_gyro_rate(const Eigen::Vector3d& rate, double sigma);
@@ -73,7 +74,7 @@ class MotionPrior {
   MotionState predicted() const;
   /// m, 1 sigma of the predicted position in its worst direction.
   double position_sigma() const;
-  /// Of the predicted pose: right tangent of T_odom_base, [m, rad].
+  /// Covariance of the predicted pose: right tangent of T_odom_base, [m, rad].
   Matrix6d pose_covariance() const { return covariance_.topLeftCorner<6, 6>(); }
   NormalEquations linearised(const MotionState& state) const;
 

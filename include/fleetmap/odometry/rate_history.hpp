@@ -22,7 +22,7 @@ class RateHistory {
   /// mean().
   std::optional<Eigen::Matrix3d> rotation(Stamp from, Stamp to, const Eigen::Vector3d& bias,
                                           Duration hold) const;
-  /// Steady change of the rate over [from, to] and how well the samples tell it.
+  /// Slope of the rate over [from, to] and its variance.
   struct Trend {
     Eigen::Vector3d slope;     ///< of the line through the samples, rate units / s
     Eigen::Vector3d variance;  ///< of the slope, by how far the samples lie off the line

@@ -23,8 +23,8 @@ struct MatchResult {
   std::size_t planes = 0;        ///< plane features with a surface in the map
   std::size_t edges = 0;         ///< edge features with an edge in the map
   double inlier_fraction = 0.0;  ///< of these, the share that lies within 3 sigma
-  /// Of the features that tell where the robot is and where it heads, all but what lies level, how many have
-  /// a surface or edge in the map, and how many of these are inliers. The ground fits wherever it is.
+  /// Features that constrain horizontal position and heading (all but level ones) and have a surface or edge
+  /// in the map, and their inliers. The ground fits anywhere, so it is not counted.
   std::size_t upright = 0, upright_inliers = 0;
   /// Mean square of the inliers' distances over what they were taken to be, 1 as assumed: how much of its
   /// stated variance the scene really showed (the a posteriori variance of unit weight).
@@ -64,27 +64,33 @@ class ScanMatcher {
            inlier_dimensions = 0;
     std::size_t points = 0, inliers = 0, planes = 0, edges = 0, upright = 0, upright_inliers = 0;
   };
-  /// Where a plane feature was looked up, and the plane found there: the next iteration mostly asks for the
-  /// same.
-  struct LookedUp {
+  /// The cell in which a plane feature was looked up and the plane found there, since the next iteration
+  /// mostly looks up the same.
+  struct PlaneLookup {
     CellKey cell = 0;
     const Surface* plane = nullptr;
   };
   static constexpr int kTimeBins = 16;
+  struct Linearisation;
 
-  /// At `state`, of every `stride`-th feature.
+  /// Linearises every `stride`-th feature at `state`.
   void linearise(const std::vector<FeaturePoint>& planes, const std::vector<FeaturePoint>& edges,
                  LocalMap& map, const MotionState& state, double slack, std::size_t stride);
+  void add_planes(const Linearisation& at, const std::vector<FeaturePoint>& planes, LocalMap& map);
+  /// `p` in base_link, `q` in the map's frame.
+  void add_feature(const Linearisation& at, const FeaturePoint& feature, const Eigen::Vector3d& p,
+                   const Eigen::Vector3d& q, const Surface* surface, bool edge);
   void add_row(TimeBin& bin, const Eigen::Vector3d& p, const Eigen::Vector3d& normal_base, double residual,
                double weight);
   NormalEquations collect() const;
+  void fill_statistics(MatchResult& result) const;
   void find_degeneracy(const Matrix12d& H, MatchResult& result) const;
 
   LoamConfig config_;
   std::array<TimeBin, kTimeBins> bins_;
   double half_span_ = 0.0;
   Sums sums_;
-  std::vector<LookedUp> looked_up_;  ///< of each plane feature, during one align()
+  std::vector<PlaneLookup> lookups_;  ///< of each plane feature, during one align()
 };
 
 }  // namespace fleetmap::odometry

@@ -11,14 +11,14 @@
 namespace fleetmap::odometry {
 
 enum class Shape : std::uint8_t {
-  kUnknown,  ///< too few points to tell, or they only show one line of a surface
+  kUnknown,  ///< too few points, or only one line of a surface
   kPlane,
   kLine,
   kScatter,  ///< enough points, but neither plane nor line
 };
 
-/// What surface the points of one cubic window show. One cache line, and kept only of windows that the
-/// matching asked for.
+/// Surface of the points in one cubic window. One cache line, computed only for windows that the matching
+/// looks up.
 struct alignas(64) Surface {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< m, map frame
   /// Normal of a plane, on the side that it was seen from; or direction of a line.
@@ -26,7 +26,7 @@ struct alignas(64) Surface {
   float thickness = 0.0f;       ///< m^2, variance across the plane or line
   float angle_variance = 0.0f;  ///< rad^2, of the direction: thickness / (count * spread)
   float count = 0.0f;           ///< points that it was fitted to
-  /// Of the plane's other side, if it was seen; for SurfaceGrid.
+  /// Index of the plane's other side, if it was observed; for SurfaceGrid.
   std::uint32_t other_side = 0xffffffff;
   Shape shape = Shape::kUnknown;
 };
@@ -34,8 +34,8 @@ struct alignas(64) Surface {
 /// Windows of edge length 2h on a lattice of step h: each point lies in eight of them, and near the middle of
 /// one, so a lookup costs one hash probe and no surface is cut by a cell border.
 ///
-/// A plane has a side: the one that it was seen from. What is seen of the other side (of a solar panel, a
-/// sign, a wall) is another surface, off by its thickness, and has a window of its own.
+/// A plane has a side: the one that it was observed from. The other side (of a solar panel, a sign, a wall)
+/// is another surface, displaced by the thickness, and has a window of its own.
 class SurfaceGrid {
  public:
   enum class Seeks { kPlanes, kLines, kUprightLines };
@@ -44,18 +44,18 @@ class SurfaceGrid {
   /// `bend` m, 1 sigma, is how far surfaces of that size may depart from what part of them was seen.
   SurfaceGrid(double step, Seeks seeks, double max_thickness, double bend);
 
-  struct SeenPoint {
+  struct ObservedPoint {
     Eigen::Vector3d point;   ///< m, map frame
     Eigen::Vector3f toward;  ///< direction to the sensor that saw it; zero for lines, which have no sides
   };
-  void add(std::span<const SeenPoint> seen);
+  void add(std::span<const ObservedPoint> points);
   /// Brings the surfaces that at() returns for these points into the caches. The map is far larger than they
   /// are, and most of the time of a lookup that comes alone is the way to memory.
   void fetch_ahead(std::span<const Eigen::Vector3d> points) const;
   /// The surface of the window whose middle is nearest to `point`, of the side that is seen from there, or
   /// null. Valid until the next prune().
   const Surface* at(const Eigen::Vector3d& point, const Eigen::Vector3f& toward);
-  /// Of the window whose middle is nearest.
+  /// Key of the window whose middle is nearest.
   CellKey cell_at(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d scaled = point * inverse_step_;
     return pack_cell(fast_floor(scaled.x() + 0.5), fast_floor(scaled.y() + 0.5),
@@ -82,15 +82,15 @@ class SurfaceGrid {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();                           ///< of positions
     Eigen::Matrix<float, 6, 1> square = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
     Eigen::Vector3f toward = Eigen::Vector3f::Zero();  ///< sum of the directions to the sensor
-    std::uint32_t surface = kNone;                     ///< index, once at() asked
-    /// Of the plane that at() last found, times kNormalUnit; zero where it found none.
+    std::uint32_t surface = kNone;                     ///< index, once at() needed it
+    /// Normal of the plane that at() last found, times kNormalUnit; zero if it found none.
     std::array<std::int16_t, 3> normal{};
   };
   static_assert(sizeof(Window) == 64 && sizeof(Surface) == 64);
 
-  void add_block(std::span<const SeenPoint> seen);
+  void add_block(std::span<const ObservedPoint> points);
   static void take(Window& window, const Eigen::Vector3f& from_middle, const Eigen::Vector3f& toward);
-  static bool seen_from_behind(const Window& window, const Eigen::Vector3f& toward);
+  static bool observed_from_behind(const Window& window, const Eigen::Vector3f& toward);
   Window& other_side_of(Window& window);
   const Surface& surface_of(Window& window, CellKey cell);
   void fit(const Window& window, CellKey cell, Surface& surface) const;

@@ -37,7 +37,7 @@ struct Sweep {
   }
 };
 
-/// What was wrong with a scan's points.
+/// Defects of a scan's points.
 struct SweepDefects {
   std::size_t non_finite = 0;    ///< NaN or infinite coordinates
   std::size_t out_of_range = 0;  ///< nearer than min_range (also "no return" at 0,0,0) or beyond max_range

@@ -10,20 +10,21 @@
 
 namespace fleetmap::odometry {
 
-/// Whether an odometry kept its way, as far as it can tell: judged over the whole drive and along it, since a
-/// long drive hides a stretch that was lost. Updates are those of one odometry frame, in order.
+/// Checks whether a trajectory is reliable, over the whole drive and along it, since a long drive hides a
+/// stretch that was lost. All updates are of one odometry frame, in order.
 class WayCheck {
  public:
   void add(const OdometryUpdate& update);
 
   double length() const { return length_; }  ///< m
-  /// Of the motion from the first to the last update.
+  /// Covariance of the motion from the first to the last update.
   Matrix6d covariance() const { return whole_.since_reference(); }
-  /// What makes the trajectory unreliable, each with where it is worst; empty if nothing does.
-  std::vector<std::string> doubts() const;
+  /// Reasons why the trajectory is unreliable, each with the time at which it is worst; empty if there are
+  /// none.
+  std::vector<std::string> warnings() const;
 
  private:
-  struct Seen {
+  struct RecentScan {
     Stamp stamp;
     bool lost;
   };
@@ -32,8 +33,8 @@ class WayCheck {
     Stamp at;  ///< end of the stretch
   };
 
-  void judge_losses(const OdometryUpdate& update);
-  void judge_stretch(const OdometryUpdate& update);
+  void update_losses(const OdometryUpdate& update);
+  void update_stretch(const OdometryUpdate& update);
   std::string after_start(Stamp stamp) const;
 
   Stamp first_;
@@ -41,7 +42,7 @@ class WayCheck {
   std::size_t updates_ = 0, lost_ = 0;
   double length_ = 0.0, stretch_begin_ = 0.0;  ///< m
   MotionCovariance whole_, stretch_;
-  std::deque<Seen> recent_;
+  std::deque<RecentScan> recent_;
   std::size_t recent_lost_ = 0;
   Worst losses_;          ///< share of the scans
   Worst vague_, turned_;  ///< m, rad, 1 sigma over a stretch

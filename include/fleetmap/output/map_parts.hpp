@@ -18,8 +18,8 @@ struct MapPart {
 };
 
 struct MapParts {
-  /// What map.ply shows: all that is georeferenced, which ENU ties together even where no alignment does. If
-  /// nothing is, the component with most nodes.
+  /// The content of map.ply: all georeferenced components, which ENU connects even if no alignment does. If
+  /// there are none, the component with most nodes.
   MapPart main;
   /// Each other component, since its place in the main part would be a guess.
   std::vector<MapPart> apart;

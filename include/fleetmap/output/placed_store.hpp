@@ -9,7 +9,7 @@
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 
-/// Where all that a store holds lies.
+/// Places the contents of a store.
 namespace fleetmap::output {
 
 /// The origin of ENU: `configured`, else the position of the least node id held that has a G, so that agents
@@ -21,11 +21,11 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 std::vector<graph::Node> nodes_of(const store::Store& store);
 std::vector<graph::Alignment> alignments_of(const store::Store& store);
 
-/// Where every node of the store lies.
+/// Computes the pose of every node of the store.
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
                        const graph::PlacementConfig& config, std::span<const NodeId> covariance_of = {});
 
-/// What map.ply shows: MapParts::main.
+/// The content of map.ply: MapParts::main.
 store::MergedMap main_map(store::Store& store, const graph::Placement& placement,
                           const store::MergeConfig& config);
 

@@ -18,7 +18,7 @@
 
 namespace fleetmap::output {
 
-/// What the results of an agent depend on, beside its store.
+/// Inputs of an agent's results, beside its store.
 struct ResultsConfig {
   AgentId agent;
   std::filesystem::path directory;  ///< holds the agent's trajectories, and gets the results

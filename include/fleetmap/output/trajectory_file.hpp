@@ -17,8 +17,8 @@ struct StampedPose {
 };
 using Trajectory = std::vector<StampedPose>;
 
-/// Where the `index`-th session of an agent keeps O (Sessions::index_of): odometry.tum, then odometry-1.tum,
-/// ...
+/// File that holds O of an agent's `index`-th session (Sessions::index_of): odometry.tum, then
+/// odometry-1.tum, ...
 std::filesystem::path odometry_file(const std::filesystem::path& directory, std::size_t index);
 
 /// "stamp_s x y z qx qy qz qw" of base_link, as `evo` reads it.

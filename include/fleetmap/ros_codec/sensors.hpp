@@ -16,7 +16,7 @@ namespace fleetmap::ros_codec {
 struct OdometryMsg {
   Stamp stamp;
   Pose T_odom_base = Pose::Identity();  ///< O
-  /// Of [translation (m), rotation (rad)], both in the axes of the odometry frame.
+  /// Covariance of [translation (m), rotation (rad)], both in the axes of the odometry frame.
   Matrix6d covariance = Matrix6d::Zero();
 };
 
@@ -44,7 +44,7 @@ Bytes encode(const sensor::Imu& imu, std::string_view frame_id = "imu");
 Bytes encode(const sensor::Fix& fix, std::string_view frame_id = "gps");
 /// nav_msgs Odometry of which only the twist counts. No yaw rate: its variance (twist.covariance[35]) is -1.
 Bytes encode(const sensor::Wheel& wheel);
-/// What is not known is NaN or 0.
+/// Unknown fields are NaN or 0.
 Bytes encode(const sensor::Battery& battery);
 Bytes encode(const OdometryMsg& odometry);
 Bytes encode(const VelocityCommand& command);

@@ -43,7 +43,7 @@ class ClockOffsets {
   /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
   std::optional<double> slow_ppm(Source source) const;
   /// Sentences for a person, each once.
-  std::vector<std::string> take_news();
+  std::vector<std::string> take_warnings();
 
  private:
   struct Track {

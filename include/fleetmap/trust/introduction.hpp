@@ -8,8 +8,8 @@
 
 namespace fleetmap::trust {
 
-/// What a greeting carries behind its text: who the sender is, and the proof. The text holds the challenge,
-/// the session of whom it is for, in a place that the caller reads.
+/// The part of a greeting behind its text: the sender's identity and the proof of it. The text holds the
+/// challenge, which is the session of its recipient, in a place that the caller reads.
 ///
 ///   flags 1, fingerprint of the sender's certificate 4, [signature 64], [certificate], size of all this 2
 struct Introduction {

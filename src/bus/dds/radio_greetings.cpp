@@ -1,11 +1,10 @@
-// The members of RadioLink that seal and check Hellos of a fleet with keys. A robot becomes a peer once it
-// has answered this start's challenge, so that recorded Hellos of the day before are answered and nothing
-// more.
+#include "radio_greetings.hpp"
+
 #include <fastdds/rtps/participant/RTPSParticipant.h>
 
 #include <algorithm>
 
-#include "radio_link.hpp"
+#include "radio_hellos.hpp"
 #include "radio_received.hpp"
 #include "rtps_messages.hpp"
 
@@ -24,8 +23,8 @@ trust::Session session_of(const GuidPrefix_t& prefix) {
 
 }  // namespace
 
-Bytes RadioLink::greeting_of(const Hello& hello, const RemoteLocator& remote) const {
-  trust::Introducer& introducer = guard_->introducer();
+Bytes RadioLink::Greetings::greeting_of(const Hello& hello, const RemoteLocator& remote) const {
+  trust::Introducer& introducer = radio_.guard_->introducer();
   const bool answers = remote.claimed || remote.robot;
   const trust::Introducer::Flags flags{
       .names_you = !remote.claimed && remote.robot,
@@ -34,24 +33,24 @@ Bytes RadioLink::greeting_of(const Hello& hello, const RemoteLocator& remote) co
   return introducer.introduce(encode(hello), flags, answers, answers && remote.lacks_our_certificate);
 }
 
-void RadioLink::on_greeting(const Prefix& sender, const Bytes& greeting) {
+void RadioLink::Greetings::on_greeting(const Prefix& sender, const Bytes& greeting) {
   const auto introduction = trust::parse_introduction(greeting);
   if (!introduction) return;
   const auto hello = decode_hello(introduction->text);
-  if (!hello) return on_other_version(introduction->text);
-  const auto origin = origin_of(hello->address, hello->port);
+  if (!hello) return radio_.hellos_->on_other_version(introduction->text);
+  const auto origin = radio_.origin_of(hello->address, hello->port);
   if (!origin) return;
   const Locator& from = *origin;
-  const bool challenged = std::ranges::equal(hello->knows, guard_->session());
-  const bool provable =
-      guard_->introducer().has_certificate(introduction->fingerprint) || !introduction->certificate.empty();
+  const bool challenged = std::ranges::equal(hello->knows, radio_.guard_->session());
+  const bool provable = radio_.guard_->introducer().has_certificate(introduction->fingerprint) ||
+                        !introduction->certificate.empty();
   if (!challenged || !introduction->signature || !provable) {
-    if (!hello->leaves && hello->link == link_) answer_claim(sender, from, *introduction);
+    if (!hello->leaves && hello->link == radio_.link_) answer_claim(sender, from, *introduction);
     return;
   }
   if (prove(sender, from, *hello, *introduction))
-    on_hello(sender, *hello, {introduction->names_you, introduction->names_another});
-  if (RemoteLocator* remote = remote_at(from)) {
+    radio_.hellos_->on_hello(sender, *hello, {introduction->names_you, introduction->names_another});
+  if (RemoteLocator* remote = radio_.remote_at(from)) {
     remote->certificate = introduction->fingerprint;
     remote->lacks_our_certificate = introduction->lacks_certificate;
     if (remote->claimed == sender) remote->claimed.reset();
@@ -59,12 +58,12 @@ void RadioLink::on_greeting(const Prefix& sender, const Bytes& greeting) {
 }
 
 /// Answers an unproved claim to an address, perhaps from a recording, with its challenge and one of our own.
-void RadioLink::answer_claim(const Prefix& sender, const Locator& from,
-                             const trust::Introduction& introduction) {
-  RemoteLocator* remote = remote_at(from);
+void RadioLink::Greetings::answer_claim(const Prefix& sender, const Locator& from,
+                                        const trust::Introduction& introduction) {
+  RemoteLocator* remote = radio_.remote_at(from);
   if (remote == nullptr) {
-    if (!add_remote(from, /*configured=*/false)) return;
-    remote = remote_at(from);
+    if (!radio_.add_remote(from, /*configured=*/false)) return;
+    remote = radio_.remote_at(from);
     if (remote == nullptr) return;
   }
   if (remote->robot != sender) {
@@ -80,11 +79,11 @@ void RadioLink::answer_claim(const Prefix& sender, const Locator& from,
 
 /// Returns whether the sender is the member that it claims to be; else it is reported once, and its messages
 /// are dropped.
-bool RadioLink::prove(const Prefix& sender, const Locator& from, const Hello& hello,
-                      const trust::Introduction& introduction) {
+bool RadioLink::Greetings::prove(const Prefix& sender, const Locator& from, const Hello& hello,
+                                 const trust::Introduction& introduction) {
   const trust::Session session = session_of(sender);
   const auto now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-  const auto member = guard_->introducer().verify(introduction, session, now);
+  const auto member = radio_.guard_->introducer().verify(introduction, session, now);
   std::string why;
   if (!member) {
     why = hello.sender.str() + " is refused: " + member.error().message;
@@ -92,21 +91,21 @@ bool RadioLink::prove(const Prefix& sender, const Locator& from, const Hello& he
     why = hello.sender.str() + " is refused: it has the keys of " + member->name.str();
   }
   if (!why.empty()) {
-    guard_->dismiss(session);
-    forget(sender);
-    refuse(from, why);
+    radio_.guard_->dismiss(session);
+    radio_.forget(sender);
+    radio_.hellos_->refuse(from, why);
     return false;
   }
   if (member->role == trust::Role::kObserver)
-    notices_.refuse(to_text(from),
-                    hello.sender.str() + " may only read (observer): what it sends is dropped");
-  return guard_->admit(session, member->role);
+    radio_.notices_.refuse(to_text(from),
+                           hello.sender.str() + " may only read (observer): what it sends is dropped");
+  return radio_.guard_->admit(session, member->role);
 }
 
-void RadioLink::report_strangers() {
-  if (!guard_) return;
-  for (const RadioGuard::Stranger& stranger : guard_->take_strangers())
-    notices_.refuse(stranger.address, stranger.why);
+void RadioLink::Greetings::report_strangers() {
+  if (!radio_.guard_) return;
+  for (const RadioGuard::Stranger& stranger : radio_.guard_->take_strangers())
+    radio_.notices_.refuse(stranger.address, stranger.why);
 }
 
 }  // namespace fleetmap::bus

@@ -1,4 +1,5 @@
-// The members of RadioLink that send and receive Hellos, by which robots find each other on a radio.
+#include "radio_hellos.hpp"
+
 #include <fastdds/rtps/participant/RTPSParticipant.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <spdlog/spdlog.h>
@@ -12,7 +13,7 @@
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "hello_pacing.hpp"
 #include "participant_qos.hpp"
-#include "radio_link.hpp"
+#include "radio_greetings.hpp"
 #include "radio_received.hpp"
 #include "radio_topic.hpp"
 #include "rtps_messages.hpp"
@@ -30,41 +31,41 @@ constexpr std::size_t kMaxNamesakes = 16;
 
 }  // namespace
 
-void RadioLink::count_answer(const Acquaintance& acquaintance) {
-  if (!pacing_.count_answer(acquaintance.names_us, acquaintance.names_another, Clock::now())) return;
-  for (const auto& remote : remotes_) {
+void RadioLink::Hellos::count_answer(const Acquaintance& acquaintance) {
+  if (!radio_.pacing_.count_answer(acquaintance.names_us, acquaintance.names_another, Clock::now())) return;
+  for (const auto& remote : radio_.remotes_) {
     if (remote->robot || remote->hellos_sent >= HelloPacing::kQuickHellos) continue;
     const double part = std::uniform_real_distribution(0.0, HelloPacing::kNewcomerPause)(random_);
     remote->next = std::min(remote->next, Clock::now() + to_duration(part));
   }
 }
 
-void RadioLink::send_hello(RemoteLocator& remote, bool leaves) {
+void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
   Hello hello;
   const std::optional<Prefix> there = remote.claimed ? remote.claimed : remote.robot;
   if (there) std::copy_n(there->value, hello.knows.size(), hello.knows.begin());
   hello.leaves = leaves;
-  hello.sender = agent_;
-  std::copy_n(IPLocator::getIPv4(own_), hello.address.size(), hello.address.begin());
-  hello.port = static_cast<std::uint16_t>(own_.port);
-  hello.settings = settings_;
-  hello.link = link_;
-  hello.multicast = config_.multicast;
-  for (const EntityKey key : reads_) {
+  hello.sender = radio_.agent_;
+  std::copy_n(IPLocator::getIPv4(radio_.own_), hello.address.size(), hello.address.begin());
+  hello.port = static_cast<std::uint16_t>(radio_.own_.port);
+  hello.settings = radio_.settings_;
+  hello.link = radio_.link_;
+  hello.multicast = radio_.config_.multicast;
+  for (const EntityKey key : radio_.reads_) {
     if (hello.reads.size() < kMaxReads) hello.reads.push_back(key);
   }
-  const Bytes cdr = guard_ ? greeting_of(hello, remote) : encode(hello);
+  const Bytes cdr = radio_.guard_ ? radio_.greetings_->greeting_of(hello, remote) : encode(hello);
   send(*remote.writer, *remote.history, cdr, 1);
-  hello_bytes_ += wire_bytes(cdr.size(), {.seal = guard_ ? kSealBytes : 0});
+  radio_.hello_bytes_ += wire_bytes(cdr.size(), {.seal = radio_.guard_ ? kSealBytes : 0});
   const auto now = Clock::now();
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
-  const Clock::duration pause = pacing_.pause_after(remote.hellos_sent, remote.pause, now);
+  const Clock::duration pause = radio_.pacing_.pause_after(remote.hellos_sent, remote.pause, now);
   remote.next = now + std::chrono::duration_cast<Clock::duration>(jitter * pause);
   if (remote.claimed) {
     if (--remote.answers > 0) {  // the radio loses some, and what they are answered by
-      remote.next =
-          now + std::chrono::duration_cast<Clock::duration>(jitter * pacing_.first_pause(others()) / 2);
+      remote.next = now + std::chrono::duration_cast<Clock::duration>(
+                              jitter * radio_.pacing_.first_pause(radio_.others()) / 2);
       return;
     }
     remote.claimed.reset();
@@ -72,55 +73,56 @@ void RadioLink::send_hello(RemoteLocator& remote, bool leaves) {
     return;
   }
   if (++remote.hellos_sent >= HelloPacing::kQuickHellos)
-    remote.pause = pacing_.longer_pause(remote.pause, others(), announcement_);
+    remote.pause = radio_.pacing_.longer_pause(remote.pause, radio_.others(), radio_.announcement_);
   if (!remote.robot) return;
-  Peer& peer = peers_.at(*remote.robot);
+  Peer& peer = radio_.peers_.at(*remote.robot);
   peer.last_sent = peer.last_hello = now;
   if (remote.names_predecessor) return;
   // It repeated its Hello, so our last answer was lost, and this one may be.
   remote.next = std::exchange(remote.missed_answer, false) ? now + kAnswerAgain : Clock::time_point::max();
 }
 
-void RadioLink::reads_changed() {
-  for (const auto& remote : remotes_) {
+void RadioLink::Hellos::reads_changed() {
+  for (const auto& remote : radio_.remotes_) {
     if (remote->robot) remote->next = std::min(remote->next, Clock::now() + kReadsChange);
   }
 }
 
-void RadioLink::tick() {
+void RadioLink::Hellos::tick() {
   std::deque<std::pair<Prefix, Bytes>> hellos;
   {
-    const std::scoped_lock lock(received_->mutex);
-    hellos.swap(received_->hellos);
+    const std::scoped_lock lock(radio_.received_->mutex);
+    hellos.swap(radio_.received_->hellos);
   }
-  const std::scoped_lock lock(mutex_);
-  watch_address(Clock::now());
-  if (participant_ == nullptr) return;
-  report_strangers();
+  const std::scoped_lock lock(radio_.mutex_);
+  radio_.watch_address(Clock::now());
+  if (radio_.participant_ == nullptr) return;
+  radio_.greetings_->report_strangers();
   for (const auto& [sender, cdr] : hellos) {
-    if (guard_) {
-      on_greeting(sender, cdr);
+    if (radio_.guard_) {
+      radio_.greetings_->on_greeting(sender, cdr);
     } else if (const auto hello = decode_hello(cdr)) {
-      const bool names_us = std::ranges::equal(hello->knows, participant_->getGuid().guidPrefix.value);
+      const bool names_us = std::ranges::equal(hello->knows, radio_.participant_->getGuid().guidPrefix.value);
       on_hello(sender, *hello, {names_us, !names_us && std::ranges::any_of(hello->knows, std::identity{})});
     } else {
       on_other_version(cdr);
     }
   }
-  for (const Prefix& robot : silent()) forget(robot);
+  for (const Prefix& robot : silent()) radio_.forget(robot);
   admit_successors();
   const auto now = Clock::now();
-  for (const auto& remote : remotes_) {
+  for (const auto& remote : radio_.remotes_) {
     if (remote->next == Clock::time_point{}) {
-      remote->pause = pacing_.first_pause(others());
+      remote->pause = radio_.pacing_.first_pause(radio_.others());
       remote->hellos_sent = 0;
       const double part = std::uniform_real_distribution(0.0, 1.0)(random_);
-      remote->next = now + std::chrono::duration_cast<Clock::duration>(part * pacing_.spread(others()));
+      remote->next =
+          now + std::chrono::duration_cast<Clock::duration>(part * radio_.pacing_.spread(radio_.others()));
     }
     if (remote->robot) {
-      const Peer& peer = peers_.at(*remote->robot);
+      const Peer& peer = radio_.peers_.at(*remote->robot);
       // Messages to it may have been lost.
-      if (now - peer.last_sent > announcement_ || now - peer.last_hello > lease_ / 2)
+      if (now - peer.last_sent > radio_.announcement_ || now - peer.last_hello > radio_.lease_ / 2)
         remote->next = std::min(remote->next, now);
     }
   }
@@ -129,17 +131,17 @@ void RadioLink::tick() {
 }
 
 /// Robots that were started anew become known once nothing more comes from their start before.
-void RadioLink::admit_successors() {
+void RadioLink::Hellos::admit_successors() {
   std::vector<Successor> due;
-  for (const auto& remote : remotes_) {
+  for (const auto& remote : radio_.remotes_) {
     if (!remote->successor) continue;
     if (remote->robot) {
-      const auto heard = last_heard(*remote->robot);
+      const auto heard = radio_.last_heard(*remote->robot);
       if (heard && *heard > remote->successor->came) {  // it is still there
         remote->successor.reset();
         continue;
       }
-      if (heard_recently(*remote->robot)) continue;
+      if (radio_.heard_recently(*remote->robot)) continue;
     }
     due.push_back(*std::exchange(remote->successor, std::nullopt));
   }
@@ -147,24 +149,24 @@ void RadioLink::admit_successors() {
 }
 
 /// All robots should hear each other on the radio; on the Wi-Fi none may be near.
-void RadioLink::warn_of_silent_remotes(Clock::time_point now) {
-  if (link_ != Link::kLongRange || observes_ || now - opened_ < kNeverHeard) return;
-  for (const auto& remote : remotes_) {
-    if (remote->heard || remote->warned || !elsewhere(*remote)) continue;
+void RadioLink::Hellos::warn_of_silent_remotes(Clock::time_point now) {
+  if (radio_.link_ != Link::kLongRange || radio_.observes_ || now - radio_.opened_ < kNeverHeard) return;
+  for (const auto& remote : radio_.remotes_) {
+    if (remote->heard || remote->warned || !radio_.elsewhere(*remote)) continue;
     remote->warned = true;
     spdlog::warn(
         "{}: nobody heard at {} in {:.0f} s: is that robot on, is this its address, and has its file "
         "the same dds.{}.domain?",
-        to_string(link_), to_text(remote->locator), std::chrono::duration<double>(kNeverHeard).count(),
-        to_string(link_));
+        to_string(radio_.link_), to_text(remote->locator), std::chrono::duration<double>(kNeverHeard).count(),
+        to_string(radio_.link_));
   }
 }
 
 /// The longest due first, no faster than this robot's share of what Hellos may take.
-void RadioLink::send_due_hellos(Clock::time_point now) {
-  const Clock::duration pause = pacing_.pause_between(others(), now);
+void RadioLink::Hellos::send_due_hellos(Clock::time_point now) {
+  const Clock::duration pause = radio_.pacing_.pause_between(radio_.others(), now);
   std::vector<RemoteLocator*> due;
-  for (const auto& remote : remotes_) {
+  for (const auto& remote : radio_.remotes_) {
     if (remote->next <= now) due.push_back(remote.get());
   }
   std::ranges::sort(due, {}, &RemoteLocator::next);
@@ -176,36 +178,37 @@ void RadioLink::send_due_hellos(Clock::time_point now) {
 }
 
 /// Peers that were not heard for the lease.
-std::vector<RadioLink::Prefix> RadioLink::silent() const {
+std::vector<RadioLink::Prefix> RadioLink::Hellos::silent() const {
   std::vector<Prefix> robots;
   const auto now = Clock::now();
-  const std::scoped_lock lock(received_->mutex);
-  for (const auto& [robot, peer] : peers_) {
-    const auto last = received_->robots.find(robot);
-    if (last == received_->robots.end() || now - last->second.heard <= lease_) continue;
-    spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(link_), peer.agent.str(),
-                 to_text(peer.locator), std::chrono::duration<double>(lease_).count());
+  const std::scoped_lock lock(radio_.received_->mutex);
+  for (const auto& [robot, peer] : radio_.peers_) {
+    const auto last = radio_.received_->robots.find(robot);
+    if (last == radio_.received_->robots.end() || now - last->second.heard <= radio_.lease_) continue;
+    spdlog::info("{}: nothing heard from {} at {} for {:.0f} s", to_string(radio_.link_), peer.agent.str(),
+                 to_text(peer.locator), std::chrono::duration<double>(radio_.lease_).count());
     robots.push_back(robot);
   }
   return robots;
 }
 
-void RadioLink::on_hello(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance) {
-  if (sender == participant_->getGuid().guidPrefix) return;
-  const auto origin = origin_of(hello.address, hello.port);
+void RadioLink::Hellos::on_hello(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance) {
+  if (sender == radio_.participant_->getGuid().guidPrefix) return;
+  const auto origin = radio_.origin_of(hello.address, hello.port);
   if (!origin) return;
   const Locator& from = *origin;
-  if (hello.link != link_) {
+  if (hello.link != radio_.link_) {
     if (!hello.settings) return;  // a program of an operator that tries domains
     return refuse(from, hello.sender.str() + " has its " + to_string(hello.link) + " here: give dds." +
-                            to_string(link_) + ".domain and dds." + to_string(hello.link) +
+                            to_string(radio_.link_) + ".domain and dds." + to_string(hello.link) +
                             ".domain the same numbers in every file");
   }
   if (hello.leaves) {
-    const auto peer = peers_.find(sender);
-    if (peer == peers_.end() || peer->second.agent != hello.sender || peer->second.locator != from) return;
-    spdlog::info("{}: {} leaves", to_string(link_), hello.sender.str());
-    return forget(sender);
+    const auto peer = radio_.peers_.find(sender);
+    if (peer == radio_.peers_.end() || peer->second.agent != hello.sender || peer->second.locator != from)
+      return;
+    spdlog::info("{}: {} leaves", to_string(radio_.link_), hello.sender.str());
+    return radio_.forget(sender);
   }
   count_answer(acquaintance);
   warn_of_namesake(sender, hello, from);
@@ -215,66 +218,68 @@ void RadioLink::on_hello(const Prefix& sender, const Hello& hello, const Acquain
   meet(sender, hello, acquaintance, *remote, replaced);
 }
 
-void RadioLink::warn_of_namesake(const Prefix& sender, const Hello& hello, const Locator& from) {
-  const bool both_robots = hello.settings.has_value() == settings_.has_value();  // not an operator's program
-  if (hello.sender == agent_ && both_robots && namesakes_.size() < kMaxNamesakes &&
+void RadioLink::Hellos::warn_of_namesake(const Prefix& sender, const Hello& hello, const Locator& from) {
+  const bool both_robots =
+      hello.settings.has_value() == radio_.settings_.has_value();  // not an operator's program
+  if (hello.sender == radio_.agent_ && both_robots && namesakes_.size() < kMaxNamesakes &&
       namesakes_.insert(sender).second) {
     spdlog::error(
         "{}: another robot at {} is named {}, too: each needs a name of its own, or their nodes are "
         "taken for conflicts",
-        to_string(link_), to_text(from), agent_.str());
+        to_string(radio_.link_), to_text(from), radio_.agent_.str());
   }
 }
 
 /// Returns the entry of the address that the robot now holds. Null if another robot still holds it, which
 /// then is checked again later, or if there are too many addresses.
-RadioLink::RemoteLocator* RadioLink::claim_remote(const Prefix& sender, const Hello& hello,
-                                                  const Acquaintance& acquaintance, const Locator& from,
-                                                  bool& replaced) {
-  RemoteLocator* remote = remote_at(from);
+RadioLink::RemoteLocator* RadioLink::Hellos::claim_remote(const Prefix& sender, const Hello& hello,
+                                                          const Acquaintance& acquaintance,
+                                                          const Locator& from, bool& replaced) {
+  RemoteLocator* remote = radio_.remote_at(from);
   if (remote != nullptr && remote->robot && *remote->robot != sender) {
     // The robot was started again; unless it is still there, and the new one only claims its address.
-    const bool proved = guard_ && peers_.at(*remote->robot).agent == hello.sender;
-    if (!proved && heard_recently(*remote->robot)) {
+    const bool proved = radio_.guard_ && radio_.peers_.at(*remote->robot).agent == hello.sender;
+    if (!proved && radio_.heard_recently(*remote->robot)) {
       remote->successor = Successor{sender, hello, acquaintance, Clock::now()};
       return nullptr;
     }
-    forget(*remote->robot);
+    radio_.forget(*remote->robot);
     replaced = true;
-    remote = remote_at(from);
+    remote = radio_.remote_at(from);
   }
   if (remote == nullptr) {  // not in the configuration
-    if (Status added = add_remote(from, /*configured=*/false); !added) spdlog::warn(added.error().message);
-    remote = remote_at(from);
+    if (Status added = radio_.add_remote(from, /*configured=*/false); !added)
+      spdlog::warn(added.error().message);
+    remote = radio_.remote_at(from);
   }
   return remote;
 }
 
 /// Updates the peer and its address by its Hello, and plans the answer.
-void RadioLink::meet(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance,
-                     RemoteLocator& remote, bool replaced) {
+void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance,
+                             RemoteLocator& remote, bool replaced) {
   {
-    const std::scoped_lock lock(received_->mutex);
-    Received::Robot& robot = received_->robots[sender];
+    const std::scoped_lock lock(radio_.received_->mutex);
+    Received::Robot& robot = radio_.received_->robots[sender];
     robot.heard = Clock::now();
     ++robot.traffic.hellos;
   }
-  Peer& peer = peers_[sender];
+  Peer& peer = radio_.peers_[sender];
   const bool known = remote.robot.has_value();
   if (!known) {
-    spdlog::info("{}: heard {} at {}{}", to_string(link_), hello.sender.str(), to_text(remote.locator),
-                 settings_ && !hello.settings ? " (an operator's program)" : "");
+    spdlog::info("{}: heard {} at {}{}", to_string(radio_.link_), hello.sender.str(), to_text(remote.locator),
+                 radio_.settings_ && !hello.settings ? " (an operator's program)" : "");
     remote.robot = sender;
     remote.heard = remote.heard || hello.settings;
     remote.next = Clock::time_point::max();
   }
   note(hello, remote.locator);
-  notices_.compare(hello);
+  radio_.notices_.compare(hello);
   peer.agent = hello.sender;
   peer.locator = remote.locator;
   peer.reads = {hello.reads.begin(), hello.reads.end()};
   peer.multicast = hello.multicast;
-  for (const auto& [key, end] : ends_) {
+  for (const auto& [key, end] : radio_.ends_) {
     end->meet(sender, peer);
     end->hear(sender);
   }
@@ -286,27 +291,27 @@ void RadioLink::meet(const Prefix& sender, const Hello& hello, const Acquaintanc
   } else if (peer.last_hello == Clock::time_point{}) {
     peer.last_hello = Clock::now();  // the message to which this is the answer
   }
-  executor_->wake();  // a call of matches() may wait for it
+  radio_.executor_->wake();  // a call of matches() may wait for it
 }
 
-void RadioLink::note(const Hello& hello, const Locator& from) {
-  const bool here = IPLocator::compareAddress(from, own_) || IPLocator::isLocal(from);
-  notices_.note({hello.sender, to_text(from), here, domain_of(from.port, profile_),
-                 std::chrono::duration_cast<Duration>(Clock::now() - opened_), hello.settings,
-                 hello.multicast});
+void RadioLink::Hellos::note(const Hello& hello, const Locator& from) {
+  const bool here = IPLocator::compareAddress(from, radio_.own_) || IPLocator::isLocal(from);
+  radio_.notices_.note({hello.sender, to_text(from), here, domain_of(from.port, radio_.profile_),
+                        std::chrono::duration_cast<Duration>(Clock::now() - radio_.opened_), hello.settings,
+                        hello.multicast});
 }
 
 /// A robot with which no exchange is possible.
-void RadioLink::refuse(const Locator& from, const std::string& why) {
-  if (RemoteLocator* remote = remote_at(from)) remote->heard = true;
-  notices_.refuse(to_text(from), why);
+void RadioLink::Hellos::refuse(const Locator& from, const std::string& why) {
+  if (RemoteLocator* remote = radio_.remote_at(from)) remote->heard = true;
+  radio_.notices_.refuse(to_text(from), why);
 }
 
 /// Reports a robot whose Hello is of another version, once per address.
-void RadioLink::on_other_version(const Bytes& cdr) {
+void RadioLink::Hellos::on_other_version(const Bytes& cdr) {
   const auto hello = decode_other_hello(cdr);
   if (!hello) return;
-  if (const auto from = origin_of(hello->address, hello->port)) {
+  if (const auto from = radio_.origin_of(hello->address, hello->port)) {
     refuse(*from, hello->sender.str() + " runs another version of fleetmap (its Hello is of version " +
                       std::to_string(hello->version) + "): install the same on all robots");
   }

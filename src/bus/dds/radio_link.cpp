@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "participant_qos.hpp"
+#include "radio_greetings.hpp"
+#include "radio_hellos.hpp"
 #include "radio_received.hpp"
 #include "radio_topic.hpp"
 #include "rtps_messages.hpp"
@@ -43,6 +45,8 @@ RadioLink::RadioLink(Link link, const DdsBusConfig& config, QosFile qos, std::sh
       pacing_({config_.fleet_bits_per_second, guard_ != nullptr, observes_}),
       notices_(link, config_.multicast, settings_),
       received_(std::make_shared<Received>()),
+      hellos_(std::make_unique<Hellos>(*this)),
+      greetings_(std::make_unique<Greetings>(*this)),
       hello_listener_(std::make_unique<HelloListener>(received_)),
       data_listener_(std::make_unique<DataListener>(received_, executor_, guard_ ? kSealBytes : 0)) {}
 
@@ -59,7 +63,7 @@ Result<std::shared_ptr<LinkEnd>> RadioLink::create(Link link, const DdsBusConfig
   }
   result->stop_timer_ = result->executor_->add_timer(
       kTick, {std::string("greetings on ") + to_string(link), [weak = std::weak_ptr<RadioLink>(result)] {
-                if (const auto alive = weak.lock()) alive->tick();
+                if (const auto alive = weak.lock()) alive->hellos_->tick();
               }});
   return std::shared_ptr<LinkEnd>(std::move(result));
 }
@@ -142,7 +146,7 @@ RadioLink::~RadioLink() {
       for (const auto& remote : remotes_) {
         // A robot that was not heard may have heard us; an observer has more addresses than a radio can carry
         // at once.
-        if (remote->robot || !observes_) send_hello(*remote, /*leaves=*/true);
+        if (remote->robot || !observes_) hellos_->send_hello(*remote, /*leaves=*/true);
       }
     }
     rtps::RTPSDomain::removeRTPSParticipant(participant_);

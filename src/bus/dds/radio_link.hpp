@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -44,7 +43,9 @@ class RadioLink final : public LinkEnd {
 
  private:
   class End;
+  class Greetings;
   class HelloListener;
+  class Hellos;
   class DataListener;
   struct Received;
   using Clock = Executor::Clock;
@@ -115,34 +116,10 @@ class RadioLink final : public LinkEnd {
   /// When it was last heard.
   std::optional<Clock::time_point> last_heard(const Prefix& robot) const;
   bool heard_recently(const Prefix& robot) const;
-  std::vector<Prefix> silent() const;
   bool elsewhere(const RemoteLocator& remote) const;
   double others() const;
-  void count_answer(const Acquaintance& acquaintance);
-  void tick();
-  void admit_successors();
-  void on_hello(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
   std::optional<Locator> origin_of(const std::array<std::uint8_t, 4>& address, std::uint16_t port) const;
-  void warn_of_namesake(const Prefix& sender, const Hello& hello, const Locator& from);
-  RemoteLocator* claim_remote(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance,
-                              const Locator& from, bool& replaced);
-  void meet(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance, RemoteLocator& remote,
-            bool replaced);
-  // With keys (radio_greetings.cpp).
-  void on_greeting(const Prefix& sender, const Bytes& greeting);
-  void answer_claim(const Prefix& sender, const Locator& from, const trust::Introduction& introduction);
-  bool prove(const Prefix& sender, const Locator& from, const Hello& hello,
-             const trust::Introduction& introduction);
-  Bytes greeting_of(const Hello& hello, const RemoteLocator& remote) const;
-  void report_strangers();
-  void on_other_version(const Bytes& cdr);
-  void note(const Hello& hello, const Locator& from);
-  void refuse(const Locator& from, const std::string& why);
   void forget(Prefix robot);
-  void send_hello(RemoteLocator& remote, bool leaves = false);
-  void send_due_hellos(Clock::time_point now);
-  void warn_of_silent_remotes(Clock::time_point now);
-  void reads_changed();
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
   Locator group() const;
 
@@ -157,14 +134,15 @@ class RadioLink final : public LinkEnd {
   Clock::duration lease_{}, announcement_{};
   const std::shared_ptr<PayloadPool> payloads_ = std::make_shared<PayloadPool>();
   const std::shared_ptr<Received> received_;
+  const std::unique_ptr<Hellos> hellos_;
+  const std::unique_ptr<Greetings> greetings_;
   std::unique_ptr<HelloListener> hello_listener_;
   std::unique_ptr<DataListener> data_listener_;
   std::unique_ptr<eprosima::fastrtps::rtps::ReaderHistory> hello_history_, data_history_;
   eprosima::fastrtps::rtps::RTPSParticipant* participant_ = nullptr;
   eprosima::fastrtps::rtps::RTPSReader* data_reader_ = nullptr;
   std::function<void()> stop_timer_;
-  Locator own_;  ///< the address at which this robot listens
-  std::mt19937 random_{std::random_device{}()};
+  Locator own_;                                 ///< the address at which this robot listens
   std::atomic<std::uint64_t> hello_bytes_ = 0;  ///< sent, on the wire
 
   // Guarded by mutex_.
@@ -175,9 +153,7 @@ class RadioLink final : public LinkEnd {
   Clock::time_point opened_{};              ///< joined
   Clock::time_point next_address_check_{};  ///< at the own address
   bool address_there_ = true;               ///< at the last check; a change is logged
-  Clock::time_point hello_free_{};          ///< no other Hello before
   std::uint32_t hello_writers_ = 0;         ///< made so far
-  std::set<Prefix> namesakes_;              ///< reported in the log
 };
 
 }  // namespace fleetmap::bus

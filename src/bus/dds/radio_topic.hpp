@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "radio_hellos.hpp"
 #include "radio_link.hpp"
 #include "radio_received.hpp"
 #include "rtps_messages.hpp"
@@ -49,7 +50,7 @@ class RadioLink::End final : public TopicEnd {
     }
     link_.reads_.insert(key_);
     for (const auto& [robot, peer] : link_.peers_) hear(robot);
-    link_.reads_changed();
+    link_.hellos_->reads_changed();
   }
   void close_reader() override {
     if (!link_.reads_.contains(key_)) return;
@@ -59,7 +60,7 @@ class RadioLink::End final : public TopicEnd {
     }
     link_.reads_.erase(key_);
     for (const auto& [robot, peer] : link_.peers_) unhear(robot);
-    link_.reads_changed();
+    link_.hellos_->reads_changed();
   }
   bool write(const Bytes& cdr) override {
     const auto now = Clock::now();

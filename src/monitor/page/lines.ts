@@ -2,7 +2,8 @@ import * as THREE from 'three';
 import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
 import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
 import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
-import type {Edge, Hit} from './map';
+import type {Edge} from './edges';
+import type {Hit} from './map';
 import {colourOf, type FleetNode, type State} from './model';
 
 export interface Marks {

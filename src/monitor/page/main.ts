@@ -1,6 +1,7 @@
 import {geoText, toGeo} from './geodesy';
 import {follow} from './live';
-import {FleetMap, type ColourMode, type Edge, type Hit, type Layer, type Picture} from './map';
+import {FleetMap, type ColourMode, type Hit, type Layer, type Picture} from './map';
+import type {Edge} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, metres, type State} from './model';
 import {el, FleetPanel, WhyPanel} from './panels';

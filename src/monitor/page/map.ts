@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import {MapControls} from 'three/examples/jsm/controls/MapControls.js';
+import {type Edge, edgesOf} from './edges';
 import {colourOf, type FleetNode, type State} from './model';
 import {pointLook} from './point_material';
 import {Shading} from './shading';
@@ -9,13 +10,6 @@ import {Lines} from './lines';
 export type ColourMode = 'robot' | 'height' | 'intensity';
 export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected';
 
-export interface Edge {
-  kind: 'used' | 'unused' | 'rejected';
-  a: string;
-  b: string;
-  registration?: number;  // index in State.registrations
-  alignment?: number;     // index in State.alignments
-}
 export type Hit = {node: string} | {edge: Edge};
 
 /** What the map tells of itself after each picture. */
@@ -332,21 +326,4 @@ export class FleetMap {
     this.look.low.value = heights[Math.floor(0.02 * heights.length)];
     this.look.high.value = heights[Math.floor(0.985 * heights.length)];
   }
-}
-
-/** Alignments, and the registrations that gave none. */
-function edgesOf(state: State): Edge[] {
-  const edges: Edge[] = state.alignments.map((alignment, k) => ({
-    kind: alignment.status === 'used' ? 'used' : 'unused', a: alignment.i, b: alignment.j, alignment: k,
-    registration: registrationOf(state, alignment.i, alignment.j, alignment.by),
-  }));
-  state.registrations.forEach((one, k) => {
-    if (one.verdict === 'rejected' || one.verdict === 'failed') edges.push({kind: 'rejected', a: one.target, b: one.source, registration: k});
-  });
-  return edges;
-}
-
-function registrationOf(state: State, target: string, source: string, by: string): number | undefined {
-  const k = state.registrations.findIndex((one) => one.target === target && one.source === source && one.by === by && one.verdict !== 'rejected' && one.verdict !== 'failed');
-  return k < 0 ? undefined : k;
 }

@@ -18,7 +18,7 @@ constexpr double kMinGain = 1e-6;          // s
 constexpr std::size_t kMaxPermutations = 120;
 constexpr std::size_t kMaxOrdered = 300;  // rows of a share; ordering more of them takes too long
 
-/// What is minimised: mostly the time of the last robot, in s.
+/// The minimised cost: mainly the time of the last robot, in s.
 double price(const Routes& routes) {
   double last = 0.0;
   double sum = 0.0;

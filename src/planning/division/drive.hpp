@@ -15,7 +15,7 @@ class Drive {
   /// Straight or around what is in the way; nothing if there is no way.
   void add_way(const RoutePlanner& planner, const Eigen::Vector2d& to);
   void add_row(const RoutePlanner& planner, const Mission& mission, const RowVisit& visit);
-  /// Where and how it stands after all that was added.
+  /// Pose after everything that was added.
   Pose2 pose() const { return {path_.points.back(), yaw_}; }
   const TimedPath& path() const { return path_; }
 

@@ -76,7 +76,8 @@ class Planner {
     return {drive.path(), length_of(drive.path().points), after, pose, std::nullopt};
   }
 
-  /// Where the places at the meeting are too far apart for all maps to flow, as if they were not.
+  /// Time of completion, s. If the places at the meeting are too far apart to exchange all maps, computed as
+  /// if they were not.
   double completion(const Forecast& forecast) const {
     if (std::isfinite(forecast.completion)) return forecast.completion;
     return std::ranges::max(forecast.arrivals) +
@@ -121,7 +122,7 @@ class Planner {
     return true;
   }
 
-  /// Where two robots might stop, the most promising first: after their first row, one stop a gap.
+  /// Possible stops of two robots, the most promising first: after their first row, one stop a gap.
   std::vector<Gap> gaps(double latest) const {
     std::vector<Gap> all;
     for (std::size_t a = 0; a < drives_.size(); ++a) {

@@ -31,7 +31,7 @@ class TimedRoute {
   double time_replaced(std::size_t k, std::size_t row) const;
   /// The first `kept` rows of this one, then those of `other` from `from` on.
   double time_joined(std::size_t kept, const TimedRoute& other, std::size_t from) const;
-  /// Of any order of rows.
+  /// Time of the rows in any order, s.
   double time_of_order(std::span<const std::size_t> rows) const;
   /// Best direction of each row: true is reversed.
   std::vector<bool> directions() const;

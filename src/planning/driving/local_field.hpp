@@ -29,7 +29,7 @@ class LocalField {
   void spread(std::span<const Source> sources, double radius);
   /// m of easy driving, bilinear; kUnreachable where there is no way.
   double cost(const Eigen::Vector2d& p) const;
-  /// What a metre at this clearance costs: 1 with room, up to 3 next to obstacles.
+  /// Cost of a metre at this clearance: 1 with room, up to 3 next to obstacles.
   double price_of_metre(double clearance) const;
 
   double reach() const { return reach_; }

@@ -13,11 +13,10 @@
 
 namespace fleetmap::planning {
 
-/// What a robot drives to.
+/// Destination of a robot.
 enum class Goal : std::uint8_t { kNone, kRow, kStop, kMeeting, kHome };
 
-/// What one robot does now and why: its state, its goal and the path there. MissionExecutive::update() calls
-/// these steps in order.
+/// State of one robot, its goal and the path there. MissionExecutive::update() calls these steps in order.
 class ExecutiveState {
  public:
   ExecutiveState(std::shared_ptr<const FleetPlan> shared, std::size_t index);

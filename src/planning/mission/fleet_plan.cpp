@@ -6,7 +6,7 @@
 namespace fleetmap::planning {
 namespace {
 
-/// Where a robot is after its last row, when, without the way to a meeting.
+/// Position and time of a robot after its last row, without the path to a meeting.
 Arrival arrival_of(const FleetPlan& plan, std::size_t k) {
   const RobotRoute& route = plan.division.routes[k];
   const RobotAbility& robot = plan.fleet[k];

@@ -14,7 +14,7 @@ using messages::MissionReport;
 using messages::MissionState;
 using messages::RowSet;
 
-/// What one robot knows of the whole mission: from its own work and from the others' reports. Rows and robots
+/// State of the whole mission as one robot has it, from its own work and the others' reports. Rows and robots
 /// are indices in the plan.
 class MissionBoard {
  public:

@@ -28,8 +28,8 @@ double signed_area(const KeepOut& polygon) {
   return area;
 }
 
-/// Where to go around corner k: the point where the lines at `hold_off` from both sides meet; around a sharp
-/// corner two points, so that it stays near.
+/// Adds the vertex around corner k: the point where the lines at `hold_off` from both sides meet. A sharp
+/// corner gets two vertices, so that they stay near it.
 void add_corner(const KeepOut& polygon, std::size_t k, double orientation, double hold_off,
                 std::vector<Corner>& corners) {
   const std::size_t n = polygon.size();

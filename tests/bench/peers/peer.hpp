@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What all peers are fed with and asked for.
+/// The input and the output of all peers.
 namespace fleetmap::peers {
 
 /// One sweep, points in the LiDAR frame.

@@ -122,7 +122,7 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
   EXPECT_GT(apart, 5u);
 }
 
-/// Of five along the way two are right and agree; each has more neighbours against it than for it.
+/// Two of five alignments along the way are true and agree; each has more neighbours against it than for it.
 TEST(FalseAlignments, WhereNeighboursOutvoteAllTheyDecideNothing) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     SimulatedFleetConfig config;
@@ -261,7 +261,7 @@ TEST(FalseAlignments, OfALongMissionWithOneInFiveFalseAllTrueAndNoFalseOnesAreUs
   }
 }
 
-/// Where GPS lets almost anything agree with anything, the votes of neighbours reject the false ones.
+/// If GPS is so poor that almost any alignments agree, the votes of neighbours reject the false ones.
 TEST(FalseAlignments, OfALongMissionAtFiveMetresOfGpsOneInFiveFalseAllTrueAndNoFalseOnesAreUsed) {
   for (const unsigned seed : {1u, 3u}) {
     SimulatedFleetConfig config = testing::long_mission(5, 2000);

@@ -11,8 +11,8 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-/// Where the Cholesky factor of a dense matrix with these pairs is not zero: by elimination of the variables,
-/// which connects all neighbours of each.
+/// Non-zero blocks of the Cholesky factor of a dense matrix with these pairs: eliminating a variable connects
+/// all its neighbours.
 std::vector<std::vector<bool>> eliminated(std::size_t variables, const Pairs& pairs, const BlockPattern& L) {
   std::vector<std::vector<bool>> filled(variables, std::vector<bool>(variables, false));
   for (const auto& [i, j] : pairs) {

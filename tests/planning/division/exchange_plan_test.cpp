@@ -70,7 +70,7 @@ TEST(ExchangePlan, WhatDidNotFlowOnTheWayTakesItsTimeAtTheMeeting) {
 }
 
 TEST(ExchangePlan, TwoWhoEndTogetherGainNothingByAStop) {
-  // What they exchange takes as long before as at the meeting.
+  // The exchange takes as long before the meeting as at it.
   Field field;
   field.add({0, 0}, 3, 300.0, {900, 100});
   field.add({0, 200}, 3, 300.0, {900, 100});

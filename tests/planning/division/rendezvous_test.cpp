@@ -18,7 +18,7 @@ TEST(Rendezvous, OnOpenGroundTwoMeetHalfWay) {
   const auto meeting = *meeting_place(planner, arrivals, {});
   EXPECT_NEAR(meeting.place.x(), 50.0, 1.0);
   EXPECT_NEAR(meeting.latest, 60.0, 1.0);
-  // Who is done much later is met where it ends.
+  // A robot that ends much later is met where it ends.
   const std::vector<Arrival> late = {{{0, 0}, 10.0, 1.0}, {{100, 0}, 500.0, 1.0}};
   EXPECT_NEAR(meeting_place(planner, late, {})->latest, 500.0, 1.0);
 }

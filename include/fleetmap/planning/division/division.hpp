@@ -20,7 +20,7 @@ struct RowVisit {
   bool operator==(const RowVisit&) const = default;
 };
 
-/// What one robot drives.
+/// The rows that one robot drives.
 struct RobotRoute {
   AgentId agent;
   std::vector<RowVisit> visits;  ///< in order

@@ -25,7 +25,7 @@ struct Detour {
   double saving = 0.0;        ///< s that the fleet completes earlier by it, given the stops before it
 };
 
-/// What is to be exchanged where and when.
+/// Places and times at which robots stop to exchange maps.
 struct ExchangePlan {
   std::vector<double> arrivals;           ///< s, of each robot at the meeting, stops included
   std::vector<double> lengths;            ///< m that each robot drives, ways to stops included

@@ -13,7 +13,7 @@
 
 namespace fleetmap::planning {
 
-/// Where all robots meet after their last rows.
+/// Meeting place of all robots after their last rows.
 struct MeetingPlace {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< ENU, m
   Polyline positions;                               ///< where each robot waits, in the order of the fleet

@@ -19,7 +19,7 @@ struct TimedPath {
   double driven(double time) const;  ///< m
 };
 
-/// Where a robot is over time if it drives its route; `end` is added behind the last row.
+/// Position of a robot over time on its route; `end` is added behind the last row.
 TimedPath timed_path(const RoutePlanner& planner, const Mission& mission, const RobotAbility& robot,
                      std::span<const RowVisit> visits, const std::optional<Eigen::Vector2d>& end);
 

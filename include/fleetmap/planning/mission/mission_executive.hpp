@@ -21,7 +21,7 @@ using messages::RowSet;
 
 class ExecutiveState;
 
-/// What a robot knows of itself, some times a second.
+/// State of the robot itself, passed some times a second.
 struct MissionInput {
   Stamp now;
   Pose2 pose;
@@ -75,7 +75,7 @@ class MissionExecutive {
   MissionExecutive(MissionExecutive&&) noexcept;
   MissionExecutive& operator=(MissionExecutive&&) noexcept;
 
-  /// Of another robot; unknown, own, old and broken ones are ignored.
+  /// Processes another robot's report; those that are unknown, own, old or invalid are ignored.
   void on_report(const MissionReport& report, Stamp now);
   MissionAction update(const MissionInput& input);
   /// As of the last update.

@@ -32,7 +32,7 @@ class RoutePlanner {
     bool valid = false;                                   ///< false: no clear ground within `snap`
     std::vector<std::pair<std::uint32_t, double>> links;  ///< vertex, m
   };
-  /// What it takes to get from one anchor to another.
+  /// Length and turns of the path from one anchor to another.
   struct Leg {
     double length = std::numeric_limits<double>::infinity();  ///< m; infinite: no way
     double turn = 0.0;           ///< rad turned between the first and the last piece

@@ -11,7 +11,7 @@
 
 namespace fleetmap::planning {
 
-/// What a piece of the way takes, for any robot: its time follows from its speeds.
+/// Cost of a piece of the path for any robot; its time follows from the robot's speeds.
 struct Travel {
   float length = std::numeric_limits<float>::infinity();  ///< m; infinite: no way
   float turn = 0.0f;                                      ///< rad, sum of all turns

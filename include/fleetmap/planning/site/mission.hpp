@@ -32,7 +32,7 @@ struct StartPoint {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
 };
 
-/// What the fleet is to drive: the same on every robot. Everything in the ENU frame of the site, metres.
+/// Rows and places that the fleet drives, the same on every robot. Everything is in ENU of the site, metres.
 struct Mission {
   static constexpr std::size_t kMaxRows = 1024;
   static constexpr std::size_t kMaxPoints = 1'000'000;  ///< of all rows and keep-outs together
@@ -55,7 +55,7 @@ struct Pose2 {
   double yaw = 0.0;                                    ///< rad, from east, counter-clockwise
 };
 
-/// What a robot can do; the fleet's robots may differ.
+/// Abilities of a robot; the robots of a fleet may differ.
 struct RobotAbility {
   AgentId id;
   Pose2 start;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <chrono>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "radio_link.hpp"
+
+namespace fleetmap::bus {
+
+/// Sends and receives the Hellos by which robots find each other on a radio, and keeps the link's peers by
+/// them. All calls are made with the link's mutex held, except tick(), which takes it.
+class RadioLink::Hellos {
+ public:
+  explicit Hellos(RadioLink& radio) : radio_(radio) {}
+
+  /// Processes received Hellos, drops silent peers and sends the Hellos that are due; every kTick.
+  void tick();
+  void send_hello(RemoteLocator& remote, bool leaves = false);
+  /// The topics that this robot reads have changed, so its peers need another Hello.
+  void reads_changed();
+  /// Processes a Hello whose sender needs no proof or has given it.
+  void on_hello(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
+  void on_other_version(const Bytes& cdr);
+  void refuse(const Locator& from, const std::string& why);
+
+ private:
+  void count_answer(const Acquaintance& acquaintance);
+  void admit_successors();
+  void warn_of_silent_remotes(Clock::time_point now);
+  void send_due_hellos(Clock::time_point now);
+  std::vector<Prefix> silent() const;
+  void warn_of_namesake(const Prefix& sender, const Hello& hello, const Locator& from);
+  RemoteLocator* claim_remote(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance,
+                              const Locator& from, bool& replaced);
+  void meet(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance, RemoteLocator& remote,
+            bool replaced);
+  void note(const Hello& hello, const Locator& from);
+
+  RadioLink& radio_;
+  std::mt19937 random_{std::random_device{}()};
+  Clock::time_point hello_free_{};  ///< no other Hello before
+  std::set<Prefix> namesakes_;      ///< reported in the log
+};
+
+}  // namespace fleetmap::bus

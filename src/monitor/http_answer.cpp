@@ -1,0 +1,71 @@
+#include "http_answer.hpp"
+
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <string_view>
+
+#include "fleetmap/monitor/request_check.hpp"
+
+namespace fleetmap::monitor {
+namespace {
+
+std::string_view view_of(boost::string_view text) { return {text.data(), text.size()}; }
+
+void add_security_headers(Response& response, std::string_view host) {
+  const std::string policy =
+      "default-src 'self'; img-src 'self' data: blob:; connect-src 'self' "
+      "ws://" +
+      std::string(host) + "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+  response.set("Content-Security-Policy", policy);
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("X-Frame-Options", "DENY");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Cross-Origin-Resource-Policy", "same-origin");
+}
+
+}  // namespace
+
+Response answer(ServerState& state, const Request& request) {
+  const std::string_view target = view_of(request.target()), host = view_of(request[http::field::host]);
+  const RequestHead head{host, view_of(request[http::field::origin]), view_of(request[http::field::cookie]),
+                         view_of(request[http::field::authorization])};
+  Response response;
+  const auto refuse = [&](http::status status, std::string_view text) {
+    ++state.refused;
+    response.result(status);
+    response.set(http::field::content_type, "text/plain; charset=utf-8");
+    response.body() = std::string(text) + '\n';
+    return response;
+  };
+  constexpr std::string_view kWithToken = "/?token=";
+  if (!state.config.token.empty() && target.starts_with(kWithToken) && !refusal(head, "", "") &&
+      equal_secrets(target.substr(kWithToken.size()), state.config.token)) {
+    response.result(http::status::see_other);
+    response.set(http::field::location, "/");
+    response.set(http::field::set_cookie,
+                 state.cookie + '=' + state.config.token + "; HttpOnly; SameSite=Strict; Path=/");
+    return response;
+  }
+  if (const auto why = refusal(head, state.config.token, state.cookie))
+    return refuse(http::status::forbidden, *why);
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return refuse(http::status::method_not_allowed, "everything here is read only");
+  if (beast::websocket::is_upgrade(request)) {
+    if (target != "/live") return refuse(http::status::not_found, "the WebSocket is at /live");
+    if (state.viewers.size() >= state.config.max_viewers)
+      return refuse(http::status::service_unavailable, "too many pages are open; close one");
+    response.result(http::status::switching_protocols);
+    return response;
+  }
+  Reply reply = state.content.reply(target);
+  if (reply.status >= 400) ++state.refused;
+  response.result(reply.status);
+  response.set(http::field::content_type, reply.type);
+  if (reply.gzip) response.set(http::field::content_encoding, "gzip");
+  response.set(http::field::cache_control,
+               reply.immutable ? "private, max-age=31536000, immutable" : "no-store");
+  add_security_headers(response, host);
+  response.body() = std::move(reply.body);
+  return response;
+}
+
+}  // namespace fleetmap::monitor

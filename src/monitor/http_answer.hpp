@@ -1,0 +1,11 @@
+#pragma once
+
+#include "server_state.hpp"
+
+namespace fleetmap::monitor {
+
+/// Checks who asks and answers with the page, a state or a submap. The status `switching_protocols` means
+/// that the caller may open the WebSocket of a viewer. Counts what it refuses.
+Response answer(ServerState& state, const Request& request);
+
+}  // namespace fleetmap::monitor
