@@ -26,12 +26,15 @@ void RegistrationRecorder::add(const loop_closure::Registration& registration) {
 
 void RegistrationRecorder::add_row(const loop_closure::Registration& registration) {
   const std::string source = to_string(registration.source.id);
-  output::RegistrationRow row{registration.target.id, registration.source.id,   "failed",
-                              std::nullopt,           registration.cpu_seconds, ""};
+  output::RegistrationRow row{
+      registration.target.id, registration.source.id,   "failed", std::nullopt, std::nullopt,
+      std::nullopt,           registration.cpu_seconds, ""};
   if (registration.result) {
     const registration::RegistrationResult& r = *registration.result;
     row.verdict = registration::to_string(r.verdict);
-    row.fit = {r.rmse, r.inlier_fraction, r.overlap};
+    row.rmse = r.rmse;
+    row.inlier_fraction = r.inlier_fraction;
+    row.overlap = r.overlap;
     row.reason = r.reason;
     spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", self_.str(), row.verdict, source, r.rmse,
                  100.0 * r.inlier_fraction, r.reason.empty() ? "" : ", ", r.reason);
@@ -39,7 +42,7 @@ void RegistrationRecorder::add_row(const loop_closure::Registration& registratio
     row.reason = registration.result.error().message;
     spdlog::warn("{}: registration with {} failed: {}", self_.str(), source, row.reason);
   }
-  const Status written = output::append_registration(directory_ / "registrations.csv", row);
+  const Status written = output::append_registration(directory_ / output::kRegistrationsFile, row);
   if (!written) spdlog::error("{}", written.error().message);
 }
 

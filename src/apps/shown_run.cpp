@@ -7,6 +7,7 @@
 
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
+#include "fleetmap/output/registrations_file.hpp"
 #include "stored_map.hpp"
 
 namespace fleetmap::apps {
@@ -39,11 +40,13 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
 
 /// registrations.csv beside the store of `by`.
 void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
-  const fs::path file = folder / "registrations.csv";
-  monitor::Attempts read = monitor::parse_attempts(text_of(file), by);
-  if (read.damaged > 0)
-    view.notes.push_back(file.string() + ": " + std::to_string(read.damaged) + " lines cannot be read");
-  std::ranges::move(read.attempts, std::back_inserter(view.attempts));
+  const fs::path file = folder / output::kRegistrationsFile;
+  const output::Registrations read = output::read_registrations(file);
+  if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
+  for (const output::RegistrationRow& row : read.rows) {
+    view.attempts.push_back(
+        {by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction, row.overlap, row.reason});
+  }
 }
 
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
@@ -55,12 +58,10 @@ Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
 
 /// Places what the store holds as the robot's own last map did.
 Status place_held(const store::Store& store, const fs::path& file, monitor::FleetView& view) {
-  const auto kept = output::map_recipe(store);
-  const output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
-  const auto origin = kept ? std::optional(kept->origin) : output::site_origin(store, std::nullopt);
-  if (!origin) return failure(file.string() + ": holds no node, so there is nothing to show");
+  const auto recipe = output::recipe_or_default(store);
+  if (!recipe) return failure(file.string() + ": holds no node, so there is nothing to show");
   view.self = store.self();
-  view.origin = *origin;
+  view.origin = recipe->origin;
   view.nodes = output::nodes_of(store);
   view.alignments = output::alignments_of(store);
   std::map<AgentId, NodeId> last;
@@ -70,7 +71,7 @@ Status place_held(const store::Store& store, const fs::path& file, monitor::Flee
   }
   std::vector<NodeId> covariance_of;
   for (const auto& [robot, id] : last) covariance_of.push_back(id);
-  view.placement = output::place(store, *origin, recipe.placement, covariance_of);
+  view.placement = output::place(store, recipe->origin, recipe->placement, covariance_of);
   return {};
 }
 

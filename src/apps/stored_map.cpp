@@ -31,19 +31,14 @@ Result<StoredMap> open_map(const std::filesystem::path& file, const std::optiona
   if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
-  const std::optional<output::MapRecipe> kept = output::map_recipe(*store);
-  output::MapRecipe recipe = kept.value_or(output::MapRecipe{});
-  std::optional<GeoPoint> origin = configured;
-  if (!origin && kept) origin = kept->origin;
-  origin = output::site_origin(*store, origin);
-  if (!origin || store->nodes().empty())
+  auto recipe = output::recipe_or_default(*store, configured);
+  if (!recipe || store->nodes().empty())
     return failure(file.string() + ": holds no node, so there is no map");
-  if (!is_valid(*origin))
+  if (!is_valid(recipe->origin))
     return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
-  recipe.origin = *origin;
-  if (voxel_m) recipe.merge.voxel_m = *voxel_m;
-  auto placement = output::place(*store, *origin, recipe.placement);
-  return StoredMap{std::move(*store), recipe, std::move(placement)};
+  if (voxel_m) recipe->merge.voxel_m = *voxel_m;
+  auto placement = output::place(*store, recipe->origin, recipe->placement);
+  return StoredMap{std::move(*store), *recipe, std::move(placement)};
 }
 
 std::map<NodeId, Pose> shown_poses(const StoredMap& map) {

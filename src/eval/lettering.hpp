@@ -4,6 +4,9 @@
 
 #include "fleetmap/eval/picture.hpp"
 
+/// The font is ours rather than libcairo's text. Cairo would replace the font, draw_text() and the PNG
+/// writer, about 110 lines; legend, bars and the renderer of the points stay. It brings fontconfig, FreeType,
+/// pixman and the X11 libraries, needs an installed font, and pictures would differ with that font.
 namespace fleetmap::eval {
 
 /// Pixels that `text` takes at `scale` pixels a dot of the 5 x 7 font.

@@ -61,4 +61,13 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
   return recipe;
 }
 
+std::optional<MapRecipe> recipe_or_default(const store::Store& store, const std::optional<GeoPoint>& origin) {
+  const std::optional<MapRecipe> kept = map_recipe(store);
+  const auto chosen = origin || !kept ? site_origin(store, origin) : std::optional(kept->origin);
+  if (!chosen) return std::nullopt;
+  MapRecipe recipe = kept.value_or(MapRecipe{});
+  recipe.origin = *chosen;
+  return recipe;
+}
+
 }  // namespace fleetmap::output

@@ -1,8 +1,73 @@
 #include "fleetmap/output/registrations_file.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 
 namespace fleetmap::output {
+namespace {
+
+constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
+
+/// At most `count` cells; the last one takes the rest of the line, so the reason may hold commas.
+std::vector<std::string_view> cells_of(std::string_view line, std::size_t count) {
+  std::vector<std::string_view> cells;
+  while (cells.size() + 1 < count) {
+    const std::size_t comma = line.find(',');
+    if (comma == std::string_view::npos) break;
+    cells.push_back(line.substr(0, comma));
+    line.remove_prefix(comma + 1);
+  }
+  cells.push_back(line);
+  return cells;
+}
+
+std::optional<double> finite(std::string_view text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// The columns of a file, by name.
+class Columns {
+ public:
+  explicit Columns(std::string_view header) : names_(cells_of(header, header.size() + 1)) {}
+
+  /// Empty if the line is damaged.
+  std::optional<RegistrationRow> row(std::string_view line) const {
+    const std::vector<std::string_view> cells = cells_of(line, names_.size());
+    if (cells.size() < names_.size()) return std::nullopt;
+    const auto cell = [&](std::string_view name) {
+      const auto column = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+      return column < cells.size() ? cells[column] : std::string_view{};
+    };
+    const auto target = parse_node_id(cell("target")), source = parse_node_id(cell("source"));
+    const std::string_view verdict = cell("verdict");
+    if (!target || !source || std::ranges::find(kVerdicts, verdict) == kVerdicts.end()) return std::nullopt;
+    std::string_view reason = cell("reason");
+    if (std::ranges::find(names_, "reason") != names_.end()) {
+      if (reason.size() < 2 || reason.front() != '"' || reason.back() != '"') return std::nullopt;
+      reason = reason.substr(1, reason.size() - 2);
+    }
+    return RegistrationRow{*target,
+                           *source,
+                           std::string(verdict),
+                           finite(cell("rmse_m")),
+                           finite(cell("inlier_fraction")),
+                           finite(cell("overlap")),
+                           finite(cell("cpu_s")).value_or(0.0),
+                           std::string(reason)};
+  }
+
+ private:
+  std::vector<std::string_view> names_;
+};
+
+}  // namespace
 
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
   std::error_code error;
@@ -10,15 +75,46 @@ Status append_registration(const std::filesystem::path& file, const Registration
   std::ofstream out(file, std::ios::app);
   if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';
-  if (row.fit) {
-    out << row.fit->rmse << ',' << row.fit->inlier_fraction << ',' << row.fit->overlap << ',';
-  } else {
-    out << ",,,";
+  for (const std::optional<double>& value : {row.rmse, row.inlier_fraction, row.overlap}) {
+    if (value) out << *value;
+    out << ',';
   }
   out << row.cpu_seconds << ",\"" << row.reason << "\"\n";
   out.flush();
   if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
   return {};
+}
+
+Registrations parse_registrations(std::string_view csv) {
+  const auto next_line = [&csv] {
+    const std::size_t end = std::min(csv.find('\n'), csv.size());
+    const std::string_view line = csv.substr(0, end);
+    csv.remove_prefix(std::min(end + 1, csv.size()));
+    return line;
+  };
+  Registrations read;
+  const Columns columns(next_line());
+  while (!csv.empty()) {
+    const std::string_view line = next_line();
+    if (line.empty()) continue;
+    if (auto row = columns.row(line)) {
+      read.rows.push_back(std::move(*row));
+    } else {
+      ++read.damaged;
+    }
+  }
+  return read;
+}
+
+Registrations read_registrations(const std::filesystem::path& file) {
+  std::ostringstream text;
+  if (std::ifstream in(file, std::ios::binary); in) text << in.rdbuf();
+  return parse_registrations(text.view());
+}
+
+std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file) {
+  if (read.damaged == 0) return std::nullopt;
+  return file.string() + ": " + std::to_string(read.damaged) + " lines cannot be read";
 }
 
 }  // namespace fleetmap::output

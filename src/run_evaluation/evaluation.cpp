@@ -114,7 +114,7 @@ Result<std::optional<cloud::PointCloud>> truth_of(const fs::path& directory, con
 
 double registration_seconds(const AgentFolder& agent) {
   double seconds = 0.0;
-  for (const Attempt& attempt : attempts_of(agent)) seconds += attempt.cpu_seconds;
+  for (const output::RegistrationRow& row : agent.registrations.rows) seconds += row.cpu_seconds;
   return seconds;
 }
 

@@ -26,7 +26,7 @@ json spread_json(std::vector<double> values) {
 json attempts_json(const RunFolder& run) {
   std::map<std::string, std::size_t> verdicts;
   for (const AgentFolder& agent : run.agents) {
-    for (const Attempt& attempt : attempts_of(agent)) ++verdicts[attempt.verdict];
+    for (const output::RegistrationRow& row : agent.registrations.rows) ++verdicts[row.verdict];
   }
   return verdicts;
 }

@@ -1,14 +1,12 @@
 #include "run_folder.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/file_hash.hpp"
-#include "fleetmap/eval/csv_line.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
@@ -101,31 +99,16 @@ Result<RunFolder> open_run(const fs::path& directory, const fs::path& truths) {
     agent.ekf = trajectory_in(agent.directory / "ekf.tum", run.notes);
     agent.odometry = trajectory_in(agent.directory / "odometry.tum", run.notes);
     agent.truth = trajectory_in(truth_file(truths, agent), run.notes);
+    const fs::path registrations = agent.directory / output::kRegistrationsFile;
+    agent.registrations = output::read_registrations(registrations);
+    if (auto note = output::damage_note(agent.registrations, registrations))
+      run.notes.push_back(std::move(*note));
     if (!truths.empty() && !agent.truth)
       run.notes.push_back(truths.string() + ": holds no usable true trajectory of " + agent.id.str());
   }
   run.report = report_in(directory / "report.json", run.notes);
   note_cut_off(run);
   return run;
-}
-
-std::vector<Attempt> attempts_of(const AgentFolder& agent) {
-  std::vector<Attempt> attempts;
-  std::ifstream in(agent.directory / "registrations.csv");
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> names = eval::cells_of(line);
-  const auto column = [&](const char* name) {
-    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-  };
-  const std::size_t verdict = column("verdict"), cpu = column("cpu_s");
-  while (std::getline(in, line)) {
-    const std::vector<std::string> cells = eval::cells_of(line);
-    if (verdict >= cells.size()) continue;
-    attempts.push_back({cells[verdict], 0.0});
-    if (cpu < cells.size()) attempts.back().cpu_seconds = std::strtod(cells[cpu].c_str(), nullptr);
-  }
-  return attempts;
 }
 
 std::vector<DistinctMap> distinct_maps(RunFolder& run) {

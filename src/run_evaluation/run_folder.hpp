@@ -11,6 +11,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/registrations_file.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/map_merge.hpp"
 
@@ -21,6 +22,7 @@ struct AgentFolder {
   AgentId id;
   std::filesystem::path directory;
   std::optional<output::Trajectory> trajectory, ekf, odometry, truth;
+  output::Registrations registrations;
   bool cut_off = false;  ///< it has a store, but neither a map nor a report
 };
 
@@ -35,13 +37,6 @@ struct RunFolder {
 /// Fails when `directory` holds no robot's folder. `truths` (may be empty) holds NAME.tum or NAME/truth.tum;
 /// else each robot's own truth.tum is taken.
 Result<RunFolder> open_run(const std::filesystem::path& directory, const std::filesystem::path& truths);
-
-/// A line of a robot's registrations.csv.
-struct Attempt {
-  std::string verdict;
-  double cpu_seconds = 0.0;
-};
-std::vector<Attempt> attempts_of(const AgentFolder& agent);
 
 /// Agents that hold the same map.
 struct DistinctMap {

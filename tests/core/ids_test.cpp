@@ -23,5 +23,19 @@ TEST(NodeId, OrdersByAgentThenSequence) {
   EXPECT_EQ(to_string(NodeId{b, 17}), "b/17");
 }
 
+TEST(NodeId, NamesAreReadAsTheyAreWritten) {
+  const auto agent = [](const char* name) { return AgentId::parse(name).value(); };
+  for (const NodeId& id :
+       {NodeId{agent("r1"), 0}, NodeId{agent("r10"), 65'535}, NodeId{agent("a-b_c"), first_seq(4711) + 17},
+        NodeId{agent("r1"), first_seq(65'534)}}) {
+    const auto parsed = parse_node_id(to_string(id));
+    ASSERT_TRUE(parsed) << to_string(id);
+    EXPECT_EQ(*parsed, id);
+  }
+  for (const char* wrong :
+       {"", "r1", "r1/", "/3", "r1/-1", "r1/65536", "r1#/3", "r1#65536/3", "R 1/3", "r1/3x", "r1#2#3/4"})
+    EXPECT_FALSE(parse_node_id(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace fleetmap

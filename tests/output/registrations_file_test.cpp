@@ -16,8 +16,8 @@ const NodeId kSource{*AgentId::parse("r2"), 7};
 TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "registrations.csv";
-  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "accepted", {{0.05, 0.75, 0.5}}, 1.5, ""}));
-  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "failed", std::nullopt, 0.25, "no points"}));
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "accepted", 0.05, 0.75, 0.5, 1.5, ""}));
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "failed", {}, {}, {}, 0.25, "no points"}));
   std::ifstream in(file);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::string names = to_string(kTarget) + "," + to_string(kSource);
@@ -27,10 +27,82 @@ TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
 
 TEST(RegistrationsFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
   const testing::TemporaryFolder folder;
-  const auto written =
-      append_registration(folder.path() / "none" / "r.csv", {kTarget, kSource, "failed", {}, 0.0, ""});
+  const auto written = append_registration(folder.path() / "none" / "r.csv",
+                                           {kTarget, kSource, "failed", {}, {}, {}, 0.0, ""});
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("r.csv"), std::string::npos);
+}
+
+TEST(RegistrationsFile, WhatIsWrittenIsReadAgain) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  const std::string reason = "only 0.28, at least \"0.45\"";
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "rejected", 0.125, 0.5, 0.75, 1.5, reason}));
+  ASSERT_TRUE(append_registration(file, {kSource, kTarget, "failed", {}, {}, {}, 0.25, "no cloud"}));
+  const Registrations read = read_registrations(file);
+  EXPECT_EQ(read.damaged, 0u);
+  EXPECT_FALSE(damage_note(read, file));
+  ASSERT_EQ(read.rows.size(), 2u);
+  EXPECT_EQ(read.rows[0].target, kTarget);
+  EXPECT_EQ(read.rows[0].source, kSource);
+  EXPECT_EQ(read.rows[0].verdict, "rejected");
+  EXPECT_EQ(read.rows[0].rmse, 0.125);
+  EXPECT_EQ(read.rows[0].inlier_fraction, 0.5);
+  EXPECT_EQ(read.rows[0].overlap, 0.75);
+  EXPECT_EQ(read.rows[0].cpu_seconds, 1.5);
+  EXPECT_EQ(read.rows[0].reason, reason);
+  EXPECT_EQ(read.rows[1].rmse, std::nullopt);
+  EXPECT_EQ(read.rows[1].reason, "no cloud");
+}
+
+TEST(RegistrationsFile, ColumnsAreFoundByName) {
+  const Registrations read = parse_registrations(
+      "cpu_s,verdict,source,more,target\n"
+      "0.5,accepted,r2/7,x,r1/3\n");
+  EXPECT_EQ(read.damaged, 0u);
+  ASSERT_EQ(read.rows.size(), 1u);
+  EXPECT_EQ(read.rows[0].target, kTarget);
+  EXPECT_EQ(read.rows[0].source, kSource);
+  EXPECT_EQ(read.rows[0].cpu_seconds, 0.5);
+  EXPECT_EQ(read.rows[0].overlap, std::nullopt);
+  EXPECT_EQ(read.rows[0].reason, "");
+  EXPECT_EQ(parse_registrations("target,verdict\nr1/3,accepted\n").damaged, 1u);  // it lacks the source
+}
+
+TEST(RegistrationsFile, DamagedLinesAreCountedAndLeftOut) {
+  const std::string head = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
+  const Registrations read = parse_registrations(head +
+                                                 "r1/0,r3/1,accepted,0.0757,0.70,0.98,0.0165,\"\"\n"
+                                                 "r1/0,r3/1,perhaps,0.0757,0.70,0.98,0.0165,\"\"\n"
+                                                 "r1/0,accepted\n"
+                                                 "\n"
+                                                 "nowhere,r3/1,accepted,0.0757,0.70,0.98,0.0165,\"\"\n"
+                                                 "r1/0,r3/1,accepted,0.0757,0.70,0.98,0.0165,\"cut o");
+  EXPECT_EQ(read.rows.size(), 1u);
+  EXPECT_EQ(read.damaged, 4u);
+  EXPECT_EQ(damage_note(read, "r1/registrations.csv"), "r1/registrations.csv: 4 lines cannot be read");
+  for (const std::string& empty : {std::string(), std::string("\n"), head}) {
+    EXPECT_TRUE(parse_registrations(empty).rows.empty());
+    EXPECT_EQ(parse_registrations(empty).damaged, 0u);
+  }
+}
+
+TEST(RegistrationsFile, NumbersThatAreNotFiniteAreEmpty) {
+  const Registrations read = parse_registrations(
+      "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n"
+      "r1/3,r2/7,rejected,nan,0.5x,inf,-inf,\"\"\n");
+  ASSERT_EQ(read.rows.size(), 1u);
+  EXPECT_EQ(read.rows[0].rmse, std::nullopt);
+  EXPECT_EQ(read.rows[0].inlier_fraction, std::nullopt);
+  EXPECT_EQ(read.rows[0].overlap, std::nullopt);
+  EXPECT_EQ(read.rows[0].cpu_seconds, 0.0);
+}
+
+TEST(RegistrationsFile, ThatIsNotThereHoldsNothing) {
+  const testing::TemporaryFolder folder;
+  const Registrations read = read_registrations(folder.path() / kRegistrationsFile);
+  EXPECT_TRUE(read.rows.empty());
+  EXPECT_EQ(read.damaged, 0u);
 }
 
 }  // namespace

@@ -91,16 +91,20 @@ TEST_F(RunFolderTest, MapsAreToldApartByTheirBytes) {
   EXPECT_THAT(run->notes, ElementsAre(HasSubstr("r4 has no map")));
 }
 
-TEST_F(RunFolderTest, AttemptsAreReadByTheNamesOfTheirColumns) {
-  folder_.write("r1/registrations.csv", "cpu_s,i,verdict\n0.5,r1/1,accepted\n,r1/2,rejected\n1.0\n");
-  AgentFolder agent;
-  agent.directory = folder_.path() / "r1";
-  const auto attempts = attempts_of(agent);
-  ASSERT_EQ(attempts.size(), 2u);  // the last line was cut off
-  EXPECT_EQ(attempts[0].verdict, "accepted");
-  EXPECT_EQ(attempts[0].cpu_seconds, 0.5);
-  EXPECT_EQ(attempts[1].verdict, "rejected");
-  EXPECT_EQ(attempts[1].cpu_seconds, 0.0);
+TEST_F(RunFolderTest, RegistrationsAreReadAndDamagedLinesNoted) {
+  folder_.write("r1/trajectory.tum", kPoses);
+  folder_.write("r1/registrations.csv",
+                "cpu_s,source,target,verdict\n0.5,r2/1,r1/1,accepted\n,r2/2,r1/2,rejected\n1.0\n");
+  folder_.write("r2/trajectory.tum", kPoses);
+  const auto run = open_run(folder_.path(), {});
+  ASSERT_TRUE(run);
+  const auto& rows = run->agents[0].registrations.rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].verdict, "accepted");
+  EXPECT_EQ(rows[0].cpu_seconds, 0.5);
+  EXPECT_EQ(rows[1].cpu_seconds, 0.0);
+  EXPECT_TRUE(run->agents[1].registrations.rows.empty());
+  EXPECT_THAT(run->notes, ElementsAre(HasSubstr("r1/registrations.csv: 1 lines cannot be read")));
 }
 
 }  // namespace

@@ -55,6 +55,8 @@ constexpr std::uint16_t session_of(std::uint32_t seq) {
 
 /// "r1/17", or "r1#4711/17" in session 4711.
 std::string to_string(const NodeId& id);
+/// Reads what to_string() writes. Fails for any other text.
+Result<NodeId> parse_node_id(std::string_view text);
 
 }  // namespace fleetmap
 

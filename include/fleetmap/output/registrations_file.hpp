@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
@@ -11,20 +13,32 @@ namespace fleetmap::output {
 
 /// One registration of two clouds, as a line of registrations.csv.
 struct RegistrationRow {
-  struct Fit {
-    double rmse = 0.0;             ///< m, E_ij
-    double inlier_fraction = 0.0;  ///< [0, 1]
-    double overlap = 0.0;          ///< [0, 1]
-  };
   NodeId target;
   NodeId source;
-  std::string verdict;     ///< "failed" where there is no fit
-  std::optional<Fit> fit;  ///< none: it failed
+  std::string verdict;         ///< accepted, ambiguous, rejected, or failed where there is no result
+  std::optional<double> rmse;  ///< m, E_ij; empty if it failed
+  std::optional<double> inlier_fraction;  ///< [0, 1]
+  std::optional<double> overlap;          ///< [0, 1]
   double cpu_seconds = 0.0;
   std::string reason;  ///< of the verdict or of the failure
 };
 
+/// Name of the file in a robot's folder.
+inline constexpr const char* kRegistrationsFile = "registrations.csv";
+
 /// Begins the file if it is not there.
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row);
+
+struct Registrations {
+  std::vector<RegistrationRow> rows;
+  std::size_t damaged = 0;  ///< lines that cannot be read; they are left out
+};
+/// Finds the columns by the names in the first line, so that files with more, fewer or reordered columns can
+/// be read; target, source and verdict must be there. Numbers that are missing or not finite stay empty.
+Registrations parse_registrations(std::string_view csv);
+/// A file that is not there holds nothing.
+Registrations read_registrations(const std::filesystem::path& file);
+/// States the file and the number of its damaged lines. Empty if there is none.
+std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file);
 
 }  // namespace fleetmap::output

@@ -6,6 +6,10 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/sim/mesh.hpp"
 
+/// The readers are ours rather than assimp's. Assimp 5.2.5 crashed on 2 of the 48 inputs of tests/fuzz/corpus
+/// and did not end within 8 s of processor time on others. It accepts NaN and, in a PLY, faces whose vertices
+/// do not exist, and takes 3.4 GB for a header of 200 bytes that claims 3e8 vertices. Its library is 10 MB,
+/// ours 500 lines.
 namespace fleetmap::sim {
 
 /// Reads a mesh in metres of the site's ENU frame, z up, by its extension: .obj, or .ply (ascii or binary
