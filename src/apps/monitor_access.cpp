@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <sstream>
 
 #include "fleetmap/monitor/request_check.hpp"
 #include "options.hpp"
-#include "shown_run.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 Result<std::string> token_in(const std::string& file) {
-  std::string token = text_of(file);
+  std::ostringstream text;
+  if (std::ifstream in(file, std::ios::binary); in) text << in.rdbuf();
+  std::string token = std::move(text).str();
   while (!token.empty() && std::isspace(static_cast<unsigned char>(token.back()))) token.pop_back();
   const bool plain =
       std::ranges::all_of(token, [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });

@@ -1,9 +1,7 @@
 #include "shown_run.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
@@ -13,12 +11,6 @@
 namespace fleetmap::apps {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  if (std::ifstream in(file, std::ios::binary); in) text << in.rdbuf();
-  return std::move(text).str();
-}
 
 namespace {
 

@@ -18,9 +18,6 @@ struct ShownRun {
   monitor::FleetView view;
 };
 
-/// A whole file; empty if it cannot be read.
-std::string text_of(const std::filesystem::path& file);
-
 /// One robot's store. Fails if it holds no node yet.
 Result<ShownRun> open_one(const std::filesystem::path& file);
 
