@@ -26,9 +26,10 @@ enum class FaultKind : std::uint8_t {
   kStranger,     ///< `value` packets a second of senders outside the fleet, and replayed ones
   kForged,       ///< `value` packets a second in the names of robots of the fleet
   kLiar,         ///< the robot lies in its digests, status and pieces of clouds and submaps
+  kDamagedStore,  ///< killed, and started again with a page of its database damaged, at share `value` of it
 };
 
-inline constexpr std::size_t kFaultKinds = 13;
+inline constexpr std::size_t kFaultKinds = 14;
 
 const char* to_string(FaultKind kind);
 /// Faults of links name the link that they impair: radio, short range or both.
