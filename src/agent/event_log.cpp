@@ -98,7 +98,8 @@ struct Log {
     const std::string sender = seen.from.value_or(seen.name).str();
     const std::string under = seen.from == seen.name ? "" : " under the name " + seen.name.str();
     spdlog::error(
-        "{}: {} sent {}{}: it is compromised, holds forged items, or damages what it stores{} (its messages of that kind are counted in "
+        "{}: {} sent {}{}: it is compromised, holds forged items, or damages what it stores{} (its messages "
+        "of that kind are counted in "
         "report.json)",
         self.str(), seen.from ? sender : "an unknown robot", misbehaviour(seen.kind), under,
         seen.from ? "" : ", or the message is forged");

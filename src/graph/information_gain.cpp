@@ -170,9 +170,8 @@ void InformationGain::add(const Node& node) {
     if (later == track_nodes_.begin()) continue;
     const auto before = std::prev(later);
     if (before->second.frame != node.frame()) continue;
-    later->second.along =
-        before->second.along +
-        later->second.variance * static_cast<double>(later->first.seq - before->first.seq);
+    later->second.along = before->second.along +
+                          later->second.variance * static_cast<double>(later->first.seq - before->first.seq);
   }
   if (!node.G) return;
   const double variance = scalar(node.G->covariance);

@@ -92,7 +92,8 @@ TEST_F(SensorClocks, AClockOfAllThatIsSetBackBeginsASession) {
   EXPECT_EQ(frames().size(), 2u);
 }
 
-/// Two odometry origins in one frame would bend the map, so no node is made until the session could be stored.
+/// Two odometry origins in one frame would bend the map, so no node is made until the session could be
+/// stored.
 TEST_F(SensorClocks, ASessionThatCannotBeStoredBeginsOnceTheDiskWrites) {
   run_for(10s);
   ASSERT_GT(robot().twin->speed(), 0.5);
@@ -108,10 +109,9 @@ TEST_F(SensorClocks, ASessionThatCannotBeStoredBeginsOnceTheDiskWrites) {
   disk_.set_full(false);
   run_for(8s);
   ASSERT_EQ(frames().size(), 2u);
-  const auto of_first_frame = std::ranges::count_if(store.nodes(), [&](const auto& entry) {
-    return entry.second.frame() == before;
-  });
-  EXPECT_EQ(of_first_frame, nodes) << "none was added to the frame before";
+  const auto of_first_frame =
+      std::ranges::count_if(store.nodes(), [&](const auto& entry) { return entry.second.frame() == before; });
+  EXPECT_EQ(static_cast<std::size_t>(of_first_frame), nodes) << "none was added to the frame before";
   EXPECT_GT(store.nodes().size(), nodes) << "mapping goes on";
 }
 

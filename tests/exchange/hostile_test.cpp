@@ -326,10 +326,13 @@ TEST(HostileSubmaps, thousands_that_nobody_has_do_not_keep_live_ones_from_being_
 TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) {
   using Kind = SenderMisbehaved::Kind;
   auto& r1 = fleet_.robot("r1");
-  fleet_.forge("r1", messages::AgentStatus{agent("r2")}, agent("r2"));
+  messages::AgentStatus status;
+  messages::MissionReport report;
+  status.from = report.from = agent("r2");
+  fleet_.forge("r1", status, agent("r2"));
   fleet_.forge("r1", forged("r2", first_seq(60)), agent("r3"));  // items go through third robots
   EXPECT_TRUE(events<SenderMisbehaved>(r1).empty());
-  for (int k = 0; k < 5; ++k) fleet_.forge("r1", messages::MissionReport{agent("r2")}, agent("r3"));
+  for (int k = 0; k < 5; ++k) fleet_.forge("r1", report, agent("r3"));
   fleet_.forge("r1", Digest{agent("r3"), {{agent("r2"), 9, 5}}, {}}, agent("r3"));
   const auto& node = made_.front();  // of r1, 3000 bytes
   fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), node.id, 0, 4000, Bytes(4000)});

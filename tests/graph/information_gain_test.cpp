@@ -130,14 +130,15 @@ class WholeNetwork : public ::testing::Test {
     }
     laplacian_ = 1e-9 * Eigen::MatrixXd::Identity(3 * kNodes, 3 * kNodes);
     for (const NodeId& id : order) {
-      Node made = node(id.agent, id.seq, id.seq % 50 == 20 ? std::optional(1.0 + 0.1 * id.seq) : std::nullopt);
-      made.odom_covariance *= 1.0 + static_cast<double>(random_() % 10);
+      Node made =
+          node(id.agent, id.seq, id.seq % 50 == 20 ? std::optional(1.0 + 0.1 * id.seq) : std::nullopt);
+      made.odom_covariance *= 1.0 + below(10);
       nodes_.push_back(made);
       if (id.seq > 0) connect({id.agent, id.seq - 1}, id, scalar(made.odom_covariance(0, 0)));
       if (id.seq == 20) laplacian_(index(id), index(id)) += 1.0 / std::pow(1.0 + 0.1 * 20, 2);
     }
-    for (std::uint32_t seq = 0; seq < kNodes; seq += 1 + random_() % 5) {
-      align({kA, seq}, {kB, std::min(kNodes - 1, seq + random_() % 4)});
+    for (std::uint32_t seq = 0; seq < kNodes; seq += 1 + below(5)) {
+      align({kA, seq}, {kB, std::min(kNodes - 1, seq + below(4))});
       if (seq > 90) align({kB, seq}, {kC, kNodes - seq});
     }
   }
@@ -152,10 +153,11 @@ class WholeNetwork : public ::testing::Test {
     laplacian_(j, i) -= 1.0 / variance;
   }
   void align(const NodeId& a, const NodeId& b) {
-    alignments_.push_back(alignment(a, b, 1e-6 * static_cast<double>(1 + random_() % 100)));
+    alignments_.push_back(alignment(a, b, 1e-6 * (1 + below(100))));
     connect(a, b, scalar(alignments_.back().best().covariance(0, 0)));
   }
-  NodeId any(const AgentId& agent) { return {agent, static_cast<std::uint32_t>(random_() % kNodes)}; }
+  NodeId any(const AgentId& agent) { return {agent, below(kNodes)}; }
+  std::uint32_t below(std::uint32_t end) { return static_cast<std::uint32_t>(random_() % end); }
 
   std::mt19937 random_{1};
   std::vector<Node> nodes_;
@@ -174,8 +176,8 @@ TEST_F(WholeNetwork, GivesTheSameAsTheNeighbourhoods) {
     pairs.emplace_back(any(kB), any(kC));
     pairs.emplace_back(any(kA), any(kA));
   }
-  for (const auto& pair : {InformationGain::Pair{{kA, 40}, {kC, 70}}, {{kB, 3}, {kC, 1}}}) {
-    expected.push_back(pair);
+  expected = {{{kA, 40}, {kC, 70}}, {{kB, 3}, {kC, 1}}};
+  for (const auto& pair : expected) {
     connect(pair.first, pair.second, kExpectedVariance);
   }
   const Eigen::LDLT<Eigen::MatrixXd> whole(laplacian_);

@@ -109,9 +109,9 @@ struct MapComplete {
   std::size_t nodes = 0;
   std::size_t alignments = 0;
 };
-using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard,
-                           HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered,
-                           OwnItemsElsewhere, SessionTaken, SenderMisbehaved, StrangerHeard, StoreFailed,
-                           MapComplete>;
+using Event =
+    std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard, HoldChanged,
+                 ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered, OwnItemsElsewhere, SessionTaken,
+                 SenderMisbehaved, StrangerHeard, StoreFailed, MapComplete>;
 
 }  // namespace fleetmap::exchange
