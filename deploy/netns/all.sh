@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Every scenario of the field, in an hour: a line each as it ends, and exit 1 if one of them failed.
-# Root; a quiet machine, since agents run in real time. Each scenario has namespaces of its own, so several run at once: as
-# many as there are cores, and those in which nothing is mapped, which take little of a core, three for each core.
+# Every scenario of the field, in half an hour: a line each as it ends, and exit 1 if one of them failed.
+# Root; a quiet machine, since agents run in real time. Each scenario has namespaces of its own, so several run at once: two
+# for each core, since four agents that map take a quarter of one, and three where nothing is mapped.
 #   deploy/netns/all.sh [--jobs CORES] [OPTIONS of field.sh: --program FILE, ...]
 set -uo pipefail
 here=$(dirname "$0")
@@ -46,7 +46,7 @@ field_with_maps() { field --recordings "$scratch/recordings" "$@"; }
 
 "$program" run -c "$here/../../config/fleets/farm_small.yaml" --agents 4 --record "$scratch/recordings" --out "$scratch/run" > "$scratch/run.log" 2>&1 ||
   { tail -n 5 "$scratch/run.log" >&2; exit 2; }
-room=$cores
+room=$((2 * cores))
 for scenario in late new_disk kill_all apart kill radio_down multicast lidar_clock map full_disk damage clock_back \
   other_address sigterm three_machines; do
   field_with_maps --scenario "$scenario"

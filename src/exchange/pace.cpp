@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace fleetmap::exchange {
+namespace {
+
+/// An item that fits into a second waits so long for other traffic to leave room, then it goes above the
+/// peak.
+constexpr std::chrono::seconds kLongestWait{3};
+
+}  // namespace
 
 Pace::Pace(double bytes_per_second, const PaceConfig& config)
     : config_(config), bucket_(bytes_per_second, burst_at(bytes_per_second)) {}
@@ -25,12 +32,20 @@ void Pace::forget_before(Stamp now) {
   if (last_second_.empty()) in_last_second_ = 0.0;  // rounding adds up
 }
 
+bool Pace::may_exceed_peak(double bytes, Stamp now) const {
+  if (taken_in_last_second_ > 0) return false;
+  const bool fits_alone = bytes <= config_.peak * rate();
+  return !fits_alone || now - *last_taken_ >= kLongestWait;
+}
+
 bool Pace::take(double bytes, Stamp now, double reserve) {
   forget_before(now);
+  if (!last_taken_) last_taken_ = now;
   const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
-  if (!below_peak && taken_in_last_second_ > 0) return false;
+  if (!below_peak && !may_exceed_peak(bytes, now)) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;
   note({now, bytes, true});
+  last_taken_ = now;
   return true;
 }
 

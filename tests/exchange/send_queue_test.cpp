@@ -102,6 +102,43 @@ TEST(Pace, what_is_larger_than_a_second_s_worth_goes_after_a_second_of_silence) 
   EXPECT_TRUE(pace.take(100.0, kStart + std::chrono::milliseconds(1000)));
 }
 
+TEST(Pace, items_and_the_hellos_of_a_start_share_its_seconds) {
+  // The share of one of ten robots, which says Hello four times in its first second and then less often.
+  constexpr double kShare = 1812.0, kItem = 1400.0;
+  Pace pace(kShare, {});
+  std::vector<std::pair<int, double>> sent;
+  int next_hello = 0, items = 0;
+  for (int ms = 0; ms < 10'000; ms += 50) {
+    const Stamp now = kStart + std::chrono::milliseconds(ms);
+    if (ms >= next_hello) {
+      pace.spend(200.0, now);
+      sent.emplace_back(ms, 200.0);
+      next_hello += ms < 1000 ? 250 : 1000;
+    }
+    if (!pace.take(kItem, now)) continue;
+    sent.emplace_back(ms, kItem);
+    ++items;
+  }
+  for (const auto& [begin, ignored] : sent) {
+    double second = 0.0;
+    for (const auto& [ms, bytes] : sent) second += ms >= begin && ms < begin + 1000 ? bytes : 0.0;
+    EXPECT_LE(second, 1.1 * kShare) << "from " << begin << " ms";
+  }
+  EXPECT_GE(items, 9) << "most of what 10 s have room for";
+}
+
+TEST(Pace, an_item_that_fits_a_second_waits_at_most_three_for_room) {
+  Pace pace(1812.0, {});
+  int went_at = 0;
+  for (int ms = 0; ms < 8000 && went_at == 0; ms += 50) {
+    const Stamp now = kStart + std::chrono::milliseconds(ms);
+    if (ms % 250 == 0) pace.spend(200.0, now);
+    if (pace.take(1400.0, now)) went_at = ms;
+  }
+  EXPECT_GE(went_at, 3000);
+  EXPECT_LE(went_at, 3300);
+}
+
 TEST(Pace, hellos_to_absent_robots_hold_back_no_fragment_for_ever) {
   // The share of one of twenty robots, and Hellos to fifteen absent ones: no second is silent.
   constexpr double kShare = 18'125.0 / 20.0, kHello = 260.0, kFragment = 1250.0;

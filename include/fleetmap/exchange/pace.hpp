@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/pace_config.hpp"
@@ -18,9 +19,9 @@ class Pace {
   void set_rate(double bytes_per_second, Stamp now);
   double rate() const { return bucket_.rate(); }
   double burst() const { return bucket_.burst(); }
-  /// As TokenBucket::take. An item that would exceed the peak goes if none was taken for a second: it may be
-  /// larger than a second's share, or other traffic may leave no room for it. So a second has at most the
-  /// peak, or one item and the spent bytes; the rate holds for both together.
+  /// As TokenBucket::take. An item that would exceed the peak goes if none was taken for a second and it is
+  /// larger than a second's share, or if none was for three seconds because other traffic left no room. So a
+  /// second has at most the peak, or one item and the spent bytes; the rate holds for both together.
   bool take(double bytes, Stamp now, double reserve = 0.0);
   /// Something else sent `bytes` that count against the rate.
   void spend(double bytes, Stamp now);
@@ -32,6 +33,7 @@ class Pace {
     bool taken;  ///< not spent
   };
   void note(const Sent& sent);
+  bool may_exceed_peak(double bytes, Stamp now) const;
   void forget_before(Stamp now);
   double burst_at(double rate) const;
 
@@ -40,6 +42,7 @@ class Pace {
   std::deque<Sent> last_second_;
   double in_last_second_ = 0.0;           ///< B
   std::size_t taken_in_last_second_ = 0;  ///< items
+  std::optional<Stamp> last_taken_;       ///< or when an item was first asked for
 };
 
 }  // namespace fleetmap::exchange

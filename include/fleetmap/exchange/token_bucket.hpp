@@ -21,9 +21,12 @@ class TokenBucket {
     tokens_ -= bytes;
     return true;
   }
-  /// Takes `bytes` that were sent already; the debt is at most one second of the rate.
+  /// Takes `bytes` that were sent already; the debt is at most one second of the rate. A bucket whose first
+  /// use this is begins empty: what is sent at a start is followed by no burst.
   void spend(double bytes, Stamp now) {
+    const bool first = !started_;
     refill(now);
+    if (first) tokens_ = 0.0;
     tokens_ = std::max(tokens_ - bytes, std::min(tokens_, -rate_));
   }
   /// Changes the rate; the tokens until `now` accumulate at the old rate.
