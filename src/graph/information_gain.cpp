@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 namespace fleetmap::graph {
@@ -15,8 +16,8 @@ constexpr double kExpectedVariance = 1.5e-3;
 constexpr double kMinVariance = 1e-6;
 /// m^2: variance of a track without GPS and alignments.
 constexpr double kUnconstrained = 1e6;
-/// Nodes of the first and the last neighbourhood of one pair, and of the one that the remaining pairs share.
-constexpr std::size_t kFirstNodes = 16, kLastNodes = 128, kMaxNodes = 4096;
+/// Nodes of the first and of the largest neighbourhood, beside those of the pairs, and how it grows.
+constexpr std::size_t kFirstNodes = 64, kMaxNodes = 4096, kGrowth = 4;
 
 double scalar(const Matrix6d& covariance) {
   const double squared = covariance.diagonal().head<3>().sum() + InformationGain::kLever *
@@ -198,42 +199,32 @@ bool InformationGain::known(const Pair& pair) const {
   return track_nodes_.contains(pair.first) && track_nodes_.contains(pair.second);
 }
 
-std::optional<double> InformationGain::nearby(const Pair& pair, const Edges& expected) const {
-  Neighbourhood part(*this, expected, std::span(&pair, 1));
-  for (std::size_t nodes = kFirstNodes; nodes <= kLastNodes; nodes *= 2) {
-    part.grow(nodes);
-    if (!part.factorise(Neighbourhood::Border::kCut)) return std::nullopt;
-    const double most = part.gain(pair);
-    if (part.whole()) return most;
-    if (!part.factorise(Neighbourhood::Border::kGrounded)) return std::nullopt;
-    const double least = part.gain(pair);
-    if (most - least <= kTolerance) return 0.5 * (most + least);
-  }
-  return std::nullopt;
-}
-
 std::vector<double> InformationGain::of(std::span<const Pair> pairs, std::span<const Pair> expected) const {
   Edges expected_edges;
   for (const Pair& pair : expected) {
     if (known(pair)) connect(expected_edges, pair, kExpectedVariance);
   }
   std::vector<double> gains(pairs.size(), 0.0);
-  std::vector<std::size_t> remaining;
-  std::vector<Pair> remaining_pairs;
+  std::vector<std::size_t> open;  // the bounds of their gains differ
+  std::vector<Pair> known_pairs;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!known(pairs[k])) continue;
-    if (const auto gain = nearby(pairs[k], expected_edges)) {
-      gains[k] = *gain;
-    } else {
-      remaining.push_back(k);
-      remaining_pairs.push_back(pairs[k]);
-    }
+    open.push_back(k);
+    known_pairs.push_back(pairs[k]);
   }
-  if (remaining.empty()) return gains;
-  Neighbourhood part(*this, expected_edges, remaining_pairs);
-  part.grow(2 * remaining.size() + kMaxNodes);
-  if (!part.factorise(Neighbourhood::Border::kCut)) return gains;
-  for (const std::size_t k : remaining) gains[k] = part.gain(pairs[k]);
+  Neighbourhood part(*this, expected_edges, known_pairs);
+  for (std::size_t nodes = kFirstNodes; !open.empty(); nodes *= kGrowth) {
+    part.grow(2 * known_pairs.size() + nodes);
+    if (!part.factorise(Neighbourhood::Border::kCut)) break;
+    for (const std::size_t k : open) gains[k] = part.gain(pairs[k]);
+    if (part.whole() || nodes >= kMaxNodes || !part.factorise(Neighbourhood::Border::kGrounded)) break;
+    std::erase_if(open, [&](std::size_t k) {
+      const double least = part.gain(pairs[k]);
+      if (gains[k] - least > kTolerance) return false;
+      gains[k] = 0.5 * (gains[k] + least);
+      return true;
+    });
+  }
   return gains;
 }
 

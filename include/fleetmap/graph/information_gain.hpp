@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@ namespace fleetmap::graph {
 /// paths between them leave) and R the variance of an alignment. A covariance is reduced to a scalar as the
 /// mean square displacement of a point kLever away.
 ///
-/// P is computed from the part of the graph around the two nodes. Without the rest of the graph P is larger,
+/// P is computed from the part of the graph around the pairs. Without the rest of the graph P is larger,
 /// and with the rest joined to the ground it is smaller (Rayleigh's monotonicity law; Doyle and Snell,
 /// "Random Walks and Electric Networks", 1984). The part grows until the two bounds agree within kTolerance,
 /// so that the cost does not depend on the size of the graph.
@@ -61,8 +60,6 @@ class InformationGain {
 
   static void connect(Edges& edges, const Pair& pair, double variance);
   bool known(const Pair& pair) const;
-  /// The gain by a small neighbourhood; none if the bounds do not agree there.
-  std::optional<double> nearby(const Pair& pair, const Edges& expected) const;
 
   /// The variance of lost nodes is estimated from the node after them.
   std::map<NodeId, TrackNode> track_nodes_;
