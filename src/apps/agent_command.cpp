@@ -19,7 +19,9 @@
 #include "fleetmap/trust/credentials.hpp"
 #include "link_log.hpp"
 #include "live_bus.hpp"
+#include "live_monitor.hpp"
 #include "mission_setup.hpp"
+#include "monitor_access.hpp"
 #include "options.hpp"
 #include "report.hpp"
 #include "sensor_recorder.hpp"
@@ -35,6 +37,7 @@ struct AgentOptions {
   std::string out = ".";
   double exit_after_idle = 0.0;
   std::vector<std::string> set;
+  MonitorAccess monitor;
 };
 
 /// The robot of its own file, with its mission planned.
@@ -93,6 +96,7 @@ void say_who_may_join(const bus::DdsBusConfig& dds) {
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
+  if (const auto page = server_config(options.monitor); !page) return report(page.error(), kUsage);
   const auto config =
       options.as.empty() ? robot_of_its_own(options, *overrides) : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
@@ -111,6 +115,8 @@ int run(const AgentOptions& options) {
     if (!made) return report(made.error(), kFailed);
     recorder = std::move(*made);
   }
+  const auto page = page_of_robot(options.monitor, config->agent.directory);
+  if (!page) return report(page.error(), kFailed);
   spdlog::info("{}: ready, store {}", config->agent.id.str(),
                (config->agent.directory / "store.db").string());
   std::optional<DriveWatchdog> watchdog;
@@ -167,6 +173,12 @@ void add_agent(CLI::App& app, int& exit_code) {
       ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--monitor", options->monitor.port,
+          "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` with what this robot holds")
+      ->check(whole_number(0, 65535));
+  add_access_options(*command, options->monitor, "monitor-");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

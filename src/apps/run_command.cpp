@@ -12,6 +12,8 @@
 #include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
+#include "live_monitor.hpp"
+#include "monitor_access.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
 #include "report.hpp"
@@ -35,6 +37,7 @@ struct RunOptions {
   std::optional<std::size_t> agents;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::string> set;
+  MonitorAccess monitor;
 };
 
 Result<config::FleetConfig> fleet_config(const RunOptions& options,
@@ -83,6 +86,7 @@ int run(const RunOptions& options) {
   }
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
+  if (const auto page = server_config(options.monitor); !page) return report(page.error(), kUsage);
   auto config = fleet_config(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
   if (options.agents && *options.agents > config->members.size()) {
@@ -109,6 +113,8 @@ int run(const RunOptions& options) {
     if (const Status written = write_site(options.out, *setup); !written)
       return report(written.error(), kFailed);
   }
+  const auto page = page_of_run(options.monitor, options.out);
+  if (!page) return report(page.error(), kFailed);
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);
@@ -156,6 +162,12 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(whole_number(1, 256));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--monitor", options->monitor.port,
+          "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` while the run goes on")
+      ->check(whole_number(0, 65535));
+  add_access_options(*command, options->monitor, "monitor-");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -310,9 +310,9 @@ void State::run() {
 Status ServerConfig::validate() const {
   error_code error;
   net::ip::make_address(address, error);
-  if (error) return failure("--address: " + address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
+  if (error) return failure(address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
   if (token.empty() && !is_loopback(address))
-    return failure("--address " + address + " is seen by others: a token is needed");
+    return failure(address + " is seen by others: a token is needed");
   if (!token.empty() && token.size() < kMinTokenLength)
     return failure("the token is shorter than " + std::to_string(kMinTokenLength) + " characters");
   if (max_viewers == 0 || max_connections == 0)
@@ -339,7 +339,7 @@ Result<std::unique_ptr<Server>> Server::start(const ServerConfig& config, store:
   if (!error) state->acceptor.listen(tcp::acceptor::max_listen_connections, error);
   if (error)
     return failure(config.address + ":" + std::to_string(config.port) + ": cannot be listened on (" +
-                   error.message() + "); give another --port");
+                   error.message() + "); give another port");
   state->port = state->acceptor.local_endpoint().port();
   state->cookie = "fleetmap_" + std::to_string(state->port);
   state->accept();

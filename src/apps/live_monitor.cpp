@@ -1,0 +1,119 @@
+#include "live_monitor.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <sstream>
+
+#include "fleetmap/store/submap_loader.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPauseFactor = 20;  // of the time that a reading takes
+
+/// Sizes and times of the files that a view is made of. SQLite writes to the log beside the store first.
+std::string fingerprint(const std::vector<fs::path>& folders) {
+  std::ostringstream print;
+  for (const fs::path& folder : folders) {
+    for (const char* name : {"store.db", "store.db-wal", "registrations.csv"}) {
+      std::error_code missing;
+      const auto bytes = fs::file_size(folder / name, missing);
+      if (missing) continue;
+      const auto time = fs::last_write_time(folder / name, missing);
+      print << folder.string() << '/' << name << ' ' << bytes << ' ' << time.time_since_epoch().count()
+            << '\n';
+    }
+  }
+  return std::move(print).str();
+}
+
+Result<std::unique_ptr<LiveMonitor>> open_page(const MonitorAccess& access, LiveMonitor::Folders folders,
+                                               LiveMonitor::Read read) {
+  const auto server = server_config(access);
+  if (!server) return tl::unexpected(server.error());
+  auto page = LiveMonitor::start(*server, std::move(folders), std::move(read), true);
+  if (page) spdlog::info("page: open {} in a browser", (*page)->server().url());
+  return page;
+}
+
+}  // namespace
+
+LiveMonitor::LiveMonitor(Folders folders, Read read, std::chrono::milliseconds period)
+    : folders_(std::move(folders)), read_(std::move(read)), period_(period) {}
+
+Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerConfig& config, Folders folders,
+                                                        Read read, bool patient,
+                                                        std::chrono::milliseconds period) {
+  auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(folders), std::move(read), period));
+  const auto load = [self = live.get()](const NodeId& id) -> Result<cloud::PointCloud> {
+    const auto store = [self] {
+      const std::lock_guard lock(self->mutex_);
+      return self->store_;
+    }();
+    if (!store) return failure("nothing is shown yet");
+    return store::decoded_submaps(*store)(id);
+  };
+  auto server = monitor::Server::start(config, load);
+  if (!server) return tl::unexpected(server.error());
+  live->server_ = std::move(*server);
+  if (const Status shown = live->show_if_changed(); !shown && !patient) return tl::unexpected(shown.error());
+  live->thread_ = std::thread([self = live.get()] { self->follow(); });
+  return live;
+}
+
+LiveMonitor::~LiveMonitor() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  stopped_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void LiveMonitor::follow() {
+  auto pause = period_;
+  while (true) {
+    {
+      std::unique_lock lock(mutex_);
+      if (stopped_.wait_for(lock, pause, [this] { return stop_; })) return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const Status shown = show_if_changed();
+    if (!shown && shown.error().message != failed_) spdlog::info("page: {}", shown.error().message);
+    failed_ = shown ? "" : shown.error().message;
+    const auto taken = std::chrono::steady_clock::now() - begin;
+    pause = std::max(period_, std::chrono::duration_cast<std::chrono::milliseconds>(kPauseFactor * taken));
+  }
+}
+
+Status LiveMonitor::show_if_changed() {
+  // Before the files are read: what is written meanwhile is read the next time.
+  std::string print = fingerprint(folders_());
+  if (print == shown_) return {};
+  auto run = read_();
+  shown_ = std::move(print);
+  if (!run) return tl::unexpected(run.error());
+  {
+    const std::lock_guard lock(mutex_);
+    store_ = std::move(run->store);
+  }
+  server_->publish(std::make_shared<const monitor::FleetView>(std::move(run->view)));
+  return {};
+}
+
+Result<std::unique_ptr<LiveMonitor>> page_of_robot(const MonitorAccess& access, const fs::path& folder) {
+  if (!access.port) return nullptr;
+  return open_page(
+      access, [folder] { return std::vector{folder}; }, [folder] { return open_one(folder / "store.db"); });
+}
+
+Result<std::unique_ptr<LiveMonitor>> page_of_run(const MonitorAccess& access, const fs::path& directory) {
+  if (!access.port) return nullptr;
+  return open_page(
+      access, [directory] { return robot_folders(directory); },
+      [directory] { return open_run(directory, ""); });
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fleetmap/monitor/server.hpp"
+#include "monitor_access.hpp"
+#include "shown_run.hpp"
+
+namespace fleetmap::apps {
+
+/// Serves the page of files that a robot or a run still writes, and shows them anew when they have changed.
+/// Threads of its own read and place them, so a robot neither waits for a viewer nor copies anything for one.
+/// They take at most about a twentieth of a core: after each reading they pause for twenty times as long.
+class LiveMonitor {
+ public:
+  using Read = std::function<Result<ShownRun>()>;
+  using Folders = std::function<std::vector<std::filesystem::path>()>;
+
+  /// `folders`: of the robots whose stores are watched. A reading that fails later leaves what was shown.
+  /// Fails if the address cannot be listened on, or, unless `patient`, if there is nothing to show yet.
+  static Result<std::unique_ptr<LiveMonitor>> start(
+      const monitor::ServerConfig& config, Folders folders, Read read, bool patient,
+      std::chrono::milliseconds period = std::chrono::seconds(2));
+  ~LiveMonitor();
+  LiveMonitor(const LiveMonitor&) = delete;
+  LiveMonitor& operator=(const LiveMonitor&) = delete;
+
+  const monitor::Server& server() const { return *server_; }
+
+ private:
+  LiveMonitor(Folders folders, Read read, std::chrono::milliseconds period);
+  void follow();
+  Status show_if_changed();
+
+  const Folders folders_;
+  const Read read_;
+  const std::chrono::milliseconds period_;
+  std::mutex mutex_;  ///< of `stop_` and `store_`
+  std::condition_variable stopped_;
+  bool stop_ = false;
+  std::shared_ptr<store::Store> store_;  ///< read on the server's thread once it was shown
+  std::string shown_;                    ///< fingerprint of the files that were read last
+  std::string failed_;                   ///< why the last reading failed, which is said once
+  std::unique_ptr<monitor::Server> server_;
+  std::thread thread_;
+};
+
+/// The page of what the robot that keeps its files in `folder` holds; null unless a port is given.
+Result<std::unique_ptr<LiveMonitor>> page_of_robot(const MonitorAccess& access,
+                                                   const std::filesystem::path& folder);
+/// The same of all robots below `directory`, on the map of the one that holds most.
+Result<std::unique_ptr<LiveMonitor>> page_of_run(const MonitorAccess& access,
+                                                 const std::filesystem::path& directory);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/monitor/server.hpp"
+
+namespace fleetmap::apps {
+
+/// Where the page is served, and who may look at it: options of every command that shows it.
+struct MonitorAccess {
+  std::optional<std::uint16_t> port;
+  std::string address = "127.0.0.1";
+  std::string token_file;
+  std::size_t viewers = 8;
+};
+
+/// Adds --PREFIXaddress, --PREFIXtoken-file and --PREFIXviewers. The port is the command's own.
+void add_access_options(CLI::App& command, MonitorAccess& access, const std::string& prefix);
+
+/// Makes a random token where the address is seen by others and no file gives one.
+Result<monitor::ServerConfig> server_config(const MonitorAccess& access);
+
+}  // namespace fleetmap::apps

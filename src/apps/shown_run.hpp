@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/store/store.hpp"
+
+namespace fleetmap::apps {
+
+/// What the files of a run, finished or not, show: the view of one robot, and its store, which holds the
+/// submaps.
+struct ShownRun {
+  std::unique_ptr<store::Store> store;
+  monitor::FleetView view;
+};
+
+/// A whole file; empty if it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
+/// One robot's store. Fails if it holds no node yet.
+Result<ShownRun> open_one(const std::filesystem::path& file);
+
+/// All robots below `directory`, on the map of one: of `robot`, or of the one that holds most if it is empty.
+Result<ShownRun> open_run(const std::filesystem::path& directory, const std::string& robot);
+
+/// Folders below `directory` that hold a store, by name.
+std::vector<std::filesystem::path> robot_folders(const std::filesystem::path& directory);
+
+}  // namespace fleetmap::apps
