@@ -16,6 +16,21 @@ std::string handed_over(messages::Reach link, const std::optional<AgentId>& from
   return from ? over + " from " + from->str() : over;
 }
 
+const char* misbehaviour(exchange::SenderMisbehaved::Kind kind) {
+  using Kind = exchange::SenderMisbehaved::Kind;
+  switch (kind) {
+    case Kind::kForeignName:
+      return "a message of another robot";
+    case Kind::kDigest:
+      return "a digest or a request that contradicts the rules";
+    case Kind::kCloud:
+      return "a piece of a cloud that contradicts the others or their hash";
+    case Kind::kSubmap:
+      return "a submap digest or chunk that contradicts the rules, its node or its hash";
+  }
+  return "";
+}
+
 struct Log {
   const AgentId& self;
 
@@ -78,6 +93,16 @@ struct Log {
         "restored or replaced (they are fetched, and new ones bear other numbers), or another robot bears "
         "this name",
         self.str(), found.peer.str(), found.nodes, found.alignments);
+  }
+  void operator()(const exchange::SenderMisbehaved& report) const {
+    const std::string sender = report.from.value_or(report.name).str();
+    const std::string under = report.from == report.name ? "" : " under the name " + report.name.str();
+    spdlog::error(
+        "{}: {} sent {}{}: it is compromised, holds forged items, or damages what it stores{} (its messages "
+        "of that kind are counted in "
+        "report.json)",
+        self.str(), report.from ? sender : "an unknown robot", misbehaviour(report.kind), under,
+        report.from ? "" : ", or the message is forged");
   }
   void operator()(const exchange::StrangerHeard& stranger) const {
     spdlog::warn(

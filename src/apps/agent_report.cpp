@@ -12,6 +12,12 @@ using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+json misbehaved_json(const exchange::ExchangeStats& stats) {
+  json by_robot = json::object();
+  for (const auto& [robot, messages] : stats.misbehaved) by_robot[robot.str()] = messages;
+  return by_robot;
+}
+
 json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::LoopClosureStats& loops) {
   const auto proofs = [&](exchange::ItemProof proof) {
     return stats.proofs[static_cast<std::size_t>(proof)];
@@ -33,6 +39,7 @@ json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::Loo
           {"refused_unsigned", proofs(exchange::ItemProof::kUnsigned)},
           {"refused_wrongly_signed", proofs(exchange::ItemProof::kWrong)},
           {"refused_of_unknown_makers", proofs(exchange::ItemProof::kUnknownMaker)},
+          {"misbehaved", misbehaved_json(stats)},
           {"refused_hostile",
            stats.cloud_receiver.hostile + stats.submap_receiver.hostile + stats.reconcile.hostile}};
 }

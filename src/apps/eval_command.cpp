@@ -66,6 +66,11 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--density-radius", options->inputs.map.density_radius, "m, r_d of Eq. 4")
       ->capture_default_str();
+  command
+      ->add_option("--max-map-points", options->inputs.max_map_points,
+                   "of a larger map every k-th point is measured, which bounds memory")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->add_flag("--no-pictures", options->no_pictures, "numbers only");
   command
       ->add_option("--modes", options->modes,

@@ -1,5 +1,9 @@
 #include "fleetmap/cloud/file_io.hpp"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "fleetmap/cloud/cloud_writer.hpp"
 #include "point_file_format.hpp"
@@ -33,6 +38,32 @@ Result<std::string> whole_file(const fs::path& file) {
     return failure("cannot be read");
   return bytes;
 }
+
+/// A file mapped into memory, which the system loads as it is read and drops again.
+class MappedFile {
+ public:
+  static Result<MappedFile> open(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return failure("no such file");
+    const std::size_t size = fs::file_size(file, error);
+    const int descriptor = error || size == 0 ? -1 : ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    void* data = descriptor < 0 ? MAP_FAILED : ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (descriptor >= 0) ::close(descriptor);
+    if (data == MAP_FAILED) return failure("cannot be read");
+    ::madvise(data, size, MADV_SEQUENTIAL);
+    return MappedFile(std::string_view(static_cast<const char*>(data), size));
+  }
+  MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+  MappedFile& operator=(MappedFile&&) = delete;
+  ~MappedFile() {
+    if (!bytes_.empty()) ::munmap(const_cast<char*>(bytes_.data()), bytes_.size());
+  }
+  std::string_view bytes() const { return bytes_; }
+
+ private:
+  explicit MappedFile(std::string_view bytes) : bytes_(bytes) {}
+  std::string_view bytes_;
+};
 
 float number_at(const char* raw, NumberType type, bool swap) {
   std::array<char, 8> bytes{};
@@ -67,6 +98,10 @@ float number_at(const char* raw, NumberType type, bool swap) {
   return 0.0f;
 }
 
+std::size_t step_of(std::size_t points, std::size_t max_points) {
+  return std::max<std::size_t>(1, (points + max_points - 1) / std::max<std::size_t>(1, max_points));
+}
+
 /// The fields that make a cloud.
 struct Wanted {
   std::array<const Field*, 3> xyz{};
@@ -88,12 +123,13 @@ Result<Wanted> wanted_fields(const PointFileLayout& layout) {
   return wanted;
 }
 
-/// `get(point, field)` returns a number and handles column order (compressed PCD) or row order.
+/// Every `step`-th point. `get(point, field)` returns a number and handles column order (compressed PCD) or
+/// row order.
 template <class Get>
-PointCloud gather(const PointFileLayout& layout, const Wanted& wanted, Get get) {
+PointCloud gather(const PointFileLayout& layout, const Wanted& wanted, Get get, std::size_t step = 1) {
   PointCloud cloud;
-  cloud.points.reserve(layout.points);
-  for (std::size_t i = 0; i < layout.points; ++i) {
+  cloud.points.reserve(layout.points / step + 1);
+  for (std::size_t i = 0; i < layout.points; i += step) {
     cloud.points.emplace_back(get(i, *wanted.xyz[0]), get(i, *wanted.xyz[1]), get(i, *wanted.xyz[2]));
     if (wanted.intensity != nullptr) cloud.intensities.push_back(get(i, *wanted.intensity));
   }
@@ -159,18 +195,54 @@ Result<PointCloud> from_compressed(const std::string& file, const PointFileLayou
   });
 }
 
+Result<PointFileLayout> layout_of(std::string_view file, PointFileFormat format) {
+  return format == PointFileFormat::ply ? ply_layout(file) : pcd_layout(file);
+}
+
+Result<PointCloud> from_binary(std::string_view file, const PointFileLayout& layout, const Wanted& wanted,
+                               std::size_t step = 1) {
+  if (layout.points * layout.stride > file.size() - layout.body) return failure("truncated");
+  const bool swap = layout.encoding == Encoding::big_endian;
+  const auto get = [&](std::size_t i, const Field& field) {
+    return number_at(file.data() + layout.body + i * layout.stride + field.offset, field.type, swap);
+  };
+  return gather(layout, wanted, get, step);
+}
+
 Result<PointCloud> parse(const std::string& file, PointFileFormat format) {
-  const auto layout = format == PointFileFormat::ply ? ply_layout(file) : pcd_layout(file);
+  const auto layout = layout_of(file, format);
   if (!layout) return failure(layout.error().message);
   const auto wanted = wanted_fields(*layout);
   if (!wanted) return failure(wanted.error().message);
   if (layout->encoding == Encoding::ascii) return from_ascii(file, *layout, *wanted);
   if (layout->encoding == Encoding::compressed) return from_compressed(file, *layout, *wanted);
-  if (layout->points * layout->stride > file.size() - layout->body) return failure("truncated");
-  const bool swap = layout->encoding == Encoding::big_endian;
-  return gather(*layout, *wanted, [&](std::size_t i, const Field& field) {
-    return number_at(file.data() + layout->body + i * layout->stride + field.offset, field.type, swap);
-  });
+  return from_binary(file, *layout, *wanted);
+}
+
+/// Of a binary file; nothing of another one.
+Result<std::optional<ThinnedCloud>> mapped(const fs::path& path, std::size_t max_points) {
+  const auto format = format_of(path);
+  if (!format) return failure(format.error().message);
+  const auto file = MappedFile::open(path);
+  if (!file) return failure(file.error().message);
+  const auto layout = layout_of(file->bytes(), *format);
+  if (!layout) return failure(layout.error().message);
+  if (layout->encoding == Encoding::ascii || layout->encoding == Encoding::compressed)
+    return std::optional<ThinnedCloud>();
+  const auto wanted = wanted_fields(*layout);
+  if (!wanted) return failure(wanted.error().message);
+  auto cloud = from_binary(file->bytes(), *layout, *wanted, step_of(layout->points, max_points));
+  if (!cloud) return failure(cloud.error().message);
+  return std::optional(ThinnedCloud{std::move(*cloud), layout->points});
+}
+
+PointCloud thinned(const PointCloud& cloud, std::size_t step) {
+  PointCloud kept;
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    kept.points.push_back(cloud.points[i]);
+    if (cloud.has_intensities()) kept.intensities.push_back(cloud.intensities[i]);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -186,6 +258,15 @@ Result<PointCloud> read_cloud(const fs::path& file) {
   auto cloud = read();
   if (!cloud) return failure(file.string() + ": " + cloud.error().message);
   return cloud;
+}
+
+Result<ThinnedCloud> read_thinned_cloud(const fs::path& file, std::size_t max_points) {
+  auto binary = mapped(file, max_points);
+  if (!binary) return failure(file.string() + ": " + binary.error().message);
+  if (*binary) return std::move(**binary);
+  auto cloud = read_cloud(file);
+  if (!cloud) return tl::unexpected(cloud.error());
+  return ThinnedCloud{thinned(*cloud, step_of(cloud->size(), max_points)), cloud->size()};
 }
 
 Status write_cloud(const fs::path& file, const PointCloud& cloud) {

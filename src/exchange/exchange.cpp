@@ -116,10 +116,11 @@ bool Exchange::others_busy(Stamp now) const {
 }
 
 ExchangeStats Exchange::stats() const {
-  return {
-      state_->outbox.queue().stats(),    state_->clouds.sender_stats(),   state_->clouds.receiver_stats(),
-      state_->items.reconcile().stats(), state_->submap_receiver.stats(), state_->submap_sender.stats(),
-      state_->members.strangers(),       state_->clouds.bad_requests(),   state_->items.verifier().proofs()};
+  return {state_->outbox.queue().stats(),    state_->clouds.sender_stats(),
+          state_->clouds.receiver_stats(),   state_->items.reconcile().stats(),
+          state_->submap_receiver.stats(),   state_->submap_sender.stats(),
+          state_->members.strangers(),       state_->clouds.bad_requests(),
+          state_->items.verifier().proofs(), state_->misbehaviour.messages()};
 }
 
 TableSizes Exchange::table_sizes() const {

@@ -54,8 +54,30 @@ bool Exchange::State::admit(const Message& message, Reach link, Stamp now) {
 }
 
 void Exchange::State::on_message(const Message& message, const Delivery& delivery, Stamp now) {
+  const auto name = sender_of(message);
+  if (name && delivery.from && *delivery.from != *name)
+    report_misbehaviour(*name, delivery, SenderMisbehaved::Kind::kForeignName);
   if (!admit(message, delivery.link, now)) return;
+  const auto before = refused();
   std::visit([&](const auto& m) { handle(m, delivery, now); }, message);
+  if (!name) return;  // an item: its maker is checked instead
+  const auto after = refused();
+  for (std::size_t k = 0; k < kMisbehaviourKinds; ++k) {
+    if (after[k] > before[k]) report_misbehaviour(*name, delivery, static_cast<SenderMisbehaved::Kind>(k));
+  }
+}
+
+std::array<std::uint64_t, kMisbehaviourKinds> Exchange::State::refused() const {
+  const CloudReceiverStats cloud = clouds.receiver_stats();
+  const SubmapReceiverStats submap = submap_receiver.stats();
+  return {0, items.reconcile().stats().hostile, cloud.hostile + cloud.bad_hash,
+          submap.hostile + submap.bad_hash};
+}
+
+void Exchange::State::report_misbehaviour(const AgentId& name, const Delivery& delivery,
+                                          SenderMisbehaved::Kind kind) {
+  if (misbehaviour.add(delivery.from.value_or(name), kind))
+    events.push_back(SenderMisbehaved{name, delivery.from, kind, delivery.link});
 }
 
 void Exchange::State::handle(const graph::Node& node, const Delivery& delivery, Stamp now) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "fleetmap/exchange/hold_orders.hpp"
 #include "item_exchange.hpp"
 #include "membership.hpp"
+#include "misbehaviour.hpp"
 #include "outbox.hpp"
 #include "submap_receiver.hpp"
 #include "submap_sender.hpp"
@@ -55,6 +57,7 @@ struct Exchange::State {
   LoopCloser& loop_closer;
   std::vector<Event> events;
   Membership members;
+  Misbehaviour misbehaviour;
   BudgetShares shares;
   Outbox outbox;
   CloudExchange clouds;
@@ -75,6 +78,9 @@ struct Exchange::State {
  private:
   /// The message is of a member, or an operator's order, and for this robot or for all.
   bool admit(const Message& message, Reach link, Stamp now);
+  /// Messages that the handlers refused so far, by SenderMisbehaved::Kind.
+  std::array<std::uint64_t, kMisbehaviourKinds> refused() const;
+  void report_misbehaviour(const AgentId& name, const Delivery& delivery, SenderMisbehaved::Kind kind);
 
   void handle(const graph::Node& node, const Delivery& delivery, Stamp now);
   void handle(const graph::Alignment& alignment, const Delivery& delivery, Stamp now);

@@ -1,5 +1,7 @@
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
 
+#include <fstream>
+#include <string>
 #include <utility>
 
 namespace fleetmap::fault_injection {
@@ -87,6 +89,18 @@ void ExchangeFleet::put_back_store(const AgentId& name, const std::string& copy)
 
 void ExchangeFleet::lose_store(const AgentId& name) const {
   for (const char* end : {kDatabase, kLog, ".db-shm"}) std::filesystem::remove(file(name, end));
+}
+
+void ExchangeFleet::damage_store(const AgentId& name, double at) const {
+  constexpr std::size_t kPage = 4096;
+  const std::filesystem::path path = file(name, kDatabase);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size < kPage) return;
+  std::fstream out(path, std::ios::binary | std::ios::in | std::ios::out);
+  out.seekp(static_cast<std::streamoff>(at * static_cast<double>(size / kPage)) * kPage);
+  const std::string garbage(kPage, '\x5a');
+  out.write(garbage.data(), static_cast<std::streamsize>(garbage.size()));
 }
 
 void ExchangeFleet::deliver(const AgentId& to, messages::Reach reach,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<const char*, kFaultKinds> kNames{
     "loss",      "delay",     "duplication", "one_way",  "partition", "crash", "lost_store",
-    "old_store", "full_disk", "clock_step",  "stranger", "forged",    "liar"};
+    "old_store", "full_disk", "clock_step",  "stranger", "forged",    "liar",  "damaged_store"};
 
 }  // namespace
 

@@ -86,6 +86,10 @@ void FaultyFleet::begin(const Fault& fault, std::size_t number) {
       stop_robot(name);
       member.disk_intact = false;
       return put_back_store(name, backup_name(number));
+    case FaultKind::kDamagedStore:
+      stop_robot(name);
+      member.disk_intact = false;
+      return damage_store(name, fault.value);
     case FaultKind::kFullDisk:
       return member.disk->set_full(true);
     case FaultKind::kLiar:
@@ -107,6 +111,7 @@ void FaultyFleet::end(const Fault& fault) {
     case FaultKind::kClockStep:
     case FaultKind::kLostStore:
     case FaultKind::kOldStore:
+    case FaultKind::kDamagedStore:
       if (--member.stopped == 0) member.start_at = now();
       return;
     case FaultKind::kFullDisk:

@@ -47,6 +47,8 @@ double draw_value(Draws& draws, FaultKind kind) {
       return draws.between(0.05, 0.5);
     case FaultKind::kOldStore:
       return draws.between(2.0, 90.0);
+    case FaultKind::kDamagedStore:
+      return draws.uniform();
     case FaultKind::kClockStep:
       return draws.between(-7200.0, 7200.0);
     case FaultKind::kStranger:

@@ -112,8 +112,12 @@ Result<Split> open_split(const fs::path& file) {
 
 class BagReader : public CheckedReader {
  public:
-  BagReader(std::string source, std::vector<fs::path> files, std::map<std::string, Kind> kinds)
-      : CheckedReader(std::move(source)), files_(std::move(files)), kinds_(std::move(kinds)) {}
+  BagReader(std::string source, std::vector<fs::path> files, std::map<std::string, Kind> kinds,
+            ScanContent content)
+      : CheckedReader(std::move(source)),
+        files_(std::move(files)),
+        kinds_(std::move(kinds)),
+        content_(content) {}
 
   Result<std::optional<Sample>> next() override {
     while (!ended_) {
@@ -174,6 +178,13 @@ class BagReader : public CheckedReader {
   std::optional<Sample> decode(Kind kind, ByteView cdr, const std::string& topic) {
     switch (kind) {
       case Kind::kScan: {
+        if (content_ == ScanContent::kStampOnly) {
+          const auto stamp = ros_codec::stamp_of_scan(cdr);
+          if (!stamp) return undecodable(topic, stamp.error());
+          sensor::Scan scan;
+          scan.stamp = *stamp;
+          return Sample(std::move(scan));
+        }
         auto decoded = ros_codec::decode_scan(cdr);
         if (!decoded) return undecodable(topic, decoded.error());
         if (!admit_points(*decoded, "a scan on " + topic)) return std::nullopt;
@@ -212,6 +223,7 @@ class BagReader : public CheckedReader {
 
   std::vector<fs::path> files_;
   std::map<std::string, Kind> kinds_;
+  ScanContent content_;
   std::size_t next_file_ = 0;
   std::optional<Split> split_;
   bool ended_ = false;
@@ -229,7 +241,7 @@ bool looks_like_bag(const fs::path& path) {
   return name.ends_with(".db3") || name.ends_with(".db3.zstd") || name.ends_with(".mcap");
 }
 
-Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wanted) {
+Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wanted, ScanContent content) {
   auto files = bag_files(path);
   if (!files) return tl::unexpected(files.error());
   std::set<BagTopic> topics;  // a later split may bring topics that the first one lacks
@@ -242,7 +254,7 @@ Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wan
   }
   auto kinds = select_topics({topics.begin(), topics.end()}, wanted, path.string());
   if (!kinds) return tl::unexpected(kinds.error());
-  return std::make_unique<BagReader>(path.string(), std::move(*files), std::move(*kinds));
+  return std::make_unique<BagReader>(path.string(), std::move(*files), std::move(*kinds), content);
 }
 
 }  // namespace fleetmap::recording

@@ -9,6 +9,7 @@ namespace fleetmap::recording {
 
 /// A folder with metadata.yaml or .db3 files, or one .db3 file.
 bool looks_like_bag(const std::filesystem::path& path);
-Result<std::unique_ptr<Reader>> open_bag(const std::filesystem::path& path, const Topics& topics);
+Result<std::unique_ptr<Reader>> open_bag(const std::filesystem::path& path, const Topics& topics,
+                                         ScanContent content);
 
 }  // namespace fleetmap::recording

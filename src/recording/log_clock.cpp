@@ -57,7 +57,7 @@ LogClock clock_of(const std::vector<SensorTimes>& sensors) {
 }  // namespace
 
 Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config) {
-  auto reader = open(recording, config);
+  auto reader = open(recording, config, ScanContent::kStampOnly);
   if (!reader) return tl::unexpected(reader.error());
   std::array<std::optional<SensorTimes>, std::variant_size_v<Sample>> seen;
   std::optional<Stamp> begun;

@@ -7,11 +7,12 @@
 
 namespace fleetmap::recording {
 
-Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config) {
+Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config,
+                                     ScanContent content) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return failure(path.string() + ": there is no such recording");
-  if (looks_like_bag(path)) return open_bag(path, config.topics);
+  if (looks_like_bag(path)) return open_bag(path, config.topics, content);
   if (has_kitti_layout(path)) return open_kitti(path, config.kitti);
   if (path.extension() == ".bag") {
     return failure(path.string() + ": ROS 1 bags are not read; convert it with `rosbags-convert --src " +

@@ -199,8 +199,10 @@ Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inp
   MapEvaluation maps(inputs, std::move(*truth), nodes);
   if (const Status done = maps.add_to(evaluation, distinct, held ? &*held : nullptr); !done)
     return tl::unexpected(done.error());
-  if (json modes = held ? modes_json(*run, *held, nodes, maps, evaluation, inputs) : json(); !modes.is_null())
-    evaluation["modes"] = std::move(modes);
+  if (held && !maps.thinned()) {
+    if (json modes = modes_json(*run, *held, nodes, maps, evaluation, inputs); !modes.is_null())
+      evaluation["modes"] = std::move(modes);
+  }
   if (json cpu = cpu_json(*run); !cpu.is_null()) evaluation["cpu"] = std::move(cpu);
   run->notes.insert(run->notes.end(), maps.notes.begin(), maps.notes.end());
   const double area = evaluation.contains("map") ? evaluation["map"].value("mapped_area", 0.0) : 0.0;

@@ -61,9 +61,16 @@ json map_json(const eval::EvaluatedMap& evaluated, const eval::MapMetricsConfig&
 
 Status MapEvaluation::add_to(json& evaluation, const std::vector<DistinctMap>& maps, HeldFleet* held) {
   for (std::size_t k = 0; k < maps.size(); ++k) {
-    const auto cloud = cloud::read_cloud(maps[k].file);
-    if (!cloud) return tl::unexpected(cloud.error());
-    json one = evaluate(*cloud, maps[k].file.string(), k == 0 ? held : nullptr, k == 0 && inputs_.pictures);
+    const auto read = cloud::read_thinned_cloud(maps[k].file, inputs_.max_map_points);
+    if (!read) return tl::unexpected(read.error());
+    const cloud::PointCloud& cloud = read->cloud;
+    if (cloud.size() < read->points_in_file) {
+      thinned_ = true;
+      notes.push_back(maps[k].file.string() + ": " + std::to_string(cloud.size()) + " of its " +
+                      std::to_string(read->points_in_file) +
+                      " points were measured, and neither overlap nor other modes (--max-map-points)");
+    }
+    json one = evaluate(cloud, maps[k].file.string(), k == 0 ? held : nullptr, k == 0 && inputs_.pictures);
     json holders = json::array();
     for (const AgentId& id : maps[k].agents) holders.push_back(id.str());
     one["agents"] = holders;
@@ -81,7 +88,7 @@ json MapEvaluation::of_held(HeldFleet& held) {
 json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& name, HeldFleet* held,
                              bool draw) {
   if (draw) {
-    draw_by_robot(map, held);
+    draw_by_robot(map, thinned_ ? nullptr : held);
     keep(picture_of_density(map, inputs_.map.density_radius));
   }
   if (!truth_) return description_json(eval::describe_map(map, inputs_.map), inputs_.map);
@@ -94,7 +101,7 @@ json MapEvaluation::evaluate(const cloud::PointCloud& map, const std::string& na
   }
   if (draw) keep(picture_of_errors(evaluated->points, evaluated->errors));
   json result = map_json(*evaluated, inputs_.map);
-  if (held == nullptr || nodes_.empty() || !inputs_.overlap) return result;
+  if (held == nullptr || nodes_.empty() || !inputs_.overlap || thinned_) return result;
   if (!overlap_) overlap_.emplace(held->store, held->recipe.merge, nodes_, *truth_, inputs_.map);
   json overlap = overlap_->of(held->placement.T_enu_node, evaluated->metrics.T_truth_map);
   if (!overlap.is_null()) result["overlap"] = std::move(overlap);

@@ -27,6 +27,9 @@ class MapEvaluation {
   /// The map of what is held as it is placed now, without pictures. Of one `held` only.
   nlohmann::json of_held(HeldFleet& held);
 
+  /// A map had more points than EvaluationInputs::max_map_points.
+  bool thinned() const { return thinned_; }
+
   std::vector<MapPicture> pictures;
   std::vector<std::string> notes;
 
@@ -38,6 +41,7 @@ class MapEvaluation {
   const EvaluationInputs& inputs_;
   std::optional<cloud::PointCloud> truth_;
   const eval::TruePoses& nodes_;
+  bool thinned_ = false;
   Pose start_ = Pose::Identity();             ///< T_truth_map that registrations start from
   std::optional<OverlapEvaluation> overlap_;  ///< made when first needed
 };

@@ -64,6 +64,7 @@ DrivenFleet::DrivenFleet(const Options& options) : options_(options), origin_(kO
     auto& member = config_.members[k];
     member.agent.directory = files_.path(member.agent.id.str());
     member.agent.site_origin = origin_;
+    member.agent.store.file_system = options.file_system;
     member.agent.navigator = std::make_shared<const agent::NavigatorConfig>(navigator);
     auto robot = std::make_unique<Robot>();
     robot->id = member.agent.id;

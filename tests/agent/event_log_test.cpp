@@ -43,6 +43,17 @@ TEST(EventLog, AnItemOfAnUnknownMakerIsAWarningAndAForgedOneAnError) {
   EXPECT_THAT(logged(refused), HasSubstr("compromised"));
 }
 
+TEST(EventLog, ASenderThatMisbehavesIsNamedByTheLinkAndNotByTheMessage) {
+  exchange::SenderMisbehaved seen{kR2, kR3, exchange::SenderMisbehaved::Kind::kForeignName};
+  EXPECT_THAT(logged(seen), HasSubstr("r1: r3 sent a message of another robot under the name r2"));
+  seen = {kR3, kR3, exchange::SenderMisbehaved::Kind::kDigest};
+  EXPECT_THAT(logged(seen), HasSubstr("r3 sent a digest or a request that contradicts the rules: it is"));
+  seen = {kR2, std::nullopt, exchange::SenderMisbehaved::Kind::kSubmap};
+  EXPECT_THAT(logged(seen), HasSubstr("an unknown robot sent a submap digest or chunk"));
+  EXPECT_THAT(logged(seen), HasSubstr("under the name r2"));
+  EXPECT_THAT(logged(seen), HasSubstr("or the message is forged"));
+}
+
 TEST(EventLog, WhatTheAgentHandlesItselfIsNotLoggedHere) {
   EXPECT_EQ(logged(exchange::SessionTaken{kR2}), "");
   EXPECT_EQ(logged(exchange::CloudNeeded{{kR1, 1}, kR2}), "");

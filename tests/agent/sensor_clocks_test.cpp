@@ -1,10 +1,12 @@
 // Whole agents in virtual time whose sensors' clocks disagree or are set while they drive.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "agent/driven_fleet.hpp"
+#include "faulty_file_system.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -50,7 +52,8 @@ class SensorClocks : public ::testing::Test {
     return worst;
   }
 
-  DrivenFleet fleet_{{}};
+  fault_injection::FaultyFileSystem disk_;
+  DrivenFleet fleet_{{.file_system = disk_.name()}};
   std::map<Stamp, Eigen::Vector3d> truth_;
 };
 
@@ -87,6 +90,29 @@ TEST_F(SensorClocks, AClockOfAllThatIsSetBackBeginsASession) {
   EXPECT_EQ(perception().clock_offsets().correction(sensor::Source::kLidar), Duration::zero());
   EXPECT_EQ(perception().odometry_counters().clock_resets, 1u);
   EXPECT_EQ(frames().size(), 2u);
+}
+
+/// Two odometry origins in one frame would bend the map, so no node is made until the session could be
+/// stored.
+TEST_F(SensorClocks, ASessionThatCannotBeStoredBeginsOnceTheDiskWrites) {
+  run_for(10s);
+  ASSERT_GT(robot().twin->speed(), 0.5);
+  const store::Store& store = robot().agent->store();
+  const auto nodes = store.nodes().size();
+  ASSERT_GE(nodes, 2u);
+  const graph::FrameId before = store.nodes().begin()->second.frame();
+  disk_.set_full(true);
+  robot().clock = -60s;
+  run_for(8s);
+  EXPECT_GT(perception().odometry_counters().clock_resets, 0u);
+  EXPECT_EQ(store.nodes().size(), nodes);
+  disk_.set_full(false);
+  run_for(8s);
+  ASSERT_EQ(frames().size(), 2u);
+  const auto of_first_frame =
+      std::ranges::count_if(store.nodes(), [&](const auto& entry) { return entry.second.frame() == before; });
+  EXPECT_EQ(static_cast<std::size_t>(of_first_frame), nodes) << "none was added to the frame before";
+  EXPECT_GT(store.nodes().size(), nodes) << "mapping goes on";
 }
 
 }  // namespace

@@ -89,6 +89,25 @@ TEST_F(CloudFile, ReadsAsciiOtherTypesAndOtherFields) {
   EXPECT_FALSE(ply->has_intensities());
 }
 
+TEST_F(CloudFile, OfALargeOneEveryKthPointIsRead) {
+  PointCloud cloud;
+  for (int k = 0; k < 1000; ++k) {
+    cloud.points.emplace_back(static_cast<float>(k), 1.0f, 2.0f);
+    cloud.intensities.push_back(0.5f * static_cast<float>(k));
+  }
+  for (const char* name : {"large.ply", "large.pcd"}) {
+    ASSERT_TRUE(write_cloud(folder_ / name, cloud));
+    const auto read = read_thinned_cloud(folder_ / name, 300);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->points_in_file, 1000u);
+    ASSERT_EQ(read->cloud.size(), 250u) << "k is 4";
+    EXPECT_EQ(read->cloud.points[3].x(), 12.0f);
+    EXPECT_EQ(read->cloud.intensities[3], 6.0f);
+    EXPECT_EQ(read_thinned_cloud(folder_ / name, 1000)->cloud.points, cloud.points);
+  }
+  EXPECT_FALSE(read_thinned_cloud(folder_ / "missing.ply", 300));
+}
+
 TEST_F(CloudFile, ErrorsNameTheFileAndWhatIsWrong) {
   EXPECT_THAT(read_cloud(folder_ / "none.ply").error().message,
               AllOf(HasSubstr("none.ply"), HasSubstr("no such file")));

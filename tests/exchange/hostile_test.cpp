@@ -323,5 +323,32 @@ TEST(HostileSubmaps, thousands_that_nobody_has_do_not_keep_live_ones_from_being_
   EXPECT_TRUE(fleet.robot("r1").store->has_submap(live.id));
 }
 
+TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) {
+  using Kind = SenderMisbehaved::Kind;
+  auto& r1 = fleet_.robot("r1");
+  messages::AgentStatus status;
+  messages::MissionReport report;
+  status.from = report.from = agent("r2");
+  fleet_.forge("r1", status, agent("r2"));
+  fleet_.forge("r1", forged("r2", first_seq(60)), agent("r3"));  // items go through third robots
+  EXPECT_TRUE(events<SenderMisbehaved>(r1).empty());
+  for (int k = 0; k < 5; ++k) fleet_.forge("r1", report, agent("r3"));
+  fleet_.forge("r1", Digest{agent("r3"), {{agent("r2"), 9, 5}}, {}}, agent("r3"));
+  const auto& node = made_.front();  // of r1, 3000 bytes
+  fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), node.id, 0, 4000, Bytes(4000)});
+  const auto seen = events<SenderMisbehaved>(r1);
+  ASSERT_EQ(seen.size(), 3u);
+  EXPECT_EQ(seen[0].name, agent("r2"));
+  EXPECT_EQ(seen[0].from, agent("r3"));
+  EXPECT_EQ(seen[0].kind, Kind::kForeignName);
+  EXPECT_EQ(seen[1].from, agent("r3"));
+  EXPECT_EQ(seen[1].kind, Kind::kDigest);
+  EXPECT_EQ(seen[2].name, agent("r2"));
+  EXPECT_EQ(seen[2].from, std::nullopt);
+  EXPECT_EQ(seen[2].kind, Kind::kSubmap);
+  const auto counted = r1.exchange->stats().misbehaved;
+  EXPECT_EQ(counted, (std::map<AgentId, std::uint64_t>{{agent("r2"), 1}, {agent("r3"), 6}}));
+}
+
 }  // namespace
 }  // namespace fleetmap::exchange

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace fleetmap::graph {
 namespace {
@@ -113,6 +116,98 @@ TEST(InformationGain, WhatIsUnknownOrAmbiguousOrAbsurdTellsNothing) {
   graph.add(alignment({kA, 0}, {kC, 7}));
   graph.add(alignment({kA, 0}, {kB, 0}, std::nan("")));
   EXPECT_GT(worth(graph, {kA, 0}, {kB, 0}), 9.0);
+}
+
+/// Three robots on the same way, and the conductances between all of their nodes at once.
+class WholeNetwork : public ::testing::Test {
+ protected:
+  static constexpr std::uint32_t kNodes = 150;  // of each
+
+  void SetUp() override {
+    std::vector<NodeId> order;
+    for (const AgentId& agent : {kA, kB, kC}) {
+      for (std::uint32_t seq = 0; seq < kNodes; ++seq) order.push_back({agent, seq});
+    }
+    laplacian_ = 1e-9 * Eigen::MatrixXd::Identity(3 * kNodes, 3 * kNodes);
+    for (const NodeId& id : order) {
+      Node made =
+          node(id.agent, id.seq, id.seq % 50 == 20 ? std::optional(1.0 + 0.1 * id.seq) : std::nullopt);
+      made.odom_covariance *= 1.0 + below(10);
+      nodes_.push_back(made);
+      if (id.seq > 0) connect({id.agent, id.seq - 1}, id, scalar(made.odom_covariance(0, 0)));
+      if (id.seq == 20) laplacian_(index(id), index(id)) += 1.0 / std::pow(1.0 + 0.1 * 20, 2);
+    }
+    for (std::uint32_t seq = 0; seq < kNodes; seq += 1 + below(5)) {
+      align({kA, seq}, {kB, std::min(kNodes - 1, seq + below(4))});
+      if (seq > 90) align({kB, seq}, {kC, kNodes - seq});
+    }
+  }
+  static Eigen::Index index(const NodeId& id) {
+    return (id.agent == kA ? 0 : id.agent == kB ? 1 : 2) * kNodes + id.seq;
+  }
+  void connect(const NodeId& a, const NodeId& b, double variance) {
+    const Eigen::Index i = index(a), j = index(b);
+    laplacian_(i, i) += 1.0 / variance;
+    laplacian_(j, j) += 1.0 / variance;
+    laplacian_(i, j) -= 1.0 / variance;
+    laplacian_(j, i) -= 1.0 / variance;
+  }
+  void align(const NodeId& a, const NodeId& b) {
+    alignments_.push_back(alignment(a, b, 1e-6 * (1 + below(100))));
+    connect(a, b, scalar(alignments_.back().best().covariance(0, 0)));
+  }
+  NodeId any(const AgentId& agent) { return {agent, below(kNodes)}; }
+  std::uint32_t below(std::uint32_t end) { return static_cast<std::uint32_t>(random_() % end); }
+
+  std::mt19937 random_{1};
+  std::vector<Node> nodes_;
+  std::vector<Alignment> alignments_;
+  Eigen::MatrixXd laplacian_;
+};
+
+TEST_F(WholeNetwork, GivesTheSameAsTheNeighbourhoods) {
+  InformationGain graph;
+  std::ranges::shuffle(nodes_, random_);  // as nodes come that got lost on the way
+  for (const Node& node : nodes_) graph.add(node);
+  graph.use(alignments_);
+  std::vector<InformationGain::Pair> pairs, expected;
+  for (int k = 0; k < 100; ++k) {
+    pairs.emplace_back(any(kA), any(kB));
+    pairs.emplace_back(any(kB), any(kC));
+    pairs.emplace_back(any(kA), any(kA));
+  }
+  expected = {{{kA, 40}, {kC, 70}}, {{kB, 3}, {kC, 1}}};
+  for (const auto& pair : expected) {
+    connect(pair.first, pair.second, kExpectedVariance);
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> whole(laplacian_);
+  const auto gains = graph.of(pairs, expected);
+  double least = 100.0, most = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Eigen::VectorXd current = Eigen::VectorXd::Zero(laplacian_.rows());
+    current[index(pairs[k].first)] += 1.0;
+    current[index(pairs[k].second)] -= 1.0;
+    EXPECT_NEAR(gains[k], of_variance(current.dot(whole.solve(current))), InformationGain::kTolerance)
+        << to_string(pairs[k].first) << " and " << to_string(pairs[k].second);
+    least = std::min(least, gains[k]);
+    most = std::max(most, gains[k]);
+  }
+  EXPECT_LT(least, 1.5);
+  EXPECT_GT(most, 2.5) << "near and far ones were compared";
+}
+
+/// Two long tracks that are not aligned: no neighbourhood of a few nodes decides.
+TEST(InformationGain, OfTracksThatAreNotAlignedIsLargeHoweverLongTheyAre) {
+  InformationGain graph;
+  for (std::uint32_t seq = 0; seq < 3000; ++seq) {
+    for (const AgentId& agent : {kA, kB, kC}) graph.add(node(agent, seq));
+    graph.add(alignment({kA, seq}, {kB, seq}));
+  }
+  const std::vector<InformationGain::Pair> pairs{{{kA, 2900}, {kC, 2900}}, {{kA, 100}, {kB, 101}}};
+  const auto gains = graph.of(pairs, {});
+  EXPECT_GT(gains[0], 5.0);
+  EXPECT_LT(gains[1], 1.0);
+  EXPECT_LT(worth(graph, {kA, 2900}, {kC, 2900}, {{{kA, 2890}, {kC, 2890}}}), 2.0);
 }
 
 }  // namespace

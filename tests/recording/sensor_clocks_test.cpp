@@ -139,6 +139,26 @@ LogClock clock_of_bag(double begun, double rate) {
   return find_log_clock(folder).value();
 }
 
+/// Decoding costs far more than reading, and the player decodes every scan anyway.
+TEST(LogClock, NeedsNoMoreOfAScanThanItsStamp) {
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path() / "drive";
+  auto bag = BagWriter::create(folder).value();
+  for (int k = 0; k < 100; ++k) {
+    const std::int64_t stamp = kStart + k * 100'000'000LL;
+    Bytes scan = ros_codec::encode(scan_at(stamp));
+    scan.resize(scan.size() / 2);
+    put(bag, ros_codec::topics::points(), stamp + 300'000'000'000, scan);
+  }
+  EXPECT_TRUE(bag.close());
+  EXPECT_NEAR(to_seconds(find_log_clock(folder).value().shift), -300.0, 0.01);
+  auto reader = open(folder, {}, ScanContent::kStampOnly).value();
+  const auto sample = reader->next().value();
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(to_ns(stamp_of(*sample)), kStart);
+  EXPECT_TRUE(std::get<sensor::Scan>(*sample).points.empty());
+}
+
 TEST(LogClock, OfABagThatWasWrittenAgainLaterIsThatOfTheDrive) {
   for (const double later : {300.0, 5.0 * 3600.0, 100.0 * 86'400.0, -7200.0}) {
     const LogClock clock = clock_of_bag(later, 1.0);

@@ -85,6 +85,17 @@ struct OwnItemsElsewhere {
 struct SessionTaken {
   AgentId peer;
 };
+inline constexpr std::size_t kMisbehaviourKinds = 4;
+/// A robot sent a message that bears another robot's name, or that contradicts the rules or a known item.
+/// Digests, chunks and reports bear no signatures, so `from` alone identifies the sender. Reported once for
+/// each robot and kind, and counted in ExchangeStats::misbehaved.
+struct SenderMisbehaved {
+  enum class Kind : std::uint8_t { kForeignName, kDigest, kCloud, kSubmap };
+  AgentId name;                 ///< in the message
+  std::optional<AgentId> from;  ///< the robot that sent it, where the link identifies it
+  Kind kind = Kind::kForeignName;
+  Reach link = Reach::kLongRange;  ///< over which it arrived
+};
 /// A robot that is not of the fleet was heard. Told once of each.
 struct StrangerHeard {
   AgentId name;
@@ -98,8 +109,9 @@ struct MapComplete {
   std::size_t nodes = 0;
   std::size_t alignments = 0;
 };
-using Event = std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard,
-                           HoldChanged, ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered,
-                           OwnItemsElsewhere, SessionTaken, StrangerHeard, StoreFailed, MapComplete>;
+using Event =
+    std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard, HoldChanged,
+                 ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered, OwnItemsElsewhere, SessionTaken,
+                 SenderMisbehaved, StrangerHeard, StoreFailed, MapComplete>;
 
 }  // namespace fleetmap::exchange

@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 
+#include "fleetmap/core/ids.hpp"
 #include "fleetmap/exchange/item_proof.hpp"
 #include "fleetmap/exchange/priority.hpp"
 
@@ -73,6 +75,8 @@ struct ExchangeStats {
   std::uint64_t bad_requests = 0;  ///< for clouds of nodes that are not ours
   /// Verified items by result; all but the genuine ones were refused.
   std::array<std::uint64_t, kItemProofs> proofs{};
+  /// Messages that contradict the rules or bear another robot's name, by sender.
+  std::map<AgentId, std::uint64_t> misbehaved;
 };
 
 /// Entries of the tables that what others send can fill.

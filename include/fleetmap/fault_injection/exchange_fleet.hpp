@@ -72,6 +72,8 @@ class ExchangeFleet {
   void keep_store(const AgentId& name, const std::string& copy) const;
   void put_back_store(const AgentId& name, const std::string& copy) const;
   void lose_store(const AgentId& name) const;
+  /// Overwrites a page at this share of its database.
+  void damage_store(const AgentId& name, double at) const;
 
   /// Delivers after `delay`, from `from` if the link can name the sender.
   void deliver(const AgentId& to, messages::Reach reach, std::shared_ptr<const messages::Message> message,

@@ -13,22 +13,23 @@
 namespace fleetmap::fault_injection {
 
 enum class FaultKind : std::uint8_t {
-  kLoss,         ///< a share `value` of packets is lost
-  kDelay,        ///< packets take up to `value` s more, so that they overtake each other
-  kDuplication,  ///< a share `value` of packets arrives twice
-  kOneWay,       ///< the first robot is not heard by the second
-  kPartition,    ///< the robots named and the others do not hear each other
-  kCrash,        ///< killed, and started again after `length`
-  kLostStore,    ///< killed, and started again on an empty disk
-  kOldStore,     ///< killed, and started again with the store of `value` s before
-  kFullDisk,     ///< every write to the store fails
-  kClockStep,    ///< killed, and started again with a clock that is `value` s off
-  kStranger,     ///< `value` packets a second of senders outside the fleet, and replayed ones
-  kForged,       ///< `value` packets a second in the names of robots of the fleet
-  kLiar,         ///< the robot lies in its digests, status and pieces of clouds and submaps
+  kLoss,          ///< a share `value` of packets is lost
+  kDelay,         ///< packets take up to `value` s more, so that they overtake each other
+  kDuplication,   ///< a share `value` of packets arrives twice
+  kOneWay,        ///< the first robot is not heard by the second
+  kPartition,     ///< the robots named and the others do not hear each other
+  kCrash,         ///< killed, and started again after `length`
+  kLostStore,     ///< killed, and started again on an empty disk
+  kOldStore,      ///< killed, and started again with the store of `value` s before
+  kFullDisk,      ///< every write to the store fails
+  kClockStep,     ///< killed, and started again with a clock that is `value` s off
+  kStranger,      ///< `value` packets a second of senders outside the fleet, and replayed ones
+  kForged,        ///< `value` packets a second in the names of robots of the fleet
+  kLiar,          ///< the robot lies in its digests, status and pieces of clouds and submaps
+  kDamagedStore,  ///< killed, and started again with a page of its database damaged, at share `value` of it
 };
 
-inline constexpr std::size_t kFaultKinds = 13;
+inline constexpr std::size_t kFaultKinds = 14;
 
 const char* to_string(FaultKind kind);
 /// Faults of links name the link that they impair: radio, short range or both.

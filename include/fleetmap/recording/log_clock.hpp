@@ -18,7 +18,8 @@ struct LogClock {
   Duration shift{};
 };
 
-/// Reads the first 20 s of a recording. Without such times it is played by its stamps.
+/// Reads the stamps of the first 20 s of a recording, whose scans are not decoded for it. Without such times
+/// it is played by its stamps.
 Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config = {});
 
 }  // namespace fleetmap::recording

@@ -44,6 +44,12 @@ struct Counters {
   std::vector<std::pair<std::string, std::uint64_t>> named() const;
 };
 
+/// What of the scans of a bag is decoded.
+enum class ScanContent : std::uint8_t {
+  kPoints,
+  kStampOnly,  ///< scans without points, whose messages are not checked either
+};
+
 /// Reads a recording sample by sample; holds no more than one scan in memory. Each reason for leaving
 /// something out is logged once (warn) and counted.
 class Reader {
@@ -60,6 +66,7 @@ class Reader {
 /// oxts; odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of
 /// scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a folder are assumed with a
 /// warning. Errors name the remedy for other formats, compressed bags and topics that cannot be chosen.
-Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {});
+Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {},
+                                     ScanContent content = ScanContent::kPoints);
 
 }  // namespace fleetmap::recording

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -18,6 +19,9 @@ struct EvaluationInputs {
   std::filesystem::path truth_trajectories = {};  ///< NAME.tum or NAME/truth.tum; else DIR/NAME/truth.tum
   eval::MapMetricsConfig map = {};
   double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
+  /// Of a map file; of a larger one every k-th point is measured, so that the map need not fit into memory,
+  /// and nothing that would merge the map again.
+  std::size_t max_map_points = 50'000'000;
   bool pictures = true;
   bool page = true;  ///< evaluation.html
   /// Combinations of registration and placement to evaluate beside the run's own, of mode_names().
