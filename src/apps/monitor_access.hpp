@@ -10,7 +10,7 @@
 
 namespace fleetmap::apps {
 
-/// Where the page is served, and who may look at it: options of every command that shows it.
+/// Address of the page and who may look at it; every command that serves it has these options.
 struct MonitorAccess {
   std::optional<std::uint16_t> port;
   std::string address = "127.0.0.1";

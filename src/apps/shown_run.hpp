@@ -11,7 +11,7 @@
 
 namespace fleetmap::apps {
 
-/// What the files of a run, finished or not, show: the view of one robot, and its store, which holds the
+/// A run that its files tell of, finished or not: the view of one robot, and its store, which holds the
 /// submaps.
 struct ShownRun {
   std::unique_ptr<store::Store> store;

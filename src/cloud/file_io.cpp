@@ -219,7 +219,7 @@ Result<PointCloud> parse(const std::string& file, PointFileFormat format) {
   return from_binary(file, *layout, *wanted);
 }
 
-/// Of a binary file; nothing of another one.
+/// Reads a binary file thinned to `max_points`; nullopt for files of another encoding.
 Result<std::optional<ThinnedCloud>> mapped(const fs::path& path, std::size_t max_points) {
   const auto format = format_of(path);
   if (!format) return failure(format.error().message);

@@ -32,7 +32,7 @@ double scalar(const Matrix6d& covariance) {
 /// ground.
 class InformationGain::Neighbourhood {
  public:
-  /// Of the edges that leave the neighbourhood.
+  /// Treats the edges that leave the neighbourhood as absent, or as fixed to the ground.
   enum class Border : std::uint8_t { kCut, kGrounded };
 
   /// The graph and the expected edges outlive this.

@@ -7,7 +7,7 @@
 namespace fleetmap::experiment {
 namespace {
 
-/// What is written of `progress`, one after another.
+/// Returns the text that showing `steps` one after another writes.
 std::string shown(const std::vector<Progress>& steps, bool terminal, bool finish = false) {
   std::ostringstream out;
   ProgressLine line(out, terminal);

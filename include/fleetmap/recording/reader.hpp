@@ -44,7 +44,7 @@ struct Counters {
   std::vector<std::pair<std::string, std::uint64_t>> named() const;
 };
 
-/// What of the scans of a bag is decoded.
+/// Selects what is decoded of the scans of a bag.
 enum class ScanContent : std::uint8_t {
   kPoints,
   kStampOnly,  ///< scans without points, whose messages are not checked either

@@ -19,8 +19,8 @@ struct EvaluationInputs {
   std::filesystem::path truth_trajectories = {};  ///< NAME.tum or NAME/truth.tum; else DIR/NAME/truth.tum
   eval::MapMetricsConfig map = {};
   double points_per_m2 = 100.0;  ///< of a truth that is sampled from a mesh
-  /// Of a map file; of a larger one every k-th point is measured, so that the map need not fit into memory,
-  /// and nothing that would merge the map again.
+  /// A map file with more points is measured at every k-th, so that the map need not fit into memory,
+  /// and is compared with no map that would have to be merged again.
   std::size_t max_map_points = 50'000'000;
   bool pictures = true;
   bool page = true;  ///< evaluation.html
