@@ -315,9 +315,8 @@ TEST(HostileSubmaps, thousands_that_nobody_has_do_not_keep_live_ones_from_being_
   fleet.start("r1");
   fleet.start("r3");
   const Bytes gone = testing::random_bytes(100, 1);
-  for (std::uint32_t seq = 0; seq < 4200; ++seq) {
+  for (std::uint32_t seq = 0; seq < 4200; ++seq)
     ASSERT_TRUE(fleet.robot("r1").store->put_node(make_node(agent("r2"), seq, gone, 500.0 + seq)));
-  }
   const graph::Node live = fleet.add_node("r3", 0.0);
   fleet.run_for(std::chrono::seconds(60), [&] { return fleet.robot("r1").store->has_submap(live.id); });
   EXPECT_TRUE(fleet.robot("r1").store->has_submap(live.id));
@@ -334,20 +333,18 @@ TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) 
   EXPECT_TRUE(events<SenderMisbehaved>(r1).empty());
   for (int k = 0; k < 5; ++k) fleet_.forge("r1", report, agent("r3"));
   fleet_.forge("r1", Digest{agent("r3"), {{agent("r2"), 9, 5}}, {}}, agent("r3"));
-  const auto& node = made_.front();  // of r1, 3000 bytes
-  fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), node.id, 0, 4000, Bytes(4000)});
+  // The node of r1 has 3000 bytes.
+  fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), made_.front().id, 0, 4000, Bytes(4000)});
   const auto seen = events<SenderMisbehaved>(r1);
   ASSERT_EQ(seen.size(), 3u);
-  EXPECT_EQ(seen[0].name, agent("r2"));
-  EXPECT_EQ(seen[0].from, agent("r3"));
-  EXPECT_EQ(seen[0].kind, Kind::kForeignName);
-  EXPECT_EQ(seen[1].from, agent("r3"));
-  EXPECT_EQ(seen[1].kind, Kind::kDigest);
-  EXPECT_EQ(seen[2].name, agent("r2"));
-  EXPECT_EQ(seen[2].from, std::nullopt);
-  EXPECT_EQ(seen[2].kind, Kind::kSubmap);
-  const auto counted = r1.exchange->stats().misbehaved;
-  EXPECT_EQ(counted, (std::map<AgentId, std::uint64_t>{{agent("r2"), 1}, {agent("r3"), 6}}));
+  const auto is = [&](const SenderMisbehaved& one, const char* name, std::optional<AgentId> from, Kind kind) {
+    return one.name == agent(name) && one.from == from && one.kind == kind;
+  };
+  EXPECT_TRUE(is(seen[0], "r2", agent("r3"), Kind::kForeignName));
+  EXPECT_TRUE(is(seen[1], "r3", agent("r3"), Kind::kDigest));
+  EXPECT_TRUE(is(seen[2], "r2", std::nullopt, Kind::kSubmap));
+  const std::map<AgentId, std::uint64_t> counts{{agent("r2"), 1}, {agent("r3"), 6}};
+  EXPECT_EQ(r1.exchange->stats().misbehaved, counts);
 }
 
 }  // namespace
