@@ -333,7 +333,6 @@ TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) 
   EXPECT_TRUE(events<SenderMisbehaved>(r1).empty());
   for (int k = 0; k < 5; ++k) fleet_.forge("r1", report, agent("r3"));
   fleet_.forge("r1", Digest{agent("r3"), {{agent("r2"), 9, 5}}, {}}, agent("r3"));
-  // The node of r1 has 3000 bytes.
   fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), made_.front().id, 0, 4000, Bytes(4000)});
   const auto seen = events<SenderMisbehaved>(r1);
   ASSERT_EQ(seen.size(), 3u);
