@@ -120,6 +120,7 @@ class Agent {
   void handle(const exchange::ItemsAdopted&) {}
   void handle(const exchange::OfferUndelivered&) {}
   void handle(const exchange::OwnItemsElsewhere&) {}
+  void handle(const exchange::SenderMisbehaved&) {}
   void handle(const exchange::StrangerHeard&) {}
   void handle(const exchange::AlignmentAdded&) {}
   void handle(const exchange::SubmapAdded&) {}
