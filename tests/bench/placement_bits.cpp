@@ -22,7 +22,7 @@ class Archive {
     stream_.open(file, std::ios::binary | (writes ? std::ios::out | std::ios::trunc : std::ios::in));
   }
   template <class Number>
-    requires std::is_arithmetic_v<Number>
+  requires std::is_arithmetic_v<Number>
   void operator()(Number& number) {
     if (writes_) {
       stream_.write(reinterpret_cast<const char*>(&number), sizeof number);
@@ -102,7 +102,8 @@ class Hash {
     for (std::size_t k = 0; k < count; ++k) {
       std::uint64_t bits = 0;
       std::memcpy(&bits, numbers + k, sizeof bits);
-      for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ ((bits >> (8 * byte)) & 0xffu)) * 0x100000001b3u;
+      for (int byte = 0; byte < 8; ++byte)
+        value_ = (value_ ^ ((bits >> (8 * byte)) & 0xffu)) * 0x100000001b3u;
     }
   }
   std::uint64_t value() const { return value_; }
