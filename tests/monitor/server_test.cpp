@@ -247,7 +247,7 @@ TEST(Server, a_port_in_use_is_an_error_that_names_it) {
   config.port = server->port();
   const auto second = Server::start(config, {}, kPage);
   ASSERT_FALSE(second);
-  EXPECT_THAT(second.error().message, AllOf(HasSubstr(std::to_string(server->port())), HasSubstr("--port")));
+  EXPECT_THAT(second.error().message, AllOf(HasSubstr(std::to_string(server->port())), HasSubstr("another port")));
 }
 
 }  // namespace
