@@ -35,7 +35,8 @@ TEST(EventLog, AConflictNamesTheItemTheLinkAndWhoHandedItOver) {
 }
 
 TEST(EventLog, AnItemOfAnUnknownMakerIsAWarningAndAForgedOneAnError) {
-  exchange::ItemRefused refused{{kR2, 9}, false, exchange::ItemProof::kUnknownMaker};
+  exchange::ItemRefused refused{
+      {kR2, 9}, false, exchange::ItemProof::kUnknownMaker, messages::Reach::kLongRange, std::nullopt};
   EXPECT_THAT(logged(refused), HasSubstr("warning"));
   EXPECT_THAT(logged(refused), HasSubstr("until the certificate of r2 comes"));
   refused.proof = exchange::ItemProof::kUnsigned;

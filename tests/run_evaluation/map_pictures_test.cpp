@@ -14,7 +14,8 @@ namespace {
 cloud::PointCloud ground() {
   cloud::PointCloud cloud;
   for (int x = 0; x <= 20; ++x) {
-    for (int y = 0; y <= 20; ++y) cloud.points.emplace_back(0.5f * x, 0.5f * y, 0.0f);
+    for (int y = 0; y <= 20; ++y)
+      cloud.points.emplace_back(0.5f * static_cast<float>(x), 0.5f * static_cast<float>(y), 0.0f);
   }
   return cloud;
 }
