@@ -16,7 +16,7 @@ class RadioNotices {
  public:
   /// `settings` and `multicast` are this robot's; no settings for an observer.
   RadioNotices(Link link, bool multicast, std::optional<FleetSettings> settings)
-      : link_(link), multicast_(multicast), settings_(std::move(settings)) {}
+      : link_(link), multicast_(multicast), settings_(settings) {}
 
   /// Adds a robot, or updates what its Hello changed.
   void note(RadioSurvey::Robot robot);
