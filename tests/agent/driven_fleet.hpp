@@ -27,8 +27,8 @@ class DrivenFleet {
     double lidar_rate = 10.0;    ///< Hz
     Duration perception_time{};  ///< of each scan
     double long_range_loss = 0.0;
-    bool guided = false;      ///< no GPS; each robot is told where it is at 10 Hz
-    std::string file_system;  ///< of the stores (store::StoreConfig)
+    bool guided = false;           ///< no GPS; each robot is told where it is at 10 Hz
+    std::string file_system = {};  ///< of the stores (store::StoreConfig)
   };
   struct Command {
     Stamp at;
