@@ -5,6 +5,7 @@
 namespace fleetmap::exchange {
 namespace {
 
+constexpr std::chrono::seconds kSecond{1};
 /// An item that fits into a second waits so long for other traffic to leave room, then it goes above the
 /// peak.
 constexpr std::chrono::seconds kLongestWait{3};
@@ -23,28 +24,26 @@ void Pace::set_rate(double bytes_per_second, Stamp now) {
 }
 
 void Pace::forget_before(Stamp now) {
-  while (!last_second_.empty() && now - last_second_.front().at >= std::chrono::seconds(1)) {
-    const Sent& oldest = last_second_.front();
-    in_last_second_ -= oldest.bytes;
-    taken_in_last_second_ -= oldest.taken ? 1 : 0;
+  while (!last_second_.empty() && now - last_second_.front().at >= kSecond) {
+    in_last_second_ -= last_second_.front().bytes;
     last_second_.pop_front();
   }
   if (last_second_.empty()) in_last_second_ = 0.0;  // rounding adds up
 }
 
 bool Pace::may_exceed_peak(double bytes, Stamp now) const {
-  if (taken_in_last_second_ > 0) return false;
   const bool fits_alone = bytes <= config_.peak * rate();
-  return !fits_alone || now - *last_taken_ >= kLongestWait;
+  if (!fits_alone) return !last_taken_ || now - *last_taken_ >= kSecond;
+  return now - last_taken_.value_or(*first_asked_) >= kLongestWait;
 }
 
 bool Pace::take(double bytes, Stamp now, double reserve) {
   forget_before(now);
-  if (!last_taken_) last_taken_ = now;
+  if (!first_asked_) first_asked_ = now;
   const bool below_peak = in_last_second_ + bytes <= config_.peak * rate();
   if (!below_peak && !may_exceed_peak(bytes, now)) return false;
   if (!bucket_.take(bytes, now, reserve)) return false;
-  note({now, bytes, true});
+  note({now, bytes});
   last_taken_ = now;
   return true;
 }
@@ -52,13 +51,12 @@ bool Pace::take(double bytes, Stamp now, double reserve) {
 void Pace::spend(double bytes, Stamp now) {
   forget_before(now);
   bucket_.spend(bytes, now);
-  note({now, bytes, false});
+  note({now, bytes});
 }
 
 void Pace::note(const Sent& sent) {
   last_second_.push_back(sent);
   in_last_second_ += sent.bytes;
-  taken_in_last_second_ += sent.taken ? 1 : 0;
 }
 
 }  // namespace fleetmap::exchange

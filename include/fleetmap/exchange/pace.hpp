@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <deque>
 #include <optional>
 
@@ -30,7 +29,6 @@ class Pace {
   struct Sent {
     Stamp at;
     double bytes;
-    bool taken;  ///< not spent
   };
   void note(const Sent& sent);
   bool may_exceed_peak(double bytes, Stamp now) const;
@@ -40,9 +38,8 @@ class Pace {
   PaceConfig config_;
   TokenBucket bucket_;
   std::deque<Sent> last_second_;
-  double in_last_second_ = 0.0;           ///< B
-  std::size_t taken_in_last_second_ = 0;  ///< items
-  std::optional<Stamp> last_taken_;       ///< or when an item was first asked for
+  double in_last_second_ = 0.0;                    ///< B
+  std::optional<Stamp> first_asked_, last_taken_;  ///< of items
 };
 
 }  // namespace fleetmap::exchange
