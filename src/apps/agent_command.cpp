@@ -103,7 +103,8 @@ void print_map(const std::filesystem::path& directory, const output::Results& re
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  if (const auto page = server_config(options.monitor); !page) return report(page.error(), kUsage);
+  const auto page_config = config_of_page(options.monitor);
+  if (!page_config) return report(page_config.error(), kUsage);
   const auto config =
       options.as.empty() ? robot_of_its_own(options, *overrides) : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
@@ -122,7 +123,7 @@ int run(const AgentOptions& options) {
     if (!made) return report(made.error(), kFailed);
     recorder = std::move(*made);
   }
-  const auto page = page_of_robot(options.monitor, config->agent.directory);
+  const auto page = page_of_robot(*page_config, config->agent.directory);
   if (!page) return report(page.error(), kFailed);
   spdlog::info("{}: ready, store {}", config->agent.id.str(),
                (config->agent.directory / "store.db").string());
@@ -176,12 +177,7 @@ void add_agent(CLI::App& app, int& exit_code) {
       ->check(non_negative_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--monitor", options->monitor.port,
-          "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` with what this robot holds")
-      ->check(whole_number(0, 65535));
-  add_access_options(*command, options->monitor, "monitor-");
+  add_page_options(*command, options->monitor, "with what this robot holds");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

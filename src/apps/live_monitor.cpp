@@ -2,8 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <chrono>
 #include <sstream>
 
+#include "fleetmap/output/robot_folders.hpp"
 #include "fleetmap/store/submap_loader.hpp"
 
 namespace fleetmap::apps {
@@ -11,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::milliseconds kPeriod{2000};
 constexpr int kPauseFactor = 20;  // of the time that a reading takes
 
 /// Sizes and times of the files that a view is made of. SQLite writes to the log beside the store first.
@@ -29,24 +33,21 @@ std::string fingerprint(const std::vector<fs::path>& folders) {
   return std::move(print).str();
 }
 
-Result<std::unique_ptr<LiveMonitor>> open_page(const MonitorAccess& access, LiveMonitor::Folders folders,
-                                               LiveMonitor::Read read) {
-  const auto server = server_config(access);
-  if (!server) return tl::unexpected(server.error());
-  auto page = LiveMonitor::start(*server, std::move(folders), std::move(read), true);
+Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::ServerConfig>& config,
+                                               LiveMonitor::Folders folders, LiveMonitor::Read read) {
+  if (!config) return nullptr;
+  auto page = LiveMonitor::start(*config, std::move(folders), std::move(read), true);
   if (page) spdlog::info("page: open {} in a browser", (*page)->server().url());
   return page;
 }
 
 }  // namespace
 
-LiveMonitor::LiveMonitor(Folders folders, Read read, std::chrono::milliseconds period)
-    : folders_(std::move(folders)), read_(std::move(read)), period_(period) {}
+LiveMonitor::LiveMonitor(Folders folders, Read read) : folders_(std::move(folders)), read_(std::move(read)) {}
 
 Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerConfig& config, Folders folders,
-                                                        Read read, bool patient,
-                                                        std::chrono::milliseconds period) {
-  auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(folders), std::move(read), period));
+                                                        Read read, bool patient) {
+  auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(folders), std::move(read)));
   const auto load = [self = live.get()](const NodeId& id) -> Result<cloud::PointCloud> {
     const auto store = [self] {
       const std::lock_guard lock(self->mutex_);
@@ -73,7 +74,7 @@ LiveMonitor::~LiveMonitor() {
 }
 
 void LiveMonitor::follow() {
-  auto pause = period_;
+  std::chrono::milliseconds pause = kPeriod;
   while (true) {
     {
       std::unique_lock lock(mutex_);
@@ -84,7 +85,7 @@ void LiveMonitor::follow() {
     if (!shown && shown.error().message != failed_) spdlog::info("page: {}", shown.error().message);
     failed_ = shown ? "" : shown.error().message;
     const auto taken = std::chrono::steady_clock::now() - begin;
-    pause = std::max(period_, std::chrono::duration_cast<std::chrono::milliseconds>(kPauseFactor * taken));
+    pause = std::max(kPeriod, std::chrono::duration_cast<std::chrono::milliseconds>(kPauseFactor * taken));
   }
 }
 
@@ -103,16 +104,16 @@ Status LiveMonitor::show_if_changed() {
   return {};
 }
 
-Result<std::unique_ptr<LiveMonitor>> page_of_robot(const MonitorAccess& access, const fs::path& folder) {
-  if (!access.port) return nullptr;
+Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::ServerConfig>& config,
+                                                   const fs::path& folder) {
   return open_page(
-      access, [folder] { return std::vector{folder}; }, [folder] { return open_one(folder / "store.db"); });
+      config, [folder] { return std::vector{folder}; }, [folder] { return open_one(folder / "store.db"); });
 }
 
-Result<std::unique_ptr<LiveMonitor>> page_of_run(const MonitorAccess& access, const fs::path& directory) {
-  if (!access.port) return nullptr;
+Result<std::unique_ptr<LiveMonitor>> page_of_run(const std::optional<monitor::ServerConfig>& config,
+                                                 const fs::path& directory) {
   return open_page(
-      access, [directory] { return robot_folders(directory); },
+      config, [directory] { return output::robot_folders(directory, "store.db"); },
       [directory] { return open_run(directory, ""); });
 }
 

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "fleetmap/monitor/server.hpp"
-#include "monitor_access.hpp"
 #include "shown_run.hpp"
 
 namespace fleetmap::apps {
@@ -26,9 +25,8 @@ class LiveMonitor {
 
   /// `folders`: of the robots whose stores are watched. A reading that fails later leaves what was shown.
   /// Fails if the address cannot be listened on, or, unless `patient`, if there is nothing to show yet.
-  static Result<std::unique_ptr<LiveMonitor>> start(
-      const monitor::ServerConfig& config, Folders folders, Read read, bool patient,
-      std::chrono::milliseconds period = std::chrono::seconds(2));
+  static Result<std::unique_ptr<LiveMonitor>> start(const monitor::ServerConfig& config, Folders folders,
+                                                    Read read, bool patient);
   ~LiveMonitor();
   LiveMonitor(const LiveMonitor&) = delete;
   LiveMonitor& operator=(const LiveMonitor&) = delete;
@@ -36,13 +34,12 @@ class LiveMonitor {
   const monitor::Server& server() const { return *server_; }
 
  private:
-  LiveMonitor(Folders folders, Read read, std::chrono::milliseconds period);
+  LiveMonitor(Folders folders, Read read);
   void follow();
   Status show_if_changed();
 
   const Folders folders_;
   const Read read_;
-  const std::chrono::milliseconds period_;
   std::mutex mutex_;  ///< of `stop_` and `store_`
   std::condition_variable stopped_;
   bool stop_ = false;
@@ -53,11 +50,11 @@ class LiveMonitor {
   std::thread thread_;
 };
 
-/// The page of what the robot that keeps its files in `folder` holds; null unless a port is given.
-Result<std::unique_ptr<LiveMonitor>> page_of_robot(const MonitorAccess& access,
+/// The page of what the robot that keeps its files in `folder` holds; null without a configuration.
+Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::ServerConfig>& config,
                                                    const std::filesystem::path& folder);
 /// The same of all robots below `directory`, on the map of the one that holds most.
-Result<std::unique_ptr<LiveMonitor>> page_of_run(const MonitorAccess& access,
+Result<std::unique_ptr<LiveMonitor>> page_of_run(const std::optional<monitor::ServerConfig>& config,
                                                  const std::filesystem::path& directory);
 
 }  // namespace fleetmap::apps

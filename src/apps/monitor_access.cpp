@@ -36,6 +36,14 @@ void add_access_options(CLI::App& command, MonitorAccess& access, const std::str
       ->check(whole_number(1, 64));
 }
 
+void add_page_options(CLI::App& command, MonitorAccess& access, const std::string& content) {
+  command
+      .add_option("--monitor", access.port,
+                  "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` " + content)
+      ->check(whole_number(0, 65535));
+  add_access_options(command, access, "monitor-");
+}
+
 Result<monitor::ServerConfig> server_config(const MonitorAccess& access) {
   monitor::ServerConfig config;
   config.address = access.address;
@@ -50,6 +58,12 @@ Result<monitor::ServerConfig> server_config(const MonitorAccess& access) {
   }
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   return config;
+}
+
+Result<std::optional<monitor::ServerConfig>> config_of_page(const MonitorAccess& access) {
+  auto config = server_config(access);
+  if (!config) return tl::unexpected(config.error());
+  return access.port ? std::optional(std::move(*config)) : std::nullopt;
 }
 
 }  // namespace fleetmap::apps

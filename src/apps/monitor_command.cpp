@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "fleetmap/output/robot_folders.hpp"
 #include "live_monitor.hpp"
 #include "monitor_access.hpp"
 #include "options.hpp"
@@ -38,7 +39,8 @@ int show(const MonitorOptions& options) {
     return one ? open_one(options.store) : open_run(options.run, options.robot);
   };
   const LiveMonitor::Folders folders = [&] {
-    return one ? std::vector{fs::path(options.store).parent_path()} : robot_folders(options.run);
+    return one ? std::vector{fs::path(options.store).parent_path()}
+               : output::robot_folders(options.run, "store.db");
   };
   const auto live = LiveMonitor::start(*config, folders, read, false);
   if (!live) return report(live.error(), kFailed);

@@ -97,7 +97,8 @@ int run(const RunOptions& options) {
   }
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
-  if (const auto page = server_config(options.monitor); !page) return report(page.error(), kUsage);
+  const auto page_config = config_of_page(options.monitor);
+  if (!page_config) return report(page_config.error(), kUsage);
   auto config = fleet_config(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
   if (options.agents && *options.agents > config->members.size()) {
@@ -123,7 +124,7 @@ int run(const RunOptions& options) {
     if (written) written = write_site(options.out, *setup);
     if (!written) return report(written.error(), kFailed);
   }
-  const auto page = page_of_run(options.monitor, options.out);
+  const auto page = page_of_run(*page_config, options.out);
   if (!page) return report(page.error(), kFailed);
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
@@ -168,12 +169,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(whole_number(1, 256));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--monitor", options->monitor.port,
-          "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` while the run goes on")
-      ->check(whole_number(0, 65535));
-  add_access_options(*command, options->monitor, "monitor-");
+  add_page_options(*command, options->monitor, "while the run goes on");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

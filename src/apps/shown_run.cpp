@@ -1,11 +1,11 @@
 #include "shown_run.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/registrations_file.hpp"
+#include "fleetmap/output/robot_folders.hpp"
 #include "stored_map.hpp"
 
 namespace fleetmap::apps {
@@ -81,20 +81,10 @@ Result<ShownRun> open_one(const fs::path& file) {
   return run;
 }
 
-std::vector<fs::path> robot_folders(const fs::path& directory) {
-  std::vector<fs::path> folders;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    if (fs::exists(entry.path() / "store.db", error)) folders.push_back(entry.path());
-  }
-  std::ranges::sort(folders);
-  return folders;
-}
-
 Result<ShownRun> open_run(const fs::path& directory, const std::string& robot) {
   ShownRun run;
   fs::path shown;
-  for (const fs::path& folder : robot_folders(directory)) {
+  for (const fs::path& folder : output::robot_folders(directory, "store.db")) {
     auto store = open_store(folder / "store.db");
     if (!store) {
       run.view.notes.push_back(store.error().message);

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
@@ -23,8 +22,5 @@ Result<ShownRun> open_one(const std::filesystem::path& file);
 
 /// All robots below `directory`, on the map of one: of `robot`, or of the one that holds most if it is empty.
 Result<ShownRun> open_run(const std::filesystem::path& directory, const std::string& robot);
-
-/// Folders below `directory` that hold a store, by name.
-std::vector<std::filesystem::path> robot_folders(const std::filesystem::path& directory);
 
 }  // namespace fleetmap::apps

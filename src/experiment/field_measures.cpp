@@ -12,6 +12,7 @@
 
 #include "fleetmap/eval/csv_line.hpp"
 #include "fleetmap/experiment/run_case.hpp"
+#include "fleetmap/output/robot_folders.hpp"
 
 namespace fleetmap::experiment {
 namespace {
@@ -19,17 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using Row = std::map<std::string, std::string>;  // by column
-
-/// Robots' folders, by name.
-std::vector<fs::path> robots_in(const fs::path& directory) {
-  std::vector<fs::path> robots;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(directory, error)) {
-    if (fs::exists(entry.path() / "node_times.csv", error)) robots.push_back(entry.path());
-  }
-  std::ranges::sort(robots);
-  return robots;
-}
 
 /// A line that is cut off (a killed writer) is left out.
 Result<std::vector<Row>> read_csv(const fs::path& file) {
@@ -145,7 +135,7 @@ Result<std::map<std::string, double>> field_measures(const fs::path& directory) 
   for (const auto& [name, value] : field->items()) {
     if (value.is_number()) measures["field." + name] = value.get<double>();
   }
-  const std::vector<fs::path> robots = robots_in(directory);
+  const std::vector<fs::path> robots = output::robot_folders(directory, "node_times.csv");
   if (robots.empty()) return failure(directory.string() + ": no robot has left its files there");
   for (const Status& added : {add_latencies(robots, measures), add_kinds(robots, measures)}) {
     if (!added) return tl::unexpected(added.error());
