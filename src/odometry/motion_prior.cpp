@@ -75,6 +75,8 @@ void MotionPrior::set_forward_speed(double speed, double sigma) {
   has_forward_speed_ = true;
 }
 
+void MotionPrior::set_no_sideslip(double sigma) { measure_rate(1, 0.0, sigma); }
+
 void MotionPrior::set_yaw_rate(double rate, double sigma) {
   measure_rate(5, rate, sigma);
   has_yaw_rate_ = true;

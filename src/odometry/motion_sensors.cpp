@@ -13,6 +13,7 @@ constexpr double kWheelStep = 0.05;                         // s
 constexpr double kWheelSlip = 0.03;                         // m a m, 1 sigma
 constexpr double kWheelSigma = 0.02;                        // m, 1 sigma at no distance
 constexpr double kSpeedShare = 0.05;                        // of the speed, added to its sigma
+constexpr double kTurningAxis = 0.5;                        // m, 1 sigma, from base_link
 constexpr double kBiasGain = 0.02;
 
 }  // namespace
@@ -42,6 +43,9 @@ MotionPrior MotionSensors::prior(const MotionState& previous, const Matrix12d& c
   if (const auto trend = gyro_.trend(from, to)) prior.set_turn_acceleration(trend->slope);
   if (const auto wheel = wheels_.mean(from, to, kHold)) {
     prior.set_forward_speed(wheel->x(), config_.wheel_speed_noise + kSpeedShare * std::abs(wheel->x()));
+    // A base_link beside the axis that the robot turns about moves sideways in turns.
+    prior.set_no_sideslip(config_.wheel_speed_noise + kSpeedShare * std::abs(wheel->x()) +
+                          kTurningAxis * prior.predicted().twist.tail<1>().norm());
     if (wheel->z() > 0.99) prior.set_yaw_rate(wheel->y(), config_.wheel_yaw_noise);
   }
   return prior;

@@ -12,7 +12,6 @@ constexpr double kKept = 0.95;         // of a prior's misfit, from scan to scan
 constexpr double kAssumed = 10.0;      // dimensions in which it is taken to be as stated
 constexpr double kChangeGain = 0.1;    // of the changes of the turn rate: over a second
 constexpr double kMostlyUnheld = 0.3;  // share of the map near that is as bad as all of it
-constexpr double kSlidesFrom = 0.5;    // such a share, from which on map and scans may slide together
 constexpr double kMapTurn = 1.0;       // rad, the same for a LiDAR that looks ahead
 constexpr double kMapReach = 5.0;      // m of way on which most of the map that is seen is replaced
 
@@ -174,19 +173,26 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
 }
 
 /// Growth by sliding. A map that was built mostly of scans that it did not constrain may have slid together
-/// with them, so a scan that it seems to constrain again is no evidence. Only wheels and a gyro measure
-/// whether they slid.
+/// with them, so a scan that it seems to constrain again is no evidence, nor are directions that are weakly
+/// constrained. Only wheels and a gyro measure whether they slid.
 Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
   if (match.degenerate_count > 0) sliding_ = match;
-  if (unheld_share_ < kSlidesFrom) slid_ = 0.0;
-  if (unheld_share_ < kSlidesFrom || match.degenerate_count > 0) return Matrix6d::Zero();
+  if (unheld_share_ < kMostlyUnheld) {
+    slid_ = 0.0;
+    return Matrix6d::Zero();
+  }
   const double before = std::exchange(slid_, slid_ + way);
   Vector6d scale;
   scale.head<3>().setConstant(match.speed_measured ? 0.0 : 1.0);
   scale.tail<3>().setConstant(match.turn_rate_measured ? 0.0 : 1.0 / sliding_.range);
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> axes =
-      scale.asDiagonal() * sliding_.degenerate_directions.leftCols(sliding_.degenerate_count);
-  return (square(slid_) - square(before)) * axes * axes.transpose();
+  Matrix6d directions = Matrix6d::Zero();
+  if (match.degenerate_count == 0) {
+    const auto V = sliding_.degenerate_directions.leftCols(sliding_.degenerate_count);
+    directions = V * V.transpose();
+  }
+  const auto W = match.degenerate_directions.middleCols(match.degenerate_count, match.weak_count);
+  directions += W * W.transpose();
+  return (square(slid_) - square(before)) * (scale.asDiagonal() * directions * scale.asDiagonal()).eval();
 }
 
 }  // namespace fleetmap::odometry

@@ -22,6 +22,8 @@ constexpr std::size_t kLongestStride = 4;
 constexpr double kAssumedDistances = 10.0;
 /// A direction is degenerate if its information is within this factor of what noisy normals feign ...
 constexpr double kSpuriousFactor = 6.0;
+/// Below this factor noisy normals can still be most of what constrains it: it is weak ...
+constexpr double kWeakFactor = 40.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
 constexpr double kLevel = 0.7;      // upward part of the normal of what lies level, at least
@@ -280,6 +282,8 @@ void ScanMatcher::find_degeneracy(const Matrix12d& H, MatchResult& result) const
   const double limit = kMinShare + kSpuriousFactor * sums_.spurious / weight;
   result.range = range;
   result.degenerate_count = static_cast<int>((eigen.values.array() < limit).count());
+  const double weak = kMinShare + kWeakFactor * sums_.spurious / weight;
+  result.weak_count = static_cast<int>((eigen.values.array() < weak).count()) - result.degenerate_count;
   result.degenerate_directions = eigen.vectors;
 }
 

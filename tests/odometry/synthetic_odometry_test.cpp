@@ -5,6 +5,7 @@
 
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/odometry/motion_covariance.hpp"
+#include "odometry/stated_drive.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/measured.hpp"
 #include "support/synthetic_lidar.hpp"
@@ -16,9 +17,7 @@ using testing::DriveLeg;
 using testing::ScanOptions;
 using testing::SyntheticDrive;
 
-/// Straight on, a bend, a stop, turns on the spot both ways, a long bend back.
-const std::vector<DriveLeg> kErrands{{1, 0, 0}, {10, 1.5, 0}, {4, 1.2, 0.4},  {3, 0, 0},      {4, 0, 1.0},
-                                     {1, 0, 0}, {2, 0, -1.0}, {8, 1.5, -0.1}, {4, 1.0, -0.5}, {3, 1.5, 0}};
+const std::vector<DriveLeg> kErrands = testing::errands();
 
 struct DriveResult {
   std::vector<Pose> estimate, truth;
@@ -115,96 +114,6 @@ TEST(SyntheticOdometry, CorridorIsDegenerateAlongItself) {
   }
   EXPECT_GT(degenerate, scans * 3 / 4);
   EXPECT_NEAR(travelled, motion.at(motion.duration() - 0.1).translation().x(), 0.02 * travelled + 0.15);
-}
-
-struct Stated {
-  int blind = 0;       ///< scans with degenerate directions
-  double error = 0.0;  ///< m, at the end
-  double sigma = 0.0;  ///< m, 1 sigma, that is stated for it
-  double nees = 0.0;   ///< over 3 s, a dimension, mean: 1 if errors are as stated
-};
-
-/// Over the errands with a part of each scan.
-Stated drive_with(const testing::SyntheticWorld& world, const std::vector<DriveLeg>& legs,
-                  bool (*keep)(const sensor::ScanPoint&), bool gyro_and_wheels) {
-  const SyntheticDrive motion(legs);
-  LoamConfig config;
-  config.T_base_lidar = ScanOptions{}.T_base_lidar;
-  Loam loam(config, vlp16());
-  constexpr int kLag = 30;
-  MotionCovariance whole, piece;
-  std::vector<Pose> estimate;
-  Stated result;
-  int pieces = 0;
-  double fed = 0.0;
-  const auto error_since = [&](std::size_t from, double now) {
-    const Pose truth = motion.at(0.1 * static_cast<double>(from)).inverse() * motion.at(now);
-    return se3_log(truth.inverse() * (estimate[from].inverse() * estimate.back()));
-  };
-  for (int k = 0; 0.1 * (k + 1) < motion.duration(); ++k) {
-    for (; gyro_and_wheels && fed < 0.1 * k + 0.12; fed += 0.01) {
-      loam.add_imu(motion.imu(fed));
-      loam.add_wheel(motion.wheel(fed));
-    }
-    sensor::Scan scan = make_scan(
-        world, [&](double s) { return motion.at(s); }, 0.1 * k, vlp16());
-    std::erase_if(scan.points, [&](const sensor::ScanPoint& p) { return !keep(p); });
-    const auto update = loam.add_scan(scan);
-    EXPECT_TRUE(update) << update.error().message;
-    if (!update) return result;
-    result.blind += update->degenerate_count > 0;
-    estimate.push_back(update->T_odom_base);
-    whole.add(*update);
-    piece.add(*update);
-    if (k == 0 || k % kLag != 0) continue;
-    const Vector6d error = error_since(static_cast<std::size_t>(k - kLag), 0.1 * k);
-    result.nees += error.dot(piece.since_reference().ldlt().solve(error)) / 6.0;
-    ++pieces;
-    piece.restart();
-  }
-  result.nees /= pieces;
-  result.error = error_since(0, 0.1 * static_cast<double>(estimate.size() - 1)).head<3>().norm();
-  result.sigma = std::sqrt(whole.since_reference().topLeftCorner<3, 3>().trace());
-  EXPECT_EQ(loam.counters().lost, 0u);
-  return result;
-}
-
-struct Part {
-  const char* name;
-  bool (*keep)(const sensor::ScanPoint&);
-  double most_stated;  ///< m, 1 sigma at the end
-};
-
-bool low(const sensor::ScanPoint& p) { return p.position.z() < -0.3f; }
-bool near(const sensor::ScanPoint& p) { return p.position.norm() < 5.0f; }
-bool any(const sensor::ScanPoint&) { return true; }
-
-void expect_stated_as_it_errs(const Stated& drove, const Part& part, const char* sensors) {
-  const std::string what = std::string(part.name) + ", " + sensors + ", " + std::to_string(drove.blind) +
-                           " scans with degenerate directions, " + std::to_string(drove.error) + " m off";
-  EXPECT_LT(drove.error, 3.0 * drove.sigma) << what;
-  EXPECT_LT(drove.sigma, part.most_stated) << what;
-  EXPECT_LT(drove.nees, 2.0) << what;
-  EXPECT_GT(drove.nees, 0.03) << what;
-}
-
-/// A scan or two that miss a direction are stated to centimetres, as they err, and not to metres.
-TEST(SyntheticOdometry, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
-  const std::vector<DriveLeg> aisle{{1, 0, 0}, {12, 1.5, 0}, {1, 0, 0}, {4, 0, 0.8}, {1, 0, 0}, {8, 1.5, 0}};
-  for (const Part& part : {Part{"panels, low", low, 0.1}, Part{"panels, near", near, 0.1}}) {
-    expect_stated_as_it_errs(drive_with(testing::panel_world(), aisle, part.keep, false), part, "LiDAR");
-    expect_stated_as_it_errs(drive_with(testing::panel_world(), aisle, part.keep, true), part, "all");
-  }
-}
-
-/// If nine of ten scans do not constrain a direction, the error is metres, and the covariance states it.
-TEST(SyntheticOdometry, WhereHardlyAnyScanHoldsTheWayItIsStatedAsItErrs) {
-  const Part part{"yard, 5 m", near, 60.0};
-  expect_stated_as_it_errs(drive_with(testing::yard_world(), kErrands, part.keep, false), part, "LiDAR");
-  expect_stated_as_it_errs(drive_with(testing::yard_world(), kErrands, part.keep, true), part, "all");
-  const Part corridor{"corridor", any, 0.5};
-  expect_stated_as_it_errs(
-      drive_with(testing::corridor_world(), {{1, 0, 0}, {20, 1.5, 0}}, corridor.keep, true), corridor, "all");
 }
 
 /// A turned IMU with an unknown bias of 1.5 deg/s. While it is being learned it tilts the first scans by some

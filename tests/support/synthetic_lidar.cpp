@@ -68,11 +68,28 @@ void SyntheticWorld::register_area(const Eigen::Vector2d& low, const Eigen::Vect
   }
 }
 
+/// Steps that the ground cannot cross (sphere tracing), until within a tenth of a millimetre of it.
+double SyntheticWorld::cast_ground(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                   double max_range) const {
+  if (!ground_.height)
+    return direction.z() < 0.0 && origin.z() > 0.0 ? std::min(max_range, -origin.z() / direction.z())
+                                                   : max_range;
+  const double closing = ground_.most_slope * direction.head<2>().norm() - direction.z();
+  if (closing <= 0.0) return max_range;
+  double range = 0.0;
+  while (range < max_range) {
+    const Eigen::Vector3d at = origin + range * direction;
+    const double above = at.z() - ground_.height(at.x(), at.y());
+    if (above < 1e-4) return range;
+    range += above / closing;
+  }
+  return max_range;
+}
+
 /// Walks the tiles under the ray (Amanatides and Woo) until what it hit lies before the next tile.
 std::optional<double> SyntheticWorld::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                            double max_range) const {
-  double best = max_range;
-  if (direction.z() < 0.0 && origin.z() > 0.0) best = std::min(best, -origin.z() / direction.z());
+  double best = cast_ground(origin, direction, max_range);
   std::int64_t tile[2] = {tile_of(origin.x()), tile_of(origin.y())};
   double next[2], step[2];
   for (int axis = 0; axis < 2; ++axis) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/geometry/se3.hpp"
@@ -14,9 +15,18 @@
 
 namespace fleetmap::testing {
 
-/// Level ground at z = 0 with boxes and upright posts on it, for rays. Exact, deterministic, no files needed.
+/// Ground height in m at x, y, nowhere steeper than `most_slope`.
+struct GroundShape {
+  std::function<double(double, double)> height;
+  double most_slope = 0.0;
+};
+
+/// Ground with boxes and upright posts on it, for rays. Exact, deterministic, no files needed.
 class SyntheticWorld {
  public:
+  /// Level at z = 0 if this is not called.
+  void set_ground(GroundShape ground) { ground_ = std::move(ground); }
+  const GroundShape& ground() const { return ground_; }
   void add_box(const Pose& T_world_box, const Eigen::Vector3d& half_extent);
   void add_post(const Eigen::Vector2d& position, double radius, double height);
   /// Distance along the unit `direction` to the first surface nearer than `max_range`, or empty.
@@ -35,9 +45,11 @@ class SyntheticWorld {
   struct Tile {
     std::vector<std::uint32_t> boxes, posts;
   };
+  double cast_ground(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double max_range) const;
   static std::int64_t tile_key(std::int64_t x, std::int64_t y) { return x * 1'000'003 + y; }
   void register_area(const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool box, std::uint32_t index);
 
+  GroundShape ground_;
   std::vector<Box> boxes_;
   std::vector<Post> posts_;
   std::unordered_map<std::int64_t, Tile> tiles_;

@@ -65,6 +65,8 @@ class MotionPrior {
   /// During the sweep, as the gyro saw it, rad/s^2.
   void set_turn_acceleration(const Eigen::Vector3d& acceleration) { turn_acceleration_ = acceleration; }
   void set_forward_speed(double speed, double sigma);
+  /// Wheels roll forward: base_link moves sideways by no more than `sigma`, m/s.
+  void set_no_sideslip(double sigma);
   void set_yaw_rate(double rate, double sigma);
 
   /// During the sweep, given the velocity in it, rad/s^2. Without a gyro that of the time between the two

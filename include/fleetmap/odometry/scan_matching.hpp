@@ -31,6 +31,7 @@ struct MatchResult {
   double residual_variance = 1.0;
   double rms = 0.0;  ///< m, of the inliers' distances to their surfaces and edges
   int degenerate_count = 0;
+  int weak_count = 0;  ///< directions among those that follow that noisy normals may still constrain wrongly
   bool speed_measured = false, turn_rate_measured = false;  ///< by wheels; by a gyro or by wheels
   double range = 1.0;                                       ///< m, mean of the matched features
   /// Unit pose directions [m, m, m, and rotation times `range`] that the scene does not
