@@ -245,7 +245,7 @@ void FaultyFleet::map(const AgentId& name, Robot& robot) {
     return;
   }
   survey_.on_stored(index, id, time());
-  monitor_.on_made(id);
+  monitor_.on_made(made->node);
   trace(to_string(id) + " made");
 }
 
@@ -280,6 +280,8 @@ void FaultyFleet::attack() {
     const Fault& fault = scenario_.faults[number];
     if (!draws_.chance(fault.value * to_seconds(kTick))) continue;
     const auto injected = fault.kind == FaultKind::kStranger ? attacker_.stranger() : attacker_.forged();
+    if (injected && fault.kind == FaultKind::kForged && !run_.signatures)
+      monitor_.on_forged(*injected->message);
     if (injected) deliver(injected->to, injected->reach, injected->message, kTick);
   }
 }
@@ -332,7 +334,10 @@ Outcome FaultyFleet::run() {
   } else {
     monitor_.note(Invariant::kConverges, {}, now(), why);
   }
-  for (const auto& [name, robot] : robots()) monitor_.check_held(name, *robot.store, now());
+  for (const auto& [name, robot] : robots()) {
+    monitor_.check_held(name, *robot.store, now());
+    monitor_.check_contents(name, *robot.store, now());
+  }
   if (!robots().empty()) {
     outcome.nodes = robots().begin()->second.store->nodes().size();
     outcome.alignments = robots().begin()->second.store->alignments().size();
