@@ -32,6 +32,8 @@ class Monitor {
   void on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now);
   /// From time to time.
   void check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now);
+  /// From time to time: every chunk of an unfinished download was requested by this robot.
+  void check_downloads(const AgentId& robot, const store::Store& store, Stamp now);
   /// When all has come to rest.
   void check_held(const AgentId& robot, const store::Store& store, Stamp now);
   /// Likewise: each node that was made is in the store, perhaps under another name.
@@ -44,7 +46,6 @@ class Monitor {
   void note_radio(const Packet& packet);
   void note_announced(const Packet& packet);
   void check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now);
-  void check_downloads(const AgentId& name, const store::Store& store, Stamp now);
 
   Stamp start_;
   const exchange::ExchangeConfig* config_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
@@ -88,11 +89,13 @@ Result<graph::Alignment> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Alignment>(cdr, type_name::kAlignment);
   if (!in) return tl::unexpected(in.error());
   auto alignment = read(*in);
-  // Else another content than the signed one could bear the signature, and a robot could hold a content that
-  // it cannot hand on.
-  if (alignment && !is_encoding_of(*alignment, *in))
-    return failure(std::string(type_name::kAlignment) + ": is not what encoding it again gives");
-  return alignment;
+  if (!alignment || is_encoding_of(*alignment, *in)) return alignment;
+  // Else another content than the signed one could bear the signature.
+  if (alignment->signature)
+    return failure(std::string(type_name::kAlignment) +
+                   ": is signed and is not what encoding it again gives");
+  // Else this robot would hold a content that it cannot hand on.
+  return quantised(*alignment);
 }
 
 Result<graph::Alignment> quantised(const graph::Alignment& alignment) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
@@ -150,11 +151,12 @@ Result<graph::Node> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Node>(cdr, type_name::kNode);
   if (!in) return tl::unexpected(in.error());
   auto node = read(*in);
-  // Else another content than the signed one could bear the signature, and a robot could hold a content that
-  // it cannot hand on.
-  if (node && !is_encoding_of(*node, *in))
-    return failure(std::string(type_name::kNode) + ": is not what encoding it again gives");
-  return node;
+  if (!node || is_encoding_of(*node, *in)) return node;
+  // Else another content than the signed one could bear the signature.
+  if (node->signature)
+    return failure(std::string(type_name::kNode) + ": is signed and is not what encoding it again gives");
+  // Else this robot would hold a content that it cannot hand on.
+  return quantised(*node);
 }
 
 Result<graph::Node> quantised(const graph::Node& node) {
