@@ -126,7 +126,6 @@ ExchangeStats Exchange::stats() const {
 TableSizes Exchange::table_sizes() const {
   return {state_->items.reconcile().peers(),
           state_->submap_receiver.peers(),
-          state_->submap_receiver.neighbours().offered_makers(),
           state_->submap_sender.peers(),
           state_->submap_receiver.downloads(),
           state_->clouds.clouds_to_make(),

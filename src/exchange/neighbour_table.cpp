@@ -1,7 +1,6 @@
 #include "neighbour_table.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace fleetmap::exchange {
 namespace {
@@ -71,16 +70,6 @@ bool NeighbourTable::lacks_since(const AgentId& name, const NodeId& id, Stamp si
 bool NeighbourTable::holds(const AgentId& name, const NodeId& id) const {
   const auto known = neighbours_.find(name);
   return known != neighbours_.end() && known->second.holds.contains(id.agent, id.seq);
-}
-
-std::size_t NeighbourTable::offered_makers() const {
-  std::size_t most = 0;
-  for (const auto& [name, neighbour] : neighbours_) {
-    std::set<AgentId> makers;
-    for (const SeqRange& range : neighbour.holds.ranges()) makers.insert(range.agent);
-    most = std::max(most, makers.size());
-  }
-  return most;
 }
 
 std::vector<AgentId> NeighbourTable::in_reach(Stamp now) const {

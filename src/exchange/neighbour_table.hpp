@@ -37,8 +37,6 @@ class NeighbourTable {
   /// The same, by a digest that arrived after `since`.
   bool lacks_since(const AgentId& name, const NodeId& id, Stamp since) const;
   bool holds(const AgentId& name, const NodeId& id) const;
-  /// Makers of the submaps that one robot's digests contain: the most of all robots.
-  std::size_t offered_makers() const;
   std::vector<AgentId> in_reach(Stamp now) const;
   /// Robots in reach whose digests name exactly the submaps that `store` holds.
   std::vector<AgentId> in_sync_with(const store::Store& store, Stamp now) const;

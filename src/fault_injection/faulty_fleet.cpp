@@ -321,7 +321,7 @@ Outcome FaultyFleet::run() {
   const Stamp last_fault = now();
   const bool completes = run_.invariants.contains(Invariant::kCompletes);
   const auto converged = [&] {
-    return why_not_converged().empty() && (!completes || why_incomplete(robots()).empty());
+    return why_not_converged().empty() && (!completes || why_incomplete(robots(), now()).empty());
   };
   while (now() - last_fault < run_.settling && !converged()) one();
   Outcome outcome;
@@ -329,7 +329,7 @@ Outcome FaultyFleet::run() {
   if (const std::string why = why_not_converged(); why.empty()) {
     for (const MapDifference& difference : map_differences(robots(), survey_.site()))
       monitor_.note(Invariant::kSameMap, difference.robot, now(), difference.what);
-    if (const std::string what = why_incomplete(robots()); !what.empty())
+    if (const std::string what = why_incomplete(robots(), now()); !what.empty())
       monitor_.note(Invariant::kCompletes, {}, now(), what);
   } else {
     monitor_.note(Invariant::kConverges, {}, now(), why);

@@ -160,7 +160,6 @@ void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robo
   const exchange::TableSizes tables = robot.exchange->table_sizes();
   bound("peers of items", tables.item_peers, peers);
   bound("peers of submaps", tables.submap_peers, peers);
-  bound("makers whose submaps one peer offers", tables.offered_makers, peers + 1);
   bound("peers that are served submaps", tables.submap_requesters, peers);
   bound("downloads", tables.submap_downloads, robot.store->nodes().size());
   bound("clouds to make", tables.clouds_to_make, robot.store->nodes().size());

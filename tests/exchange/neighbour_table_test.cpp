@@ -49,15 +49,6 @@ TEST(NeighbourTable, ARobotIsNearOnceThreeOfFiveDigestsArriveThatNameUs) {
   EXPECT_FALSE(table.is_near(kPeer, now));
 }
 
-TEST(NeighbourTable, MakersOfOneRobotsOfferAreThoseOfItsLastDigest) {
-  NeighbourTable table(kSelf, {});
-  EXPECT_EQ(table.offered_makers(), 0u);
-  table.on_digest(digest({{kMaker, 5, 6}, {kMaker, 8, 9}, {kPeer, 0, 2}}, {}), kStart);
-  EXPECT_EQ(table.offered_makers(), 2u);
-  table.on_digest(digest({{kMaker, 5, 6}}, {}), kStart);
-  EXPECT_EQ(table.offered_makers(), 1u);
-}
-
 TEST(NeighbourTable, AnUnknownRobotDoesNotLackASubmap) {
   NeighbourTable table(kSelf, {});
   EXPECT_FALSE(table.lacks(kPeer, kNode));

@@ -20,7 +20,7 @@ Attacker listening(bool signatures = false) {
   graph::Node node = make_node(agent("r2"), first_seq(7) + 3, {});
   for (int k = 0; k < 200; ++k) {
     node.submap_bytes = k % 2 == 0 ? 500 : 3 * store::Store::kChunkBytes;
-    attacker.overhear({Stamp{}, node.id.agent, {messages::Reach::kLongRange, node, {}}, 100});
+    attacker.overhear({Stamp{}, node.id.agent, {messages::Reach::kLongRange, {}, node}, 100});
   }
   return attacker;
 }

@@ -33,7 +33,7 @@ class MonitorTest : public ::testing::Test {
     return node;
   }
   void send(const char* from, const messages::Message& message) {
-    monitor_.on_sent({kNow, agent(from), {messages::Reach::kShortRange, message, {}}, 100});
+    monitor_.on_sent({kNow, agent(from), {messages::Reach::kShortRange, {}, message}, 100});
   }
 
   fleetmap::testing::ScratchFolder folder_;

@@ -83,7 +83,6 @@ struct ExchangeStats {
 struct TableSizes {
   std::size_t item_peers = 0;
   std::size_t submap_peers = 0;
-  std::size_t offered_makers = 0;  ///< whose submaps one robot offers, at most
   std::size_t submap_requesters = 0;
   std::size_t submap_downloads = 0;
   std::size_t clouds_to_make = 0;
