@@ -16,7 +16,8 @@ namespace {
 std::string difference(const store::SeqSet& set, const store::SeqSet& first) {
   for (const auto& [lacking, word] :
        {std::pair(first.minus(set), " less"), std::pair(set.minus(first), " more")}) {
-    if (!lacking.empty()) return " " + to_string(NodeId{lacking[0].agent, lacking[0].first}) + word;
+    if (lacking.empty()) continue;
+    return std::string(" ").append(to_string(NodeId{lacking[0].agent, lacking[0].first})).append(word);
   }
   return "";
 }
