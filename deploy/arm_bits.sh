@@ -2,6 +2,7 @@
 # Whether a 64-bit ARM places a fleet at the same bits as this processor: builds tests/bench/placement_bits.cpp with the
 # pure libraries (core, geometry, graph) for both, and runs the ARM program under QEMU.
 #   deploy/arm_bits.sh     needs g++-aarch64-linux-gnu, qemu-user and, in ARM_ROOT (default /), libgeographiclib-dev:arm64
+#                          and libssl-dev:arm64 (apt-get download, dpkg -x)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=build/arm_bits
@@ -19,8 +20,8 @@ build() { # COMPILER NAME LINKER-FLAGS...
   done
   "$compiler" "${objects[@]}" "$@" -o "$out/placement_bits_$name"
 }
-build g++ x86 -lGeographicLib
-build aarch64-linux-gnu-g++ arm -L"${ARM_ROOT:-}/usr/lib/aarch64-linux-gnu" -lGeographicLib
+build g++ x86 -lGeographicLib -lcrypto
+build aarch64-linux-gnu-g++ arm -L"${ARM_ROOT:-}/usr/lib/aarch64-linux-gnu" -lGeographicLib -lcrypto
 
 "$out/placement_bits_x86" make "$out/fleet"
 here=$("$out/placement_bits_x86" place "$out/fleet")
