@@ -84,7 +84,8 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
 std::string activity_of(const MissionReport& report, const std::vector<planning::RowId>& rows) {
   const std::string words = words_of(report, rows);
   if (rows.empty()) return words;
-  const double share = static_cast<double>(report.done.count()) / static_cast<double>(rows.size());
+  const messages::RowSet done(rows.size(), report.done.bytes());  // it may be of a longer mission
+  const double share = static_cast<double>(done.count()) / static_cast<double>(rows.size());
   return fmt::format("{}, {:.0f} % of the rows are driven", words, 100.0 * share);
 }
 

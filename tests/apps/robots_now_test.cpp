@@ -58,6 +58,8 @@ TEST_F(RobotsNow, WhatItDoesIsSaidByItsReport) {
   EXPECT_THAT(words(MissionState::kMeeting, 0), HasSubstr("waits where all meet"));
   EXPECT_THAT(words(MissionState::kStuck, 0), HasSubstr("stuck"));
   EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 0, 0), {}), "is done");
+  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 40, 40), fleet_.rows),
+            "is done, 100 % of the rows are driven");
 }
 
 TEST_F(RobotsNow, WithoutAMissionTheStatusSaysWhetherItMaps) {
