@@ -69,5 +69,19 @@ TEST(MotionSensors, ThePriorUsesTheMeasuredMotion) {
   EXPECT_NEAR(so3_log(prior.predicted().T_odom_base.linear()).z(), rate * dt, 0.01);
 }
 
+/// A LiDAR over bare ground feigns a sideways motion that nothing else would end.
+TEST(MotionSensors, WheelsRollForwardOnly) {
+  const double speed = 1.5, dt = 0.1;
+  MotionState sideways;
+  sideways.twist = (Vector6d() << speed, 0.9, 0, 0, 0, 0).finished();
+  const auto sideslip = [&](double yaw_rate) {
+    const MotionPrior prior =
+        sensors_of(speed, yaw_rate).prior(sideways, Matrix12d::Identity(), {at(1.0), at(1.0 + dt), dt, 0.05});
+    return prior.predicted().twist[1];
+  };
+  EXPECT_NEAR(sideslip(0.0), 0.0, 0.05);
+  EXPECT_GT(sideslip(1.0), sideslip(0.0)) << "base_link may lie beside the axis that it turns about";
+}
+
 }  // namespace
 }  // namespace fleetmap::odometry
