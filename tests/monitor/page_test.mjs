@@ -276,7 +276,7 @@ async function testLive(browser) {
       await fleetAndRadio(page, 'live_phone');
       heard.kill('SIGKILL');
       await page.locator('#tab-fleet').click();
-      await textIs(page, '[data-robot=r2]', /lost.*r2 is lost; when last heard it/);
+      await textIs(page, '[data-robot=r2]', /lost.*r2 is lost\. Known last: /);
       await shot(page, 'live_phone_lost');
     });
   } finally {

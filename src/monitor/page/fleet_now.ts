@@ -67,7 +67,7 @@ export class FleetNow {
     const lost = silence !== undefined && silence > live.lost_after_s;
     setText(card.badge, lost ? 'lost' : isSelf ? 'shows this page' : silence === undefined ? 'not heard yet' : 'in contact');
     card.badge.className = `badge ${lost ? 'bad' : silence === undefined || isSelf ? '' : 'good'}`;
-    setText(card.activity, `${robot.id} ${lost ? 'is lost; when last heard it ' : ''}${robot.activity}.`);
+    setText(card.activity, lost ? `${robot.id} is lost. Known last: ${robot.activity}.` : `${robot.id} ${robot.activity}.`);
     setText(card.facts, this.facts(robot, isSelf, later));
     card.problems.hidden = robot.problems.length === 0;
     if (card.problems.textContent !== robot.problems.join('')) card.problems.replaceChildren(...robot.problems.map((text) => el('li', {}, text)));
