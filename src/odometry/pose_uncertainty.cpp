@@ -12,6 +12,7 @@ constexpr double kKept = 0.95;         // of a prior's misfit, from scan to scan
 constexpr double kAssumed = 10.0;      // dimensions in which it is taken to be as stated
 constexpr double kChangeGain = 0.1;    // of the changes of the turn rate: over a second
 constexpr double kMostlyUnheld = 0.3;  // share of the map near that is as bad as all of it
+constexpr double kStrange = 1.0;       // variance of a prior's misfit: no robot drives so where all is held
 constexpr double kMapTurn = 1.0;       // rad, the same for a LiDAR that looks ahead
 constexpr double kMapReach = 5.0;      // m of way on which most of the map that is seen is replaced
 
@@ -130,7 +131,8 @@ Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
   const Matrix6d added = noise - A * last_noise_ * A.transpose();
   last_noise_ = noise;
   unheld_stated_ = (A * unheld_stated_ * A.transpose()).eval();
-  const bool unheld = scan.lost || match.degenerate_count > 0;
+  const bool slides = match.weak_count > 0 && translation_misfit_.variance() > kStrange;
+  const bool unheld = scan.lost || match.degenerate_count > 0 || slides;
   const double renewed = scan.T_before_now.translation().norm() / kMapReach +
                          so3_log(scan.T_before_now.linear()).norm() / kMapTurn;
   unheld_share_ += std::min(1.0, renewed) * ((unheld ? 1.0 : 0.0) - unheld_share_);
@@ -174,7 +176,8 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
 
 /// Growth by sliding. A map that was built mostly of scans that it did not constrain may have slid together
 /// with them, so a scan that it seems to constrain again is no evidence, nor are directions that are weakly
-/// constrained. Only wheels and a gyro measure whether they slid.
+/// constrained. The same holds where scans are weakly constrained and their motion is unlike the prior's: a
+/// warped map holds its scans well. Only wheels and a gyro measure whether they slid.
 Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
   if (match.degenerate_count > 0) sliding_ = match;
   if (unheld_share_ < kMostlyUnheld) {

@@ -236,6 +236,22 @@ TEST(PoseUncertainty, WhereScansSlideWeakDirectionsAreStatedToo) {
   EXPECT_LT(sideways_after_20_m(0), 0.1);
 }
 
+/// A warped map holds its scans well, but by little, and no robot moves as they say.
+TEST(PoseUncertainty, WeakScansOfAStrangeMotionMaySlide) {
+  const auto sideways_after_20_m = [](double strange) {
+    PoseUncertainty uncertainty = started();
+    MatchResult held = match(0.01, 0.3);
+    held.degenerate_directions.col(0) = Vector6d::Unit(1);
+    held.weak_count = 1;
+    held = moved(held, strange * Eigen::Vector3d(1.0, 1.0, 0.0));
+    double sum = 0.0;
+    for (int k = 0; k < 100; ++k) sum += uncertainty.state(a_fifth_on(held)).growth(1, 1);
+    return std::sqrt(sum);
+  };
+  EXPECT_GT(sideways_after_20_m(1.0), 3.0);
+  EXPECT_LT(sideways_after_20_m(0.1), 0.1);
+}
+
 TEST(PoseUncertainty, WhatCannotBeSolvedIsNotLearnedFrom) {
   PoseUncertainty uncertainty = started(), untouched = started();
   MatchResult broken = match(0.1, 0.1);
