@@ -66,7 +66,8 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
   robot.ordered_to_hold = order && order->hold;
   const auto driving = fleet.driving.find(id);
   const bool answered = driving != fleet.driving.end();
-  robot.driven = answered ? driving->second != Hold::Driving::kNoMission : fleet.reports.contains(id);
+  // A robot that has not said yet what it does can be stopped, too.
+  robot.driven = !answered || driving->second != Hold::Driving::kNoMission;
   const bool stands = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
   robot.activity = activity_now(fleet, id, stands);
   if (robot.driven && robot.ordered_to_hold && !stands)

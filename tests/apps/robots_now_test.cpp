@@ -94,6 +94,7 @@ TEST_F(RobotsNow, TheLinkOnWhichItWasHeardLastComesFirst) {
 }
 
 TEST_F(RobotsNow, AnOrderCountsOnceTheRobotHasAnswered) {
+  EXPECT_TRUE(of(kR2).driven) << "it has said nothing yet";
   fleet_.reports[kR2] = report(MissionState::kDriving, 1, 4, 0);
   order(true);
   EXPECT_TRUE(of(kR2).ordered_to_hold);

@@ -27,7 +27,7 @@ struct RobotNow {
   std::size_t nodes = 0, alignments = 0, submaps = 0;  ///< held
   std::size_t backlog_bytes = 0;                       ///< waiting for its radio
   bool ordered_to_hold = false;                        ///< an operator's order is in force
-  bool driven = false;                                 ///< fleetmap drives it, so it obeys orders
+  bool driven = false;  ///< orders are for it: it has not said that fleetmap does not drive it
 };
 
 /// A sensor of the robot that shows the page.
