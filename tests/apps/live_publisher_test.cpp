@@ -43,14 +43,6 @@ class LivePublisher : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return std::make_unique<testing::Process>(arguments);
   }
-  /// 0 until the page is announced.
-  static std::uint16_t port_of(const testing::Process& process) {
-    constexpr std::string_view kUrl = "http://127.0.0.1:";
-    const std::string said = process.output();
-    const std::size_t url = said.find(kUrl);
-    if (url == std::string::npos || said.find('\n', url) == std::string::npos) return 0;
-    return static_cast<std::uint16_t>(std::stoul(said.substr(url + kUrl.size())));
-  }
   static std::string bearer() { return std::string("Authorization: Bearer ") + kToken + "\r\n"; }
   /// Null until the robot has published.
   static json live(std::uint16_t port) {
@@ -76,8 +68,8 @@ class LivePublisher : public ::testing::Test {
 TEST_F(LivePublisher, ShowsTheOtherRobotOnceItIsHeardAndPassesOnOrders) {
   const auto r1 =
       agent("r1", {"--monitor", "0", "--monitor-token-file", (folder_.path() / "token").string()});
-  ASSERT_TRUE(eventually([&] { return port_of(*r1) != 0; }, 60s)) << r1->output();
-  const std::uint16_t port = port_of(*r1);
+  ASSERT_TRUE(eventually([&] { return testing::announced_port(r1->output()) != 0; }, 60s)) << r1->output();
+  const std::uint16_t port = testing::announced_port(r1->output());
   ASSERT_TRUE(eventually([&] { return !live(port).is_null(); }, 60s)) << r1->output();
   EXPECT_EQ(robot(port, 1)["activity"], "was not heard yet");
   EXPECT_EQ(live(port)["operated"], true);
