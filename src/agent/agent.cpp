@@ -278,7 +278,11 @@ void Agent::on_local_hold(const Bytes& cdr) {
   const auto hold = fleet_codec::decode<messages::Hold>(cdr);
   if (!hold)
     return spdlog::warn("{}: refused: {}", fleet_codec::topics::hold_onboard().name, hold.error().message);
-  for (const messages::HoldOrder& order : hold->orders) exchange_->on_local_order(order, bus_.now());
+  for (const messages::HoldOrder& order : hold->orders) give_order(order);
+}
+
+void Agent::give_order(const messages::HoldOrder& order) {
+  exchange_->on_local_order(order, bus_.now());
   on_events();
 }
 

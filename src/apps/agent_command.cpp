@@ -20,6 +20,7 @@
 #include "link_log.hpp"
 #include "live_bus.hpp"
 #include "live_monitor.hpp"
+#include "live_publisher.hpp"
 #include "mission_setup.hpp"
 #include "monitor_access.hpp"
 #include "options.hpp"
@@ -129,8 +130,10 @@ int run(const AgentOptions& options) {
                (config->agent.directory / "store.db").string());
   std::optional<DriveWatchdog> watchdog;
   if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
-  run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, options.exit_after_idle,
-                 stop_on_signals());
+  std::optional<LivePublisher> live;
+  if (*page) live.emplace(**agent, **bus, (*page)->server());
+  run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
+                 options.exit_after_idle, stop_on_signals());
   if (recorder) {
     if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
   }

@@ -92,12 +92,14 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
 }  // namespace
 
 void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWatchdog* watchdog,
-                    double exit_after_idle, const std::atomic<bool>& stop) {
+                    LivePublisher* page, double exit_after_idle, const std::atomic<bool>& stop) {
   const bus::Handle report = bus.every(kReportPeriod, {"progress", [&] { print_progress(agent, bus); }});
-  const bus::Handle traffic = bus.every(
-      kTrafficPeriod, {"traffic log", [&] {
-                         log.add_traffic(bus.take_heard_traffic(), agent.asked_for_submaps(), bus.now());
-                       }});
+  const bus::Handle traffic =
+      bus.every(kTrafficPeriod, {"traffic log", [&] {
+                                   const auto heard = bus.take_heard_traffic();
+                                   log.add_traffic(heard, agent.asked_for_submaps(), bus.now());
+                                   if (page != nullptr) page->publish(heard, log);
+                                 }});
   const bus::Handle nodes =
       bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().nodes(), bus.now()); }});
   bus::Handle check;

@@ -73,7 +73,8 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
     // A robot from which submaps were being fetched at both ends of the second has filled the link.
     const bool full = traffic.link == bus::Link::kShortRange && fetched_before.contains(traffic.from) &&
                       fetched_from_.contains(traffic.from);
-    const bool is_new = last_received_.insert_or_assign({traffic.link, traffic.from}, now).second;
+    Heard& heard = last_received_.try_emplace({traffic.link, traffic.from}, Heard{now, true}).first->second;
+    const bool is_new = std::exchange(heard, Heard{now}).silent;
     // Messages that were lost while the robot was out of reach were counted in the row of that time.
     if (traffic.messages > 0) add_row(traffic, is_new ? 0 : traffic.lost, before, now, full);
   }
@@ -92,13 +93,13 @@ void LinkLog::add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stam
 
 /// The row is of the time after the robot was last heard.
 void LinkLog::add_silent(Stamp now) {
-  std::erase_if(last_received_, [&](const auto& entry) {
-    const auto& [source, last] = entry;
-    if (now - last < (source.first == bus::Link::kShortRange ? kSilenceNear : kSilence)) return false;
-    trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(last),
+  for (auto& [source, heard] : last_received_) {
+    const Duration patience = source.first == bus::Link::kShortRange ? kSilenceNear : kSilence;
+    if (heard.silent || now - heard.at < patience) continue;
+    heard.silent = true;
+    trace_.out << fmt::format("{:.1f},{},{},{},,,100.0,0.0,0\n", to_seconds(heard.at),
                               bus::to_string(source.first), source.second.str(), self_.str());
-    return true;
-  });
+  }
 }
 
 void LinkLog::add_nodes(const std::map<NodeId, graph::Node>& nodes, Stamp now) {

@@ -29,11 +29,18 @@ class LinkLog {
   /// are being fetched.
   void add_traffic(const std::vector<bus::HeardTraffic>& received, const std::vector<AgentId>& fetched_from,
                    Stamp now);
+  /// When a robot was last heard on a link.
+  struct Heard {
+    Stamp at;
+    bool silent = false;  ///< for so long that it was logged
+  };
+  using Source = std::pair<bus::Link, AgentId>;
+  /// Every robot that was heard since the start, on each link.
+  const std::map<Source, Heard>& last_heard() const { return last_received_; }
   /// Often: all nodes held.
   void add_nodes(const std::map<NodeId, graph::Node>& nodes, Stamp now);
 
  private:
-  using Source = std::pair<bus::Link, AgentId>;
   struct File {
     std::filesystem::path path;
     std::ofstream out;
@@ -49,9 +56,9 @@ class LinkLog {
   AgentId self_;
   File trace_, nodes_;
   std::set<NodeId> held_;
-  std::set<AgentId> fetched_from_;         ///< when the last second ended
-  std::map<Source, Stamp> last_received_;  ///< of robots not yet logged as silent
-  Stamp written_{};                        ///< when the last second ended; zero: none has
+  std::set<AgentId> fetched_from_;  ///< when the last second ended
+  std::map<Source, Heard> last_received_;
+  Stamp written_{};  ///< when the last second ended; zero: none has
 };
 
 }  // namespace fleetmap::apps

@@ -31,7 +31,7 @@ class LiveMonitor {
   LiveMonitor(const LiveMonitor&) = delete;
   LiveMonitor& operator=(const LiveMonitor&) = delete;
 
-  const monitor::Server& server() const { return *server_; }
+  monitor::Server& server() const { return *server_; }
 
  private:
   LiveMonitor(Folders folders, Read read);

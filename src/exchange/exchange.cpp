@@ -85,6 +85,8 @@ void Exchange::on_local_order(HoldOrder order, Stamp now) {
 
 std::optional<HoldOrder> Exchange::hold_in_force() const { return state_->holds.in_force(); }
 
+std::vector<HoldOrder> Exchange::hold_orders() const { return state_->holds.all(); }
+
 std::vector<Event> Exchange::take_events() { return std::exchange(state_->events, {}); }
 
 // ---- from the links
@@ -113,6 +115,18 @@ bool Exchange::idle(Stamp now, const std::set<AgentId>& without) const { return 
 
 bool Exchange::others_busy(Stamp now) const {
   return std::ranges::any_of(state_->busy_until, [now](const auto& entry) { return now < entry.second; });
+}
+
+std::map<AgentId, AgentStatus> Exchange::statuses() const {
+  auto statuses = state_->heard_statuses;
+  statuses.insert_or_assign(state_->members.self(), state_->own_status());
+  return statuses;
+}
+
+std::map<AgentId, Hold::Driving> Exchange::driving() const {
+  auto driving = state_->heard_driving;
+  driving.insert_or_assign(state_->members.self(), state_->own_driving());
+  return driving;
 }
 
 ExchangeStats Exchange::stats() const {

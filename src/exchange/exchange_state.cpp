@@ -115,6 +115,7 @@ void Exchange::State::handle(const AgentStatus& heard, const Delivery&, Stamp no
   } else {
     busy_until.erase(heard.from);
   }
+  heard_statuses.insert_or_assign(heard.from, heard);
   events.push_back(PeerStatus{heard});
 }
 
@@ -123,6 +124,7 @@ void Exchange::State::handle(const MissionReport& report, const Delivery&, Stamp
 }
 
 void Exchange::State::handle(const Hold& hold, const Delivery&, Stamp) {
+  if (members.contains(hold.from)) heard_driving.insert_or_assign(hold.from, hold.driving);
   const auto before = holds.in_force();
   if (holds.on_hold(hold)) note_orders(before);
 }
@@ -179,26 +181,32 @@ void Exchange::State::tick_holds(Stamp now) {
     orders_to_store = !stored;
     if (!stored) events.push_back(StoreFailed{stored.error()});
   }
-  const auto driving = !drives        ? Hold::Driving::kNoMission
-                       : holds.held() ? Hold::Driving::kHeld
-                                      : Hold::Driving::kFree;
-  outbox.broadcast(Priority::kSafety, Hold{members.self(), driving, std::move(*orders)});
+  outbox.broadcast(Priority::kSafety, Hold{members.self(), own_driving(), std::move(*orders)});
+}
+
+Hold::Driving Exchange::State::own_driving() const {
+  if (!drives) return Hold::Driving::kNoMission;
+  return holds.held() ? Hold::Driving::kHeld : Hold::Driving::kFree;
+}
+
+AgentStatus Exchange::State::own_status() const {
+  AgentStatus own = status;
+  own.from = members.self();
+  own.nodes = static_cast<std::uint32_t>(store.node_set().size());
+  own.alignments = static_cast<std::uint32_t>(store.alignment_set().size());
+  own.submaps = static_cast<std::uint32_t>(store.submap_set().size());
+  own.backlog_bytes = static_cast<std::uint32_t>(outbox.queue().backlog_bytes());
+  return own;
 }
 
 void Exchange::State::tick_status(Stamp now) {
   if (next_status && now < *next_status) return;
   next_status = now + config.status_period;
-  AgentStatus next = status;
-  next.from = members.self();
+  AgentStatus next = own_status();
   next.stamp = now;
-  next.nodes = static_cast<std::uint32_t>(store.node_set().size());
-  next.alignments = static_cast<std::uint32_t>(store.alignment_set().size());
-  next.submaps = static_cast<std::uint32_t>(store.submap_set().size());
-  const std::size_t backlog = outbox.queue().backlog_bytes();
-  next.backlog_bytes = static_cast<std::uint32_t>(backlog);
   next.busy = next.busy || !idle(now, {});
   const std::uint64_t sent = outbox.queue().stats().wire_bytes;
-  next.loans = shares.lend(backlog, sent - std::exchange(sent_before_status, sent), now);
+  next.loans = shares.lend(next.backlog_bytes, sent - std::exchange(sent_before_status, sent), now);
   // The status shows the others that this robot is present, so it must not wait behind a queue of nodes.
   outbox.broadcast(Priority::kControl, std::move(next));
 }

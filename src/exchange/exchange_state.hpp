@@ -51,6 +51,9 @@ struct Exchange::State {
   bool idle(Stamp now, const std::set<AgentId>& without) const;
   /// Emits HoldChanged if `before` is no longer in force. The robot obeys before the order is stored.
   void note_orders(const std::optional<HoldOrder>& before);
+  /// With the counts of the store and the queue, without stamp.
+  AgentStatus own_status() const;
+  Hold::Driving own_driving() const;
 
   ExchangeConfig config;
   store::Store& store;
@@ -70,8 +73,10 @@ struct Exchange::State {
   bool drives = false;
   bool orders_to_store = false;  ///< orders have changed since they were stored
   std::map<AgentId, Stamp> busy_until;
-  std::uint64_t sent_before_status = 0;  ///< wire bytes
-  std::set<AgentId> in_reach;            ///< of the short range, in the tick before
+  std::map<AgentId, AgentStatus> heard_statuses;   ///< the last of each other robot
+  std::map<AgentId, Hold::Driving> heard_driving;  ///< likewise
+  std::uint64_t sent_before_status = 0;            ///< wire bytes
+  std::set<AgentId> in_reach;                      ///< of the short range, in the tick before
   std::optional<Stamp> next_near_digest;
   bool was_complete = false;
 

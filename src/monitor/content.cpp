@@ -41,9 +41,14 @@ void Content::show(const FleetView& view) {
   }
 }
 
+void Content::show(const LiveStatus& status, bool operated) {
+  live_ = std::make_shared<const std::string>(live_json(status, operated));
+}
+
 Reply Content::reply(std::string_view target) {
   if (target.starts_with("/submap/")) return submap(target);
   if (target == "/state.json") return {.type = "application/json", .body = *state_};
+  if (target == "/live.json") return {.type = "application/json", .body = live_->empty() ? "{}" : *live_};
   return page_file(target.substr(0, target.find('?')));
 }
 

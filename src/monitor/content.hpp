@@ -9,6 +9,7 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/monitor/live_status.hpp"
 #include "fleetmap/monitor/point_levels.hpp"
 #include "fleetmap/monitor/server.hpp"
 #include "fleetmap/store/map_merge.hpp"
@@ -49,8 +50,11 @@ class Content {
       : page_(page), load_(std::move(load)), cache_(cached_bytes) {}
 
   void show(const FleetView& view);
+  void show(const LiveStatus& status, bool operated);
   /// The state as JSON; "{}" before the first show().
   std::shared_ptr<const std::string> state() const { return state_; }
+  /// The live status as JSON; empty before the first show().
+  std::shared_ptr<const std::string> live() const { return live_; }
   Reply reply(std::string_view target);
 
  private:
@@ -61,6 +65,7 @@ class Content {
   store::SubmapLoader load_;
   PointCache cache_;
   std::shared_ptr<const std::string> state_ = std::make_shared<const std::string>("{}");
+  std::shared_ptr<const std::string> live_ = std::make_shared<const std::string>();
   std::map<std::string, NodeId> submaps_;  ///< by content hash
 };
 

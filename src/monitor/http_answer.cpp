@@ -22,6 +22,19 @@ void add_security_headers(Response& response, std::string_view host) {
   response.set("Cross-Origin-Resource-Policy", "same-origin");
 }
 
+/// An order of an operator. `head` has passed refusal().
+Reply reply_to_order(ServerState& state, const RequestHead& head, std::string_view target) {
+  const auto order = parse_hold_request(target);
+  if (!order) return {.status = 405, .body = "everything here is read only\n"};
+  if (!state.operated()) return {.status = 403, .body = "read only: orders need a live robot and a token\n"};
+  // Browsers name the page that posts; other programs show the token themselves.
+  if (head.origin.empty() && head.authorization.empty())
+    return {.status = 403, .body = "an order needs an Origin\n"};
+  if (const Status given = state.give_order(*order); !given)
+    return {.status = 503, .body = given.error().message + '\n'};
+  return {.status = 202, .body = "ordered\n"};
+}
+
 }  // namespace
 
 Response answer(ServerState& state, const Request& request) {
@@ -47,16 +60,17 @@ Response answer(ServerState& state, const Request& request) {
   }
   if (const auto why = refusal(head, state.config.token, state.cookie))
     return refuse(http::status::forbidden, *why);
-  if (request.method() != http::verb::get && request.method() != http::verb::head)
+  const bool orders = request.method() == http::verb::post;
+  if (!orders && request.method() != http::verb::get && request.method() != http::verb::head)
     return refuse(http::status::method_not_allowed, "everything here is read only");
-  if (beast::websocket::is_upgrade(request)) {
+  if (!orders && beast::websocket::is_upgrade(request)) {
     if (target != "/live") return refuse(http::status::not_found, "the WebSocket is at /live");
     if (state.viewers.size() >= state.config.max_viewers)
       return refuse(http::status::service_unavailable, "too many pages are open; close one");
     response.result(http::status::switching_protocols);
     return response;
   }
-  Reply reply = state.content.reply(target);
+  Reply reply = orders ? reply_to_order(state, head, target) : state.content.reply(target);
   if (reply.status >= 400) ++state.refused;
   response.result(reply.status);
   response.set(http::field::content_type, reply.type);

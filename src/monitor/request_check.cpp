@@ -118,4 +118,16 @@ std::optional<SubmapRequest> parse_submap_request(std::string_view target) {
   return SubmapRequest{std::string(hash), *from, *count};
 }
 
+std::optional<HoldRequest> parse_hold_request(std::string_view target) {
+  constexpr std::string_view kHold = "/operator/hold", kResume = "/operator/resume", kRobot = "?robot=";
+  const bool hold = target.starts_with(kHold);
+  if (!hold && !target.starts_with(kResume)) return std::nullopt;
+  target.remove_prefix(hold ? kHold.size() : kResume.size());
+  if (target.empty()) return HoldRequest{hold, std::nullopt};
+  if (!target.starts_with(kRobot)) return std::nullopt;
+  const auto robot = AgentId::parse(std::string(target.substr(kRobot.size())));
+  if (!robot || robot->empty()) return std::nullopt;
+  return HoldRequest{hold, *robot};
+}
+
 }  // namespace fleetmap::monitor

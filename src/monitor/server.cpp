@@ -92,7 +92,23 @@ std::string Server::url() const {
 void Server::publish(std::shared_ptr<const FleetView> view) {
   net::post(state_->io, [state = state_.get(), view = std::move(view)] {
     state->content.show(*view);
-    for (Viewer* viewer : state->viewers) viewer->send(state->content.state());
+    for (Viewer* viewer : state->viewers) viewer->send(Viewer::kState, state->content.state());
+  });
+}
+
+void Server::publish(std::shared_ptr<const LiveStatus> status) {
+  if (!state_->live.put(std::move(status))) return;
+  net::post(state_->io, [state = state_.get()] {
+    const auto status = state->live.take();
+    if (!status) return;
+    state->content.show(*status, state->operated());
+    for (Viewer* viewer : state->viewers) viewer->send(Viewer::kLive, state->content.live());
+  });
+}
+
+void Server::set_operator(GiveOrder give_order) {
+  net::post(state_->io, [state = state_.get(), give_order = std::move(give_order)]() mutable {
+    state->give_order = std::move(give_order);
   });
 }
 

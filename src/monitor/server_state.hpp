@@ -10,6 +10,7 @@
 #include "content.hpp"
 #include "fleetmap/monitor/server.hpp"
 #include "http_types.hpp"
+#include "latest_slot.hpp"
 
 namespace fleetmap::monitor {
 
@@ -24,6 +25,8 @@ struct Server::State {
   const ServerConfig config;
   std::string cookie;  ///< its name; cookies are shared by all ports of a host
   Content content;
+  LatestSlot<LiveStatus> live;  ///< filled by any thread
+  Server::GiveOrder give_order;
   std::set<Viewer*> viewers;
   std::size_t connections = 0;
   std::atomic<std::uint64_t> requests{0}, refused{0}, cut{0};
@@ -34,6 +37,7 @@ struct Server::State {
   std::uint16_t port = 0;
   std::thread thread;
 
+  bool operated() const { return !config.token.empty() && give_order != nullptr; }
   void accept();
   void run();
 };

@@ -1,5 +1,7 @@
 #include "viewer.hpp"
 
+#include <utility>
+
 namespace fleetmap::monitor {
 namespace {
 
@@ -24,23 +26,29 @@ void Viewer::run(const Request& request) {
   socket_.async_accept(request, [self = shared_from_this()](error_code error) {
     if (error) return;
     self->open_ = true;
-    self->send(self->state_.content.state());
+    self->send(kState, self->state_.content.state());
+    self->send(kLive, self->state_.content.live());
     self->read();
   });
 }
 
-void Viewer::send(std::shared_ptr<const std::string> text) {
-  if (!open_) return;
-  if (writing_) {
-    next_ = std::move(text);
-    return;
+void Viewer::send(Kind kind, std::shared_ptr<const std::string> text) {
+  if (!open_ || text->empty()) return;
+  next_[kind] = std::move(text);
+  write_next();
+}
+
+void Viewer::write_next() {
+  if (writing_) return;
+  // A status is small and due each second, so it does not wait behind states.
+  for (const Kind kind : {kLive, kState}) {
+    if (!writing_) writing_ = std::exchange(next_[kind], nullptr);
   }
-  writing_ = std::move(text);
+  if (!writing_) return;
   socket_.text(true);
   socket_.async_write(net::buffer(*writing_), [self = shared_from_this()](error_code error, std::size_t) {
     self->writing_.reset();
-    if (error) return;
-    if (auto next = std::move(self->next_)) self->send(std::move(next));
+    if (!error && self->open_) self->write_next();
   });
 }
 

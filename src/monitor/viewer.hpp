@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/beast/websocket.hpp>
 #include <memory>
 #include <string>
@@ -8,7 +9,8 @@
 
 namespace fleetmap::monitor {
 
-/// The WebSocket of an open page. It gets every state, or only the newest if it is too slow for all.
+/// The WebSocket of an open page. It gets every state, or only the newest of each kind if it is too slow for
+/// all.
 class Viewer : public std::enable_shared_from_this<Viewer> {
  public:
   Viewer(ServerState& state, beast::tcp_stream stream, std::shared_ptr<CountedConnection> counted)
@@ -17,17 +19,21 @@ class Viewer : public std::enable_shared_from_this<Viewer> {
 
   /// Accepts the WebSocket that `request` opens and sends the present state.
   void run(const Request& request);
-  void send(std::shared_ptr<const std::string> text);
+  enum Kind : std::size_t { kState, kLive };
+  /// An empty text is not sent.
+  void send(Kind kind, std::shared_ptr<const std::string> text);
 
  private:
   void read();
+  void write_next();
 
   ServerState& state_;
   std::shared_ptr<CountedConnection> counted_;
   beast::websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
-  std::shared_ptr<const std::string> writing_, next_;
-  std::size_t received_ = 0;  ///< bytes
+  std::shared_ptr<const std::string> writing_;
+  std::array<std::shared_ptr<const std::string>, 2> next_;  ///< by kind
+  std::size_t received_ = 0;                                ///< bytes
   bool open_ = false;
 };
 

@@ -22,10 +22,10 @@ constexpr std::size_t kLongestStride = 4;
 constexpr double kAssumedDistances = 10.0;
 /// A direction is degenerate if its information is within this factor of what noisy normals feign ...
 constexpr double kSpuriousFactor = 6.0;
-/// Below this factor noisy normals can still be most of what constrains it: it is weak ...
-constexpr double kWeakFactor = 40.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
+/// Within this factor noisy normals can still be most of what constrains a direction: it is weak.
+constexpr double kWeakFactor = 40.0;
 constexpr double kLevel = 0.7;      // upward part of the normal of what lies level, at least
 constexpr std::size_t kBlock = 16;  // features whose windows are fetched together
 

@@ -22,13 +22,11 @@ std::string logged(const exchange::Event& event) {
 }
 
 TEST(EventLog, AConflictNamesTheItemTheLinkAndWhoHandedItOver) {
-  exchange::ItemConflict conflict{{kR2, 9}, true, messages::Reach::kShortRange, false, kR3};
-  std::string text = logged(conflict);
+  std::string text = logged(exchange::ItemConflict{{kR2, 9}, true, messages::Reach::kShortRange, false, kR3});
   EXPECT_THAT(text, HasSubstr("error"));
   EXPECT_THAT(text, HasSubstr("another alignment came over the Wi-Fi from r3 under the name r2"));
   EXPECT_THAT(text, HasSubstr("forged"));
-  conflict = {{kR1, 9}, false, messages::Reach::kLongRange, true, std::nullopt};
-  text = logged(conflict);
+  text = logged(exchange::ItemConflict{{kR1, 9}, false, messages::Reach::kLongRange, true, std::nullopt});
   EXPECT_THAT(text, HasSubstr("another node came over the radio under the name r1"));
   EXPECT_THAT(text, HasSubstr("the own one is told under another name"));
   EXPECT_THAT(text, HasSubstr("revoke r1"));

@@ -1,6 +1,7 @@
 // The whole pipeline on a real drive: two robots in virtual time become one map.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,16 @@ class KittiFleet : public ::testing::Test {
     return robot;
   }
 
+  /// The delivered fleet, its receivers' errors drawn from other seeds.
+  std::filesystem::path fleet_with_gps_errors(unsigned seed) const {
+    YAML::Node fleet = YAML::LoadFile(std::string(FLEETMAP_SOURCE_DIR) + "/config/fleets/kitti_0005.yaml");
+    for (unsigned k = 0; k < 2; ++k) fleet["agents"][k]["recording"]["gps_error"]["seed"] = 2 * seed - 1 + k;
+    const std::filesystem::path file = folder_.path() / ("fleet_" + std::to_string(seed) + ".yaml");
+    std::ofstream(file) << fleet;
+    return file;
+  }
+  void two_halves_become_one_map(unsigned seed);
+
   testing::TemporaryFolder folder_;
   std::optional<std::filesystem::path> drive_;
   std::vector<Pose> consensus_;
@@ -73,10 +84,10 @@ TEST_F(KittiFleet, OdometryStaysNearTheConsensusOfOthers) {
   testing::expect_at_most(testing::aligned_rmse(poses, consensus_), 0.040, "odometry RMSE in m", 1);
 }
 
-TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
-  const std::filesystem::path out = folder_.path() / "out";
-  run({"run", "-c", std::string(FLEETMAP_SOURCE_DIR) + "/config/fleets/kitti_0005.yaml", "--out",
-       out.string(), "--set", "recording.path=" + drive_->string()});
+void KittiFleet::two_halves_become_one_map(unsigned seed) {
+  const std::filesystem::path out = folder_.path() / ("out_" + std::to_string(seed));
+  run({"run", "-c", fleet_with_gps_errors(seed).string(), "--out", out.string(), "--set",
+       "recording.path=" + drive_->string()});
   std::ifstream file(out / "report.json");
   const auto report = nlohmann::json::parse(file);
   EXPECT_TRUE(report["settled"].get<bool>());
@@ -110,22 +121,26 @@ TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
   const Pose T_12 = t1.front().inverse() * t2.front();
   const Pose truth = consensus_[0].inverse() * consensus_[60];
   const Pose error = truth.inverse() * T_12;
-  testing::expect_at_most(error.translation().norm(), 0.105, "r2 as seen from r1, m", 1);
-  testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.42,
-                          "r2 as seen from r1, deg", 1);
+  testing::expect_at_most(error.translation().norm(), 0.112, "r2 as seen from r1, m", seed);
+  testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.64,
+                          "r2 as seen from r1, deg", seed);
   // Errors of alignments that each robot computed of the other can cancel in the placement.
   const auto store = store::Store::open_read_only(out / "r1" / "store.db");
   ASSERT_TRUE(store) << store.error().message;
   const auto alignments =
       testing::errors_of_alignments(*store, {{}, {reference(out, "r1", 0), reference(out, "r2", 60)}});
   EXPECT_GE(alignments.count, 1);
-  testing::expect_at_most(alignments.translation, 0.223, "worst alignment, m", 1);
-  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.84, "worst alignment, deg", 1);
+  testing::expect_at_most(alignments.translation, 0.223, "worst alignment, m", seed);
+  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.84, "worst alignment, deg", seed);
 
   for (const char* name :
        {"odometry.tum", "ekf.tum", "trajectory.tum", "map.ply", "map.pcd", "alignments.csv", "store.db"}) {
     EXPECT_TRUE(std::filesystem::exists(out / "r1" / name)) << name;
   }
+}
+
+TEST_F(KittiFleet, TwoHalvesOfADriveBecomeOneMap) {
+  for (unsigned seed = 1; seed <= testing::seeds_to_run(1); ++seed) two_halves_become_one_map(seed);
 }
 
 TEST_F(KittiFleet, SameRunSameBytes) {

@@ -78,6 +78,20 @@ TEST_F(LinkLogTest, ARobotThatSaysHelloIsThere) {
   EXPECT_THAT(rows(), ElementsAre(::testing::_, "1180.0,long_range,r2,r1,,,100.0,0.0,0"));
 }
 
+TEST_F(LinkLogTest, KeepsWhenARobotWasLastHeardOnEachLink) {
+  log_.add_traffic({}, {}, kStart);
+  log_.add_traffic({traffic(bus::Link::kShortRange, 1, 125), traffic(bus::Link::kLongRange, 1, 125)}, {},
+                   kStart + 1s);
+  log_.add_traffic({traffic(bus::Link::kLongRange, 1, 125)}, {}, kStart + 9s);
+  const auto& heard = log_.last_heard();
+  ASSERT_EQ(heard.size(), 2u);
+  const LinkLog::Heard near = heard.at({bus::Link::kShortRange, kR2});
+  EXPECT_EQ(near.at, kStart + 1s);
+  EXPECT_TRUE(near.silent);
+  EXPECT_EQ(heard.at({bus::Link::kLongRange, kR2}).at, kStart + 9s);
+  EXPECT_FALSE(heard.at({bus::Link::kLongRange, kR2}).silent);
+}
+
 TEST_F(LinkLogTest, ALineThatWasCutOffIsEnded) {
   const auto file = folder_.path() / "link_trace.csv";
   std::ofstream(file, std::ios::app) << "1005.0,long_ra";

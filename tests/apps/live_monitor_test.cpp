@@ -22,14 +22,6 @@ class LiveMonitor : public ::testing::Test {
     const Bytes submap = testing::random_bytes(2000, seq);
     ASSERT_TRUE(store.put_node_with_submap(testing::make_node(agent("r1"), seq, submap, 5.0 * seq), submap));
   }
-  /// 0 until the page is announced.
-  static std::uint16_t port_of(const testing::Process& process) {
-    constexpr std::string_view kUrl = "http://127.0.0.1:";
-    const std::string said = process.output();
-    const std::size_t url = said.find(kUrl);
-    if (url == std::string::npos || said.find('\n', url) == std::string::npos) return 0;
-    return static_cast<std::uint16_t>(std::stoul(said.substr(url + kUrl.size())));
-  }
   static std::size_t nodes_shown(std::uint16_t port) {
     testing::Browser browser(port);
     browser.get("/state.json");
@@ -46,8 +38,9 @@ TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
   auto store = store::Store::open(folder_ / "store.db", agent("r1")).value();
   put_node(store, 0);
   testing::Process monitor({program_, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
-  ASSERT_TRUE(eventually([&] { return port_of(monitor) != 0; }, 60s)) << monitor.output();
-  const std::uint16_t port = port_of(monitor);
+  ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
+      << monitor.output();
+  const std::uint16_t port = testing::announced_port(monitor.output());
   EXPECT_EQ(nodes_shown(port), 1u);
   for (std::uint32_t seq = 1; seq <= 3; ++seq) {
     put_node(store, seq);
@@ -60,11 +53,12 @@ TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
 TEST_F(LiveMonitor, keeps_what_it_showed_when_the_store_is_taken_away) {
   put_node(*std::make_unique<store::Store>(store::Store::open(folder_ / "store.db", agent("r1")).value()), 0);
   testing::Process monitor({program_, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
-  ASSERT_TRUE(eventually([&] { return port_of(monitor) != 0; }, 60s)) << monitor.output();
+  ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
+      << monitor.output();
   std::filesystem::remove(folder_ / "store.db");
   EXPECT_TRUE(eventually([&] { return monitor.output().find("page: ") != std::string::npos; }, 60s))
       << monitor.output();
-  EXPECT_EQ(nodes_shown(port_of(monitor)), 1u);
+  EXPECT_EQ(nodes_shown(testing::announced_port(monitor.output())), 1u);
 }
 
 }  // namespace

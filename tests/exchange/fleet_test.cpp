@@ -78,6 +78,38 @@ TEST(Fleet, a_robot_says_that_it_is_busy_while_it_drives_and_while_a_pair_of_it_
   EXPECT_FALSE(told()) << "its word does not outlive it";
 }
 
+TEST(Fleet, each_robot_has_the_last_status_and_the_last_answer_to_an_order_of_every_other) {
+  using messages::Hold;
+  SimFleet fleet(kThree, {}, 3);
+  for (const auto& name : kThree) fleet.start(name);
+  exchange::Exchange& first = *fleet.robot("r1").exchange;
+  EXPECT_EQ(first.statuses().size(), 1u) << "the own one";
+  fleet.robot("r2").exchange->set_drives(true);
+  AgentStatus status;
+  status.battery = 0.25f;
+  fleet.robot("r2").exchange->set_status(status);
+  fleet.add_node("r2", 0.0);
+  const AgentId r1 = AgentId::parse("r1").value(), r2 = AgentId::parse("r2").value();
+  fleet.run_for(std::chrono::seconds(60), [&] {
+    return first.statuses().size() == 3 && first.statuses().at(r2).nodes == 1 &&
+           first.statuses().at(r1).nodes == 1;
+  });
+  EXPECT_EQ(first.statuses().at(r2).battery, 0.25f);
+  EXPECT_EQ(first.statuses().at(r2).nodes, 1u);
+  EXPECT_EQ(first.statuses().at(r1).nodes, 1u);
+  EXPECT_TRUE(first.hold_orders().empty());
+  EXPECT_EQ(first.driving().size(), 1u) << "nobody answers without an order";
+  first.on_local_order({{}, r2, r1, true}, fleet.now());
+  fleet.run_for(std::chrono::seconds(60), [&] { return first.driving().size() == 3; });
+  EXPECT_EQ(first.driving().at(r2), Hold::Driving::kHeld);
+  EXPECT_EQ(first.driving().at(r1), Hold::Driving::kNoMission);
+  ASSERT_EQ(first.hold_orders().size(), 1u);
+  EXPECT_TRUE(first.hold_orders()[0].hold);
+  first.on_local_order({{}, r2, r1, false}, fleet.now());
+  fleet.run_for(std::chrono::seconds(60), [&] { return first.driving().at(r2) == Hold::Driving::kFree; });
+  EXPECT_EQ(first.driving().at(r2), Hold::Driving::kFree);
+}
+
 TEST(Fleet, a_late_joiner_gets_everything_and_meets_the_others) {
   SimFleet fleet(kThree, {.loss = 0.1}, 11);
   fleet.start("r1");

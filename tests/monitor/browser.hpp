@@ -6,8 +6,17 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace fleetmap::testing {
+
+/// The port of the page that a program announced in what it said; 0 until it has.
+inline std::uint16_t announced_port(const std::string& said) {
+  constexpr std::string_view kUrl = "http://127.0.0.1:";
+  const std::size_t url = said.find(kUrl);
+  if (url == std::string::npos || said.find('\n', url) == std::string::npos) return 0;
+  return static_cast<std::uint16_t>(std::stoul(said.substr(url + kUrl.size())));
+}
 
 /// A TCP connection to this machine, byte by byte: what a browser would send, and what none would.
 class Browser {

@@ -1,10 +1,11 @@
 // Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
-// that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px.
+// that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px. Then the page of an agent
+// beside another one: fleet and radio, hold and resume with a token, a robot that falls silent.
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
 import {spawn, spawnSync} from 'node:child_process';
-import {existsSync, mkdtempSync, rmSync} from 'node:fs';
+import {existsSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
@@ -170,6 +171,121 @@ async function everythingIsNamed(page) {
   assert.deepEqual(nameless, []);
 }
 
+// A live fleet: agents of two robots without sensors, so they cost nothing and stand still.
+
+/** DDS domains that no other test has, as tests/bus/dds_domains.hpp gives them away; they are free again when the lock's process ends. */
+async function testDomain() {
+  for (let group = 15; group >= 0; --group) {
+    const lock = spawn('flock', ['--nonblock', `/tmp/fleetmap-test-domains-${group}`, 'sh', '-c', 'echo mine; exec cat'], {stdio: ['pipe', 'pipe', 'inherit']});
+    const mine = await new Promise((found) => {
+      lock.stdout.once('data', () => found(true));
+      lock.once('exit', () => found(false));
+      lock.once('error', () => found(false));
+    });
+    if (mine) return {lock, domain: 2 + 6 * group};
+  }
+  throw new Error('all test domains are taken');
+}
+
+const kToken = '0123456789abcdef';
+
+function agent(id, domain, more = []) {
+  const cwd = fileURLToPath(new URL('../..', import.meta.url));  // qos/ is looked for there
+  return spawn(fleetmap, ['agent', '-c', 'config/fleets/farm_small.yaml', '--as', id, '--out', join(folder, 'live'), '--set', `dds.base_domain=${domain}`, ...more],
+    {cwd, stdio: ['ignore', 'pipe', 'pipe']});
+}
+
+/** The page's address, as the agent logs it. */
+function addressOf(process) {
+  return new Promise((found, failed) => {
+    let said = '';
+    const listen = (text) => {
+      said += text;
+      const match = said.match(/open (http:\S+) in a browser/);
+      if (match) found(match[1]);
+    };
+    process.stdout.on('data', listen);
+    process.stderr.on('data', listen);
+    process.on('exit', (code) => failed(new Error(`fleetmap agent ended with ${code}: ${said}`)));
+  });
+}
+
+const textIs = (page, selector, pattern) => page.waitForFunction(([where, what]) => new RegExp(what, 's').test(document.querySelector(where)?.textContent ?? ''),
+  [selector, pattern.source], {timeout: 60_000});
+
+async function watchLive(browser, url, width, height, check) {
+  const context = await browser.newContext({viewport: {width, height}, hasTouch: width < 500, isMobile: width < 500, deviceScaleFactor: 1});
+  const page = await context.newPage();
+  const said = [];
+  page.on('pageerror', (error) => said.push(String(error)));
+  await page.goto(url);
+  await page.locator('#tab-radio').waitFor({timeout: 60_000});
+  await check(page);
+  await everythingIsNamed(page);
+  const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.ok(wider <= 0, `the live page is ${wider} px wider than the window`);
+  assert.deepEqual(said, []);
+  await context.close();
+}
+
+async function fleetAndRadio(page, name) {
+  await page.locator('#tab-fleet').click();
+  await textIs(page, '[data-robot=r2]', /in contact.*Last heard \d+ s ago by (radio|Wi-Fi)/);
+  await textIs(page, '[data-robot=r1]', /r1 stands still: no scan comes/);
+  await textIs(page, '[data-sensor=imu]', /none yet/);
+  await shot(page, `${name}_fleet`);
+  await page.locator('#tab-radio').click();
+  await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/);
+  await textIs(page, '#radio [data-of=kinds]', /status.*radio/);
+  await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
+  await page.locator('#radio canvas').first().waitFor();
+  await shot(page, `${name}_radio`);
+}
+
+async function holdAndResume(page) {
+  await page.locator('#tab-fleet').click();
+  const button = page.getByRole('button', {name: 'Hold r2'});
+  await button.click();
+  await textIs(page, '[data-robot=r2]', /r2 stands still: an operator holds it/);
+  await shot(page, 'live_held');
+  await page.getByRole('button', {name: 'Resume all'}).click();
+  // A later order for all replaces that for one.
+  await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
+}
+
+async function testLive(browser) {
+  const {lock, domain} = await testDomain();
+  const tokenFile = join(folder, 'token');
+  writeFileSync(tokenFile, kToken);
+  const others = ['--set', 'mission.lost_after=25'];
+  const shown = agent('r1', domain, ['--monitor', '0', '--monitor-token-file', tokenFile, ...others]);
+  const heard = agent('r2', domain, ['--monitor', '0', ...others]);
+  try {
+    const [url, readOnly] = await Promise.all([addressOf(shown), addressOf(heard)]);
+    await watchLive(browser, url, 1366, 768, async (page) => {
+      await fleetAndRadio(page, 'live_desk');
+      await holdAndResume(page);
+    });
+    await watchLive(browser, readOnly, 1366, 768, async (page) => {
+      await page.locator('#tab-fleet').click();
+      await textIs(page, '[data-robot=r1]', /in contact/);
+      assert.equal(await page.locator('.order:visible').count(), 0, 'buttons without a token');
+      assert.equal((await fetch(new URL('operator/hold', readOnly), {method: 'POST'})).status, 403);
+    });
+    await watchLive(browser, url, 390, 844, async (page) => {
+      await fleetAndRadio(page, 'live_phone');
+      heard.kill('SIGKILL');
+      await page.locator('#tab-fleet').click();
+      await textIs(page, '[data-robot=r2]', /lost.*r2 is lost\. Known last: /);
+      await shot(page, 'live_phone_lost');
+    });
+  } finally {
+    shown.kill('SIGKILL');
+    heard.kill('SIGKILL');
+    lock.stdin.end();
+  }
+}
+
 let server;
 try {
   const made = process.env.FLEETMAP_RUN ?? makeRun();
@@ -182,6 +298,7 @@ try {
     await onADesk(page, state);
   });
   await visit(browser, url, 390, 844, state, (page) => onAPhone(page, state));
+  await testLive(browser);
   await browser.close();
   console.log(`passed: ${state.nodes.length} nodes, ${state.registrations.length} registrations`);
 } finally {

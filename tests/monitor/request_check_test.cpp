@@ -66,5 +66,20 @@ TEST(RequestCheck, submaps_are_asked_for_by_hash_alone) {
     EXPECT_FALSE(parse_submap_request(wrong)) << wrong;
 }
 
+TEST(RequestCheck, orders_are_for_one_robot_or_for_all) {
+  const auto all = parse_hold_request("/operator/hold");
+  ASSERT_TRUE(all);
+  EXPECT_TRUE(all->hold);
+  EXPECT_FALSE(all->robot);
+  const auto one = parse_hold_request("/operator/resume?robot=r2");
+  ASSERT_TRUE(one);
+  EXPECT_FALSE(one->hold);
+  EXPECT_EQ(one->robot->str(), "r2");
+  for (const char* wrong : {"", "/operator", "/operator/", "/operator/holdall", "/operator/hold?", "/hold",
+                            "/operator/hold?robot=", "/operator/hold?robot=a/b", "/operator/hold?name=r2",
+                            "/operator/hold?robot=r2&robot=r1"})
+    EXPECT_FALSE(parse_hold_request(wrong)) << wrong;
+}
+
 }  // namespace
 }  // namespace fleetmap::monitor

@@ -139,6 +139,100 @@ TEST(Server, viewers_get_the_state_at_once_and_every_newer_one) {
   EXPECT_EQ(nlohmann::json::parse(browser.message())["title"], "second");
 }
 
+std::shared_ptr<const LiveStatus> status(double lost_after_s = 60.0) {
+  LiveStatus status;
+  status.self = testing::node_id("r1", 0).agent;
+  status.lost_after_s = lost_after_s;
+  return std::make_shared<const LiveStatus>(status);
+}
+
+TEST(Server, viewers_get_the_live_status_also_before_any_state) {
+  const auto server = start();
+  Browser before(server->port());
+  before.get("/live.json");
+  EXPECT_THAT(before.answer(), AllOf(StartsWith("HTTP/1.1 200"), HasSubstr("{}"))) << "of no live robot";
+  server->publish(status());
+  Browser browser(server->port());
+  browser.upgrade();
+  ASSERT_EQ(browser.status(), "101");
+  EXPECT_EQ(browser.message(), "{}");
+  EXPECT_EQ(nlohmann::json::parse(browser.message())["live"]["lost_after_s"], 60.0);
+  server->publish(status(90.0));
+  EXPECT_EQ(nlohmann::json::parse(browser.message())["live"]["lost_after_s"], 90.0);
+  server->publish(view("the state"));
+  EXPECT_EQ(nlohmann::json::parse(browser.message())["title"], "the state");
+  before.get("/live.json");
+  EXPECT_THAT(before.answer(), AllOf(HasSubstr("\"lost_after_s\":90.0"), HasSubstr("\"operated\":false")));
+}
+
+/// A server with a token and what it was ordered.
+class OperatedServer : public ::testing::Test {
+ protected:
+  std::string post(const std::string& path, const std::string& headers) {
+    Browser browser(server_->port());
+    browser.get(path, headers + "Content-Length: 0\r\n", "POST");
+    return browser.status();
+  }
+  std::string cookie(const std::string& token) const {
+    return "Cookie: fleetmap_" + std::to_string(server_->port()) + "=" + token + "\r\n";
+  }
+  std::string origin() const {
+    return "Origin: http://127.0.0.1:" + std::to_string(server_->port()) + "\r\n";
+  }
+  static ServerConfig with_token() {
+    ServerConfig config;
+    config.token = kToken;
+    return config;
+  }
+  void operate() {
+    server_->set_operator([this](const HoldRequest& order) -> Status {
+      if (order.robot && order.robot->str() != "r2") return failure("no such robot");
+      ordered_.push_back((order.hold ? "hold " : "resume ") + (order.robot ? order.robot->str() : "all"));
+      return {};
+    });
+  }
+
+  static constexpr const char* kToken = "0123456789abcdef";
+  std::vector<std::string> ordered_;  ///< on the server's thread; read after its answer
+  std::unique_ptr<Server> server_ = start(with_token());
+};
+
+TEST_F(OperatedServer, passes_on_orders_of_a_page_with_the_token) {
+  operate();
+  EXPECT_EQ(post("/operator/hold", cookie(kToken) + origin()), "202");
+  EXPECT_EQ(post("/operator/resume?robot=r2", cookie(kToken) + origin()), "202");
+  EXPECT_EQ(post("/operator/hold", std::string("Authorization: Bearer ") + kToken + "\r\n"), "202");
+  EXPECT_THAT(ordered_, ::testing::ElementsAre("hold all", "resume r2", "hold all"));
+  EXPECT_EQ(post("/operator/hold?robot=r9", cookie(kToken) + origin()), "503");
+  EXPECT_EQ(server_->stats().refused, 1u);
+}
+
+TEST_F(OperatedServer, refuses_wrong_tokens_and_other_sites) {
+  operate();
+  EXPECT_EQ(post("/operator/hold", origin()), "403") << "no token";
+  EXPECT_EQ(post("/operator/hold", cookie("0123456789abcdee") + origin()), "403");
+  EXPECT_EQ(post("/operator/hold?token=0123456789abcdef", origin()), "403");
+  EXPECT_EQ(post("/operator/hold", cookie(kToken)), "403") << "a page that hides where it is from";
+  EXPECT_EQ(post("/operator/hold", cookie(kToken) + "Origin: http://evil.example\r\n"), "403");
+  EXPECT_EQ(post("/operator/hold?robot=../r2", cookie(kToken) + origin()), "405");
+  Browser reader(server_->port());
+  reader.get("/operator/hold", cookie(kToken));
+  EXPECT_EQ(reader.status(), "404") << "a link gives no order";
+  EXPECT_TRUE(ordered_.empty());
+}
+
+TEST_F(OperatedServer, without_a_token_or_a_robot_it_reads_only) {
+  EXPECT_EQ(post("/operator/hold", cookie(kToken) + origin()), "403") << "a finished run";
+  server_ = start();
+  operate();
+  EXPECT_EQ(post("/operator/hold", origin()), "403");
+  server_->publish(status());
+  Browser browser(server_->port());
+  browser.get("/live.json");
+  EXPECT_THAT(browser.answer(), HasSubstr("\"operated\":false")) << "the page shows no button";
+  EXPECT_TRUE(ordered_.empty());
+}
+
 TEST(Server, only_so_many_viewers_at_once) {
   ServerConfig config;
   config.max_viewers = 2;

@@ -56,6 +56,8 @@ class Agent {
   void halt();
   /// Ends all subscriptions. Offloaded work must also have ended before the agent is destroyed.
   void stop();
+  /// Sends an operator's order, given on this robot, to all, as Exchange::on_local_order() does.
+  void give_order(const messages::HoldOrder& order);
   /// True if no scan, registration or message waits.
   bool idle() const;
   /// True if every node, alignment and submap that it has heard of is held, except those of robots that the
@@ -73,6 +75,7 @@ class Agent {
   const store::Store& store() const { return store_; }
   store::Store& store() { return store_; }
   const Perception& perception() const { return *perception_; }
+  const exchange::Exchange& exchange() const { return *exchange_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
   /// Robots from which submaps are being fetched.
   std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }

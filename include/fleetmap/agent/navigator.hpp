@@ -66,6 +66,8 @@ class Navigator {
   /// True if every row of the mission has been driven or given up, as far as reports have arrived.
   bool all_rows_driven() const;
   planning::MissionExecutive::Status status() const { return executive_.status(); }
+  /// Own progress and the last report of each other robot.
+  const planning::MissionExecutive& executive() const { return executive_; }
   std::optional<double> battery() const { return battery_; }
 
  private:

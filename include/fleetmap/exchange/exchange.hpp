@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -66,6 +67,8 @@ class Exchange {
   void on_local_order(HoldOrder order, Stamp now);
   /// The order in force for this robot; none if there never was one. It survives a restart.
   std::optional<HoldOrder> hold_in_force() const;
+  /// The orders for each robot and for all, as far as they were received.
+  std::vector<HoldOrder> hold_orders() const;
 
   /// `message` arrived over `link`, from the robot `from` where the link identifies it. An item may arrive
   /// from another robot than its maker.
@@ -86,6 +89,10 @@ class Exchange {
   bool idle(Stamp now, const std::set<AgentId>& without = {}) const;
   /// By its last status a robot that is still heard will make more nodes or alignments.
   bool others_busy(Stamp now) const;
+  /// The last status of each robot; that of this one is the present one.
+  std::map<AgentId, AgentStatus> statuses() const;
+  /// Whether each robot stands by an order, by its last answer; without an order nobody answers.
+  std::map<AgentId, messages::Hold::Driving> driving() const;
   ExchangeStats stats() const;
   TableSizes table_sizes() const;
   const SendQueue& queue() const;

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "fleetmap/core/ids.hpp"
+
 namespace fleetmap::monitor {
 
 /// The headers that decide whether a request is answered; absent ones are empty.
@@ -38,5 +40,12 @@ struct SubmapRequest {
   std::size_t from = 0, count = 0;
 };
 std::optional<SubmapRequest> parse_submap_request(std::string_view target);
+
+/// An operator's order: "/operator/hold" and "/operator/resume", of all robots or with "?robot=NAME" of one.
+struct HoldRequest {
+  bool hold = false;
+  std::optional<AgentId> robot;  ///< empty: all
+};
+std::optional<HoldRequest> parse_hold_request(std::string_view target);
 
 }  // namespace fleetmap::monitor

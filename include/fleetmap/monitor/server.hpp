@@ -10,6 +10,8 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/monitor/live_status.hpp"
+#include "fleetmap/monitor/request_check.hpp"
 #include "fleetmap/store/map_merge.hpp"
 
 namespace fleetmap::monitor {
@@ -46,8 +48,8 @@ struct ServerStats {
 };
 
 /// Shows a fleet to browsers: the page, its state and the points of submaps, over HTTP and one WebSocket a
-/// viewer, on a thread of its own. It only reads, and nobody waits for a viewer: a viewer that is slow misses
-/// states, and is cut if it stays so.
+/// viewer, on a thread of its own. Nobody waits for a viewer: a viewer that is slow misses states, and is cut
+/// if it stays so. It only reads, but for the orders of an operator (set_operator()).
 class Server {
  public:
   /// `load` is called on the server's thread alone.
@@ -62,6 +64,12 @@ class Server {
   std::string url() const;
   /// Replaces what is shown. Returns at once.
   void publish(std::shared_ptr<const FleetView> view);
+  /// Likewise. A status that the server's thread has not taken yet is replaced, so none queue up.
+  void publish(std::shared_ptr<const LiveStatus> status);
+  /// Passes on an operator's order, on the server's thread; fails with the reason.
+  using GiveOrder = std::function<Status(const HoldRequest&)>;
+  /// Lets viewers give orders. Without a token there are none: anyone on the machine would give them.
+  void set_operator(GiveOrder give_order);
   ServerStats stats() const;
 
   struct State;  ///< server_state.hpp

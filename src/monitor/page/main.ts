@@ -4,7 +4,9 @@ import {FleetMap, type ColourMode, type Hit, type Layer, type Picture} from './m
 import type {Edge} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, metres, type State} from './model';
+import {FleetNow} from './fleet_now';
 import {el, FleetPanel, WhyPanel} from './panels';
+import {RadioPanel} from './radio';
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const canvas = byId<HTMLCanvasElement>('canvas');
@@ -20,11 +22,13 @@ try {
 const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
 const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
 const why = new WhyPanel(byId('why'), actions);
-const fleet = new FleetPanel(byId('fleet'), actions);
+const now = new FleetNow();
+const fleet = new FleetPanel(byId('fleet'), actions, now.root);
+const radio = new RadioPanel(byId('radio'));
 
 // The state.
 
-follow((next) => {
+function showState(next: State): void {
   state = next;
   document.title = `${next.title} – fleetmap`;
   byId('title').textContent = next.title;
@@ -33,8 +37,19 @@ follow((next) => {
   setTime();
   why.show(next);
   fleet.show(next);
-}, (connected) => {
-  byId('connection').textContent = connected ? '' : 'connection lost, the last state is shown';
+}
+
+follow({
+  onState: showState,
+  onLive(live) {
+    byId('tab-radio').hidden = false;
+    if (!state) byId('summary').textContent = `${live.robots.length} robots · no nodes yet`;
+    now.show(live, state);
+    radio.show(live);
+  },
+  onConnection(connected) {
+    byId('connection').textContent = connected ? '' : 'connection lost, the last state is shown';
+  },
 });
 
 // Selection.
@@ -232,7 +247,7 @@ canvas.addEventListener('keydown', (event) => {
 
 // Tabs, as WAI-ARIA has them.
 
-const tabs = [byId('tab-why'), byId('tab-fleet')];
+const tabs = [byId('tab-why'), byId('tab-fleet'), byId('tab-radio')];
 function openTab(tab: HTMLElement): void {
   for (const one of tabs) {
     one.setAttribute('aria-selected', String(one === tab));
@@ -240,12 +255,14 @@ function openTab(tab: HTMLElement): void {
     byId(one.getAttribute('aria-controls')!).hidden = one !== tab;
   }
   fleet.redraw();
+  radio.redraw();
 }
 for (const tab of tabs) {
   tab.onclick = () => openTab(tab);
   tab.onkeydown = (event) => {
     if (event.key !== 'ArrowLeft' && event.key !== 'ArrowRight') return;
-    const next = tabs[(tabs.indexOf(tab) + 1) % tabs.length];
+    const shown = tabs.filter((one) => !one.hidden), step = event.key === 'ArrowRight' ? 1 : shown.length - 1;
+    const next = shown[(shown.indexOf(tab) + step) % shown.length];
     openTab(next);
     next.focus();
   };
@@ -255,5 +272,6 @@ byId('theme').onclick = () => {
   const dark = getComputedStyle(document.documentElement).colorScheme === 'dark';
   document.documentElement.dataset.theme = dark ? 'light' : 'dark';
   fleet.redraw();
+  radio.redraw();
   map?.draw();
 };

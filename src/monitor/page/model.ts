@@ -110,3 +110,67 @@ export function count(n: number): string {
 export function metres(m: number): string {
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
 }
+
+// What a running robot sends once a second beyond its store (src/monitor/live_status.cpp).
+
+export type LinkName = 'long_range' | 'short_range';
+
+export interface RobotNow {
+  id: string;
+  activity: string;
+  problems: string[];
+  heard: {link: LinkName; seconds_ago: number}[];
+  battery: number | null;
+  sigma_m: number | null;
+  nodes: number;
+  alignments: number;
+  submaps: number;
+  backlog_bytes: number;
+  ordered_to_hold: boolean;
+  driven: boolean;
+}
+
+export interface Sensor {
+  name: string;
+  samples: number;
+  per_second: number;
+  clock_behind_s: number | null;
+  clock_slow_ppm: number | null;
+}
+
+export interface Radio {
+  sent: number;
+  received: number;
+  share: number;
+  fleet_budget: number;
+  backlog_bytes: number;
+  backlog_s: number | null;
+  queues: {priority: string; waiting: number; dropped: number}[];
+  kinds: {link: LinkName; kind: string; sent: number; received: number}[];
+  peers: {robot: string; link: LinkName; received: number; loss: number; delay_s: number}[];
+  missing_submaps: number;
+  missing_bytes: number;
+  seconds_to_equal_map: number | null;
+}
+
+export interface Live {
+  self: string;
+  lost_after_s: number;
+  robots: RobotNow[];
+  sensors: Sensor[];
+  radio: Radio;
+  operated: boolean;
+}
+
+export const linkName = (link: LinkName) => (link === 'long_range' ? 'radio' : 'Wi-Fi');
+
+/** 950 B, 1.2 kB, 3.4 MB */
+export function bytes(n: number): string {
+  if (n >= 1e6) return `${(n / 1e6).toFixed(1)} MB`;
+  return n >= 1e3 ? `${(n / 1e3).toFixed(1)} kB` : `${Math.round(n)} B`;
+}
+
+/** "3 s", "4:10 min" */
+export function ago(seconds: number): string {
+  return seconds < 100 ? `${Math.round(seconds)} s` : `${duration(seconds)} ${seconds < 3600 ? 'min' : 'h'}`;
+}

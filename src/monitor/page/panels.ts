@@ -174,15 +174,19 @@ export class FleetPanel {
   private plot?: uPlot;
   private chart = el('div', {class: 'chart'});
   private state?: State;
+  private root: HTMLElement;
 
-  constructor(private root: HTMLElement, private actions: Actions) {
+  /** `now` stays above what the state shows. */
+  constructor(root: HTMLElement, private actions: Actions, now: HTMLElement) {
+    this.root = el('div', {class: 'from-state'});
+    root.append(now, this.root);
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
   show(state: State): void {
     this.state = state;
     const notes = state.notes.map((note) => el('p', {class: 'note'}, note));
-    this.root.replaceChildren(...notes, ...state.robots.map((robot) => this.card(state, robot)), el('h2', {}, 'Who holds whose nodes and submaps'), this.holdings(state),
+    this.root.replaceChildren(...notes, el('h2', {}, 'Their maps'), ...state.robots.map((robot) => this.card(state, robot)), el('h2', {}, 'Who holds whose nodes and submaps'), this.holdings(state),
       el('h2', {}, 'Nodes over the mission'), this.chart);
     this.draw(state);
   }
@@ -238,7 +242,7 @@ export class FleetPanel {
     const style = getComputedStyle(document.documentElement);
     const axis = {stroke: style.getPropertyValue('--soft'), grid: {stroke: style.getPropertyValue('--line'), width: 1}, ticks: {show: false}, font: '11px system-ui'};
     this.plot = new uPlot({
-      width: Math.max(200, this.root.clientWidth - 24), height: 170, cursor: {drag: {x: false, y: false}}, legend: {live: true},
+      width: Math.max(200, this.root.clientWidth), height: 170, cursor: {drag: {x: false, y: false}}, legend: {live: true},
       scales: {x: {time: false}},
       axes: [{...axis, values: (_, values) => values.map(duration), size: 28}, {...axis, size: 34}],
       series: [{label: 'time', value: (_, t) => (t === null ? '' : duration(t))}, ...state.robots.map((robot) => ({label: robot.id, stroke: colourOf(state, robot.id), width: 2, points: {show: false}, paths: uPlot.paths.stepped!({align: 1})}))],
@@ -253,6 +257,6 @@ export class FleetPanel {
   }
 
   private resize(): void {
-    if (this.plot && this.root.clientWidth > 0) this.plot.setSize({width: Math.max(200, this.root.clientWidth - 24), height: 170});
+    if (this.plot && this.root.clientWidth > 0) this.plot.setSize({width: Math.max(200, this.root.clientWidth), height: 170});
   }
 }

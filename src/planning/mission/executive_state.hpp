@@ -44,8 +44,8 @@ class ExecutiveState {
   RowAttempts attempts;
   MissionState state = MissionState::kDriving;
   bool begun = false;
-  Stamp listen_until{};
   Goal goal = Goal::kNone;
+  Stamp listen_until{};
   Polyline path;
   std::uint64_t path_number = 0;
   MissionReport report;
@@ -68,15 +68,15 @@ class ExecutiveState {
   void meet(const MissionInput& input, bool settled, bool alone);
   bool may_set_out(Stamp now) const { return goal == Goal::kNone && now >= retry_at_; }
 
-  Stamp begun_at_{};
   Eigen::Vector2d home_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d stuck_at_ = Eigen::Vector2d::Zero();
+  Stamp begun_at_{};
   double row_begins_ = 0.0;           // m along the path
-  bool arrived_ = false;              // where it last wanted to go
   std::optional<Stamp> waits_until_;  // at a stop: for the partner to come
   std::optional<Stamp> stays_until_;  // at a stop: for the exchange to end
   Stamp retry_at_{};
   int stuck_in_a_row_ = 0;
-  Eigen::Vector2d stuck_at_ = Eigen::Vector2d::Zero();
+  bool arrived_ = false;  // where it last wanted to go
   BlockedPlaces blocked_;
   std::optional<Stamp> all_done_since_;
 };

@@ -43,6 +43,8 @@ class MissionBoard {
   bool failed(std::size_t robot, std::size_t row) const;
   Eigen::Vector2d position(std::size_t robot) const;
   MissionState state(std::size_t robot, Stamp now) const;
+  /// The last report of another robot, or the own one; null before the first.
+  const MissionReport* report_of(std::size_t robot) const;
 
   /// Another available robot's claim goes before ours.
   bool outclaimed(std::size_t row, bool ours_under_way, Stamp now) const;
@@ -69,7 +71,6 @@ class MissionBoard {
     std::optional<MissionReport> last;
     Stamp heard;
   };
-  const MissionReport* report_of(std::size_t robot) const;
   void settle_done();
 
   std::shared_ptr<const FleetPlan> plan_;

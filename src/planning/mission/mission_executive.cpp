@@ -52,6 +52,15 @@ MissionAction MissionExecutive::update(const MissionInput& input) {
 
 MissionReport MissionExecutive::report() const { return state_->report; }
 
+std::vector<MissionReport> MissionExecutive::heard_reports() const {
+  std::vector<MissionReport> reports;
+  for (std::size_t robot = 0; robot < state_->board.robots(); ++robot) {
+    const MissionReport* last = robot == state_->self ? nullptr : state_->board.report_of(robot);
+    if (last != nullptr) reports.push_back(*last);
+  }
+  return reports;
+}
+
 MissionExecutive::Status MissionExecutive::status() const {
   const ExecutiveState& s = *state_;
   const Stamp now = s.report.stamp;

@@ -313,6 +313,22 @@ TEST(MissionExecutive, WhatOthersOnlyHeardCountsWhereNodesLieAlongTheRow) {
   EXPECT_EQ(executive.status().done, plan->division.routes[2].visits.size());
 }
 
+TEST(MissionExecutive, KeepsTheLastReportOfEachOtherRobot) {
+  const auto plan = plan_for(3);
+  auto executive = *MissionExecutive::create(plan, testing::name(0));
+  executive.update({stamp_from_ns(1), plan->fleet[0].start});
+  EXPECT_TRUE(executive.heard_reports().empty());
+  MissionReport report = forged_report(*plan, stamp_from_ns(2));
+  executive.on_report(report, stamp_from_ns(2));
+  report.stamp = stamp_from_ns(3);
+  report.state = MissionState::kMeeting;
+  executive.on_report(report, stamp_from_ns(3));
+  const auto heard = executive.heard_reports();
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].from, testing::name(1));
+  EXPECT_EQ(heard[0].state, MissionState::kMeeting);
+}
+
 TEST(MissionExecutive, WithoutAPositionTheRobotStands) {
   const auto plan = plan_for(2);
   auto executive = *MissionExecutive::create(plan, testing::name(0));

@@ -36,9 +36,13 @@ TEST(SiteGrid, ZonesAreThoseOfTheGeometry) {
     const Vector2d p(anywhere(random), anywhere(random));
     double nearest = 1e9;
     for (const KeepOut& b : boxes) nearest = std::min(nearest, distance_to(b, p));
-    if (nearest == 0.0) EXPECT_NE(grid.zone(p) & SiteGrid::kInside, 0) << p.transpose();
-    if (nearest > 0.0 && nearest < kClearance - kCell) EXPECT_FALSE(grid.clear(p)) << p.transpose();
-    if (nearest > kClearance + 2.0 * kCell) EXPECT_TRUE(grid.clear(p)) << p.transpose();
+    if (nearest == 0.0) {
+      EXPECT_NE(grid.zone(p) & SiteGrid::kInside, 0) << p.transpose();
+    } else if (nearest < kClearance - kCell) {
+      EXPECT_FALSE(grid.clear(p)) << p.transpose();
+    } else if (nearest > kClearance + 2.0 * kCell) {
+      EXPECT_TRUE(grid.clear(p)) << p.transpose();
+    }
   }
   EXPECT_FALSE(grid.clear({1000.0, 0.0}));
 }

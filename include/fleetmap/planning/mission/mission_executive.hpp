@@ -80,6 +80,8 @@ class MissionExecutive {
   MissionAction update(const MissionInput& input);
   /// As of the last update.
   MissionReport report() const;
+  /// The last report of each other robot, as far as any was received.
+  std::vector<MissionReport> heard_reports() const;
 
   struct Abandoned {
     RowId row = 0;

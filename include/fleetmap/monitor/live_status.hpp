@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/ids.hpp"
+
+namespace fleetmap::monitor {
+
+/// When a robot was last heard on a link.
+struct LastHeard {
+  std::string link;  ///< long_range or short_range
+  double seconds_ago = 0.0;
+};
+
+/// One robot at present, as the robot that shows the page has heard of it.
+struct RobotNow {
+  AgentId id;
+  std::string activity;               ///< in words: "drives row 7, 62 % of the rows are driven"
+  std::vector<std::string> problems;  ///< in words, empty when all is well
+  std::vector<LastHeard> heard;       ///< empty: not heard yet, or this robot itself
+  std::optional<double> battery;      ///< share left
+  std::optional<double> sigma_m;      ///< m, horizontal, of its own G
+  std::size_t nodes = 0, alignments = 0, submaps = 0;  ///< held
+  std::size_t backlog_bytes = 0;                       ///< waiting for its radio
+  bool ordered_to_hold = false;                        ///< an operator's order is in force
+  bool driven = false;  ///< orders are for it: it has not said that fleetmap does not drive it
+};
+
+/// A sensor of the robot that shows the page.
+struct SensorNow {
+  std::string name;
+  std::uint64_t samples = 0;
+  double per_second = 0.0;
+  std::optional<double> clock_behind_s, clock_slow_ppm;
+};
+
+/// Traffic of one kind of message, B/s on the wire.
+struct KindRate {
+  std::string link, kind;
+  double sent = 0.0, received = 0.0;
+};
+
+/// Traffic from one robot on one link.
+struct PeerRate {
+  AgentId peer;
+  std::string link;
+  double received = 0.0;  ///< B/s on the wire
+  double loss = 0.0;      ///< share of its messages
+  double delay_s = 0.0;   ///< by the clocks of both robots
+};
+
+/// Messages of one priority that wait for the radio.
+struct QueueNow {
+  std::string priority;
+  std::size_t waiting = 0;
+  std::uint64_t dropped = 0;
+};
+
+struct RadioNow {
+  double sent = 0.0, received = 0.0;           ///< B/s on the wire of the long range, in the last second
+  double share = 0.0;                          ///< B/s that this robot may send
+  double fleet_budget = 0.0;                   ///< B/s of all robots on this radio
+  std::size_t backlog_bytes = 0;               ///< on the wire
+  std::optional<double> backlog_s;             ///< until the queue is sent at the share
+  std::vector<QueueNow> queues;                ///< by priority
+  std::vector<KindRate> kinds;                 ///< mean of the last seconds
+  std::vector<PeerRate> peers;                 ///< likewise
+  std::size_t missing_submaps = 0;             ///< of the nodes that are held
+  std::uint64_t missing_bytes = 0;             ///< of these submaps
+  std::optional<double> seconds_to_equal_map;  ///< at the present rate of submaps; empty while none come
+};
+
+/// All that a running robot shows beyond its store. A value: whoever has it may hand it to any thread.
+struct LiveStatus {
+  AgentId self;
+  double lost_after_s = 0.0;     ///< a robot silent for so long counts as lost
+  std::vector<RobotNow> robots;  ///< the whole fleet, by name
+  std::vector<SensorNow> sensors;
+  RadioNow radio;
+};
+
+/// The status as JSON, in an object "live". `operated`: whether viewers may give orders.
+std::string live_json(const LiveStatus& status, bool operated);
+
+}  // namespace fleetmap::monitor

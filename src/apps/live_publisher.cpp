@@ -1,0 +1,142 @@
+#include "live_publisher.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "fleetmap/agent/navigator.hpp"
+#include "robots_now.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr Duration kNoScan = std::chrono::seconds(5);
+constexpr std::array<const char*, exchange::kPriorities> kPriorityNames{"safety", "control",  "news",
+                                                                        "state",  "backfill", "cloud"};
+
+std::vector<std::string> problems_of(const agent::Agent& agent, Stamp now) {
+  std::vector<std::string> problems;
+  const agent::Perception& perception = agent.perception();
+  if (const Duration silence = now - perception.last_scan(); silence > kNoScan)
+    problems.push_back(fmt::format("no scan for {:.0f} s", to_seconds(silence)));
+  if (const auto& loam = perception.odometry_counters(); loam.lost > 0)
+    problems.push_back(fmt::format("the odometry could not match {} scans", loam.lost));
+  if (const auto dropped = perception.counters().dropped_scans; dropped > 0)
+    problems.push_back(fmt::format("{} scans were dropped, since the odometry is too slow", dropped));
+  if (const auto failures = agent.store_failures(); failures > 0)
+    problems.push_back(fmt::format("the disk refused {} writes", failures));
+  return problems;
+}
+
+void add_mission(const agent::Navigator& navigator, FleetNow& fleet) {
+  const planning::MissionExecutive& mission = navigator.executive();
+  for (messages::MissionReport& report : mission.heard_reports()) {
+    const AgentId from = report.from;
+    fleet.reports.emplace(from, std::move(report));
+  }
+  fleet.reports.insert_or_assign(fleet.self, mission.report());
+  for (const planning::Row& row : mission.plan().mission.rows) fleet.rows.push_back(row.id);
+  if (const auto reason = navigator.stand_reason()) fleet.stands = to_string(*reason);
+}
+
+FleetNow fleet_now(const agent::Agent& agent, const LinkLog& log, Stamp now) {
+  const exchange::Exchange& exchange = agent.exchange();
+  FleetNow fleet;
+  fleet.self = agent.config().id;
+  fleet.fleet = agent.config().exchange.fleet;
+  fleet.now = now;
+  fleet.statuses = exchange.statuses();
+  fleet.driving = exchange.driving();
+  fleet.orders = exchange.hold_orders();
+  fleet.heard = log.last_heard();
+  fleet.misbehaved = exchange.stats().misbehaved;
+  fleet.problems = problems_of(agent, now);
+  if (agent.navigator() != nullptr) add_mission(*agent.navigator(), fleet);
+  return fleet;
+}
+
+double lost_after(const agent::Agent& agent) {
+  if (agent.navigator() != nullptr) return agent.navigator()->executive().plan().config.executive.lost_after;
+  const exchange::ExchangeConfig& config = agent.config().exchange;
+  return to_seconds(exchange::for_fleet(config.reconcile.peer_timeout, config));
+}
+
+void add_missing_submaps(const store::Store& store, double rate, monitor::RadioNow& radio) {
+  if (store.submap_set().size() == store.node_set().size()) {
+    radio.seconds_to_equal_map = 0.0;
+    return;
+  }
+  for (const auto& [id, node] : store.nodes()) {
+    if (store.has_submap(id)) continue;
+    ++radio.missing_submaps;
+    radio.missing_bytes += node.submap_bytes;
+  }
+  if (rate > 0.0) radio.seconds_to_equal_map = static_cast<double>(radio.missing_bytes) / rate;
+}
+
+}  // namespace
+
+LivePublisher::LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server)
+    : agent_(agent), bus_(bus), server_(server) {
+  const std::vector<AgentId> fleet = agent.config().exchange.fleet;
+  server_.set_operator([&agent, &bus, fleet](const monitor::HoldRequest& request) -> Status {
+    if (request.robot && std::ranges::find(fleet, *request.robot) == fleet.end())
+      return failure(request.robot->str() + " is no robot of this fleet");
+    // Stamp zero: the order replaces all others.
+    const messages::HoldOrder order{{}, request.robot.value_or(AgentId{}), agent.config().id, request.hold};
+    if (!bus.post({"order of a viewer", [&agent, order] { agent.give_order(order); }}))
+      return failure("the robot is too busy; try again");
+    return {};
+  });
+}
+
+LivePublisher::~LivePublisher() { server_.set_operator({}); }
+
+void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const LinkLog& log) {
+  monitor::LiveStatus status;
+  status.self = agent_.config().id;
+  status.lost_after_s = lost_after(agent_);
+  status.robots = robots_now(fleet_now(agent_, log, bus_.now()));
+  status.sensors = sensors();
+  status.radio = radio(heard);
+  published_ = bus_.now();
+  server_.publish(std::make_shared<const monitor::LiveStatus>(std::move(status)));
+}
+
+monitor::RadioNow LivePublisher::radio(const std::vector<bus::HeardTraffic>& heard) {
+  const exchange::ExchangeStats stats = agent_.exchange_stats();
+  const exchange::SendQueue& queue = agent_.exchange().queue();
+  const RadioCounters counters{agent_.bus_stats(),
+                               stats.long_range.wire_bytes + bus_.discovery_bytes(bus::Link::kLongRange),
+                               agent_.config().exchange.long_range.overhead_bytes};
+  monitor::RadioNow radio = rates_.add(counters, heard, bus_.now());
+  radio.share = queue.share_bytes_per_second();
+  radio.fleet_budget = agent_.config().exchange.long_range.fleet_bytes_per_second;
+  radio.backlog_bytes = queue.backlog_bytes();
+  if (radio.share > 0.0) radio.backlog_s = static_cast<double>(radio.backlog_bytes) / radio.share;
+  for (std::size_t k = 0; k < exchange::kPriorities; ++k) {
+    radio.queues.push_back(
+        {kPriorityNames[k], queue.size(static_cast<exchange::Priority>(k)), stats.long_range.dropped[k]});
+  }
+  add_missing_submaps(agent_.store(), rates_.submap_rate(), radio);
+  return radio;
+}
+
+std::vector<monitor::SensorNow> LivePublisher::sensors() {
+  const agent::PerceptionCounters& counters = agent_.perception().counters();
+  const std::array<std::uint64_t, sensor::kSources> samples{counters.scans, counters.imu, counters.fixes,
+                                                            counters.wheel};
+  const double elapsed = published_ ? to_seconds(bus_.now() - *published_) : 0.0;
+  std::vector<monitor::SensorNow> sensors;
+  for (std::size_t k = 0; k < sensor::kSources; ++k) {
+    const auto source = static_cast<sensor::Source>(k);
+    const auto more = static_cast<double>(samples[k] - samples_[k]);
+    sensors.push_back({sensor::to_string(source), samples[k], elapsed > 0.0 ? more / elapsed : 0.0,
+                       agent_.perception().clock_offsets().behind(source),
+                       agent_.perception().clock_offsets().slow_ppm(source)});
+  }
+  samples_ = samples;
+  return sensors;
+}
+
+}  // namespace fleetmap::apps

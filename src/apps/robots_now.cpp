@@ -1,0 +1,101 @@
+#include "robots_now.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+namespace fleetmap::apps {
+namespace {
+
+using messages::Hold;
+using messages::MissionReport;
+using messages::MissionState;
+
+std::string words_of(const MissionReport& report, const std::vector<planning::RowId>& rows) {
+  switch (report.state) {
+    case MissionState::kDriving:
+      return report.current < rows.size() ? fmt::format("drives row {}", rows[report.current])
+                                          : "is between two rows";
+    case MissionState::kMeeting:
+      return "waits where all meet";
+    case MissionState::kDone:
+      return "is done";
+    case MissionState::kStuck:
+      return "is stuck and gave its rows away";
+    case MissionState::kLowBattery:
+      return "drives home with a low battery";
+    case MissionState::kLost:
+      break;
+  }
+  return "is lost";
+}
+
+std::string activity_now(const FleetNow& fleet, const AgentId& id, bool stands) {
+  const auto report = fleet.reports.find(id);
+  if (id == fleet.self && !fleet.stands.empty()) return "stands still: " + fleet.stands;
+  if (stands) return "stands still: an operator holds it";
+  if (report != fleet.reports.end()) return activity_of(report->second, fleet.rows);
+  const auto status = fleet.statuses.find(id);
+  if (status == fleet.statuses.end()) return "was not heard yet";
+  return status->second.busy ? "maps" : "has nothing left to map or to exchange";
+}
+
+std::vector<monitor::LastHeard> heard_of(const FleetNow& fleet, const AgentId& id) {
+  std::vector<monitor::LastHeard> all;
+  for (const auto& [source, heard] : fleet.heard)
+    if (source.second == id) all.push_back({bus::to_string(source.first), to_seconds(fleet.now - heard.at)});
+  std::ranges::sort(all, {}, &monitor::LastHeard::seconds_ago);
+  return all;
+}
+
+void add_status(const messages::AgentStatus& status, monitor::RobotNow& robot) {
+  robot.nodes = status.nodes;
+  robot.alignments = status.alignments;
+  robot.submaps = status.submaps;
+  robot.backlog_bytes = status.backlog_bytes;
+  if (status.battery >= 0.0f) robot.battery = status.battery;
+  if (status.position_stddev > 0.0f) robot.sigma_m = status.position_stddev;
+}
+
+monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
+  monitor::RobotNow robot;
+  robot.id = id;
+  if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end())
+    add_status(status->second, robot);
+  const auto order = exchange::order_for(id, fleet.orders);
+  robot.ordered_to_hold = order && order->hold;
+  const auto driving = fleet.driving.find(id);
+  const bool answered = driving != fleet.driving.end();
+  // A robot that has not said yet what it does can be stopped, too.
+  robot.driven = !answered || driving->second != Hold::Driving::kNoMission;
+  const bool stands = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
+  robot.activity = activity_now(fleet, id, stands);
+  if (robot.driven && robot.ordered_to_hold && !stands)
+    robot.problems.push_back("has not confirmed the order to stand still");
+  if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
+    robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));
+  if (id == fleet.self)
+    robot.problems.insert(robot.problems.end(), fleet.problems.begin(), fleet.problems.end());
+  robot.heard = heard_of(fleet, id);
+  return robot;
+}
+
+}  // namespace
+
+std::string activity_of(const MissionReport& report, const std::vector<planning::RowId>& rows) {
+  const std::string words = words_of(report, rows);
+  if (rows.empty()) return words;
+  const messages::RowSet done(rows.size(), report.done.bytes());  // it may be of a longer mission
+  const double share = static_cast<double>(done.count()) / static_cast<double>(rows.size());
+  return fmt::format("{}, {:.0f} % of the rows are driven", words, 100.0 * share);
+}
+
+std::vector<monitor::RobotNow> robots_now(const FleetNow& fleet) {
+  std::vector<AgentId> names = fleet.fleet;
+  std::ranges::sort(names);
+  std::vector<monitor::RobotNow> robots;
+  for (const AgentId& id : names) robots.push_back(robot_now(fleet, id));
+  return robots;
+}
+
+}  // namespace fleetmap::apps

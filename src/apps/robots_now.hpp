@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/exchange/hold_orders.hpp"
+#include "fleetmap/messages/messages.hpp"
+#include "fleetmap/monitor/live_status.hpp"
+#include "fleetmap/planning/site/mission.hpp"
+#include "link_log.hpp"
+
+namespace fleetmap::apps {
+
+/// What one robot has heard of its fleet, and its own state.
+struct FleetNow {
+  AgentId self;
+  std::vector<AgentId> fleet;
+  Stamp now;
+  std::map<AgentId, messages::AgentStatus> statuses;   ///< the own one too
+  std::map<AgentId, messages::Hold::Driving> driving;  ///< likewise
+  std::map<AgentId, messages::MissionReport> reports;  ///< likewise
+  std::vector<messages::HoldOrder> orders;             ///< in force or replaced by those for one robot
+  std::map<LinkLog::Source, LinkLog::Heard> heard;
+  std::map<AgentId, std::uint64_t> misbehaved;  ///< messages that contradict the rules
+  std::vector<planning::RowId> rows;            ///< their names, by the mission's order
+  std::string stands;                           ///< why this robot stands still; empty: it does not
+  std::vector<std::string> problems;            ///< of this robot
+};
+
+/// What a robot does by its last report, in words. `rows`: names of the mission's rows.
+std::string activity_of(const messages::MissionReport& report, const std::vector<planning::RowId>& rows);
+
+/// Every robot of the fleet, by name.
+std::vector<monitor::RobotNow> robots_now(const FleetNow& fleet);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,86 @@
+#include "fleetmap/monitor/live_status.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fleetmap::monitor {
+namespace {
+
+using nlohmann::json;
+
+double rounded(double value, double steps) { return std::round(value * steps) / steps; }
+
+json optional_json(const std::optional<double>& value, double steps) {
+  return value ? json(rounded(*value, steps)) : json();
+}
+
+json robot_json(const RobotNow& robot) {
+  json heard = json::array();
+  for (const LastHeard& one : robot.heard)
+    heard.push_back({{"link", one.link}, {"seconds_ago", rounded(one.seconds_ago, 10.0)}});
+  return {{"id", robot.id.str()},
+          {"activity", robot.activity},
+          {"problems", robot.problems},
+          {"heard", std::move(heard)},
+          {"battery", optional_json(robot.battery, 1e3)},
+          {"sigma_m", optional_json(robot.sigma_m, 1e3)},
+          {"nodes", robot.nodes},
+          {"alignments", robot.alignments},
+          {"submaps", robot.submaps},
+          {"backlog_bytes", robot.backlog_bytes},
+          {"ordered_to_hold", robot.ordered_to_hold},
+          {"driven", robot.driven}};
+}
+
+json sensor_json(const SensorNow& sensor) {
+  return {{"name", sensor.name},
+          {"samples", sensor.samples},
+          {"per_second", rounded(sensor.per_second, 10.0)},
+          {"clock_behind_s", optional_json(sensor.clock_behind_s, 1e3)},
+          {"clock_slow_ppm", optional_json(sensor.clock_slow_ppm, 10.0)}};
+}
+
+json radio_json(const RadioNow& radio) {
+  json queues = json::array(), kinds = json::array(), peers = json::array();
+  for (const QueueNow& one : radio.queues)
+    queues.push_back({{"priority", one.priority}, {"waiting", one.waiting}, {"dropped", one.dropped}});
+  for (const KindRate& one : radio.kinds) {
+    kinds.push_back({{"link", one.link},
+                     {"kind", one.kind},
+                     {"sent", rounded(one.sent, 10.0)},
+                     {"received", rounded(one.received, 10.0)}});
+  }
+  for (const PeerRate& one : radio.peers) {
+    peers.push_back({{"robot", one.peer.str()},
+                     {"link", one.link},
+                     {"received", rounded(one.received, 10.0)},
+                     {"loss", rounded(one.loss, 1e4)},
+                     {"delay_s", rounded(one.delay_s, 1e4)}});
+  }
+  return {{"sent", rounded(radio.sent, 10.0)},
+          {"received", rounded(radio.received, 10.0)},
+          {"share", rounded(radio.share, 10.0)},
+          {"fleet_budget", rounded(radio.fleet_budget, 10.0)},
+          {"backlog_bytes", radio.backlog_bytes},
+          {"backlog_s", optional_json(radio.backlog_s, 10.0)},
+          {"queues", std::move(queues)},
+          {"kinds", std::move(kinds)},
+          {"peers", std::move(peers)},
+          {"missing_submaps", radio.missing_submaps},
+          {"missing_bytes", radio.missing_bytes},
+          {"seconds_to_equal_map", optional_json(radio.seconds_to_equal_map, 1.0)}};
+}
+
+}  // namespace
+
+std::string live_json(const LiveStatus& status, bool operated) {
+  json robots = json::array(), sensors = json::array();
+  for (const RobotNow& robot : status.robots) robots.push_back(robot_json(robot));
+  for (const SensorNow& sensor : status.sensors) sensors.push_back(sensor_json(sensor));
+  const json live{{"self", status.self.str()},         {"lost_after_s", rounded(status.lost_after_s, 10.0)},
+                  {"robots", std::move(robots)},       {"sensors", std::move(sensors)},
+                  {"radio", radio_json(status.radio)}, {"operated", operated}};
+  return json{{"live", live}}.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace fleetmap::monitor

@@ -1,0 +1,128 @@
+import {ago, bytes, colourOf, linkName, metres, type Live, type RobotNow, type Sensor, type State} from './model';
+import {el} from './panels';
+
+interface Card {
+  article: HTMLElement;
+  badge: HTMLElement;
+  activity: HTMLElement;
+  facts: HTMLElement;
+  problems: HTMLElement;
+  hold: HTMLButtonElement;
+}
+
+/** Each robot's present state in words. Cards stay and their texts change, so that focus and reading position stay too. */
+export class FleetNow {
+  readonly root = el('section', {'aria-label': 'Robots now', hidden: ''});
+  private cards = new Map<string, Card>();
+  private list = el('div');
+  private all = el('div', {class: 'orders', role: 'group', 'aria-label': 'Orders for all robots', hidden: ''});
+  private sensors = el('div');
+  private said = el('p', {class: 'unseen', role: 'status', 'aria-live': 'polite'});
+  private answer = el('p', {class: 'hint', role: 'status', 'aria-live': 'polite'});
+  private live?: Live;
+  private since = 0;
+  private lost = new Set<string>();
+
+  constructor() {
+    this.all.append(this.orderButton('Hold all', () => this.order(true)), this.orderButton('Resume all', () => this.order(false)));
+    this.root.append(el('h2', {}, 'Now'), this.all, this.answer, this.list, el('h2', {id: 'sensors-title'}, 'Sensors'), this.sensors, this.said);
+    setInterval(() => this.refresh(), 1000);
+  }
+
+  show(live: Live, state?: State): void {
+    this.live = live;
+    this.since = performance.now();
+    this.root.hidden = false;
+    this.all.hidden = !live.operated || !live.robots.some((robot) => robot.driven);
+    for (const robot of live.robots) {
+      const card = this.cardOf(robot.id);
+      if (state) card.article.style.borderLeftColor = colourOf(state, robot.id);
+    }
+    this.sensors.replaceChildren(this.sensorTable(live));
+    this.refresh();
+  }
+
+  /** Also without a newer status: a robot that falls silent, or this one, turns to lost all the same. */
+  private refresh(): void {
+    if (!this.live) return;
+    for (const robot of this.live.robots) this.showRobot(this.live, robot);
+  }
+
+  private cardOf(id: string): Card {
+    const known = this.cards.get(id);
+    if (known) return known;
+    const badge = el('span', {class: 'badge'}), activity = el('p', {class: 'activity'}), facts = el('p', {class: 'facts'}), problems = el('ul', {class: 'problems'});
+    const hold = this.orderButton('Hold', () => this.order(!this.live?.robots.find((robot) => robot.id === id)?.ordered_to_hold, id));
+    const article = el('article', {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`}, el('h3', {}, id, badge, hold), activity, problems, facts);
+    const card = {article, badge, activity, facts, problems, hold};
+    this.cards.set(id, card);
+    this.list.append(article);
+    return card;
+  }
+
+  private showRobot(live: Live, robot: RobotNow): void {
+    const card = this.cardOf(robot.id), later = (performance.now() - this.since) / 1000;
+    const isSelf = robot.id === live.self;
+    const silence = isSelf ? later : robot.heard.length > 0 ? robot.heard[0].seconds_ago + later : undefined;
+    const lost = silence !== undefined && silence > live.lost_after_s;
+    setText(card.badge, lost ? 'lost' : isSelf ? 'shows this page' : silence === undefined ? 'not heard yet' : 'in contact');
+    card.badge.className = `badge ${lost ? 'bad' : silence === undefined || isSelf ? '' : 'good'}`;
+    setText(card.activity, lost ? `${robot.id} is lost. Known last: ${robot.activity}.` : `${robot.id} ${robot.activity}.`);
+    setText(card.facts, this.facts(robot, isSelf, later));
+    card.problems.hidden = robot.problems.length === 0;
+    if (card.problems.textContent !== robot.problems.join('')) card.problems.replaceChildren(...robot.problems.map((text) => el('li', {}, text)));
+    card.hold.hidden = !live.operated || !robot.driven;
+    setText(card.hold, robot.ordered_to_hold ? 'Resume' : 'Hold');
+    card.hold.setAttribute('aria-label', `${robot.ordered_to_hold ? 'Resume' : 'Hold'} ${robot.id}`);
+    if (lost && !this.lost.has(robot.id)) this.said.textContent = `${robot.id} is lost.`;
+    if (lost) this.lost.add(robot.id);
+    else this.lost.delete(robot.id);
+  }
+
+  private facts(robot: RobotNow, isSelf: boolean, later: number): string {
+    const facts: string[] = [];
+    if (!isSelf && robot.heard.length > 0) facts.push(`last heard ${robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`).join(', ')}`);
+    if (robot.battery !== null) facts.push(`battery ${Math.round(100 * robot.battery)} %`);
+    if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ)`);
+    if (robot.nodes > 0) facts.push(`holds ${robot.nodes} nodes, ${robot.submaps} submaps, ${robot.alignments} alignments`);
+    if (robot.backlog_bytes > 0) facts.push(`${bytes(robot.backlog_bytes)} wait for its radio`);
+    const text = facts.join('; ');
+    return text && `${text[0].toUpperCase()}${text.slice(1)}.`;
+  }
+
+  private sensorTable(live: Live): HTMLElement {
+    const rows = live.sensors.map((one) => el('tr', {'data-sensor': one.name}, el('th', {scope: 'row'}, one.name),
+      el('td', {}, one.samples === 0 ? 'none yet' : `${one.per_second.toFixed(one.per_second < 10 ? 1 : 0)} /s`), el('td', {}, clockText(one))));
+    return el('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': 'sensors-title'},
+      el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, ...['of ' + live.self, 'samples', 'clock'].map((name) => el('th', {scope: 'col'}, name)))), el('tbody', {}, ...rows)));
+  }
+
+  private orderButton(text: string, act: () => void): HTMLButtonElement {
+    const button = el('button', {type: 'button', class: 'order'}, text);
+    button.onclick = act;
+    return button;
+  }
+
+  /** The robot's next status shows what came of it. */
+  private async order(hold: boolean, robot?: string): Promise<void> {
+    const what = `${hold ? 'hold' : 'resume'} ${robot ?? 'all robots'}`;
+    const target = `/operator/${hold ? 'hold' : 'resume'}${robot ? `?robot=${encodeURIComponent(robot)}` : ''}`;
+    try {
+      const answer = await fetch(target, {method: 'POST'});
+      this.answer.textContent = answer.ok ? `Ordered: ${what}.` : `Not ordered (${what}): ${(await answer.text()).trim()}`;
+    } catch {
+      this.answer.textContent = `Not ordered (${what}): the robot does not answer.`;
+    }
+  }
+}
+
+function setText(element: HTMLElement, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+function clockText(sensor: Sensor): string {
+  const words: string[] = [];
+  if (sensor.clock_behind_s !== null) words.push(`${Math.abs(1000 * sensor.clock_behind_s).toFixed(0)} ms ${sensor.clock_behind_s < 0 ? 'ahead' : 'behind'}`);
+  if (sensor.clock_slow_ppm !== null) words.push(`${Math.abs(sensor.clock_slow_ppm).toFixed(0)} ppm ${sensor.clock_slow_ppm < 0 ? 'fast' : 'slow'}`);
+  return words.join(', ') || '–';
+}
