@@ -35,6 +35,14 @@ std::string why_not_converged(const Robots& robots, Stamp now) {
              " holds other alignments:" + difference(store.alignment_set(), first.alignment_set());
     if (!(store.submap_set() == first.submap_set()))
       return name.str() + " holds other submaps:" + difference(store.submap_set(), first.submap_set());
+    for (const SeqRange& range : first.node_set().ranges()) {
+      if (store.node_print(range) != first.node_print(range))
+        return name.str() + " holds another content of a node of " + range.agent.str();
+    }
+    for (const SeqRange& range : first.alignment_set().ranges()) {
+      if (store.alignment_print(range) != first.alignment_print(range))
+        return name.str() + " holds another content of an alignment of " + range.agent.str();
+    }
     if (!robot.exchange->fleet_caught_up()) return name.str() + " finds that another lacks something";
     if (!robot.exchange->idle(now + robot.clock_offset)) return name.str() + " is not idle";
   }

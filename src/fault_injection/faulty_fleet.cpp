@@ -282,6 +282,7 @@ void FaultyFleet::attack() {
     const auto injected = fault.kind == FaultKind::kStranger ? attacker_.stranger() : attacker_.forged();
     if (injected && fault.kind == FaultKind::kForged && !run_.signatures)
       monitor_.on_forged(*injected->message);
+    if (injected) trace("attacker to " + injected->to.str() + ": " + trace_line(*injected->message));
     if (injected) deliver(injected->to, injected->reach, injected->message, kTick);
   }
 }
