@@ -90,14 +90,16 @@ std::optional<Attacker::Injected> Attacker::stranger() {
 
 messages::Message Attacker::forged_item() {
   const NodeId id = any_id();
-  if (draws_.chance(0.6)) return fleet_codec::quantised(node_of(id)).value();
+  if (draws_.chance(0.6)) {
+    const graph::Node node = node_of(id);
+    return fleet_codec::quantised(node).value_or(node);
+  }
   graph::Alignment alignment;
   alignment.i = any_id();
   alignment.j = any_id();
   alignment.computed_by = id.agent;
   alignment.seq = id.seq;
-  if (const auto sent = fleet_codec::quantised(alignment)) return *sent;
-  return alignment;
+  return fleet_codec::quantised(alignment).value_or(alignment);
 }
 
 messages::Message Attacker::forged_digest() {

@@ -62,7 +62,7 @@ TEST_F(MonitorTest, ANodeIsLostUnlessItsContentIsHeldUnderSomeName) {
   monitor_.check_contents(agent("r1"), store_, kNow);
   ASSERT_EQ(violations().size(), 1u);
   EXPECT_EQ(violations()[0].invariant, Invariant::kNothingLost);
-  EXPECT_THAT(violations()[0].what, HasSubstr("r2#0/4"));
+  EXPECT_THAT(violations()[0].what, HasSubstr("r2/4"));
 }
 
 TEST_F(MonitorTest, ADiskThatWasLostTakesTheNodesOfItsRobotAlong) {
