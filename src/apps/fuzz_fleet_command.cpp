@@ -29,9 +29,7 @@ struct FuzzOptions {
   std::optional<std::uint64_t> replay;
   std::vector<std::size_t> keep;
   std::vector<std::size_t> robots;
-  std::string faults =
-      "loss,delay,duplication,one_way,partition,crash,lost_store,old_store,full_disk,clock_step,stranger,"
-      "liar";
+  std::string faults = "all";
   std::string invariants = "all";
   double mapping = 150.0;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());

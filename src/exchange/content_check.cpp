@@ -19,17 +19,21 @@ bool ContentCheck::compare(const SeqRange& range, std::uint32_t theirs, std::uin
                            store::SeqSet& to_ask, Stamp now) {
   if (theirs == ours) return false;
   const std::uint32_t items = range.end - range.first;
-  if (items <= kFewItems) {
-    to_ask.insert(range);
-    return false;
-  }
-  for (std::uint32_t part = 0; part <= kParts; ++part) {
+  const bool few = items <= kFewItems;
+  if (few) to_ask.insert(range);
+  // Few items are cut off as well: if this robot alone holds both contents, the peer has to ask, not this
+  // one.
+  const std::uint32_t parts = few ? 1 : kParts;
+  bool is_new = false;
+  for (std::uint32_t part = 0; part <= parts; ++part) {
     const NodeId at{range.agent,
-                    range.first + static_cast<std::uint32_t>(std::uint64_t{items} * part / kParts)};
-    if (cuts.size() >= kMaxCuts && !cuts.contains(at)) return true;
+                    range.first + static_cast<std::uint32_t>(std::uint64_t{items} * part / parts)};
+    const bool is_cut = cuts.contains(at);
+    if (cuts.size() >= kMaxCuts && !is_cut) return !few;
     cuts[at] = now + kCutsLast;
+    is_new |= !is_cut;
   }
-  return true;
+  return is_new || !few;
 }
 
 bool ContentCheck::on_digest(const Digest& digest, const store::Store& store, Stamp now) {

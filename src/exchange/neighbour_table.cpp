@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "digest_part.hpp"
+
 namespace fleetmap::exchange {
 namespace {
 
-/// Intervals of a robot's offered submaps; with more of them its set starts anew.
-constexpr std::size_t kMaxIntervals = 8192;
 /// Share of the digests expected in a peer_timeout that a near robot delivers.
 constexpr double kNearShare = 0.6;
 
@@ -26,18 +26,9 @@ void NeighbourTable::on_digest(const SubmapDigest& digest, Stamp now) {
   while (!neighbour.heard_by_it.empty() && now - neighbour.heard_by_it.front() > config_.peer_timeout)
     neighbour.heard_by_it.pop_front();
   neighbour.digest_received = now;
-  // A digest that has no room for all ranges adds to the digests before.
-  if (digest.submaps.size() < config_.max_ranges || neighbour.holds.ranges().size() > kMaxIntervals)
-    neighbour.holds = {};
-  for (const SeqRange& range : digest.submaps) {
-    const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
-    // No robot makes so many items in one session that their numbers reach the next.
-    if (ordered && session_of(range.first) == session_of(range.end - 1)) {
-      neighbour.holds.insert(range);
-    } else {
-      ++hostile_;
-    }
-  }
+  const std::vector<SeqRange> part = plausible(digest.submaps, hostile_);
+  neighbour.holds =
+      digest.submaps.size() < config_.max_ranges ? store::SeqSet(part) : offered_after(neighbour.holds, part);
 }
 
 bool NeighbourTable::in_reach(const AgentId& name, Stamp now) const {

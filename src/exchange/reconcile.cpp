@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "digest_part.hpp"
+
 namespace fleetmap::exchange {
 namespace {
 
@@ -11,14 +13,6 @@ std::uint64_t count(const std::vector<SeqRange>& ranges) {
   std::uint64_t items = 0;
   for (const SeqRange& range : ranges) items += range.end - range.first;
   return items;
-}
-
-/// At most `limit` of `ranges`, from the `start`-th on, going round.
-std::vector<SeqRange> window(const std::vector<SeqRange>& ranges, std::size_t start, std::size_t limit) {
-  std::vector<SeqRange> taken;
-  for (std::size_t k = 0; k < std::min(limit, ranges.size()); ++k)
-    taken.push_back(ranges[(start + k) % ranges.size()]);
-  return taken;
 }
 
 /// Rotates the ranges, so that an undelivered offer does not keep others from being requested.
@@ -53,29 +47,18 @@ SeqSet joined(SeqSet a, const SeqSet& b) {
   return a;
 }
 
-/// A set that a hostile agent filled with holes starts anew.
-SeqSet joined_bounded(SeqSet a, const SeqSet& b) {
-  constexpr std::size_t kMaxIntervals = 8192;
-  SeqSet both = joined(std::move(a), b);
-  return both.ranges().size() > kMaxIntervals ? b : both;
-}
-
 }  // namespace
 
 Reconcile::Reconcile(const AgentId& self, const ReconcileConfig& config)
     : self_(self), config_(config), period_(config.digest_min_period) {}
 
-SeqSet Reconcile::accepted(const std::vector<SeqRange>& ranges, Source source) {
+SeqSet Reconcile::requested(const std::vector<SeqRange>& ranges) {
   SeqSet set;
   for (const SeqRange& range : ranges) {
-    const bool ordered = !range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs;
-    // Nobody numbers so many items of one session that it reaches the next.
-    const bool plausible =
-        ordered && (source == Source::kRequest || session_of(range.first) == session_of(range.end - 1));
-    if (!plausible) {
-      ++stats_.hostile;
-    } else {
+    if (!range.agent.empty() && range.first < range.end && range.end <= kEndOfSeqs) {
       set.insert(range);
+    } else {
+      ++stats_.hostile;
     }
   }
   return set;
@@ -105,14 +88,12 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   ++stats_.digests_heard;
   Peer& peer = peers_[digest.from];
   peer.heard = now;
-  const SeqSet nodes = accepted(digest.nodes, Source::kDigest);
-  const SeqSet alignments = accepted(digest.alignments, Source::kDigest);
-  // A digest with no room for all ranges shows a part, and adds to those before.
-  const auto offer = [this](SeqSet& offered, const std::vector<SeqRange>& ranges, const SeqSet& received) {
-    offered = ranges.size() < config_.max_ranges ? received : joined_bounded(std::move(offered), received);
+  const auto offer = [this](SeqSet& offered, const std::vector<SeqRange>& ranges) {
+    const std::vector<SeqRange> part = plausible(ranges, stats_.hostile);
+    offered = ranges.size() < config_.max_ranges ? SeqSet(part) : offered_after(offered, part);
   };
-  offer(peer.offer.nodes, digest.nodes, nodes);
-  offer(peer.offer.alignments, digest.alignments, alignments);
+  offer(peer.offer.nodes, digest.nodes);
+  offer(peer.offer.alignments, digest.alignments);
   if (check_.on_digest(digest, store, now)) hurry(now);
   const bool lacking =
       !store.node_set().includes(peer.offer.nodes) || !store.alignment_set().includes(peer.offer.alignments);
@@ -134,7 +115,7 @@ Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Stor
   if (request.to != self_) return items;
   ++stats_.requests_served;
   std::uint32_t left = config_.max_items;
-  for (const SeqRange& range : accepted(request.nodes, Source::kRequest).ranges()) {
+  for (const SeqRange& range : requested(request.nodes).ranges()) {
     for (auto it = store.nodes().lower_bound({range.agent, range.first});
          it != store.nodes().end() && it->first.agent == range.agent && it->first.seq < range.end && left > 0;
          ++it, --left) {
@@ -147,7 +128,7 @@ Reconcile::Items Reconcile::answer(const ItemRequest& request, const store::Stor
       items.second_nodes.push_back(second);
     }
   }
-  for (const SeqRange& range : accepted(request.alignments, Source::kRequest).ranges()) {
+  for (const SeqRange& range : requested(request.alignments).ranges()) {
     for (const auto& [first, second] : store.contested_alignments(range)) {
       if (left < 2) break;
       left -= 2;
@@ -227,7 +208,7 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
   }
   ItemRequest request{self_, name, {}, {}};
   const auto some = [&](const SeqSet& offered, const SeqSet& known, std::uint64_t most) {
-    return window(first_items(rotated(offered.minus(known), peer.barren), most), 0, config_.max_ranges);
+    return next_part(first_items(rotated(offered.minus(known), peer.barren), most), 0, config_.max_ranges);
   };
   request.nodes = some(offer.nodes, known_nodes, config_.max_items);
   request.alignments = some(offer.alignments, known_alignments, config_.max_items - count(request.nodes));
@@ -239,25 +220,24 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
   return request;
 }
 
-Digest Reconcile::digest_of(const store::Store& store, std::size_t& next_range) const {
+Digest Reconcile::digest_of(const store::Store& store, NextPart& next) const {
   Digest digest{self_, {}, {}};
-  const auto nodes = check_.cut(store.node_set().ranges(), false);
-  const auto alignments = check_.cut(store.alignment_set().ranges(), true);
-  digest.nodes = window(nodes, next_range, config_.max_ranges);
-  digest.alignments = window(alignments, next_range, config_.max_ranges);
+  const auto nodes = check_.cut(by_session(store.node_set().ranges()), false);
+  const auto alignments = check_.cut(by_session(store.alignment_set().ranges()), true);
+  digest.nodes = next_part(nodes, next.nodes, config_.max_ranges);
+  digest.alignments = next_part(alignments, next.alignments, config_.max_ranges);
   for (const SeqRange& range : digest.nodes) digest.node_prints.push_back(store.node_print(range));
   for (const SeqRange& range : digest.alignments)
     digest.alignment_prints.push_back(store.alignment_print(range));
-  next_range = nodes.size() > config_.max_ranges || alignments.size() > config_.max_ranges
-                   ? (next_range + config_.max_ranges) % std::max(nodes.size(), alignments.size())
-                   : 0;
+  next.nodes = after_part(next.nodes, nodes.size(), config_.max_ranges);
+  next.alignments = after_part(next.alignments, alignments.size(), config_.max_ranges);
   return digest;
 }
 
 Reconcile::Due Reconcile::tick(const store::Store& store, Stamp now) {
   Due due;
   if (!next_digest_ || now >= *next_digest_) {
-    due.digest = digest_of(store, next_range_);
+    due.digest = digest_of(store, next_part_);
     ++stats_.digests_sent;
     last_digest_ = now;
     next_digest_ = now + period_;

@@ -21,9 +21,9 @@ using messages::ItemRequest;
 /// Makes the sets of nodes and alignments of all robots equal (anti-entropy): robots periodically send
 /// digests of their sets, and a robot requests missing items from any one that holds them, maker or not.
 ///
-/// An offer is a claim. The latest digest that shows all ranges replaces earlier ones, so a forged or
-/// outdated one lasts until the next; items that a robot offers but does not deliver are no longer waited
-/// for. ContentCheck finds names under which two robots hold different contents.
+/// An offer is a claim. The latest digest replaces what earlier ones said of the names that it covers, so a
+/// forged or outdated one lasts until the robot's own have gone round; items that a robot offers but does not
+/// deliver are no longer waited for. ContentCheck finds names under which two robots hold different contents.
 class Reconcile {
  public:
   Reconcile(const AgentId& self, const ReconcileConfig& config);
@@ -59,7 +59,7 @@ class Reconcile {
   Due tick(const store::Store& store, Stamp now);
 
   /// For those in reach on the short range: of what is held, as many ranges as fit; the others next time.
-  Digest near_digest(const store::Store& store) { return digest_of(store, next_near_range_); }
+  Digest near_digest(const store::Store& store) { return digest_of(store, next_near_part_); }
   /// A received item could not be stored. Requests pause, since the answers could not be stored either.
   void on_store_failure(Stamp now);
   /// A name was found to have two contents.
@@ -95,13 +95,18 @@ class Reconcile {
     int barren = 0;                     ///< requests in a row that brought nothing
     bool undelivered_reported = false;  ///< of the offer
   };
-  enum class Source : std::uint8_t { kRequest, kDigest };
-  store::SeqSet accepted(const std::vector<SeqRange>& ranges, Source source);
+  /// Indices of the ranges that the next digest begins with when not all fit.
+  struct NextPart {
+    std::size_t nodes = 0;
+    std::size_t alignments = 0;
+  };
+  /// The requested ranges that are in order.
+  store::SeqSet requested(const std::vector<SeqRange>& ranges);
   void update_undelivered(const AgentId& name, Peer& peer, const store::Store& store, Due& due);
   void update_pending(Peer& peer, const store::Store& store, Stamp now);
   /// Sends the next digest after the shortest period.
   void hurry(Stamp now);
-  Digest digest_of(const store::Store& store, std::size_t& next_range) const;
+  Digest digest_of(const store::Store& store, NextPart& next) const;
   std::optional<ItemRequest> ask(const AgentId& name, Peer& peer, const store::Store& store, Stamp now);
 
   AgentId self_;
@@ -111,8 +116,8 @@ class Reconcile {
   Duration period_;
   std::optional<Stamp> next_digest_;
   std::optional<Stamp> last_digest_;
-  std::size_t next_range_ = 0;       ///< where the next digest begins when not all ranges fit
-  std::size_t next_near_range_ = 0;  ///< likewise over the short range
+  NextPart next_part_;
+  NextPart next_near_part_;  ///< over the short range
   Duration store_pause_ = Duration::zero();
   std::optional<Stamp> paused_until_;
   ReconcileStats stats_;

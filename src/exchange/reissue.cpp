@@ -11,14 +11,17 @@ using graph::Node;
 
 constexpr SeqRange all_of(const AgentId& agent) { return {agent, 0, kEndOfSeqs}; }
 
-/// Contested own nodes without an equal under another name, by odometry frame.
+/// Contested own nodes whose submap is held, without an equal under another name, by odometry frame.
 std::map<std::uint16_t, std::vector<const Node*>> nodes_to_name(const store::Store& store) {
   const auto own = store.nodes_from(all_of(store.self()));
   std::map<std::uint16_t, std::vector<const Node*>> found;
   std::vector<const Node*> selected;
   for (const auto& [node, second] : store.contested_nodes(all_of(store.self()))) {
-    const auto is_same = [&, held = node](const Node* other) { return is_same_place(*other, *held); };
-    if (std::ranges::any_of(own, is_same) || std::ranges::any_of(selected, is_same)) continue;
+    // Without the submap it is another robot's content, or a damaged packet's, under an own name.
+    if (!store.contested_submap(node->id)) continue;
+    const auto is_same = [held = node](const Node* other) { return is_same_place(*other, *held); };
+    const auto is_held = [&](const Node* other) { return is_same(other) && store.has_submap(other->id); };
+    if (std::ranges::any_of(own, is_held) || std::ranges::any_of(selected, is_same)) continue;
     selected.push_back(node);
     found[node->session].push_back(node);
   }
@@ -84,7 +87,7 @@ class Reissue {
  private:
   Status name(const Node& node, std::uint16_t session) {
     const auto submap = store_.contested_submap(node.id);
-    if (!submap) return {};  // the submap belonged to another robot's node, or is lost
+    if (!submap) return tl::unexpected(submap.error());
     Node named = node;
     named.id.seq = store_.next_node_seq(session);
     named.session = session;

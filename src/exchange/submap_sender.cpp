@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "digest_part.hpp"
+
 namespace fleetmap::exchange {
 namespace {
 
@@ -18,11 +20,9 @@ std::optional<SubmapDigest> SubmapSender::digest(const store::Store& store, std:
   if (next_digest_ && now < *next_digest_) return std::nullopt;
   next_digest_ = now + config_.digest_period;
   SubmapDigest digest{self_, {}, std::move(hears)};
-  const auto ranges = store.submap_set().ranges();
-  for (std::size_t k = 0; k < std::min(config_.max_ranges, ranges.size()); ++k) {
-    digest.submaps.push_back(ranges[(next_range_ + k) % ranges.size()]);
-  }
-  next_range_ = ranges.size() > config_.max_ranges ? (next_range_ + config_.max_ranges) % ranges.size() : 0;
+  const auto ranges = by_session(store.submap_set().ranges());
+  digest.submaps = next_part(ranges, next_range_, config_.max_ranges);
+  next_range_ = after_part(next_range_, ranges.size(), config_.max_ranges);
   return digest;
 }
 

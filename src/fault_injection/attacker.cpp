@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kOverheard = 256;
 constexpr std::uint64_t kAttackStream = 6;
+constexpr std::size_t kInventedNames = 20;  ///< in a forged digest of submaps
 
 const AgentId& mallory() {
   static const AgentId name = AgentId::parse("mallory").value();
@@ -43,12 +44,18 @@ void Attacker::overhear(const Packet& packet) {
 }
 
 NodeId Attacker::any_id() {
-  // Mostly the next numbers of the sessions that are heard.
+  // Mostly the next numbers of the sessions that are heard, sometimes any number or the last one of them.
   for (const messages::Outgoing& outgoing : overheard_) {
     const auto* node = std::get_if<graph::Node>(&outgoing.message);
-    if (node && draws_.chance(0.2))
-      return {node->id.agent, node->id.seq + static_cast<std::uint32_t>(draws_.below(8))};
+    if (!node || draws_.chance(0.8)) continue;
+    const auto& [agent, seq] = node->id;
+    if (draws_.chance(0.8)) return {agent, seq + static_cast<std::uint32_t>(draws_.below(8))};
+    const std::uint32_t first = first_seq(session_of(seq));
+    if (draws_.chance(0.5))
+      return {agent, first + static_cast<std::uint32_t>(draws_.below(kItemsPerSession))};
+    return {agent, first + kItemsPerSession - 1};
   }
+  if (draws_.chance(0.2)) return {anyone(), kEndOfSeqs - 1};
   return {anyone(), static_cast<std::uint32_t>(draws_.below(kEndOfSeqs))};
 }
 
@@ -83,13 +90,38 @@ std::optional<Attacker::Injected> Attacker::stranger() {
 
 messages::Message Attacker::forged_item() {
   const NodeId id = any_id();
-  if (draws_.chance(0.6)) return node_of(id);
+  if (draws_.chance(0.6)) {
+    const graph::Node node = node_of(id);
+    return fleet_codec::quantised(node).value_or(node);
+  }
   graph::Alignment alignment;
   alignment.i = any_id();
   alignment.j = any_id();
   alignment.computed_by = id.agent;
   alignment.seq = id.seq;
-  return alignment;
+  return fleet_codec::quantised(alignment).value_or(alignment);
+}
+
+messages::Message Attacker::forged_digest() {
+  if (draws_.chance(0.5))
+    return messages::Digest{anyone(), {{anyone(), 0, kEndOfSeqs}}, {{anyone(), 0, kEndOfSeqs}}};
+  messages::SubmapDigest digest{anyone(), {}, fleet_};
+  for (std::size_t k = 0; k < kInventedNames; ++k) {
+    const std::string name = std::string("x").append(std::to_string(draws_.below(10'000)));
+    digest.submaps.push_back({AgentId::parse(name).value(), 0, 5});
+  }
+  return digest;
+}
+
+std::optional<messages::Message> Attacker::forged_chunk() {
+  const graph::Node* largest = nullptr;
+  for (const messages::Outgoing& outgoing : overheard_) {
+    const auto* node = std::get_if<graph::Node>(&outgoing.message);
+    if (node && (!largest || node->submap_bytes > largest->submap_bytes)) largest = node;
+  }
+  if (!largest || largest->submap_bytes <= store::Store::kChunkBytes) return {};
+  return messages::SubmapChunk{
+      anyone(), anyone(), largest->id, 0, largest->submap_bytes, Bytes(store::Store::kChunkBytes, 0x5a)};
 }
 
 std::optional<Signature> Attacker::overheard_signature() {
@@ -124,12 +156,12 @@ std::optional<messages::Message> Attacker::damaged() {
 
 std::optional<Attacker::Injected> Attacker::forged() {
   const auto reach = draws_.chance(0.5) ? messages::Reach::kLongRange : messages::Reach::kShortRange;
-  switch (draws_.below(4)) {
+  switch (draws_.below(5)) {
     case 0:
-      return to_anyone(messages::Digest{anyone(), {{anyone(), 0, kEndOfSeqs}}, {{anyone(), 0, kEndOfSeqs}}},
-                       reach);
-    case 1: {
-      auto message = damaged();
+      return to_anyone(forged_digest(), reach);
+    case 1:
+    case 2: {
+      auto message = draws_.chance(0.5) ? damaged() : forged_chunk();
       if (!message) return {};
       return to_anyone(std::move(*message), reach);
     }

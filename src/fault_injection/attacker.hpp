@@ -25,7 +25,8 @@ class Attacker {
   };
   /// A packet of a sender outside the fleet: with items of its own, or a recorded one.
   std::optional<Injected> stranger();
-  /// In the name of a robot of the fleet: items with numbers of its, digests, damaged packets.
+  /// In the name of a robot of the fleet: items with numbers of its, digests, chunks that nobody requested,
+  /// damaged packets.
   std::optional<Injected> forged();
   /// The packet that the lying robot `liar` sends instead.
   messages::Message lie(messages::Message message, const AgentId& liar);
@@ -34,6 +35,9 @@ class Attacker {
   const AgentId& anyone() { return fleet_[draws_.below(fleet_.size())]; }
   NodeId any_id();
   messages::Message forged_item();
+  messages::Message forged_digest();
+  /// The first chunk of the largest submap whose node was overheard; none: no submap has several.
+  std::optional<messages::Message> forged_chunk();
   messages::Message with_false_signature(messages::Message item);
   /// That of an item which was overheard, or none.
   std::optional<Signature> overheard_signature();

@@ -16,7 +16,7 @@ using Robots = std::map<AgentId, ExchangeFleet::Robot>;
 /// if they are.
 std::string why_not_converged(const Robots& robots, Stamp now);
 /// The first robot whose exchange lacks an item; empty if none does.
-std::string why_incomplete(const Robots& robots);
+std::string why_incomplete(const Robots& robots, Stamp now);
 
 graph::Placement placement_of(const ExchangeFleet::Robot& robot, const LocalFrame& site);
 

@@ -245,7 +245,7 @@ void FaultyFleet::map(const AgentId& name, Robot& robot) {
     return;
   }
   survey_.on_stored(index, id, time());
-  monitor_.on_made(id);
+  monitor_.on_made(made->node);
   trace(to_string(id) + " made");
 }
 
@@ -280,6 +280,9 @@ void FaultyFleet::attack() {
     const Fault& fault = scenario_.faults[number];
     if (!draws_.chance(fault.value * to_seconds(kTick))) continue;
     const auto injected = fault.kind == FaultKind::kStranger ? attacker_.stranger() : attacker_.forged();
+    if (injected && fault.kind == FaultKind::kForged && !run_.signatures)
+      monitor_.on_forged(*injected->message);
+    if (injected) trace("attacker to " + injected->to.str() + ": " + trace_line(*injected->message));
     if (injected) deliver(injected->to, injected->reach, injected->message, kTick);
   }
 }
@@ -319,7 +322,7 @@ Outcome FaultyFleet::run() {
   const Stamp last_fault = now();
   const bool completes = run_.invariants.contains(Invariant::kCompletes);
   const auto converged = [&] {
-    return why_not_converged().empty() && (!completes || why_incomplete(robots()).empty());
+    return why_not_converged().empty() && (!completes || why_incomplete(robots(), now()).empty());
   };
   while (now() - last_fault < run_.settling && !converged()) one();
   Outcome outcome;
@@ -327,12 +330,15 @@ Outcome FaultyFleet::run() {
   if (const std::string why = why_not_converged(); why.empty()) {
     for (const MapDifference& difference : map_differences(robots(), survey_.site()))
       monitor_.note(Invariant::kSameMap, difference.robot, now(), difference.what);
-    if (const std::string what = why_incomplete(robots()); !what.empty())
+    if (const std::string what = why_incomplete(robots(), now()); !what.empty())
       monitor_.note(Invariant::kCompletes, {}, now(), what);
   } else {
     monitor_.note(Invariant::kConverges, {}, now(), why);
   }
-  for (const auto& [name, robot] : robots()) monitor_.check_held(name, *robot.store, now());
+  for (const auto& [name, robot] : robots()) {
+    monitor_.check_held(name, *robot.store, now());
+    monitor_.check_contents(name, *robot.store, now());
+  }
   if (!robots().empty()) {
     outcome.nodes = robots().begin()->second.store->nodes().size();
     outcome.alignments = robots().begin()->second.store->alignments().size();

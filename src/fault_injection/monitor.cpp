@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fleetmap/exchange/reissue.hpp"
+
 namespace fleetmap::fault_injection {
 namespace {
 
@@ -12,6 +14,12 @@ constexpr double kRadio = 20'000.0;
 constexpr Duration kMaxSilence = std::chrono::seconds(60);
 /// Names that cost a forger nothing.
 constexpr std::size_t kMaxStrangers = 64;
+
+bool holds_content(const store::Store& store, const graph::Node& node) {
+  const auto held = store.nodes_from({node.id.agent, 0, kEndOfSeqs});
+  return std::ranges::any_of(held,
+                             [&](const graph::Node* other) { return exchange::is_same_place(*other, node); });
+}
 
 bool includes(const store::Store& store, const Holdings& announced) {
   return store.node_set().includes(announced.nodes) && store.alignment_set().includes(announced.alignments) &&
@@ -74,24 +82,41 @@ void Monitor::note_announced(const Packet& packet) {
     announced.nodes.insert(node->id.agent, node->id.seq);
   } else if (const auto* alignment = std::get_if<graph::Alignment>(&packet.outgoing.message)) {
     announced.alignments.insert(alignment->computed_by, alignment->seq);
+  } else if (const auto* request = std::get_if<messages::SubmapRequest>(&packet.outgoing.message)) {
+    constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
+    for (std::uint32_t at = request->offset; at < request->offset + request->length; at += kChunk)
+      requested_[packet.from][request->node].insert(at / kChunk);
   }
 }
 
-void Monitor::on_made(const NodeId& id) {
+void Monitor::on_made(const graph::Node& node) {
+  const NodeId& id = node.id;
   announced_[id.agent].nodes.insert(id.agent, id.seq);
   announced_[id.agent].submaps.insert(id.agent, id.seq);
+  made_[id.agent].push_back(node);
+}
+
+void Monitor::on_forged(const messages::Message& message) {
+  if (const auto* node = std::get_if<graph::Node>(&message)) {
+    forged_nodes_.insert(node->id.agent, node->id.seq);
+  } else if (const auto* alignment = std::get_if<graph::Alignment>(&message)) {
+    forged_alignments_.insert(alignment->computed_by, alignment->seq);
+  }
 }
 
 void Monitor::on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now) {
   sent_[robot] = now;
   if (disk_intact) return check_held(robot, store, now);
+  std::erase_if(made_[robot], [&](const graph::Node& node) { return !holds_content(store, node); });
   Holdings& announced = announced_[robot];
   announced = {common(announced.nodes, store.node_set()), common(announced.alignments, store.alignment_set()),
                common(announced.submaps, store.submap_set())};
 }
 
 void Monitor::check_held(const AgentId& robot, const store::Store& store, Stamp now) {
-  const Holdings& announced = announced_[robot];
+  Holdings announced = announced_[robot];
+  // A name with two contents is held, and neither content has a submap.
+  announced.submaps = store::SeqSet(announced.submaps.minus(forged_nodes_));
   if (includes(store, announced)) return;
   note(Invariant::kNothingLost, robot, now,
        "told that it holds, and does not:" + missing("node", announced.nodes, store.node_set()) +
@@ -99,7 +124,18 @@ void Monitor::check_held(const AgentId& robot, const store::Store& store, Stamp 
            missing("submap", announced.submaps, store.submap_set()));
 }
 
+void Monitor::check_contents(const AgentId& robot, const store::Store& store, Stamp now) {
+  for (const auto& [maker, nodes] : made_) {
+    const auto lost =
+        std::ranges::find_if(nodes, [&](const graph::Node& node) { return !holds_content(store, node); });
+    if (lost != nodes.end())
+      note(Invariant::kNothingLost, robot, now, "lacks what was made as node " + to_string(lost->id));
+  }
+}
+
 void Monitor::on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now) {
+  const store::SeqSet& forged = conflict.alignment ? forged_alignments_ : forged_nodes_;
+  if (forged.contains(conflict.id.agent, conflict.id.seq)) return;
   note(Invariant::kOwnItems, robot, now,
        std::string("another ") + (conflict.alignment ? "alignment " : "node ") + to_string(conflict.id) +
            " came");
@@ -131,10 +167,23 @@ void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robo
   bound("refusals told of", tables.refusals, kMaxStrangers);
 }
 
+void Monitor::check_downloads(const AgentId& name, const store::Store& store, Stamp now) {
+  for (const NodeId& id : store.partial_submaps()) {
+    const auto& requested = requested_[name][id];
+    const auto missing = store.missing_chunks(id);
+    const std::uint32_t bytes = store.node(id)->submap_bytes;
+    for (std::uint32_t chunk = 0; chunk * store::Store::kChunkBytes < bytes; ++chunk) {
+      if (requested.contains(chunk) || std::ranges::binary_search(missing, chunk)) continue;
+      note(Invariant::kBounded, name, now, "chunk of " + to_string(id) + " on the disk was not requested");
+    }
+  }
+}
+
 void Monitor::check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now) {
   for (const auto& [name, robot] : robots) {
     if (now - sent_[name] > kMaxSilence) note(Invariant::kAlive, name, now, "nothing was sent");
     check_bounds(name, robot, now);
+    check_downloads(name, *robot.store, now);
   }
 }
 

@@ -25,13 +25,19 @@ class Monitor {
   void on_sent(const Packet& packet);
   void on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now);
   /// The node is in the store of its maker, with its submap.
-  void on_made(const NodeId& id);
+  void on_made(const graph::Node& node);
+  /// An attacker sent an item of this name, which can cost its maker the name, but not the content.
+  void on_forged(const messages::Message& message);
   void on_stopped(const AgentId& robot) { sent_.erase(robot); }
   void on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now);
   /// From time to time.
   void check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now);
+  /// From time to time: every chunk of an unfinished download was requested by this robot.
+  void check_downloads(const AgentId& robot, const store::Store& store, Stamp now);
   /// When all has come to rest.
   void check_held(const AgentId& robot, const store::Store& store, Stamp now);
+  /// Likewise: each node that was made is in the store, perhaps under another name.
+  void check_contents(const AgentId& robot, const store::Store& store, Stamp now);
 
   /// Sets the violations and the packet counts of a run that has ended.
   void fill(Outcome& outcome) const;
@@ -46,8 +52,11 @@ class Monitor {
   std::set<Invariant> checked_;
   std::vector<Violation> violations_;
   std::set<std::pair<Invariant, AgentId>> noted_;
-  std::map<AgentId, Holdings> announced_;  ///< by its digests, as long as its disk keeps it
-  std::map<AgentId, Stamp> sent_;          ///< last packet, or start
+  std::map<AgentId, Holdings> announced_;             ///< by its digests, as long as its disk keeps it
+  std::map<AgentId, std::vector<graph::Node>> made_;  ///< as long as the disk of the maker keeps them
+  store::SeqSet forged_nodes_, forged_alignments_;    ///< by the names under which an attacker sent some
+  std::map<AgentId, std::map<NodeId, std::set<std::uint32_t>>> requested_;  ///< chunks of submaps
+  std::map<AgentId, Stamp> sent_;                                           ///< last packet, or start
   std::deque<std::pair<Stamp, double>> last_second_;
   double in_last_second_ = 0.0;
   double max_bytes_per_second_ = 0.0;

@@ -7,6 +7,7 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
+#include "fleetmap/messages/messages.hpp"
 
 namespace fleetmap::fault_injection {
 
@@ -22,6 +23,8 @@ class Trace {
   std::vector<std::string> lines_;
 };
 
+/// What a trace shows of a message that an attacker sent.
+std::string trace_line(const messages::Message& message);
 /// The line that a trace shows for an event of a robot's exchange, if any.
 std::optional<std::string> trace_line(const exchange::Event& event);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
@@ -54,6 +55,24 @@ bool is_encoding_of(const graph::Alignment& alignment, const msg::Alignment& mes
   return again == message;
 }
 
+/// Also a message that encoding the item again changes.
+Result<graph::Alignment> read(const msg::Alignment& in) {
+  FieldCheck check(type_name::kAlignment);
+  graph::Alignment alignment;
+  alignment.i = check.node(in.agent_i(), in.seq_i(), "agent_i");
+  alignment.j = check.node(in.agent_j(), in.seq_j(), "agent_j");
+  alignment.computed_by = check.agent(in.computed_by(), "computed_by");
+  alignment.seq = check.seq(in.seq(), "seq");
+  check.require(!in.modes().empty() && in.modes().size() <= graph::Alignment::kMaxModes,
+                "the number of modes is not 1 to 6");
+  const std::size_t modes = std::min(in.modes().size(), graph::Alignment::kMaxModes);
+  alignment.modes.clear();
+  for (std::size_t k = 0; k < modes; ++k) alignment.modes.push_back(decoded(in.modes()[k], check));
+  check.require(alignment.i != alignment.j, "nodes i and j are the same");
+  alignment.signature = check.signature(in.signature());
+  return check.finish(alignment);
+}
+
 }  // namespace
 
 Bytes encode(const graph::Alignment& alignment) {
@@ -69,25 +88,18 @@ template <>
 Result<graph::Alignment> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Alignment>(cdr, type_name::kAlignment);
   if (!in) return tl::unexpected(in.error());
-  FieldCheck check(type_name::kAlignment);
-  graph::Alignment alignment;
-  alignment.i = check.node(in->agent_i(), in->seq_i(), "agent_i");
-  alignment.j = check.node(in->agent_j(), in->seq_j(), "agent_j");
-  alignment.computed_by = check.agent(in->computed_by(), "computed_by");
-  alignment.seq = check.seq(in->seq(), "seq");
-  check.require(!in->modes().empty() && in->modes().size() <= graph::Alignment::kMaxModes,
-                "the number of modes is not 1 to 6");
-  const std::size_t modes = std::min(in->modes().size(), graph::Alignment::kMaxModes);
-  alignment.modes.clear();
-  for (std::size_t k = 0; k < modes; ++k) alignment.modes.push_back(decoded(in->modes()[k], check));
-  check.require(alignment.i != alignment.j, "nodes i and j are the same");
-  alignment.signature = check.signature(in->signature());
+  auto alignment = read(*in);
+  if (!alignment || is_encoding_of(*alignment, *in)) return alignment;
   // Else another content than the signed one could bear the signature.
-  if (alignment.signature)
-    check.require(is_encoding_of(alignment, *in), "is signed and is not what encoding it again gives");
-  return check.finish(alignment);
+  if (alignment->signature)
+    return failure(std::string(type_name::kAlignment) +
+                   ": is signed and is not what encoding it again gives");
+  // Else this robot would hold a content that it cannot hand on.
+  return quantised(*alignment);
 }
 
-Result<graph::Alignment> quantised(const graph::Alignment& alignment) { return rounded(alignment); }
+Result<graph::Alignment> quantised(const graph::Alignment& alignment) {
+  return rounded<msg::Alignment>(alignment, type_name::kAlignment, read);
+}
 
 }  // namespace fleetmap::fleet_codec

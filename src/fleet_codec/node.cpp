@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
@@ -111,6 +112,29 @@ bool is_encoding_of(const graph::Node& node, const msg::Node& message) {
   return again == message;
 }
 
+/// Also a message that encoding the item again changes.
+Result<graph::Node> read(const msg::Node& in) {
+  FieldCheck check(type_name::kNode);
+  graph::Node node;
+  node.id = check.node(in.agent(), in.seq(), "agent");
+  node.session = session_of(node.id.seq);
+  node.stamp = check.stamp(in.stamp());
+  node.up_in_base = read_up(in.up_in_base(), check);
+  check.require(in.fix().size() <= 1, "there is more than one fix");
+  if (!in.fix().empty()) node.G = read_fix(in.fix().front(), node.stamp, check);
+  check.require(in.descriptor().size() <= graph::Node::kMaxDescriptorBytes, "descriptor is beyond 200 bytes");
+  node.descriptor = in.descriptor();
+  node.T_odom_base = make_pose(
+      decode_rotation(in.odom_rotation(), check, "odom_rotation is not a rotation vector within pi"),
+      check.translation(in.odom_translation(), "odom_translation"));
+  node.odom_covariance = decode_covariance(in.odom_covariance(), check, "odom_covariance");
+  node.submap_hash = in.submap_hash();
+  node.submap_bytes = in.submap_bytes();
+  check.require(node.submap_bytes <= kMaxSubmapBytes, "submap_bytes is beyond 64 MiB");
+  node.signature = check.signature(in.signature());
+  return check.finish(node);
+}
+
 }  // namespace
 
 Bytes encode(const graph::Node& node) {
@@ -126,31 +150,17 @@ template <>
 Result<graph::Node> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Node>(cdr, type_name::kNode);
   if (!in) return tl::unexpected(in.error());
-  FieldCheck check(type_name::kNode);
-  graph::Node node;
-  node.id = check.node(in->agent(), in->seq(), "agent");
-  node.session = session_of(node.id.seq);
-  node.stamp = check.stamp(in->stamp());
-  node.up_in_base = read_up(in->up_in_base(), check);
-  check.require(in->fix().size() <= 1, "there is more than one fix");
-  if (!in->fix().empty()) node.G = read_fix(in->fix().front(), node.stamp, check);
-  check.require(in->descriptor().size() <= graph::Node::kMaxDescriptorBytes,
-                "descriptor is beyond 200 bytes");
-  node.descriptor = in->descriptor();
-  node.T_odom_base = make_pose(
-      decode_rotation(in->odom_rotation(), check, "odom_rotation is not a rotation vector within pi"),
-      check.translation(in->odom_translation(), "odom_translation"));
-  node.odom_covariance = decode_covariance(in->odom_covariance(), check, "odom_covariance");
-  node.submap_hash = in->submap_hash();
-  node.submap_bytes = in->submap_bytes();
-  check.require(node.submap_bytes <= kMaxSubmapBytes, "submap_bytes is beyond 64 MiB");
-  node.signature = check.signature(in->signature());
+  auto node = read(*in);
+  if (!node || is_encoding_of(*node, *in)) return node;
   // Else another content than the signed one could bear the signature.
-  if (node.signature)
-    check.require(is_encoding_of(node, *in), "is signed and is not what encoding it again gives");
-  return check.finish(node);
+  if (node->signature)
+    return failure(std::string(type_name::kNode) + ": is signed and is not what encoding it again gives");
+  // Else this robot would hold a content that it cannot hand on.
+  return quantised(*node);
 }
 
-Result<graph::Node> quantised(const graph::Node& node) { return rounded(node); }
+Result<graph::Node> quantised(const graph::Node& node) {
+  return rounded<msg::Node>(node, type_name::kNode, read);
+}
 
 }  // namespace fleetmap::fleet_codec

@@ -72,6 +72,20 @@ TEST(NeighbourTable, ADigestWithoutRoomForAllRangesAddsToTheOnesBefore) {
   EXPECT_FALSE(table.holds(kPeer, {kMaker, 1}) || table.holds(kPeer, kNode));
 }
 
+TEST(NeighbourTable, AForgedOfferEndsOnceAPartOfTheDigestCoversIt) {
+  SubmapTransferConfig config;
+  config.max_ranges = 2;
+  NeighbourTable table(kSelf, config);
+  table.on_digest(digest({{kMaker, 0, 2}, {kMaker, 5, 6}}, {}), kStart);
+  table.on_digest(digest({{kMaker, 3, 4}, {kMaker, 20, 30}}, {}), kStart);
+  EXPECT_TRUE(table.holds(kPeer, {kMaker, 25}) && table.holds(kPeer, {kMaker, 3}));
+  table.on_digest(digest({{kMaker, 0, 2}, {kMaker, 5, 6}}, {}), kStart);
+  EXPECT_FALSE(table.holds(kPeer, {kMaker, 3}));
+  table.on_digest(digest({{kMaker, 5, 6}, {kMaker, 0, 2}}, {}), kStart);
+  EXPECT_FALSE(table.holds(kPeer, {kMaker, 25}));
+  EXPECT_TRUE(table.holds(kPeer, {kMaker, 1}) && table.holds(kPeer, kNode));
+}
+
 TEST(NeighbourTable, ImpossibleRangesAreCountedAndIgnored) {
   NeighbourTable table(kSelf, {});
   table.on_digest(digest({{kMaker, 6, 5}, {AgentId{}, 0, 9}, {kMaker, 0, kEndOfSeqs}, {kMaker, 5, 6}}, {}),

@@ -27,8 +27,15 @@ TEST(Trace, EventsThatExplainAFailureHaveALine) {
   EXPECT_EQ(trace_line(exchange::StoreFailed{{"the disk is full"}}), "the disk is full");
   EXPECT_EQ(trace_line(exchange::OwnItemsElsewhere{r2, 1, 0}), "r2 holds own items that the store lacks");
   EXPECT_EQ(trace_line(exchange::ItemConflict{{r2, 9}, false, messages::Reach::kLongRange, false, {}}),
-            "conflict " + to_string(NodeId{r2, 9}));
+            "conflict node r2/9");
   EXPECT_EQ(trace_line(exchange::MapComplete{}), std::nullopt);
+}
+
+TEST(Trace, NamesTheItemThatAnAttackerSends) {
+  graph::Node node;
+  node.id = {AgentId::parse("r2").value(), 9};
+  EXPECT_EQ(trace_line(messages::Message(node)), "node r2/9");
+  EXPECT_EQ(trace_line(messages::Message(messages::Digest{})).substr(0, 8), "message ");
 }
 
 }  // namespace

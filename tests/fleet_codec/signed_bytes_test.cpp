@@ -108,6 +108,31 @@ TEST(SignedBytes, SignedItemsThatDecodeToAnotherContentAreRefused) {
   }
 }
 
+/// Else its holder would hand on another content than it holds, and two robots would never agree.
+TEST(SignedBytes, UnsignedItemsThatWereDamagedDecodeToWhatCanBeHandedOn) {
+  RandomMessages random(15);
+  int damaged_items = 0;
+  for (int k = 0; k < 300; ++k) {
+    graph::Node node = *quantised(random.node());
+    node.signature.reset();
+    const Bytes bytes = encode(node);
+    for (int flip = 0; flip < 40; ++flip) {
+      Bytes damaged = bytes;
+      damaged[5 + random.integer(0, static_cast<std::uint32_t>(bytes.size()) - 6)] ^=
+          static_cast<std::uint8_t>(1u << random.integer(0, 7));
+      const auto held = decode<graph::Node>(damaged);
+      if (!held) continue;
+      ++damaged_items;
+      const auto handed_on = decode<graph::Node>(encode(*held));
+      ASSERT_TRUE(handed_on);
+      EXPECT_EQ(handed_on->up_in_base, held->up_in_base);
+      EXPECT_EQ(handed_on->odom_covariance, held->odom_covariance);
+      EXPECT_EQ(handed_on->T_odom_base.matrix(), held->T_odom_base.matrix());
+    }
+  }
+  EXPECT_GT(damaged_items, 1000);
+}
+
 TEST(SignedBytes, SignaturesOfAnotherLengthAreRefused) {
   RandomMessages random(13);
   graph::Node node = random.node();

@@ -66,6 +66,17 @@ TEST(SubmapRows, drops_a_download_with_the_wrong_content) {
   EXPECT_EQ(store.submap(id).value(), submap);
 }
 
+TEST(SubmapRows, a_node_without_a_submap_has_nothing_that_could_be_damaged) {
+  const ScratchFolder folder;
+  auto store = Store::open(folder / "store.db", kSelf).value();
+  graph::Node node = make_node(kPeer, 0, {});
+  node.submap_hash = content_hash(random_bytes(9, 1));  // of a liar
+  ASSERT_EQ(store.put_node(node).value(), Put::kAdded);
+  ASSERT_TRUE(store.has_submap(node.id));
+  EXPECT_TRUE(store.submap(node.id).value().empty());
+  EXPECT_TRUE(store.has_submap(node.id));
+}
+
 TEST(SubmapRows, drops_a_submap_that_the_disk_damaged) {
   const ScratchFolder folder;
   const auto path = folder / "store.db";
