@@ -47,7 +47,25 @@ Polyline places_around(const RoutePlanner& planner, const Eigen::Vector2d& place
   return places;
 }
 
-/// The places of all graph vertices and of all ends of routes, and a few on the way of the last robot.
+/// The ends of all routes, and points between two of them, where open ground has no corners.
+std::vector<RoutePlanner::Anchor> places_between(const RoutePlanner& planner,
+                                                 std::span<const Arrival> arrivals) {
+  constexpr int kParts = 8;
+  std::vector<RoutePlanner::Anchor> places;
+  const auto add = [&](const Eigen::Vector2d& p) {
+    if (RoutePlanner::Anchor place = planner.anchor(p); place.valid) places.push_back(std::move(place));
+  };
+  for (const Arrival& arrival : arrivals) add(arrival.position);
+  for (std::size_t i = 0; i < arrivals.size(); ++i) {
+    for (std::size_t j = i + 1; j < arrivals.size(); ++j) {
+      const Eigen::Vector2d way = arrivals[j].position - arrivals[i].position;
+      for (int part = 1; part < kParts; ++part) add(arrivals[i].position + way * part / kParts);
+    }
+  }
+  return places;
+}
+
+/// The earliest of all graph vertices, all ends of routes and some points between these.
 Choice best_place(const RoutePlanner& planner, std::span<const Arrival> arrivals) {
   std::vector<RoutePlanner::Anchor> anchors;
   for (const Arrival& arrival : arrivals) anchors.push_back(planner.anchor(arrival.position));
@@ -60,21 +78,13 @@ Choice best_place(const RoutePlanner& planner, std::span<const Arrival> arrivals
     const Choice choice = choice_at(planner.vertices()[v], distances, arrivals);
     if (choice < best) best = choice;
   }
-  const auto try_point = [&](const Eigen::Vector2d& p) {
-    const RoutePlanner::Anchor there = planner.anchor(p);
-    if (!there.valid) return;
-    for (std::size_t k = 0; k < arrivals.size(); ++k) distances[k] = planner.leg(anchors[k], there).length;
-    const Choice choice = choice_at(there.free, distances, arrivals);
+  const std::vector<RoutePlanner::Anchor> places = places_between(planner, arrivals);
+  std::vector<std::vector<RoutePlanner::Leg>> legs;  // one search for each robot
+  for (const RoutePlanner::Anchor& anchor : anchors) legs.push_back(planner.legs(anchor, places));
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    for (std::size_t k = 0; k < arrivals.size(); ++k) distances[k] = legs[k][place].length;
+    const Choice choice = choice_at(places[place].free, distances, arrivals);
     if (choice < best) best = choice;
-  };
-  for (const Arrival& arrival : arrivals) try_point(arrival.position);
-  // Between two ends, where open ground has no corners.
-  for (std::size_t i = 0; i < arrivals.size(); ++i) {
-    for (std::size_t j = i + 1; j < arrivals.size(); ++j) {
-      for (int part = 1; part < 8; ++part) {
-        try_point(arrivals[i].position + (arrivals[j].position - arrivals[i].position) * part / 8.0);
-      }
-    }
   }
   return best;
 }
