@@ -91,7 +91,9 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
         watch_clock(source, sample->stamp);
         if (clock_offsets_.unclear(source)) return void(++counters_.unclear_stamps);
         sample->stamp += clock_offsets_.correction(source);
-        use(*sample);
+        const bool sound = health_.check(*sample);
+        for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
+        if (sound) use(*sample);
       }));
 }
 
@@ -131,7 +133,11 @@ void Perception::start_next() {
                       for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
                       for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
                       Result<ros_codec::DecodedScan> decoded = ros_codec::decode_scan(job->scan);
-                      if (decoded) decoded->scan.stamp += job->clock_correction;
+                      if (decoded) {
+                        decoded->scan.stamp += job->clock_correction;
+                        job->times_in_microseconds = decoded->times_in_microseconds;
+                        job->sweep = {decoded->scan.stamp, sensor::sweep_of(decoded->scan)};
+                      }
                       job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
                       job->cpu_seconds = thread_cpu_seconds() - start;
                     }},
@@ -145,6 +151,11 @@ void Perception::finish(Job& job) {
   busy_ = false;
   loam_counters_ = loam_.counters();
   for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
+  if (job.sweep) health_.check_scan(job.sweep->first, job.sweep->second);
+  for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
+  if (job.times_in_microseconds)
+    warn("point times in microseconds",
+         "the field's definition is nanoseconds; they are converted. Correct the driver");
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);

@@ -60,6 +60,9 @@ json perception_json(const agent::Agent& agent) {
   return {
       {"stamps_behind_s", behind},
       {"clocks_slow_ppm", slow},
+      {"findings", agent.perception().health().findings()},
+      {"unsound_samples", agent.perception().health().refused()},
+      {"missing_scans", agent.perception().health().missing_scans()},
       {"scans", counters.scans},
       {"imu", counters.imu},
       {"fixes", counters.fixes},

@@ -32,6 +32,7 @@ int run(int argc, char** argv) {
   add_sim(app, exit_code);
   add_replay(app, exit_code);
   add_odometry(app, exit_code);
+  add_inspect(app, exit_code);
   add_register(app, exit_code);
   add_map(app, exit_code);
   add_world(app, exit_code);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/sensor/clock_offsets.hpp"
+#include "sample_check.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -18,11 +18,13 @@ namespace {
 class OdometryFeed {
  public:
   OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
-      : config_(config), loam_(config.odometry, config.lidar), times_(log_clock) {}
+      : config_(config), loam_(config.odometry, config.lidar), check_(log_clock) {}
 
   /// `recorded` as Reader::recorded() has it.
   void add(recording::Sample sample, std::optional<Stamp> recorded) {
-    if (!correct_clock(sample, recorded)) return;
+    const bool sound = check_.admit(sample, recorded);
+    for (const std::string& news : check_.take_warnings()) spdlog::warn("{}", news);
+    if (!sound) return;
     if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
       const Stamp end = sensor::end_of(*scan);
       waiting_.push_back({std::move(*scan), end});
@@ -55,16 +57,6 @@ class OdometryFeed {
     Stamp end;  ///< of its sweep
   };
 
-  /// False as long as the offset of the sensor's clock is undecided.
-  bool correct_clock(recording::Sample& sample, std::optional<Stamp> recorded) {
-    const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
-    now_ = std::max(now_, times_.of(sample, recorded));
-    clocks_.add(source, recording::stamp_of(sample), now_);
-    for (const std::string& news : clocks_.take_warnings()) spdlog::warn("{}", news);
-    std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
-    return !clocks_.unclear(source);
-  }
-
   bool due(const Waiting& first) const {
     const bool covered = (!imu_ || *imu_ >= first.end) && (!wheel_ || *wheel_ >= first.end);
     return covered || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
@@ -94,9 +86,7 @@ class OdometryFeed {
   OdometryRun run_;
   std::deque<Waiting> waiting_;
   std::optional<Stamp> imu_, wheel_;  ///< last heard
-  recording::PlayTimes times_;
-  sensor::ClockOffsets clocks_;
-  Stamp now_{};
+  SampleCheck check_;
 };
 
 }  // namespace

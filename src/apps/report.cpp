@@ -88,7 +88,30 @@ json stalls_json(const std::vector<bus::StallCounters>& threads) {
   return rows;
 }
 
-/// Trajectories seen from above, north up; empty when there is none.
+/// Robots with a session that lies nowhere on Earth, since neither it nor one that it is aligned with had a
+/// fix.
+std::vector<std::string> not_georeferenced(const FleetOutcome& outcome) {
+  std::vector<std::string> names;
+  for (const auto& entry : outcome.agents) {
+    if (!entry.results) continue;
+    const auto is_own = [&](const graph::FrameId& frame) { return frame.agent == entry.id; };
+    if (std::ranges::any_of(entry.results->not_georeferenced, is_own)) names.push_back(entry.id.str());
+  }
+  return names;
+}
+
+std::string title_of_map(const FleetOutcome& outcome, std::size_t tracks) {
+  const std::vector<std::string> nowhere = not_georeferenced(outcome);
+  if (nowhere.empty()) return "Trajectories in ENU, north up";
+  if (nowhere.size() >= tracks)
+    return "Trajectories from above; no robot had a GPS fix, so place and north are unknown";
+  std::string names;
+  for (const std::string& name : nowhere) names += (names.empty() ? "" : ", ") + name;
+  return "Trajectories in ENU, north up, but those of " + names +
+         ": without a GPS fix their place is unknown";
+}
+
+/// Trajectories seen from above; empty when there is none.
 std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
   std::vector<eval::LineSeries> tracks;
   for (const auto& entry : outcome.agents) {
@@ -104,9 +127,10 @@ std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcom
     }
   }
   if (tracks.empty()) return "";
-  return eval::line_plot({.title = "Trajectories in ENU, north up",
-                          .x_label = "east [m]",
-                          .y_label = "north [m]",
+  const bool known = not_georeferenced(outcome).size() < tracks.size();
+  return eval::line_plot({.title = title_of_map(outcome, tracks.size()),
+                          .x_label = known ? "east [m]" : "x [m]",
+                          .y_label = known ? "north [m]" : "y [m]",
                           .height = 480,
                           .equal = true},
                          tracks);

@@ -21,6 +21,7 @@ constexpr Counter kCounters[] = {
     {"time_backwards", &Counters::time_backwards},
     {"clocks_set_back", &Counters::clocks_set_back},
     {"foreign_clock_scans", &Counters::foreign_clock_scans},
+    {"microsecond_scans", &Counters::microsecond_scans},
     {"unstamped_messages", &Counters::unstamped_messages},
     {"unreadable_scan_files", &Counters::unreadable_scan_files},
     {"missing_scan_frames", &Counters::missing_scan_frames},
@@ -92,6 +93,12 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   }
   counters_.non_finite_points += decoded.non_finite_points;
   counters_.origin_points += decoded.origin_points;
+  if (decoded.times_in_microseconds) {
+    skip(&Counters::microsecond_scans,
+         where +
+             ": point times are a sweep in microseconds, not in nanoseconds; they are "
+             "converted");
+  }
   if (decoded.foreign_clock) {
     skip(&Counters::foreign_clock_scans, where +
                                              ": point times are far from the header's stamp; "

@@ -23,7 +23,9 @@ enum Datatype : std::uint8_t { kInt8 = 1, kUint8, kInt16, kUint16, kInt32, kUint
 constexpr std::array<std::size_t, 9> kSizes{0, 1, 1, 2, 2, 4, 4, 4, 8};
 
 constexpr std::uint32_t kMaxFields = 256;
-constexpr double kMaxScanSeconds = 10.0;     // point times further from the stamp are not relative to it
+constexpr double kMaxScanSeconds = 10.0;  // point times further from the stamp are not relative to it
+constexpr double kLeastSweep = 5e3;       // integer units of point time, were they microseconds
+constexpr double kShortestInNanoseconds = 1e6;
 constexpr double kNanosecondsBeyond = 1e12;  // a float time beyond this is in ns: 1e12 s is no date
 
 /// One field of every point, in its own type and byte order.
@@ -136,15 +138,18 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
   }
   const bool nanoseconds =
       !field.is_float() || std::max(std::abs(least), std::abs(most)) > kNanosecondsBeyond;
-  const double unit = nanoseconds ? 1e-9 : 1.0;
+  // A sweep takes 5 ms to 1 s, which is less than 1 ms if microseconds are taken for nanoseconds.
+  const double span = most - least;
+  out.times_in_microseconds = !field.is_float() && span >= kLeastSweep && span < kShortestInNanoseconds;
+  const double unit = out.times_in_microseconds ? 1e-6 : nanoseconds ? 1e-9 : 1.0;
   double zero = 0.0;
   if (times.size() > 1 && most == least) return;  // a driver that leaves the field at a constant
   if (std::max(std::abs(least), std::abs(most)) * unit > kMaxScanSeconds) {
     if (field.datatype == kFloat32) return;  // cannot resolve a scan in absolute time
     // Absolute. The stamp in the field's unit has the field's own rounding, so the difference is exact
-    // enough.
+    // enough. Microseconds of 32 bits cannot count from 1970.
     const double start = nanoseconds ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp);
-    out.foreign_clock = (std::abs(least - start) * unit > kMaxScanSeconds);
+    out.foreign_clock = out.times_in_microseconds || std::abs(least - start) * unit > kMaxScanSeconds;
     zero = out.foreign_clock ? least : start;
   }
   if ((most - least) * unit > kMaxScanSeconds) return;  // not the time within one scan

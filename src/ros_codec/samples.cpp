@@ -42,6 +42,13 @@ Eigen::Quaterniond from_ros(const geometry::Quaternion_& q) { return {q.w(), q.x
 /// Unit, or close enough that rounding explains the rest.
 bool is_rotation(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= 1e-2; }
 
+std::optional<Pose> pose_of(const geometry::Pose_& in) {
+  const Eigen::Vector3d t(in.position().x(), in.position().y(), in.position().z());
+  const Eigen::Quaterniond q = from_ros(in.orientation());
+  if (!t.allFinite() || !is_rotation(q)) return std::nullopt;
+  return make_pose(q.normalized(), t);
+}
+
 tl::unexpected<Error> refused(const char* type, const char* what) {
   return failure(std::string(type) + ": " + what);
 }
@@ -126,7 +133,11 @@ Bytes encode(const sensor::Wheel& wheel) {
   out.header().stamp(to_ros(wheel.stamp));
   out.header().frame_id("odom");
   out.child_frame_id("base_link");
-  out.pose().pose().orientation(to_ros(Eigen::Quaterniond::Identity()));
+  const Pose T_odom_base = wheel.T_odom_base.value_or(Pose::Identity());
+  out.pose().pose().position().x(T_odom_base.translation().x());
+  out.pose().pose().position().y(T_odom_base.translation().y());
+  out.pose().pose().position().z(T_odom_base.translation().z());
+  out.pose().pose().orientation(to_ros(Eigen::Quaterniond(T_odom_base.linear())));
   out.twist().twist().linear().x(wheel.forward_speed);
   out.twist().twist().angular().z(wheel.yaw_rate.value_or(0.0));
   if (!wheel.yaw_rate) out.twist().covariance()[kYawRateVariance] = -1.0;
@@ -146,6 +157,7 @@ Result<sensor::Wheel> decode(ByteView cdr) {
     return refused(type_name::kOdometry, "twist.linear.x is not finite");
   const double yaw_rate = in->twist().twist().angular().z();
   if (std::isfinite(yaw_rate) && in->twist().covariance()[kYawRateVariance] >= 0.0) wheel.yaw_rate = yaw_rate;
+  wheel.T_odom_base = pose_of(in->pose().pose());
   return wheel;
 }
 

@@ -167,9 +167,9 @@ struct Shares {
   double least_clouds = 1.0;
   double news = 0.0, backfill = 0.0, clouds = 0.0;  ///< B
 };
-Shares shares_of(bool news, bool backfill) {
+Shares shares_of(bool news, bool backfill, double rate = 4000.0) {
   LongRangeConfig config;
-  config.fleet_bytes_per_second = 20'000;
+  config.fleet_bytes_per_second = 5.0 * rate;
   SendQueue queue(config, kFour, testing::payload_size);
   Shares shares;
   std::deque<std::pair<Stamp, std::pair<bool, double>>> window;
@@ -206,6 +206,14 @@ TEST(SendQueue, clouds_get_half_of_the_bytes_of_any_ten_seconds_whatever_else_wa
     EXPECT_GT(shares.news + shares.backfill, 0.4 * all) << news << backfill;
     EXPECT_GT(all, 0.9 * 4000.0 * 120.0) << news << backfill;
   }
+}
+
+/// 60 kbit/s for five robots: a fragment takes most of a second's share.
+TEST(SendQueue, news_have_their_part_where_a_fragment_takes_most_of_a_second) {
+  const Shares shares = shares_of(true, false, 1500.0);
+  EXPECT_GT(shares.news, 0.4 * (shares.news + shares.clouds));
+  EXPECT_GE(shares.least_clouds, 0.5);
+  EXPECT_GT(shares.news + shares.clouds, 0.7 * 1500.0 * 120.0);
 }
 
 TEST(SendQueue, shares_what_clouds_leave_evenly_between_news_and_backfill) {

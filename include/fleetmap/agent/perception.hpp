@@ -14,6 +14,7 @@
 #include "fleetmap/localization/ekf.hpp"
 #include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
+#include "fleetmap/sensor/sensor_health.hpp"
 
 namespace fleetmap::agent {
 
@@ -78,6 +79,7 @@ class Perception {
   const odometry::LoamCounters& odometry_counters() const { return loam_counters_; }
   localization::EkfCounters localization_counters() const { return ekf_.counters(); }
   const sensor::ClockOffsets& clock_offsets() const { return clock_offsets_; }
+  const sensor::SensorHealth& health() const { return health_; }
 
  private:
   /// A scan and the other samples that came since the scan before it.
@@ -88,6 +90,8 @@ class Perception {
     std::vector<sensor::Imu> imu;
     std::vector<sensor::Wheel> wheel;
     Result<odometry::OdometryUpdate> update = failure("not run");
+    bool times_in_microseconds = false;
+    std::optional<std::pair<Stamp, Duration>> sweep;  ///< stamp and sweep of a decoded scan
     double cpu_seconds = 0.0;
   };
   void subscribe();
@@ -112,6 +116,7 @@ class Perception {
   odometry::LoamCounters loam_counters_;
   localization::Ekf ekf_;
   sensor::ClockOffsets clock_offsets_;
+  sensor::SensorHealth health_;
   BoundedQueue<std::pair<Stamp, Bytes>> scans_;  ///< when they came, and as they came
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;

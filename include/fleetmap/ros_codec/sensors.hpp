@@ -34,6 +34,8 @@ struct DecodedScan {
   /// Point times were absolute in a clock more than 10 s away from the header's; they were counted from the
   /// earliest point instead.
   bool foreign_clock = false;
+  /// Integer point times were too short a sweep in nanoseconds, and were taken for microseconds.
+  bool times_in_microseconds = false;
 };
 
 /// PointCloud2 with x, y, z, intensity (float32), ring (uint16) if there, time (float32, s after the stamp)
@@ -51,7 +53,8 @@ Bytes encode(const VelocityCommand& command);
 
 /// Reads a PointCloud2 of any driver: x, y, z float32 needed, in any order and at any offset; optional
 /// `intensity` of any numeric type; `ring` or `channel` (uint8, uint16, uint32); point time in `time`, `t`,
-/// `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns), relative to the
+/// `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns, or us if
+/// the sweep would take less than 1 ms), relative to the
 /// header's stamp or absolute. Refuses data that contradict height, width, point_step and row_step.
 Result<DecodedScan> decode_scan(ByteView cdr);
 /// The header's stamp of a PointCloud2, without reading anything else.

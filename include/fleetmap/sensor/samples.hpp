@@ -6,6 +6,7 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap::sensor {
 
@@ -34,6 +35,8 @@ struct Wheel {
   Stamp stamp;
   double forward_speed = 0.0;      ///< m/s
   std::optional<double> yaw_rate;  ///< rad/s, when the source measures it
+  /// That the source states beside; used by SensorHealth alone.
+  std::optional<Pose> T_odom_base = std::nullopt;
 };
 
 /// State of the battery.

@@ -34,4 +34,11 @@ inline Stamp end_of(const Scan& scan) {
   return scan.stamp + from_seconds(static_cast<double>(last));
 }
 
+/// Time between the first and the last firing; 0 without point times.
+inline Duration sweep_of(const Scan& scan) {
+  if (!scan.has_time || scan.points.empty()) return Duration::zero();
+  const auto [first, last] = std::ranges::minmax_element(scan.points, {}, &ScanPoint::time);
+  return from_seconds(static_cast<double>(last->time - first->time));
+}
+
 }  // namespace fleetmap::sensor

@@ -1,0 +1,38 @@
+#include "recording_input.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "fleetmap/config/robot_file.hpp"
+#include "options.hpp"
+
+namespace fleetmap::apps {
+
+void add_recording_options(CLI::App& command, RecordingOptions& options) {
+  command
+      .add_option("recording", options.recording,
+                  "rosbag2 folder or .db3, KITTI folder, or a folder of scans")
+      ->required();
+  command.add_option("-c,--config", options.config, "AGENT.yaml or FLEET.yaml for the sensors");
+  command.add_option("--set", options.set, "key=value, e.g. lidar.model=hdl64e")->allow_extra_args(false);
+}
+
+tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options) {
+  const auto failed = [](const Error& error, ExitCode code) { return tl::unexpected(report(error, code)); };
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return failed(overrides.error(), kUsage);
+  std::optional<std::filesystem::path> file;
+  if (!options.config.empty()) file = options.config;
+  auto config = config::load_sensors(file, *overrides);
+  if (!config) return failed(config.error(), kBadConfiguration);
+  const recording::ReaderConfig reader_config =
+      config->recording ? config->recording->reader : recording::ReaderConfig{};
+  auto reader = recording::open(options.recording, reader_config);
+  if (!reader) return failed(reader.error(), kFailed);
+  const auto log_clock = recording::find_log_clock(options.recording, reader_config);
+  if (!log_clock) return failed(log_clock.error(), kFailed);
+  return RecordingInput{std::move(*config), std::move(*reader), *log_clock};
+}
+
+}  // namespace fleetmap::apps

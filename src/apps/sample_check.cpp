@@ -1,0 +1,36 @@
+#include "sample_check.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace fleetmap::apps {
+namespace {
+
+struct Check {
+  sensor::SensorHealth& health;
+  bool operator()(sensor::Scan& scan) const {
+    health.check_scan(scan.stamp, sensor::sweep_of(scan));
+    return true;
+  }
+  bool operator()(sensor::Imu& imu) const { return health.check(imu); }
+  bool operator()(sensor::Fix& fix) const { return health.check(fix); }
+  bool operator()(sensor::Wheel& wheel) const { return health.check(wheel); }
+};
+
+}  // namespace
+
+bool SampleCheck::admit(recording::Sample& sample, std::optional<Stamp> recorded) {
+  const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
+  now_ = std::max(now_, times_.of(sample, recorded));
+  clocks_.add(source, recording::stamp_of(sample), now_);
+  std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
+  return !clocks_.unclear(source) && std::visit(Check{health_}, sample);
+}
+
+std::vector<std::string> SampleCheck::take_warnings() {
+  std::vector<std::string> news = clocks_.take_warnings();
+  std::ranges::move(health_.take_warnings(), std::back_inserter(news));
+  return news;
+}
+
+}  // namespace fleetmap::apps

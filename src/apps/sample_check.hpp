@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/recording/play_times.hpp"
+#include "fleetmap/recording/reader.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
+#include "fleetmap/sensor/sensor_health.hpp"
+
+namespace fleetmap::apps {
+
+/// What perception does to live samples before it uses them, done to those of a recording.
+class SampleCheck {
+ public:
+  explicit SampleCheck(const recording::LogClock& log_clock) : times_(log_clock) {}
+
+  /// Corrects the sample. False if it must not be used: its clock is undecided or its values are unsound.
+  /// `recorded` as Reader::recorded() has it.
+  bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
+  /// What was found since the last call, about clocks and values.
+  std::vector<std::string> take_warnings();
+  const sensor::SensorHealth& health() const { return health_; }
+
+ private:
+  recording::PlayTimes times_;
+  sensor::ClockOffsets clocks_;
+  sensor::SensorHealth health_;
+  Stamp now_{};
+};
+
+}  // namespace fleetmap::apps

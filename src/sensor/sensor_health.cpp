@@ -1,0 +1,190 @@
+#include "fleetmap/sensor/sensor_health.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+namespace fleetmap::sensor {
+namespace {
+
+constexpr double kStandardGravity = 9.80665;  // m/s^2
+constexpr std::size_t kFirstNorms = 25;
+constexpr double kNoAccelerometer = 0.05;  // m/s^2: the field is not filled
+constexpr double kDegree = std::numbers::pi / 180.0;
+/// No ground robot turns that fast, and one that turns by 8 deg/s seems to if the unit is deg/s.
+constexpr double kImpossibleRate = 8.0;  // rad/s
+constexpr int kImpossibleRates = 5;      // in a row; a single one is an error of the sensor
+constexpr Duration kLongerThanAShock = std::chrono::milliseconds(40);
+constexpr double kTurns = 0.05;  // rad/s
+constexpr std::size_t kComparedRates = 50;
+constexpr Duration kSameMoment = std::chrono::milliseconds(200);
+constexpr Duration kLongStep = std::chrono::seconds(1);
+constexpr double kMoves = 1e-4;     // m or rad within a step
+constexpr double kMaxSpeed = 20.0;  // m/s
+constexpr Duration kShortestSweep = std::chrono::milliseconds(5);
+constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
+constexpr double kMissing = 1.75;  // sweeps from scan to scan
+constexpr double kMissingShare = 0.1;
+constexpr std::uint64_t kScansJudged = 50;
+
+/// Unit of a specific force whose norm is that of gravity.
+struct ForceUnit {
+  const char* name;
+  double scale;
+};
+constexpr std::array kForceUnits{ForceUnit{"m/s^2", 1.0}, ForceUnit{"g", kStandardGravity},
+                                 ForceUnit{"milli-g", 1e-3 * kStandardGravity}};
+
+const ForceUnit* unit_of(double norm) {
+  const auto fits = [norm](const ForceUnit& unit) {
+    return std::abs(norm * unit.scale - kStandardGravity) < 0.35 * kStandardGravity;
+  };
+  const auto* unit = std::ranges::find_if(kForceUnits, fits);
+  return unit == kForceUnits.end() ? nullptr : unit;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+void SensorHealth::state(std::string finding) { findings_.push_back(std::move(finding)); }
+
+bool SensorHealth::refuse() {
+  ++refused_;
+  return false;
+}
+
+std::vector<std::string> SensorHealth::take_warnings() {
+  std::vector<std::string> news(findings_.begin() + static_cast<std::ptrdiff_t>(told_), findings_.end());
+  told_ = findings_.size();
+  return news;
+}
+
+bool SensorHealth::check(Imu& imu) {
+  correct_force(imu);
+  return correct_rate(imu) || refuse();
+}
+
+void SensorHealth::correct_force(Imu& imu) {
+  const double norm = imu.specific_force.norm();
+  if (force_scale_) {
+    imu.specific_force *= *force_scale_;
+    return;
+  }
+  if (!std::isfinite(norm)) return;
+  // Until the unit is decided, each sample stands for itself.
+  if (const ForceUnit* unit = unit_of(norm)) imu.specific_force *= unit->scale;
+  first_norms_.push_back(norm);
+  if (first_norms_.size() < kFirstNorms) return;
+  std::ranges::nth_element(first_norms_, first_norms_.begin() + kFirstNorms / 2);
+  const double median = first_norms_[kFirstNorms / 2];
+  const ForceUnit* unit = unit_of(median);
+  force_scale_ = unit ? unit->scale : 1.0;
+  if (median <= kNoAccelerometer) {
+    state(
+        "IMU: the acceleration is 0 at the start: it is not filled, or gravity was taken out; roll and pitch "
+        "are not measured. Let the driver report the specific force");
+  } else if (!unit) {
+    state("IMU: the acceleration is " + number(median) +
+          " at the start, which gravity is in no known unit; the attitude will be wrong. Correct the "
+          "driver's scale, or leave the topic away");
+  } else if (unit->scale != 1.0) {
+    state("IMU: the acceleration is " + number(median) + " at the start, so its unit is " + unit->name +
+          " and not m/s^2; it is converted. Correct the driver");
+  }
+}
+
+bool SensorHealth::correct_rate(Imu& imu) {
+  const double rate = imu.angular_velocity.norm();
+  imu.angular_velocity *= rate_scale_;
+  if (rate_scale_ != 1.0) return true;
+  const auto in_degrees = [&](const std::string& why) {
+    rate_scale_ = kDegree;
+    imu.angular_velocity *= kDegree;
+    state(
+        "IMU: " + why +
+        ", so the unit of the angular velocity is deg/s and not rad/s; it is converted. Correct the driver");
+    return true;
+  };
+  const bool with_wheels = last_wheel_ && last_wheel_->yaw_rate &&
+                           imu.stamp - last_wheel_->stamp < kSameMoment &&
+                           std::abs(*last_wheel_->yaw_rate) > kTurns;
+  if (with_wheels) {
+    const double by_wheels = std::abs(*last_wheel_->yaw_rate);
+    wheel_squares_ += by_wheels * by_wheels;
+    products_ += rate * by_wheels;
+    const double slope = products_ / wheel_squares_;
+    ++compared_rates_;
+    if (slope > 30.0 && slope < 100.0) {
+      if (compared_rates_ < kComparedRates) return false;
+      return in_degrees("it turns " + number(slope) + " times as fast as the wheels");
+    }
+  }
+  if (rate <= kImpossibleRate) {
+    impossible_rates_ = 0;
+    return true;
+  }
+  if (++impossible_rates_ == 1) impossible_since_ = imu.stamp;
+  if (impossible_rates_ < kImpossibleRates || imu.stamp - impossible_since_ < kLongerThanAShock) return false;
+  return in_degrees("it turns at " + number(rate) + " rad/s, which no ground robot does");
+}
+
+bool SensorHealth::check(Wheel& wheel) {
+  const std::optional<Wheel> before = std::exchange(last_wheel_, wheel);
+  const bool stands = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
+  if (!stands || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
+  const Duration step = wheel.stamp - before->stamp;
+  if (step <= Duration::zero() || step > kLongStep) return true;
+  const Pose T_before_now = before->T_odom_base->inverse() * *wheel.T_odom_base;
+  const Eigen::Vector3d turn = so3_log(T_before_now.linear());
+  if (T_before_now.translation().norm() < kMoves && turn.norm() < kMoves) return true;
+  if (!std::exchange(speed_from_pose_, true))
+    state(
+        "wheel odometry: its pose moves while its twist is zero; the speed is taken from the pose. Let the "
+        "driver fill the twist, or name the topic of the wheels");
+  wheel.forward_speed = T_before_now.translation().x() / to_seconds(step);
+  wheel.yaw_rate = turn.z() / to_seconds(step);
+  last_wheel_->yaw_rate = wheel.yaw_rate;
+  return std::abs(wheel.forward_speed) < kMaxSpeed || refuse();
+}
+
+bool SensorHealth::check(const Fix& fix) {
+  const GeoPoint& p = fix.position;
+  const bool somewhere =
+      std::isfinite(p.latitude) && std::isfinite(p.longitude) && (p.latitude != 0.0 || p.longitude != 0.0);
+  const bool flat = somewhere && !std::isfinite(p.altitude);
+  if (!flat) return true;
+  if (!std::exchange(no_altitude_, true))
+    state(
+        "GPS: fixes have no altitude and cannot be used; let the receiver or its driver report the height "
+        "above the ellipsoid");
+  return refuse();
+}
+
+void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
+  const std::optional<Stamp> before = std::exchange(last_scan_, stamp);
+  if (!before || sweep < kShortestSweep || stamp <= *before) return;
+  const double sweeps = to_seconds(stamp - *before) / to_seconds(sweep);
+  if (sweeps > kPause) return;
+  ++scans_;
+  // Half a sweep is what a cropped cloud may lack.
+  if (sweeps > kMissing) missing_scans_ += static_cast<std::uint64_t>(std::lround(sweeps)) - 1;
+  const auto all = static_cast<double>(scans_ + missing_scans_);
+  if (scans_missing_ || scans_ < kScansJudged || static_cast<double>(missing_scans_) < kMissingShare * all)
+    return;
+  scans_missing_ = true;
+  state("LiDAR: " + std::to_string(missing_scans_) + " of " + std::to_string(scans_ + missing_scans_) +
+        " scans are missing: a sweep takes " + number(to_seconds(sweep)) + " s, and one came every " +
+        number(to_seconds(sweep) * all / static_cast<double>(scans_)) +
+        " s. Raise net.core.rmem_max and rmem_default to 16 MB, or use a wire; if the driver crops the "
+        "cloud, ignore this");
+}
+
+}  // namespace fleetmap::sensor

@@ -1,0 +1,34 @@
+// How commands that read a recording fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
+
+TEST(RecordingInput, FailsWithTheCodeOfWhatIsWrong) {
+  const testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "bad.yaml").string();
+  std::ofstream(file) << "lidar: {model: fish}\n";
+  const auto exit_code = [](std::vector<std::string> arguments, const char* named) {
+    arguments.insert(arguments.begin(), {kFleetmap, "inspect"});
+    testing::Process process(arguments);
+    const int code = process.wait();
+    EXPECT_THAT(process.output(), HasSubstr(named));
+    return code;
+  };
+  EXPECT_EQ(exit_code({"nowhere"}, "nowhere"), 1);
+  EXPECT_EQ(exit_code({"nowhere", "--set", "lidar.model"}, "lidar.model"), 2);
+  EXPECT_EQ(exit_code({"nowhere", "-c", file}, "bad.yaml:1"), 78);
+}
+
+}  // namespace
+}  // namespace fleetmap
