@@ -24,7 +24,7 @@ files=$( (grep -v '^tests/' <<<"$present" || true; grep '^tests/' <<<"$present" 
 
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-{ cmake --preset release && cmake --build --preset release --target fleetmap_idl_generate; } >"$log" 2>&1 || { cat "$log"; exit 1; }
+{ cmake --preset release && cmake --build --preset release --target fleetmap_idl_generate fleetmap_version; } >"$log" 2>&1 || { cat "$log"; exit 1; }
 # clang can read neither GCC's precompiled headers nor all of its flags.
 mkdir -p build/tidy
 sed -E 's/ -Winvalid-pch -include [^ ]*cmake_pch\.hxx//; s/ -Werror / /' build/release/compile_commands.json >build/tidy/compile_commands.json

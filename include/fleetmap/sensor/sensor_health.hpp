@@ -38,24 +38,22 @@ class SensorHealth {
   void state(std::string finding);
   bool refuse();
 
-  // Specific force: the unit is decided by the median of the first norms.
-  std::vector<double> first_norms_;
-  std::optional<double> force_scale_;
-  // Angular rate.
-  double rate_scale_ = 1.0;
-  int impossible_rates_ = 0;  ///< in a row
-  Stamp impossible_since_;
-  double wheel_squares_ = 0.0, products_ = 0.0;
-  std::size_t compared_rates_ = 0;
   std::optional<Wheel> last_wheel_;  ///< as received
+  double rate_scale_ = 1.0;
+  Stamp impossible_since_;
+  double wheel_squares_ = 0.0, products_ = 0.0;  ///< of turn rates, by which gyro and wheels are compared
+  std::size_t compared_rates_ = 0;
+  std::uint64_t scans_ = 0, missing_scans_ = 0;
+  std::size_t told_ = 0;  ///< findings that take_warnings() gave
+  std::uint64_t refused_ = 0;
+  std::optional<double> force_scale_;  ///< once the unit is decided, by the median of the first norms
+  std::optional<Stamp> last_scan_;
+  std::vector<double> first_norms_;
+  std::vector<std::string> findings_;
+  int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
   bool no_altitude_ = false;
-  std::optional<Stamp> last_scan_;
-  std::uint64_t scans_ = 0, missing_scans_ = 0;
   bool scans_missing_ = false;
-  std::vector<std::string> findings_;
-  std::size_t told_ = 0;
-  std::uint64_t refused_ = 0;
 };
 
 }  // namespace fleetmap::sensor
