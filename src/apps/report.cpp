@@ -100,8 +100,7 @@ std::vector<std::string> not_georeferenced(const FleetOutcome& outcome) {
   return names;
 }
 
-std::string title_of_map(const FleetOutcome& outcome, std::size_t tracks) {
-  const std::vector<std::string> nowhere = not_georeferenced(outcome);
+std::string title_of_map(const std::vector<std::string>& nowhere, std::size_t tracks) {
   if (nowhere.empty()) return "Trajectories in ENU, north up";
   if (nowhere.size() >= tracks)
     return "Trajectories from above; no robot had a GPS fix, so place and north are unknown";
@@ -127,8 +126,9 @@ std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcom
     }
   }
   if (tracks.empty()) return "";
-  const bool known = not_georeferenced(outcome).size() < tracks.size();
-  return eval::line_plot({.title = title_of_map(outcome, tracks.size()),
+  const std::vector<std::string> nowhere = not_georeferenced(outcome);
+  const bool known = nowhere.size() < tracks.size();
+  return eval::line_plot({.title = title_of_map(nowhere, tracks.size()),
                           .x_label = known ? "east [m]" : "x [m]",
                           .y_label = known ? "north [m]" : "y [m]",
                           .height = 480,

@@ -280,10 +280,10 @@ void FaultyFleet::attack() {
     const Fault& fault = scenario_.faults[number];
     if (!draws_.chance(fault.value * to_seconds(kTick))) continue;
     const auto injected = fault.kind == FaultKind::kStranger ? attacker_.stranger() : attacker_.forged();
-    if (injected && fault.kind == FaultKind::kForged && !run_.signatures)
-      monitor_.on_forged(*injected->message);
-    if (injected) trace("attacker to " + injected->to.str() + ": " + trace_line(*injected->message));
-    if (injected) deliver(injected->to, injected->reach, injected->message, kTick);
+    if (!injected) continue;
+    if (fault.kind == FaultKind::kForged && !run_.signatures) monitor_.on_forged(*injected->message);
+    trace("attacker to " + injected->to.str() + ": " + trace_line(*injected->message));
+    deliver(injected->to, injected->reach, injected->message, kTick);
   }
 }
 

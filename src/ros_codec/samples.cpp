@@ -36,6 +36,14 @@ geometry::Quaternion_ to_ros(const Eigen::Quaterniond& q) {
   out.w(q.w());
   return out;
 }
+geometry::Pose_ to_ros(const Pose& T) {
+  geometry::Pose_ out;
+  out.position().x(T.translation().x());
+  out.position().y(T.translation().y());
+  out.position().z(T.translation().z());
+  out.orientation(to_ros(Eigen::Quaterniond(T.linear())));
+  return out;
+}
 Eigen::Vector3d from_ros(const geometry::Vector3_& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Quaterniond from_ros(const geometry::Quaternion_& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
@@ -133,11 +141,7 @@ Bytes encode(const sensor::Wheel& wheel) {
   out.header().stamp(to_ros(wheel.stamp));
   out.header().frame_id("odom");
   out.child_frame_id("base_link");
-  const Pose T_odom_base = wheel.T_odom_base.value_or(Pose::Identity());
-  out.pose().pose().position().x(T_odom_base.translation().x());
-  out.pose().pose().position().y(T_odom_base.translation().y());
-  out.pose().pose().position().z(T_odom_base.translation().z());
-  out.pose().pose().orientation(to_ros(Eigen::Quaterniond(T_odom_base.linear())));
+  out.pose().pose(to_ros(wheel.T_odom_base.value_or(Pose::Identity())));
   out.twist().twist().linear().x(wheel.forward_speed);
   out.twist().twist().angular().z(wheel.yaw_rate.value_or(0.0));
   if (!wheel.yaw_rate) out.twist().covariance()[kYawRateVariance] = -1.0;
@@ -166,11 +170,7 @@ Bytes encode(const OdometryMsg& odometry) {
   out.header().stamp(to_ros(odometry.stamp));
   out.header().frame_id("odom");
   out.child_frame_id("base_link");
-  const Eigen::Vector3d t = odometry.T_odom_base.translation();
-  out.pose().pose().position().x(t.x());
-  out.pose().pose().position().y(t.y());
-  out.pose().pose().position().z(t.z());
-  out.pose().pose().orientation(to_ros(Eigen::Quaterniond(odometry.T_odom_base.linear())));
+  out.pose().pose(to_ros(odometry.T_odom_base));
   for (std::size_t k = 0; k < 36; ++k) {
     out.pose().covariance()[k] = odometry.covariance(static_cast<int>(k) / 6, static_cast<int>(k) % 6);
   }
