@@ -16,9 +16,7 @@ class HelloPacing {
     bool keys = false;                   ///< Hellos are sealed and signed, which takes three instead of two
     bool observes = false;               ///< joins a fleet that may be using the radio
   };
-  /// Hellos that are sent with the first pause, since the radio loses some; later pauses double.
-  static constexpr int kQuickHellos = 7;
-  static constexpr double kNewcomerPause = 1.0;  ///< s between Hellos to a fleet that is connected
+  static constexpr double kNewcomerPause = 0.6;  ///< s between Hellos to a fleet that is connected
 
   explicit HelloPacing(const Config& config) : config_(config) {}
 
@@ -27,6 +25,8 @@ class HelloPacing {
   /// The pause until a Hello without an answer is repeated; it includes the queue of answers of a fleet that
   /// starts at once.
   Clock::duration first_pause(double others) const;
+  /// Hellos to an address that are sent with the first pause, since the radio loses some; later pauses double.
+  int quick_hellos(Clock::time_point now) const;
   /// The pause after the `hellos_sent`-th Hello to an address whose pause is `pause`.
   Clock::duration pause_after(int hellos_sent, Clock::duration pause, Clock::time_point now) const;
   /// Doubles a pause within bounds, of which `announcement` is one.

@@ -32,11 +32,12 @@ constexpr std::size_t kMaxNamesakes = 16;
 }  // namespace
 
 void RadioLink::Hellos::count_answer(const Acquaintance& acquaintance) {
-  if (!radio_.pacing_.count_answer(acquaintance.names_us, acquaintance.names_another, Clock::now())) return;
+  const auto now = Clock::now();
+  if (!radio_.pacing_.count_answer(acquaintance.names_us, acquaintance.names_another, now)) return;
   for (const auto& remote : radio_.remotes_) {
-    if (remote->robot || remote->hellos_sent >= HelloPacing::kQuickHellos) continue;
+    if (remote->robot || remote->hellos_sent >= radio_.pacing_.quick_hellos(now)) continue;
     const double part = std::uniform_real_distribution(0.0, HelloPacing::kNewcomerPause)(random_);
-    remote->next = std::min(remote->next, Clock::now() + to_duration(part));
+    remote->next = std::min(remote->next, now + to_duration(part));
   }
 }
 
@@ -72,7 +73,7 @@ void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
     if (remote.robot) remote.next = Clock::time_point::max();
     return;
   }
-  if (++remote.hellos_sent >= HelloPacing::kQuickHellos)
+  if (++remote.hellos_sent >= radio_.pacing_.quick_hellos(now))
     remote.pause = radio_.pacing_.longer_pause(remote.pause, radio_.others(), radio_.announcement_);
   if (!remote.robot) return;
   Peer& peer = radio_.peers_.at(*remote.robot);
