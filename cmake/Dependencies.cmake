@@ -13,20 +13,39 @@ find_package(fastcdr REQUIRED)
 find_package(fastrtps REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 
 # GeographicLib and Draco install CMake files that Debian's layout does not let
-# find_package see without help, so their libraries are looked up directly.
+# find_package see without help, and SLEEF none, so their libraries are looked up directly.
 find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/LocalCartesian.hpp REQUIRED)
 find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic REQUIRED)
 add_library(GeographicLib INTERFACE IMPORTED)
 target_include_directories(GeographicLib SYSTEM INTERFACE ${GEOGRAPHICLIB_INCLUDE_DIR})
 target_link_libraries(GeographicLib INTERFACE ${GEOGRAPHICLIB_LIBRARY})
 
+find_library(SLEEF_LIBRARY NAMES sleef REQUIRED)
+find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
+add_library(Sleef INTERFACE IMPORTED)
+target_include_directories(Sleef SYSTEM INTERFACE ${SLEEF_INCLUDE_DIR})
+target_link_libraries(Sleef INTERFACE ${SLEEF_LIBRARY})
+
 find_path(DRACO_INCLUDE_DIR draco/compression/encode.h REQUIRED)
 find_library(DRACO_LIBRARY NAMES draco REQUIRED)
 add_library(Draco INTERFACE IMPORTED)
 target_include_directories(Draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIR})
 target_link_libraries(Draco INTERFACE ${DRACO_LIBRARY})
+
+find_library(LZ4_LIBRARY NAMES lz4 REQUIRED)
+find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED)
+add_library(Lz4 INTERFACE IMPORTED)
+target_include_directories(Lz4 SYSTEM INTERFACE ${LZ4_INCLUDE_DIR})
+target_link_libraries(Lz4 INTERFACE ${LZ4_LIBRARY})
+
+find_library(ZSTD_LIBRARY NAMES zstd REQUIRED)
+find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
+add_library(Zstd INTERFACE IMPORTED)
+target_include_directories(Zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
+target_link_libraries(Zstd INTERFACE ${ZSTD_LIBRARY})
 
 # PCL's own package file pulls in VTK and Qt, which cost minutes and are of no use here, so only the components that are
 # needed are looked up.
@@ -39,9 +58,8 @@ function(fleetmap_find_pcl component)
 endfunction()
 fleetmap_find_pcl(common)
 # For a file that is compiled with PCL_NO_PRECOMPILE: PCL's other libraries are 28 MB in memory. FLANN needs LZ4.
-find_library(LZ4_LIBRARY lz4 REQUIRED)
 add_library(Pcl::compiled_in INTERFACE IMPORTED GLOBAL)
-target_link_libraries(Pcl::compiled_in INTERFACE Pcl::common ${LZ4_LIBRARY})
+target_link_libraries(Pcl::compiled_in INTERFACE Pcl::common Lz4)
 
 if(FLEETMAP_TESTS)
   find_package(GTest REQUIRED)

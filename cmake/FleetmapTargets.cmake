@@ -3,6 +3,9 @@ include(GoogleTest OPTIONAL)
 # All robots must compute the same numbers from the same items. GCC fuses a * b + c into one rounding where the
 # processor can: on ARM, but not on x86-64 as Debian compiles for it.
 add_compile_options(-ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-U__ARM_FEATURE_FMA)  # by which Eigen's vector code fuses them as well
+endif()
 
 add_library(fleetmap_flags INTERFACE)
 target_compile_options(fleetmap_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion)

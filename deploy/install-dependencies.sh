@@ -6,9 +6,9 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache clang-format clang-tidy default-jre-headless
   fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
-  libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev
+  libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev libsleef-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
-  libsqlite3-dev libssl-dev liblzma-dev libembree-dev libpng-dev libboost-dev
+  libsqlite3-dev libssl-dev liblzma-dev libzstd-dev liblz4-dev zlib1g-dev libembree-dev libpng-dev libboost-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   iproute2 procps python3
 )

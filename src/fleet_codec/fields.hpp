@@ -15,6 +15,7 @@
 #include "fleetmap/core/signature.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/geometry/portable_math.hpp"
 #include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/messages/messages.hpp"
 #include "fleetmap_types.h"
@@ -113,10 +114,10 @@ struct LogScale {
     constexpr Int kLast = std::numeric_limits<Int>::max();
     if (std::isnan(value)) return kLast;
     if (value <= first) return 0;
-    const double code = std::round(std::log2(value / first) * per_octave);
+    const double code = std::round(portable::log2(value / first) * per_octave);
     return code >= static_cast<double>(kLast) ? kLast : static_cast<Int>(code);
   }
-  double decode(Int code) const { return first * std::exp2(static_cast<double>(code) / per_octave); }
+  double decode(Int code) const { return first * portable::exp2(static_cast<double>(code) / per_octave); }
 };
 
 // ---- covariances as the upper triangle, row by row

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fleetmap/geometry/portable_math.hpp"
+
 namespace fleetmap {
 namespace {
 
@@ -14,8 +16,14 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& phi) {
   const double theta = std::sqrt(theta2);
   const Eigen::Matrix3d W = skew(phi);
   if (theta < kSmallAngle) return Eigen::Matrix3d::Identity() + 0.5 * W + W * W / 6.0;
-  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(theta)) / theta2 * W +
-         (theta - std::sin(theta)) / (theta2 * theta) * W * W;
+  const auto [sin, cos] = portable::sin_cos(theta);
+  return Eigen::Matrix3d::Identity() + (1.0 - cos) / theta2 * W + (theta - sin) / (theta2 * theta) * W * W;
+}
+
+/// Turn by `angle` (rad) about a unit vector.
+Eigen::Quaterniond turn(double angle, const Eigen::Vector3d& axis) {
+  const auto [sin, cos] = portable::sin_cos(0.5 * angle);
+  return {cos, sin * axis.x(), sin * axis.y(), sin * axis.z()};
 }
 
 }  // namespace
@@ -32,7 +40,9 @@ Eigen::Matrix3d so3_exp(const Eigen::Vector3d& phi) {
     const Eigen::Matrix3d W = skew(phi);
     return Eigen::Quaterniond(Eigen::Matrix3d::Identity() + W + 0.5 * W * W).normalized().toRotationMatrix();
   }
-  return Eigen::AngleAxisd(theta, phi / theta).toRotationMatrix();
+  const auto [sin, cos] = portable::sin_cos(theta);
+  const Eigen::Vector3d axis = phi / theta;
+  return cos * Eigen::Matrix3d::Identity() + sin * skew(axis) + (1.0 - cos) * axis * axis.transpose();
 }
 
 Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
@@ -40,7 +50,7 @@ Eigen::Vector3d so3_log(const Eigen::Matrix3d& R) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double n = q.vec().norm();
   if (n < kSmallAngle) return 2.0 * q.vec() / q.w();
-  return 2.0 * std::atan2(n, q.w()) / n * q.vec();
+  return 2.0 * portable::atan2(n, q.w()) / n * q.vec();
 }
 
 Pose se3_exp(const Vector6d& xi) {
@@ -81,15 +91,15 @@ Pose make_pose(const Eigen::Quaterniond& q, const Eigen::Vector3d& t) {
 }
 
 Eigen::Matrix3d rotation_from_rpy(double roll, double pitch, double yaw) {
-  return (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+  return (turn(yaw, Eigen::Vector3d::UnitZ()) * turn(pitch, Eigen::Vector3d::UnitY()) *
+          turn(roll, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
 
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2))),
-          std::atan2(R(1, 0), R(0, 0))};
+  return {portable::atan2(R(2, 1), R(2, 2)),
+          portable::atan2(-R(2, 0), std::sqrt(R(2, 1) * R(2, 1) + R(2, 2) * R(2, 2))),
+          portable::atan2(R(1, 0), R(0, 0))};
 }
 
 Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {

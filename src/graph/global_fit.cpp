@@ -4,6 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "fleetmap/geometry/symmetric.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -41,7 +43,8 @@ Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_co
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     T_enu_node[k] = pose_in(site, *nodes[k].G);
     information[k] =
-        (nodes[k].G->covariance * shared.at(nodes[k].id.agent) + 1e-12 * Matrix6d::Identity()).inverse();
+        CholeskyOf(nodes[k].G->covariance * shared.at(nodes[k].id.agent) + 1e-12 * Matrix6d::Identity())
+            .inverse();
   }
   Pose T_enu_common = T_enu_node.front() * T_common_node.front().inverse();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -61,7 +64,7 @@ Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_co
       H += J.transpose() * information[k] * J;
       b += J.transpose() * information[k] * residual;
     }
-    const Vector6d step = H.ldlt().solve(b);
+    const Vector6d step = CholeskyOf(H).solve(b);
     const Eigen::Matrix3d R = so3_exp(step.tail<3>());
     T_enu_common =
         make_pose(Eigen::Matrix3d(R * T_enu_common.linear()),

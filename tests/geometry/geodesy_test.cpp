@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <GeographicLib/LocalCartesian.hpp>
+#include <algorithm>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "fleetmap/geometry/global_pose.hpp"
 
@@ -32,6 +35,28 @@ TEST(LocalFrame, RoundTripsWithinNanometresOverASite) {
   for (int k = 0; k < 200; ++k) {
     const Eigen::Vector3d p(metres(random), metres(random), 0.01 * metres(random));
     EXPECT_LT((site.to_enu(site.to_geo(p)) - p).norm(), 1e-6);
+  }
+}
+
+TEST(LocalFrame, AgreesWithGeographicLibEverywhere) {
+  std::mt19937 random(3);
+  const auto draw = [&random](double reach) { return std::uniform_real_distribution(-reach, reach)(random); };
+  for (int k = 0; k < 1000; ++k) {
+    const double latitude = k == 0 ? 90.0 : draw(90.0), longitude = k == 1 ? 180.0 : draw(180.0);
+    const double altitude = draw(4000.0);
+    const double there_latitude = std::clamp(latitude + draw(0.5), -90.0, 90.0);
+    const double there_longitude =
+        k % 10 == 0 ? draw(180.0) : std::clamp(longitude + draw(0.5), -180.0, 180.0);
+    const double there_altitude = draw(4000.0);
+    Eigen::Vector3d p;
+    std::vector<double> axes(9);
+    GeographicLib::LocalCartesian(latitude, longitude, altitude)
+        .Forward(there_latitude, there_longitude, there_altitude, p.x(), p.y(), p.z(), axes);
+    const LocalFrame frame(geo_point_from_degrees(latitude, longitude, altitude));
+    const GeoPoint there = geo_point_from_degrees(there_latitude, there_longitude, there_altitude);
+    EXPECT_LT((frame.to_enu(there) - p).norm(), 2e-8) << latitude << ' ' << longitude;
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> R(axes.data());
+    EXPECT_LT((frame.R_enu_local(there) - R).norm(), 1e-14) << latitude << ' ' << longitude;
   }
 }
 

@@ -24,7 +24,8 @@ bool is_valid(const GeoPoint& point);
 double haversine_distance(const GeoPoint& a, const GeoPoint& b);
 inline constexpr double kMeanEarthRadius = 6371008.7714;  ///< m, IUGG R1
 
-/// East-north-up frame at an origin on the ellipsoid (GeographicLib::LocalCartesian).
+/// East-north-up frame at an origin on the ellipsoid. From geographic positions to it every processor
+/// computes the same bits, since robots place nodes by it; back again it is GeographicLib::LocalCartesian.
 class LocalFrame {
  public:
   explicit LocalFrame(const GeoPoint& origin);
@@ -37,6 +38,8 @@ class LocalFrame {
 
  private:
   GeoPoint origin_;
+  Eigen::Vector3d p_ecef_origin_;
+  Eigen::Matrix3d R_ecef_enu_;
   std::shared_ptr<const void> projection_;
 };
 

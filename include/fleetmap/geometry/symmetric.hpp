@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap {
@@ -17,19 +15,22 @@ struct SymmetricEigen {
 /// Decomposes a symmetric matrix; only its lower triangle is read.
 SymmetricEigen eigen_of_symmetric(const Matrix6d& A);
 
-/// A = L L^T. Where A is not positive definite, what it answers is not to be used and may not be finite.
+/// A = L L^T, the same bits on every processor. Where A is not positive definite, what it answers is not to
+/// be used and may not be finite.
 class CholeskyOf {
  public:
   explicit CholeskyOf(const Matrix6d& A);
 
-  bool positive_definite() const { return llt_.info() == Eigen::Success; }
+  bool positive_definite() const { return positive_definite_; }
   Matrix6d inverse() const;
+  Vector6d solve(const Vector6d& e) const;  ///< A^-1 e
   /// e^T A^-1 e: of a covariance, the squared Mahalanobis distance.
   double squared_distance(const Vector6d& e) const;
   double log_det() const;
 
  private:
-  Eigen::LLT<Matrix6d> llt_;
+  Matrix6d L_;  ///< its lower triangle
+  bool positive_definite_;
 };
 
 }  // namespace fleetmap

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fleetmap/geometry/portable_math.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -46,7 +48,7 @@ bool is_dead_reckoned(const GpsWindow& window, const Vector6d& least) {
 /// themselves remains as well, even if the filter does not model it.
 double remaining_share(double V_a, double V_b, double reckoning, double seconds,
                        const FleetPlacementConfig& config) {
-  const double drift = std::exp(-seconds / config.gps_correlation_time);
+  const double drift = portable::exp(-seconds / config.gps_correlation_time);
   const double left = std::max(drift, V_b / (V_a + reckoning * seconds));
   return std::min(left, std::min(1.0, V_b / V_a));
 }

@@ -1,9 +1,10 @@
 #include "rejection/hypothesis.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "fleetmap/geometry/plain_cholesky.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -54,12 +55,18 @@ double support_of(double members) { return kSupportOfOne * std::log2(1.0 + membe
 double squared_distance_to_prior(const std::vector<Indices>& hypotheses,
                                  std::span<const LinearisedCandidate> candidates,
                                  const CrossCovariances& cross) {
-  const JointResidual joint = joint_residual(hypotheses, candidates, cross);
-  const Eigen::LLT<Eigen::MatrixXd> llt(joint.S);
-  if (llt.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd right = joint.B.transpose() * llt.solve(joint.e);
-  const Eigen::MatrixXd information = joint.B.transpose() * llt.solve(joint.B);
-  return right.dot(information.llt().solve(right));
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  JointResidual joint = joint_residual(hypotheses, candidates, cross);
+  const auto rows = static_cast<int>(joint.S.rows()), columns = static_cast<int>(joint.B.cols());
+  if (!plain_cholesky::factor(joint.S.data(), rows)) return kFar;
+  // From here on e and B are L^-1 e and L^-1 B.
+  plain_cholesky::solve_lower(joint.S.data(), rows, joint.e.data(), 1);
+  plain_cholesky::solve_lower(joint.S.data(), rows, joint.B.data(), columns);
+  Eigen::VectorXd right = joint.B.transpose().lazyProduct(joint.e);
+  Eigen::MatrixXd information = joint.B.transpose().lazyProduct(joint.B);
+  if (!plain_cholesky::factor(information.data(), columns)) return kFar;
+  plain_cholesky::solve_lower(information.data(), columns, right.data(), 1);
+  return right.squaredNorm();
 }
 
 }  // namespace fleetmap::graph

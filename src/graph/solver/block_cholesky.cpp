@@ -82,7 +82,7 @@ void BlockCholesky::solve_forward(const std::vector<std::size_t>& at, Eigen::Vec
   for (std::size_t k = 0; k < at.size(); ++k) {
     const Column& c = pattern_.columns()[k];
     with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
-      solve_lower<J, 1>(&values_[c.diagonal], &x(static_cast<Eigen::Index>(at[k])));
+      plain_cholesky::solve_lower(&values_[c.diagonal], J, &x(static_cast<Eigen::Index>(at[k])), 1);
       const Eigen::Matrix<double, J, 1> x_k = Block<J, 1>(&x(static_cast<Eigen::Index>(at[k])));
       for (std::size_t r = c.first; r < c.end; ++r) {
         with_dim(pattern_.column(rows[r].row).dim, [&]<int I>(std::integral_constant<int, I>) {
@@ -107,7 +107,7 @@ void BlockCholesky::solve_backward(const std::vector<std::size_t>& at, Eigen::Ve
               ConstBlock<I, J>(&values_[rows[r].at]).transpose().lazyProduct(ConstBlock<I, 1>(x_r));
         });
       }
-      solve_upper<J, 1>(&values_[c.diagonal], x_k.data());
+      plain_cholesky::solve_upper(&values_[c.diagonal], J, x_k.data(), 1);
       Block<J, 1>(&x(static_cast<Eigen::Index>(at[k]))) = x_k;
     });
   }
@@ -135,7 +135,7 @@ BlockCholesky::Sparse BlockCholesky::forward(std::span<const std::pair<int, Matr
     Matrix6d& z = work_[static_cast<std::size_t>(k)];
     with_dim(c.dim, [&]<int J>(std::integral_constant<int, J>) {
       Eigen::Matrix<double, J, 6> z_k = z.topRows<J>();
-      solve_lower<J, 6>(&values_[c.diagonal], z_k.data());
+      plain_cholesky::solve_lower(&values_[c.diagonal], J, z_k.data(), 6);
       for (std::size_t r = c.first; r < c.end; ++r) {
         if (zero_[r]) continue;
         const auto row = static_cast<std::size_t>(rows[r].row);
@@ -188,7 +188,7 @@ void BlockCholesky::invert_column(const Column& c) {
   const BlockKernels& kernels = block_kernels();
   const std::vector<BlockPattern::Row>& rows = pattern_.rows();
   Square L_inverse = Square::Identity();
-  solve_lower<J, J>(&values_[c.diagonal], L_inverse.data());
+  plain_cholesky::solve_lower(&values_[c.diagonal], J, L_inverse.data(), J);
   Square Z_jj = L_inverse.transpose() * L_inverse;
   quotients_.resize(36 * (c.end - c.first));
   // U_kj = L_kj L_jj^-1.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "fleetmap/geometry/portable_math.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -24,7 +26,7 @@ constexpr double kRotationOfStart = 0.02;  // rad
 Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   const double angle = log.norm();
   const double second =
-      angle < 1e-3 ? 1.0 / 12.0 : 1.0 / (angle * angle) - 0.5 / (angle * std::tan(0.5 * angle));
+      angle < 1e-3 ? 1.0 / 12.0 : 1.0 / (angle * angle) - 0.5 / (angle * portable::tan(0.5 * angle));
   const Eigen::Matrix3d S = skew(log);
   return Eigen::Matrix3d::Identity() + 0.5 * S + second * S * S;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <type_traits>
+
+#include "fleetmap/geometry/plain_cholesky.hpp"
 
 /// Dense operations on the 3 x 3 to 6 x 6 blocks of BlockCholesky, column by column in memory.
 namespace fleetmap::graph {
@@ -18,13 +19,12 @@ void with_dim(int dim, const Run& run) {
   dim == 6 ? run(std::integral_constant<int, 6>()) : run(std::integral_constant<int, 3>());
 }
 
-/// Lower Cholesky factor in place; false if the block is not positive definite.
+/// Lower Cholesky factor in place, zero above; false if the block is not positive definite.
 template <int J>
 bool factor_diagonal(double* values) {
+  if (!plain_cholesky::factor(values, J)) return false;
   Block<J, J> A(values);
-  const Eigen::LLT<Eigen::Matrix<double, J, J>> llt(A);
-  if (llt.info() != Eigen::Success) return false;
-  A = llt.matrixL();
+  A.template triangularView<Eigen::StrictlyUpper>().setZero();
   return A.allFinite();
 }
 
@@ -44,30 +44,6 @@ inline void divide(int i, int j, double* a, const double* l_jj) {
     j == 6 ? divide<6, 6>(a, l_jj) : divide<6, 3>(a, l_jj);
   } else {
     j == 6 ? divide<3, 6>(a, l_jj) : divide<3, 3>(a, l_jj);
-  }
-}
-
-/// x = L^-1 x, column by column.
-template <int J, int C>
-void solve_lower(const double* l, double* x) {
-  const ConstBlock<J, J> L(l);
-  for (int c = 0; c < C; ++c, x += J) {
-    for (int k = 0; k < J; ++k) {
-      x[k] /= L(k, k);
-      for (int i = k + 1; i < J; ++i) x[i] -= L(i, k) * x[k];
-    }
-  }
-}
-
-/// x = L^-T x, column by column.
-template <int J, int C>
-void solve_upper(const double* l, double* x) {
-  const ConstBlock<J, J> L(l);
-  for (int c = 0; c < C; ++c, x += J) {
-    for (int k = J - 1; k >= 0; --k) {
-      for (int i = k + 1; i < J; ++i) x[k] -= L(i, k) * x[i];
-      x[k] /= L(k, k);
-    }
   }
 }
 
