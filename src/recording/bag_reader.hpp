@@ -7,7 +7,7 @@
 
 namespace fleetmap::recording {
 
-/// A folder with metadata.yaml or .db3 files, or one .db3 file.
+/// A folder with metadata.yaml or files of rosbag2, or one such file: .db3, .mcap, or either with .zstd.
 bool looks_like_bag(const std::filesystem::path& path);
 Result<std::unique_ptr<Reader>> open_bag(const std::filesystem::path& path, const Topics& topics,
                                          ScanContent content);

@@ -17,6 +17,7 @@ constexpr Counter kCounters[] = {
     {"non_finite_points", &Counters::non_finite_points},
     {"origin_points", &Counters::origin_points},
     {"undecodable_messages", &Counters::undecodable_messages},
+    {"damaged_parts", &Counters::damaged_parts},
     {"empty_scans", &Counters::empty_scans},
     {"time_backwards", &Counters::time_backwards},
     {"clocks_set_back", &Counters::clocks_set_back},

@@ -18,9 +18,10 @@ Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const Re
     return failure(path.string() + ": ROS 1 bags are not read; convert it with `rosbags-convert --src " +
                    path.filename().string() + " --dst " + path.stem().string() + "`");
   }
-  return failure(path.string() +
-                 ": is neither a rosbag2 folder (metadata.yaml, .db3), nor a .db3 file, nor a KITTI folder "
-                 "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
+  return failure(
+      path.string() +
+      ": is neither a rosbag2 folder (metadata.yaml, .db3 or .mcap), nor such a file, nor a KITTI folder "
+      "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
 }
 
 }  // namespace fleetmap::recording

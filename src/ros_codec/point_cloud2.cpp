@@ -111,13 +111,13 @@ Result<Layout> read_layout(const PointCloud2_& in) {
   constexpr std::array kNames{"x", "y", "z"};
   Layout layout;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto field = find_field(in, std::array{kNames[axis]}, std::array{kFloat32});
+    const auto field = find_field(in, std::array{kNames[axis]}, std::array{kFloat32, kFloat64});
     if (!field) {
       std::string present;
       for (const PointField_& f : in.fields())
         present += (present.empty() ? "" : ", ") + f.name().substr(0, 32);
       return refused(std::string("no field '") + kNames[axis] +
-                     "' of float32 within point_step; fields: " + present);
+                     "' of float32 or float64 within point_step; fields: " + present);
     }
     layout.xyz[axis] = *field;
   }

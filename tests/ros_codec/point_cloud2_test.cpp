@@ -90,6 +90,17 @@ std::string refusal(const PointCloud2_& m) {
   return decoded ? "accepted" : decoded.error().message;
 }
 
+TEST(PointCloud2, CoordinatesMayBeDoubles) {
+  const std::vector<Column> doubles{
+      {"x", kFloat64, 0, {1, 2, 1e300}}, {"y", kFloat64, 8, {4, 5, 6}}, {"z", kFloat64, 16, {7, -8.5, 9}}};
+  for (const bool big_endian : {false, true}) {
+    const DecodedScan decoded = read(message(doubles, 24, big_endian));
+    ASSERT_EQ(decoded.scan.points.size(), 2u);
+    EXPECT_EQ(decoded.non_finite_points, 1u) << "1e300 is no float";
+    EXPECT_EQ(decoded.scan.points[1].position, Eigen::Vector3f(2.0f, 5.0f, -8.5f));
+  }
+}
+
 TEST(PointCloud2, RoundTripOfEveryKindOfScan) {
   std::mt19937 engine(31);
   std::uniform_real_distribution<float> metres(-40.0f, 40.0f);
@@ -236,10 +247,10 @@ TEST(PointCloud2, ContradictionsAreRefused) {
   m = message(xyz(), 12);
   m.point_step(10);
   m.row_step(36);
-  EXPECT_THAT(refusal(m), HasSubstr("no field 'z' of float32 within point_step; fields: x, y, z"));
-  auto doubles = xyz();
-  doubles[1].datatype = kFloat64;
-  EXPECT_THAT(refusal(message(doubles, 12 + 4)), HasSubstr("no field 'y' of float32"));
+  EXPECT_THAT(refusal(m), HasSubstr("no field 'z' of float32 or float64 within point_step; fields: x, y, z"));
+  auto integers = xyz();
+  integers[1].datatype = kUint32;
+  EXPECT_THAT(refusal(message(integers, 12 + 4)), HasSubstr("no field 'y' of float32 or float64"));
   m = message(xyz(), 12);
   m.fields().resize(300);
   EXPECT_THAT(refusal(m), HasSubstr("300 point fields"));

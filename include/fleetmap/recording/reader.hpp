@@ -30,6 +30,7 @@ struct Counters {
   std::uint64_t non_finite_points = 0;                       ///< of the scans read
   std::uint64_t origin_points = 0;          ///< exactly (0, 0, 0): no return; of the scans read
   std::uint64_t undecodable_messages = 0;   ///< truncated or contradictory; skipped
+  std::uint64_t damaged_parts = 0;          ///< chunks of an mcap file; left out
   std::uint64_t empty_scans = 0;            ///< without a single return; skipped
   std::uint64_t time_backwards = 0;         ///< not later than the one before of its kind; skipped
   std::uint64_t clocks_set_back = 0;        ///< times that the stamps of a kind went on far earlier
@@ -63,10 +64,10 @@ class Reader {
   virtual const Counters& counters() const = 0;
 };
 
-/// Opens a rosbag2 folder (sqlite3 storage), a single .db3 file, a KITTI folder (raw: velodyne_points and
+/// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a KITTI folder (raw: velodyne_points and
 /// oxts; odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of
 /// scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a folder are assumed with a
-/// warning. Errors name the remedy for other formats, compressed bags and topics that cannot be chosen.
+/// warning. Errors name the remedy for other formats and topics that cannot be chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {},
                                      ScanContent content = ScanContent::kPoints);
 

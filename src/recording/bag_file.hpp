@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bag_topics.hpp"
+#include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/result.hpp"
+
+namespace fleetmap::recording {
+
+/// A message as it lies in a bag.
+struct BagMessage {
+  std::string topic;  ///< its ROS 2 name
+  std::int64_t received_ns = 0;
+  ByteView cdr;  ///< valid until the next message is read
+};
+
+/// One file of a bag, whose messages come in the order in which they were received.
+class BagFile {
+ public:
+  virtual ~BagFile() = default;
+  virtual Result<std::vector<BagTopic>> topics() = 0;
+  /// Empty at the end, and after an error.
+  virtual Result<std::optional<BagMessage>> next() = 0;
+  /// Parts of the file that could not be read and were left out, so far.
+  virtual std::uint64_t damaged_parts() const { return 0; }
+};
+
+/// Opens a .db3 or .mcap file; one with .zstd behind its name is unpacked into the folder for temporary files
+/// as long as it is open.
+Result<std::unique_ptr<BagFile>> open_bag_file(const std::filesystem::path& file);
+
+}  // namespace fleetmap::recording

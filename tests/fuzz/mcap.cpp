@@ -1,0 +1,9 @@
+// A file of rosbag2's mcap storage.
+#include "read_recording.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace fleetmap;
+  static const fuzz::Folder folder;
+  fuzz::read_recording(folder.write("drive.mcap", ByteView(data, size)));
+  return 0;
+}
