@@ -14,6 +14,7 @@ find_package(fastrtps REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(BZip2 REQUIRED)
 
 # GeographicLib and Draco install CMake files that Debian's layout does not let
 # find_package see without help, and SLEEF none, so their libraries are looked up directly.

@@ -69,6 +69,7 @@ int inspect(const RecordingOptions& options) {
 
 void add_inspect(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RecordingOptions>();
+  options->scans_needed = false;
   CLI::App* command = app.add_subcommand("inspect",
                                          "what a recording holds, and what is wrong with its clocks, units "
                                          "and rates; exit code 1 if anything is");

@@ -26,8 +26,9 @@ tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options
   if (!options.config.empty()) file = options.config;
   auto config = config::load_sensors(file, *overrides);
   if (!config) return failed(config.error(), kBadConfiguration);
-  const recording::ReaderConfig reader_config =
+  recording::ReaderConfig reader_config =
       config->recording ? config->recording->reader : recording::ReaderConfig{};
+  reader_config.scans_needed = options.scans_needed;
   auto reader = recording::open(options.recording, reader_config);
   if (!reader) return failed(reader.error(), kFailed);
   const auto log_clock = recording::find_log_clock(options.recording, reader_config);

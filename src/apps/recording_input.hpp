@@ -17,6 +17,7 @@ struct RecordingOptions {
   std::string recording;
   std::string config;
   std::vector<std::string> set;
+  bool scans_needed = true;  ///< no option: what the command cannot do without
 };
 void add_recording_options(CLI::App& command, RecordingOptions& options);
 

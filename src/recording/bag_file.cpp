@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mcap_file.hpp"
+#include "ros1_file.hpp"
 #include "sqlite_file.hpp"
 #include "unpack.hpp"
 
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 
 Result<std::unique_ptr<BagFile>> open_plain(const fs::path& file) {
   if (file.extension() == ".mcap") return open_mcap_file(file);
+  if (file.extension() == ".bag") return open_ros1_file(file);
   return open_sqlite_file(file);
 }
 

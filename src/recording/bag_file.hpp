@@ -31,8 +31,8 @@ class BagFile {
   virtual std::uint64_t damaged_parts() const { return 0; }
 };
 
-/// Opens a .db3 or .mcap file; one with .zstd behind its name is unpacked into the folder for temporary files
-/// as long as it is open.
+/// Opens a .db3, .mcap or (ROS 1) .bag file; one with .zstd behind its name is unpacked into the folder for
+/// temporary files as long as it is open.
 Result<std::unique_ptr<BagFile>> open_bag_file(const std::filesystem::path& file);
 
 }  // namespace fleetmap::recording

@@ -51,10 +51,10 @@ Result<std::vector<fs::path>> bag_files(const fs::path& path) {
       files.push_back(unpacked ? path / file.stem() : file);
     }
   }
-  for (const char* ending : {".db3", ".mcap", ".db3.zstd", ".mcap.zstd"}) {
+  for (const char* ending : {".db3", ".mcap", ".db3.zstd", ".mcap.zstd", ".bag"}) {
     if (files.empty()) files = files_with(path, ending);
   }
-  if (files.empty()) return failure(bag + ": has no .db3 or .mcap file");
+  if (files.empty()) return failure(bag + ": has no .db3, .mcap or .bag file");
   for (const fs::path& file : files) {
     if (!fs::exists(file)) return failure(file.string() + ": is named in metadata.yaml but is not there");
   }
@@ -178,7 +178,7 @@ class BagReader : public CheckedReader {
 bool looks_like_bag(const fs::path& path) {
   const auto has_ending = [](const fs::path& file) {
     const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
-    return name.extension() == ".db3" || name.extension() == ".mcap";
+    return name.extension() == ".db3" || name.extension() == ".mcap" || file.extension() == ".bag";
   };
   if (!fs::is_directory(path)) return has_ending(path);
   std::error_code error;
@@ -187,7 +187,8 @@ bool looks_like_bag(const fs::path& path) {
                      [&](const auto& entry) { return has_ending(entry.path()); });
 }
 
-Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wanted, ScanContent content) {
+Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const ReaderConfig& config,
+                                         ScanContent content) {
   auto files = bag_files(path);
   if (!files) return tl::unexpected(files.error());
   std::set<BagTopic> topics;  // a later split may bring topics that the first one lacks
@@ -198,7 +199,8 @@ Result<std::unique_ptr<Reader>> open_bag(const fs::path& path, const Topics& wan
     if (!found) return tl::unexpected(found.error());
     topics.insert(found->begin(), found->end());
   }
-  auto kinds = select_topics({topics.begin(), topics.end()}, wanted, path.string());
+  auto kinds =
+      select_topics({topics.begin(), topics.end()}, config.topics, path.string(), config.scans_needed);
   if (!kinds) return tl::unexpected(kinds.error());
   return std::make_unique<BagReader>(path.string(), std::move(*files), std::move(*kinds), content);
 }

@@ -57,9 +57,10 @@ Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics
 }  // namespace
 
 Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
-                                                  const std::string& bag) {
+                                                  const std::string& bag, bool scans_needed) {
   std::map<std::string, Kind> chosen;
-  for (const Role& role : kRoles) {
+  for (Role role : kRoles) {
+    role.needed = role.needed && scans_needed;
     if (wanted.*role.wanted == kNone && !role.needed) continue;
     const auto name = select(role, topics, wanted.*role.wanted, bag);
     if (!name) return tl::unexpected(name.error());

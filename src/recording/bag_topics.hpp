@@ -20,9 +20,10 @@ struct BagTopic {
 enum class Kind { kScan, kImu, kFix, kWheel };
 
 /// Selects the topics to read: by name if the config has one, else the only topic of the type, else the one
-/// with our own name. Points must be found; the rest may be absent. Errors list the candidates and the config
+/// with our own name. Points must be found if they are needed; the rest may be
+/// absent. Errors list the candidates and the config
 /// key.
 Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
-                                                  const std::string& bag);
+                                                  const std::string& bag, bool scans_needed = true);
 
 }  // namespace fleetmap::recording

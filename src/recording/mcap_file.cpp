@@ -1,12 +1,9 @@
 #include "mcap_file.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <utility>
 
+#include "chunked_file.hpp"
 #include "mcap_records.hpp"
 #include "ros_names.hpp"
 
@@ -16,77 +13,39 @@ namespace {
 namespace fs = std::filesystem;
 using mcap::Opcode;
 
-constexpr std::uint64_t kMaxRecordBytes = 256u << 20;  // writers make chunks of some MB
-/// Messages are held back until no chunk that comes later can hold an earlier one, up to this many bytes.
-constexpr std::size_t kMaxHeldBytes = 256u << 20;
-
-class McapFile : public BagFile {
+class McapFile : public ChunkedFile {
  public:
   McapFile(fs::path file, std::ifstream stream, std::uint64_t size)
-      : file_(std::move(file)), stream_(std::move(stream)), size_(size) {}
+      : ChunkedFile(std::move(file), std::move(stream), size) {}
 
   /// Finds all records, without reading messages.
   Status index();
   Result<std::vector<BagTopic>> topics() override;
-  Result<std::optional<BagMessage>> next() override;
-  std::uint64_t damaged_parts() const override { return damaged_; }
 
  private:
-  /// A message, or a chunk of them, that was found and not read yet.
-  struct Found {
-    Opcode opcode;
-    std::uint64_t content;  ///< where it begins in the file
-    std::uint64_t length;
-    std::uint64_t start;  ///< ns, no message in it is earlier
-  };
-  /// A message that waits for its turn; its bytes are part of what `block` holds.
-  struct Held {
-    std::shared_ptr<const Bytes> block;
-    mcap::Message message;
-  };
-
-  Result<Bytes> read(std::uint64_t at, std::uint64_t count);
+  Status load(const Found& found) override;
+  const BagTopic* topic_of(std::uint32_t channel) const override;
+  ByteView cdr_of(const BagTopic&, ByteView data) override { return data; }
   Status note_record(Opcode opcode, std::uint64_t content, std::uint64_t length);
   void note(Opcode opcode, ByteView content);
   bool read_summary();
-  Status load(const Found& found);
   void hold_messages(const std::shared_ptr<const Bytes>& records);
-  void hold(std::shared_ptr<const Bytes> block, const mcap::Message& message);
-  void leave_out(const std::string& why);
 
-  fs::path file_;
-  std::ifstream stream_;
-  std::uint64_t size_;
-  std::vector<Found> found_;                    ///< in the order in which they begin
-  std::size_t next_ = 0;                        ///< of found_
   std::map<std::uint16_t, std::string> types_;  ///< by schema
-  std::map<std::uint16_t, mcap::Channel> channels_;
-  std::multimap<std::uint64_t, Held> held_;  ///< by time of recording, equal ones as they lie in the file
-  std::size_t held_bytes_ = 0;
-  Held given_;
-  std::uint64_t damaged_ = 0;
+  std::map<std::uint32_t, BagTopic> channels_;
 };
-
-Result<Bytes> McapFile::read(std::uint64_t at, std::uint64_t count) {
-  Bytes bytes(count);
-  stream_.clear();
-  stream_.seekg(static_cast<std::streamoff>(at));
-  stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-  if (!stream_) return failure(file_.string() + ": cannot be read at byte " + std::to_string(at));
-  return bytes;
-}
-
-void McapFile::leave_out(const std::string& why) {
-  if (damaged_++ == 0) spdlog::warn("{}: {}; it is left out, as will be others", file_.string(), why);
-}
 
 void McapFile::note(Opcode opcode, ByteView content) {
   if (opcode == Opcode::kSchema) {
     if (auto schema = mcap::read_schema(content))
       types_.insert_or_assign(schema->id, std::move(schema->name));
   } else if (opcode == Opcode::kChannel) {
-    if (auto channel = mcap::read_channel(content))
-      channels_.insert_or_assign(channel->id, std::move(*channel));
+    const auto channel = mcap::read_channel(content);
+    if (!channel) return;
+    const auto type = types_.find(channel->schema);
+    std::string name = type == types_.end() ? "" : ros_type(type->second);
+    if (channel->encoding != "cdr") name += " in " + channel->encoding;  // so that none is chosen
+    channels_.insert_or_assign(channel->id, BagTopic{ros_topic(channel->topic), std::move(name)});
   }
 }
 
@@ -101,7 +60,7 @@ Status McapFile::note_record(Opcode opcode, std::uint64_t content, std::uint64_t
   const auto bytes = read(content, messages ? std::min(length, mcap::kTimesBytes) : length);
   if (!bytes) return tl::unexpected(bytes.error());
   if (messages) {
-    found_.push_back({opcode, content, length, mcap::start_of(opcode, *bytes)});
+    found_.push_back({content, length, mcap::start_of(opcode, *bytes), opcode == Opcode::kChunk});
   } else {
     note(opcode, *bytes);
   }
@@ -110,27 +69,26 @@ Status McapFile::note_record(Opcode opcode, std::uint64_t content, std::uint64_t
 
 Status McapFile::index() {
   std::uint64_t at = std::size(mcap::kMagic);
-  while (at + mcap::kPrefixBytes <= size_) {
+  while (at + mcap::kPrefixBytes <= size()) {
     const auto bytes = read(at, mcap::kPrefixBytes);
     if (!bytes) return tl::unexpected(bytes.error());
     const auto [opcode, length] = mcap::read_prefix(*bytes);
     if (opcode == Opcode::kFooter) break;
     const std::uint64_t content = at + mcap::kPrefixBytes;
-    if (length > size_ - content) {
-      spdlog::warn("{}: cut within its last record, {} bytes are left out; `mcap recover` gives a whole file",
-                   file_.string(), size_ - at);
+    if (length > size() - content) {
+      warn_of_cut(at, "`mcap recover` gives a whole file");
       break;
     }
     if (Status status = note_record(opcode, content, length); !status) return status;
     at = content + length;
   }
-  std::ranges::stable_sort(found_, {}, &Found::start);
+  sort_found();
   return {};
 }
 
-void McapFile::hold(std::shared_ptr<const Bytes> block, const mcap::Message& message) {
-  held_bytes_ += message.data.size();
-  held_.emplace(message.log_time, Held{std::move(block), message});
+const BagTopic* McapFile::topic_of(std::uint32_t channel) const {
+  const auto topic = channels_.find(channel);
+  return topic == channels_.end() ? nullptr : &topic->second;
 }
 
 void McapFile::hold_messages(const std::shared_ptr<const Bytes>& records) {
@@ -143,20 +101,20 @@ void McapFile::hold_messages(const std::shared_ptr<const Bytes>& records) {
     rest = rest.subspan(length);
     note(opcode, content);
     if (opcode != Opcode::kMessage) continue;
-    if (const auto message = mcap::read_message(content)) hold(records, *message);
+    if (const auto message = mcap::read_message(content))
+      hold(records, message->log_time, message->channel, message->data);
   }
   if (!rest.empty()) leave_out("a chunk ends within a record");
 }
 
-/// Damage is left out; an error means that the file cannot be read at all.
 Status McapFile::load(const Found& found) {
-  auto content = read(found.content, found.length);
+  auto content = read(found.at, found.length);
   if (!content) return tl::unexpected(content.error());
   const auto block = std::make_shared<const Bytes>(std::move(*content));
-  const std::string where = " at byte " + std::to_string(found.content);
-  if (found.opcode == Opcode::kMessage) {
+  const std::string where = " at byte " + std::to_string(found.at);
+  if (!found.chunk) {
     if (const auto message = mcap::read_message(*block)) {
-      hold(block, *message);
+      hold(block, message->log_time, message->channel, message->data);
     } else {
       leave_out("a damaged message" + where);
     }
@@ -176,40 +134,16 @@ Status McapFile::load(const Found& found) {
   return {};
 }
 
-Result<std::optional<BagMessage>> McapFile::next() {
-  given_ = {};
-  while (true) {
-    const bool may_come_first =
-        next_ < found_.size() &&
-        (held_.empty() || (found_[next_].start <= held_.begin()->first && held_bytes_ < kMaxHeldBytes));
-    if (may_come_first) {
-      Status status = load(found_[next_++]);
-      if (status) continue;
-      next_ = found_.size();
-      held_.clear();
-      return tl::unexpected(status.error());
-    }
-    if (held_.empty()) return std::optional<BagMessage>();
-    given_ = std::move(held_.begin()->second);
-    held_.erase(held_.begin());
-    held_bytes_ -= given_.message.data.size();
-    const auto channel = channels_.find(given_.message.channel);
-    if (channel == channels_.end()) continue;
-    return BagMessage{ros_topic(channel->second.topic), static_cast<std::int64_t>(given_.message.log_time),
-                      given_.message.data};
-  }
-}
-
 /// The summary at the end of a file that was closed repeats schemas and channels. False if it has none.
 bool McapFile::read_summary() {
   constexpr std::uint64_t kEnd = mcap::kPrefixBytes + mcap::kFooterBytes + std::size(mcap::kMagic);
-  if (size_ < kEnd + std::size(mcap::kMagic)) return false;
-  const auto end = read(size_ - kEnd, kEnd);
+  if (size() < kEnd + std::size(mcap::kMagic)) return false;
+  const auto end = read(size() - kEnd, kEnd);
   if (!end || !std::ranges::equal(ByteView(*end).last(std::size(mcap::kMagic)), mcap::kMagic)) return false;
   const auto [opcode, length] = mcap::read_prefix(*end);
   if (opcode != Opcode::kFooter || length != mcap::kFooterBytes) return false;
   const auto start = mcap::read_footer(ByteView(*end).subspan(mcap::kPrefixBytes, mcap::kFooterBytes));
-  const std::uint64_t footer = size_ - kEnd;
+  const std::uint64_t footer = size() - kEnd;
   if (!start || *start == 0 || *start >= footer || footer - *start > kMaxRecordBytes) return false;
   const auto summary = read(*start, footer - *start);
   if (!summary) return false;
@@ -226,20 +160,10 @@ bool McapFile::read_summary() {
 Result<std::vector<BagTopic>> McapFile::topics() {
   // Without a summary, topics are named between the messages.
   if (!read_summary()) {
-    for (const Found& found : found_) {
-      if (Status status = load(found); !status) return tl::unexpected(status.error());
-      held_.clear();
-    }
-    held_bytes_ = 0;
-    damaged_ = 0;
+    if (Status status = load_once(); !status) return tl::unexpected(status.error());
   }
   std::vector<BagTopic> topics;
-  for (const auto& [id, channel] : channels_) {
-    const auto type = types_.find(channel.schema);
-    std::string name = type == types_.end() ? "" : ros_type(type->second);
-    if (channel.encoding != "cdr") name += " in " + channel.encoding;  // so that none is chosen
-    topics.push_back({ros_topic(channel.topic), std::move(name)});
-  }
+  for (const auto& [id, topic] : channels_) topics.push_back(topic);
   return topics;
 }
 

@@ -2,57 +2,21 @@
 
 #include <zlib.h>
 
-#include <concepts>
-#include <limits>
-
+#include "fleetmap/core/byte_fields.hpp"
 #include "unpack.hpp"
 
 namespace fleetmap::recording::mcap {
 namespace {
 
-/// Takes fields off the front of a record; after one that is not all there, nothing more is.
-class Fields {
- public:
-  explicit Fields(ByteView bytes) : rest_(bytes) {}
-
-  template <std::unsigned_integral T>
-  T number() {
-    const ByteView bytes = take(sizeof(T));
-    T value = 0;
-    for (std::size_t k = bytes.size(); k-- > 0;) value = static_cast<T>(value << 8 | bytes[k]);
-    return value;
-  }
-  ByteView take(std::uint64_t count) {
-    if (count > rest_.size()) {
-      whole_ = false;
-      rest_ = {};
-      return {};
-    }
-    const ByteView bytes = rest_.first(count);
-    rest_ = rest_.subspan(count);
-    return bytes;
-  }
-  std::string text() {
-    const ByteView bytes = take(number<std::uint32_t>());
-    return {bytes.begin(), bytes.end()};
-  }
-  ByteView rest() const { return rest_; }
-  bool whole() const { return whole_; }
-
- private:
-  ByteView rest_;
-  bool whole_ = true;
-};
-
 template <class T>
-std::optional<T> if_whole(const Fields& fields, T record) {
+std::optional<T> if_whole(const ByteFields& fields, T record) {
   return fields.whole() ? std::optional<T>(std::move(record)) : std::nullopt;
 }
 
 }  // namespace
 
 Prefix read_prefix(ByteView bytes) {
-  Fields fields(bytes);
+  ByteFields fields(bytes);
   Prefix prefix;
   prefix.opcode = static_cast<Opcode>(fields.number<std::uint8_t>());
   prefix.length = fields.number<std::uint64_t>();
@@ -60,7 +24,7 @@ Prefix read_prefix(ByteView bytes) {
 }
 
 std::optional<Schema> read_schema(ByteView content) {
-  Fields fields(content);
+  ByteFields fields(content);
   Schema schema;
   schema.id = fields.number<std::uint16_t>();
   schema.name = fields.text();
@@ -68,7 +32,7 @@ std::optional<Schema> read_schema(ByteView content) {
 }
 
 std::optional<Channel> read_channel(ByteView content) {
-  Fields fields(content);
+  ByteFields fields(content);
   Channel channel;
   channel.id = fields.number<std::uint16_t>();
   channel.schema = fields.number<std::uint16_t>();
@@ -78,7 +42,7 @@ std::optional<Channel> read_channel(ByteView content) {
 }
 
 std::optional<Message> read_message(ByteView content) {
-  Fields fields(content);
+  ByteFields fields(content);
   Message message;
   message.channel = fields.number<std::uint16_t>();
   fields.number<std::uint32_t>();  // sequence
@@ -89,7 +53,7 @@ std::optional<Message> read_message(ByteView content) {
 }
 
 std::optional<Chunk> read_chunk(ByteView content) {
-  Fields fields(content);
+  ByteFields fields(content);
   Chunk chunk;
   chunk.start = fields.number<std::uint64_t>();
   fields.number<std::uint64_t>();  // the latest log time
@@ -101,13 +65,13 @@ std::optional<Chunk> read_chunk(ByteView content) {
 }
 
 std::uint64_t start_of(Opcode opcode, ByteView content) {
-  if (opcode == Opcode::kChunk) return Fields(content).number<std::uint64_t>();
+  if (opcode == Opcode::kChunk) return ByteFields(content).number<std::uint64_t>();
   const auto message = read_message(content);
   return message ? message->log_time : 0;
 }
 
 std::optional<std::uint64_t> read_footer(ByteView content) {
-  Fields fields(content);
+  ByteFields fields(content);
   const auto summary_start = fields.number<std::uint64_t>();
   return if_whole(fields, summary_start);
 }

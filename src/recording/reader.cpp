@@ -12,16 +12,12 @@ Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const Re
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return failure(path.string() + ": there is no such recording");
-  if (looks_like_bag(path)) return open_bag(path, config.topics, content);
+  if (looks_like_bag(path)) return open_bag(path, config, content);
   if (has_kitti_layout(path)) return open_kitti(path, config.kitti);
-  if (path.extension() == ".bag") {
-    return failure(path.string() + ": ROS 1 bags are not read; convert it with `rosbags-convert --src " +
-                   path.filename().string() + " --dst " + path.stem().string() + "`");
-  }
-  return failure(
-      path.string() +
-      ": is neither a rosbag2 folder (metadata.yaml, .db3 or .mcap), nor such a file, nor a KITTI folder "
-      "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
+  return failure(path.string() +
+                 ": is neither a rosbag2 folder (metadata.yaml, .db3 or .mcap), nor such a file or a ROS 1 "
+                 ".bag, nor a KITTI folder "
+                 "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
 }
 
 }  // namespace fleetmap::recording

@@ -1,5 +1,6 @@
 #include "unpack.hpp"
 
+#include <bzlib.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
@@ -65,6 +66,31 @@ Result<Bytes> unpack_lz4(ByteView packed, std::size_t max_bytes) {
     at += taken;
     if (bytes.size() > max_bytes) return tl::unexpected(too_large(max_bytes));
     if (left > 0 && taken == 0 && step == 0) return failure("the lz4 frame is cut");
+  }
+  return bytes;
+}
+
+Result<Bytes> unpack_bz2(ByteView packed, std::size_t max_bytes) {
+  bz_stream stream{};
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return failure("no memory to unpack bz2");
+  const std::unique_ptr<bz_stream, int (*)(bz_stream*)> guard(&stream, BZ2_bzDecompressEnd);
+  // The library does not write to what it reads.
+  stream.next_in = reinterpret_cast<char*>(const_cast<std::uint8_t*>(packed.data()));
+  stream.avail_in = static_cast<unsigned>(packed.size());
+  Bytes bytes;
+  int code = BZ_OK;
+  while (code != BZ_STREAM_END) {
+    const std::size_t done = bytes.size(), step = std::min(kStep, max_bytes + 1 - done);
+    bytes.resize(done + step);
+    stream.next_out = reinterpret_cast<char*>(bytes.data() + done);
+    stream.avail_out = static_cast<unsigned>(step);
+    const unsigned left_before = stream.avail_in;
+    code = BZ2_bzDecompress(&stream);
+    if (code != BZ_OK && code != BZ_STREAM_END) return failure("damaged bz2, code " + std::to_string(code));
+    bytes.resize(done + step - stream.avail_out);
+    if (bytes.size() > max_bytes) return tl::unexpected(too_large(max_bytes));
+    if (code == BZ_OK && stream.avail_in == left_before && bytes.size() == done)
+      return failure("the bz2 stream is cut");
   }
   return bytes;
 }

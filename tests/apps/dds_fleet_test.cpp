@@ -98,7 +98,7 @@ TEST_F(DdsFleet, KilledAgentResumesFromItsStoreAndTheMapsComeOutEqual) {
   auto r1 = agent("r1");
   auto r2 = agent("r2");
   auto play1 = replay("r1");
-  auto play2 = replay("r2", "0.4");  // so that there is something left to hear after the kill
+  auto play2 = replay("r2", "0.6");  // so that there is something left to hear after the kill
   ASSERT_TRUE(testing::eventually([&] { return own_nodes("r2") >= 5; }, kPatience))
       << r2->output() << play2->output();
   r2->signal(SIGKILL);

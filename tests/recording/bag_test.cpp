@@ -187,8 +187,8 @@ TEST(Bag, WhatIsNotReadSaysWhatToDo) {
               HasSubstr("x_0.db3: is named in metadata.yaml but is not there"));
   folder.write("text.db3", std::string(5000, 'a'));
   EXPECT_THAT(refusal(folder.path() / "text.db3"), HasSubstr("this is no rosbag2 sqlite3 file"));
-  folder.write("one.bag", "#ROSBAG V2.0\n");
-  EXPECT_THAT(refusal(folder.path() / "one.bag"), HasSubstr("ROS 1 bags are not read"));
+  folder.write("one.bag", "#ROSBAG V1.2\n");
+  EXPECT_THAT(refusal(folder.path() / "one.bag"), HasSubstr("no ROS 1 bag of format 2.0"));
   EXPECT_THAT(refusal(folder.path() / "nowhere"), HasSubstr("there is no such recording"));
   folder.write("empty/readme", "");
   EXPECT_THAT(refusal(folder.path() / "empty"), HasSubstr("is neither a rosbag2 folder"));

@@ -1,5 +1,6 @@
 #include "recording/unpack.hpp"
 
+#include <bzlib.h>
 #include <gmock/gmock.h>
 #include <lz4frame.h>
 #include <zstd.h>
@@ -33,12 +34,24 @@ Bytes lz4_of(const Bytes& bytes) {
   return packed;
 }
 
+Bytes bz2_of(const Bytes& bytes) {
+  Bytes packed(bytes.size() + 1000), in = bytes;
+  auto size = static_cast<unsigned>(packed.size());
+  EXPECT_EQ(
+      BZ2_bzBuffToBuffCompress(reinterpret_cast<char*>(packed.data()), &size,
+                               reinterpret_cast<char*>(in.data()), static_cast<unsigned>(in.size()), 9, 0, 0),
+      BZ_OK);
+  packed.resize(size);
+  return packed;
+}
+
 using Unpack = Result<Bytes> (*)(ByteView, std::size_t);
 
 TEST(Unpack, GivesBackWhatWasPacked) {
   const Bytes bytes = content();
   EXPECT_EQ(unpack_zstd(zstd_of(bytes), bytes.size()), bytes);
   EXPECT_EQ(unpack_lz4(lz4_of(bytes), bytes.size()), bytes);
+  EXPECT_EQ(unpack_bz2(bz2_of(bytes), bytes.size()), bytes);
   EXPECT_EQ(unpack_zstd(zstd_of({}), 10), Bytes());
   EXPECT_EQ(unpack_lz4(lz4_of({}), 10), Bytes());
 }
@@ -46,7 +59,8 @@ TEST(Unpack, GivesBackWhatWasPacked) {
 TEST(Unpack, RefusesWhatIsCutDamagedOrTooLarge) {
   const Bytes bytes = content();
   for (const auto& [unpack, packed] : {std::pair<Unpack, Bytes>(unpack_zstd, zstd_of(bytes)),
-                                       std::pair<Unpack, Bytes>(unpack_lz4, lz4_of(bytes))}) {
+                                       std::pair<Unpack, Bytes>(unpack_lz4, lz4_of(bytes)),
+                                       std::pair<Unpack, Bytes>(unpack_bz2, bz2_of(bytes))}) {
     for (const std::size_t part : {packed.size() - 1, packed.size() / 2, std::size_t{6}, std::size_t{0}}) {
       EXPECT_FALSE(unpack(ByteView(packed).first(part), bytes.size())) << part;
     }

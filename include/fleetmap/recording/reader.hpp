@@ -64,10 +64,11 @@ class Reader {
   virtual const Counters& counters() const = 0;
 };
 
-/// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a KITTI folder (raw: velodyne_points and
-/// oxts; odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of
-/// scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a folder are assumed with a
-/// warning. Errors name the remedy for other formats and topics that cannot be chosen.
+/// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a ROS 1 bag, a KITTI
+/// folder (raw: velodyne_points and oxts; odometry benchmark: velodyne and times.txt, scans that are motion
+/// compensated), or a bare folder of scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a
+/// folder are assumed with a warning. Errors name the remedy for other formats and topics that cannot be
+/// chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {},
                                      ScanContent content = ScanContent::kPoints);
 

@@ -19,6 +19,7 @@ struct Topics {
 struct ReaderConfig {
   Topics topics;
   KittiConfig kitti;
+  bool scans_needed = true;  ///< refuse a bag without any
   Status validate() const;
 };
 

@@ -51,11 +51,11 @@ Bytes encode(const sensor::Battery& battery);
 Bytes encode(const OdometryMsg& odometry);
 Bytes encode(const VelocityCommand& command);
 
-/// Reads a PointCloud2 of any driver: x, y, z float32 needed, in any order and at any offset; optional
-/// `intensity` of any numeric type; `ring` or `channel` (uint8, uint16, uint32); point time in `time`, `t`,
-/// `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns, or us if
-/// the sweep would take less than 1 ms), relative to the
-/// header's stamp or absolute. Refuses data that contradict height, width, point_step and row_step.
+/// Reads a PointCloud2 of any driver: x, y, z float32 or float64 needed, in any order and at any offset;
+/// optional `intensity` of any numeric type; `ring` or `channel` (uint8, uint16, uint32); point time in
+/// `time`, `t`, `timestamp`, `offset_time` or `time_stamp` (float: s, or ns if beyond 1e12; integer: ns, or
+/// us if the sweep would take less than 1 ms), relative to the header's stamp or absolute. Refuses data that
+/// contradict height, width, point_step and row_step.
 Result<DecodedScan> decode_scan(ByteView cdr);
 /// The header's stamp of a PointCloud2, without reading anything else.
 Result<Stamp> stamp_of_scan(ByteView cdr);

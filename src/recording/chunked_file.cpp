@@ -1,0 +1,74 @@
+#include "chunked_file.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace fleetmap::recording {
+namespace {
+
+/// Messages are held back until no chunk that comes later can hold an earlier one, up to this many bytes.
+constexpr std::size_t kMaxHeldBytes = 256u << 20;
+
+}  // namespace
+
+Result<std::optional<BagMessage>> ChunkedFile::next() {
+  given_ = {};
+  while (true) {
+    const bool may_come_first =
+        next_ < found_.size() &&
+        (held_.empty() || (found_[next_].start <= held_.begin()->first && held_bytes_ < kMaxHeldBytes));
+    if (may_come_first) {
+      Status status = load(found_[next_++]);
+      if (status) continue;
+      next_ = found_.size();
+      held_.clear();
+      return tl::unexpected(status.error());
+    }
+    if (held_.empty()) return std::optional<BagMessage>();
+    auto first = held_.extract(held_.begin());
+    given_ = std::move(first.mapped());
+    held_bytes_ -= given_.data.size();
+    if (const BagTopic* topic = topic_of(given_.connection))
+      return BagMessage{topic->name, static_cast<std::int64_t>(first.key()), cdr_of(*topic, given_.data)};
+  }
+}
+
+void ChunkedFile::sort_found() { std::ranges::stable_sort(found_, {}, &Found::start); }
+
+Status ChunkedFile::load_once() {
+  for (const Found& found : found_) {
+    if (Status status = load(found); !status) return status;
+    held_.clear();
+  }
+  held_bytes_ = 0;
+  damaged_ = 0;
+  return {};
+}
+
+void ChunkedFile::hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection,
+                       ByteView data) {
+  held_bytes_ += data.size();
+  held_.emplace(time, Held{std::move(block), connection, data});
+}
+
+Result<Bytes> ChunkedFile::read(std::uint64_t at, std::uint64_t count) {
+  Bytes bytes(count);
+  stream_.clear();
+  stream_.seekg(static_cast<std::streamoff>(at));
+  stream_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+  if (!stream_) return failure(file_.string() + ": cannot be read at byte " + std::to_string(at));
+  return bytes;
+}
+
+void ChunkedFile::leave_out(const std::string& why) {
+  if (damaged_++ == 0) spdlog::warn("{}: {}; it is left out, as will be others", file_.string(), why);
+}
+
+void ChunkedFile::warn_of_cut(std::uint64_t at, const char* remedy) const {
+  spdlog::warn("{}: cut within its last record, {} bytes are left out; {}", file_.string(), size_ - at,
+               remedy);
+}
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bag_file.hpp"
+
+namespace fleetmap::recording {
+
+/// A file whose messages lie in chunks, or singly, in the order in which they were written. Gives them by the
+/// time of reception, without holding more than the chunks that overlap in time.
+class ChunkedFile : public BagFile {
+ public:
+  Result<std::optional<BagMessage>> next() override;
+  std::uint64_t damaged_parts() const override { return damaged_; }
+
+ protected:
+  static constexpr std::uint64_t kMaxRecordBytes = 256u << 20;  ///< writers make chunks of some MB
+
+  /// A chunk or message that was found and not read yet.
+  struct Found {
+    std::uint64_t at = 0;      ///< where it begins in the file
+    std::uint64_t length = 0;  ///< bytes
+    std::uint64_t start = 0;   ///< ns since the Unix epoch, no message in it is earlier
+    bool chunk = false;
+  };
+
+  ChunkedFile(std::filesystem::path file, std::ifstream stream, std::uint64_t size)
+      : file_(std::move(file)), stream_(std::move(stream)), size_(size) {}
+
+  /// Reads what was found and gives its messages to hold(). Damage is left out; an error means that the file
+  /// cannot be read at all.
+  virtual Status load(const Found& found) = 0;
+  /// Of what hold() was given; null if it was not named.
+  virtual const BagTopic* topic_of(std::uint32_t connection) const = 0;
+  /// A message as CDR; valid until the next call.
+  virtual ByteView cdr_of(const BagTopic& topic, ByteView data) = 0;
+
+  /// Everything was found.
+  void sort_found();
+  /// Loads all, for what it says of topics, and forgets the messages.
+  Status load_once();
+  void hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection, ByteView data);
+  Result<Bytes> read(std::uint64_t at, std::uint64_t count);
+  /// Counts a damaged part, and logs the first.
+  void leave_out(const std::string& why);
+  /// Logs that the file ends within a record that begins at a byte.
+  void warn_of_cut(std::uint64_t at, const char* remedy) const;
+
+  const std::filesystem::path& file() const { return file_; }
+  std::uint64_t size() const { return size_; }
+  std::vector<Found> found_;
+
+ private:
+  /// A message that waits for its turn; its bytes are part of what `block` holds.
+  struct Held {
+    std::shared_ptr<const Bytes> block;
+    std::uint32_t connection = 0;
+    ByteView data;
+  };
+
+  std::filesystem::path file_;
+  std::ifstream stream_;
+  std::uint64_t size_;
+  std::size_t next_ = 0;                     ///< of found_
+  std::multimap<std::uint64_t, Held> held_;  ///< by time, equal ones as they lie in the file
+  std::size_t held_bytes_ = 0;
+  Held given_;
+  std::uint64_t damaged_ = 0;
+};
+
+}  // namespace fleetmap::recording

@@ -1,0 +1,74 @@
+#include "recording/chunked_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <utility>
+
+#include "support/temporary_folder.hpp"
+
+namespace fleetmap::recording {
+namespace {
+
+using Times = std::vector<std::uint64_t>;
+
+/// Chunks whose messages are their own times.
+class Chunks : public ChunkedFile {
+ public:
+  Chunks(const std::filesystem::path& file, std::vector<Times> chunks)
+      : ChunkedFile(file, std::ifstream(file), 0), chunks_(std::move(chunks)) {
+    for (std::size_t k = 0; k < chunks_.size(); ++k)
+      found_.push_back({k, 1, *std::ranges::min_element(chunks_[k]), true});
+    sort_found();
+  }
+  Result<std::vector<BagTopic>> topics() override { return std::vector<BagTopic>{topic_}; }
+  std::size_t loaded() const { return loaded_; }
+
+ private:
+  Status load(const Found& found) override {
+    ++loaded_;
+    if (chunks_[found.at].front() == 13) return failure("the disk is gone");
+    for (const std::uint64_t time : chunks_[found.at]) {
+      const auto block = std::make_shared<const Bytes>(Bytes{static_cast<std::uint8_t>(time)});
+      hold(block, time, time % 2 == 0 ? 0 : 1, *block);
+    }
+    return {};
+  }
+  const BagTopic* topic_of(std::uint32_t connection) const override {
+    return connection == 0 ? &topic_ : nullptr;
+  }
+  ByteView cdr_of(const BagTopic&, ByteView data) override { return data; }
+
+  std::vector<Times> chunks_;
+  BagTopic topic_{"/a", "b"};
+  std::size_t loaded_ = 0;
+};
+
+TEST(ChunkedFile, GivesMessagesOfOverlappingChunksByTimeAndLoadsNoneTooEarly) {
+  const fleetmap::testing::TemporaryFolder folder;
+  Chunks file(folder.write("f", ""), {{4, 2, 8}, {20, 22}, {6, 30}});
+  Times times;
+  std::vector<std::size_t> loaded;
+  while (true) {
+    const auto message = file.next();
+    ASSERT_TRUE(message);
+    if (!*message) break;
+    EXPECT_EQ((*message)->cdr[0], (*message)->received_ns);
+    times.push_back(static_cast<std::uint64_t>((*message)->received_ns));
+    loaded.push_back(file.loaded());
+  }
+  EXPECT_EQ(times, (Times{2, 4, 6, 8, 20, 22, 30}));
+  EXPECT_EQ(loaded, (std::vector<std::size_t>{1, 1, 2, 2, 3, 3, 3}));
+}
+
+TEST(ChunkedFile, LeavesOutWhatNoTopicNamesAndEndsAfterAnError) {
+  const fleetmap::testing::TemporaryFolder folder;
+  Chunks file(folder.write("f", ""), {{1, 2, 3}, {13}, {14}});
+  EXPECT_EQ((*file.next())->received_ns, 2);
+  EXPECT_FALSE(file.next());
+  const auto after = file.next();
+  EXPECT_TRUE(after && !*after);
+}
+
+}  // namespace
+}  // namespace fleetmap::recording
