@@ -36,6 +36,12 @@ add_library(Draco INTERFACE IMPORTED)
 target_include_directories(Draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIR})
 target_link_libraries(Draco INTERFACE ${DRACO_LIBRARY})
 
+find_library(SYSTEMD_LIBRARY NAMES systemd REQUIRED)
+find_path(SYSTEMD_INCLUDE_DIR systemd/sd-daemon.h REQUIRED)
+add_library(Systemd INTERFACE IMPORTED)
+target_include_directories(Systemd SYSTEM INTERFACE ${SYSTEMD_INCLUDE_DIR})
+target_link_libraries(Systemd INTERFACE ${SYSTEMD_LIBRARY})
+
 find_library(LZ4_LIBRARY NAMES lz4 REQUIRED)
 find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED)
 add_library(Lz4 INTERFACE IMPORTED)

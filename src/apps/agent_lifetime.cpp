@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fleetmap/agent/navigator.hpp"
+#include "service_notice.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -109,6 +110,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
                                        if (time_to_end(agent, bus, patience, rest_frozen)) bus.stop();
                                      }});
   }
+  const ServiceNotice service(bus);
   bus.run_until(stop);
   // Before anything that takes time.
   if (watchdog != nullptr) watchdog->stop_driving();

@@ -11,10 +11,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of the source tree that the program was built in, else of the package.
+std::string field_script() {
+  std::error_code error;
+  return fs::exists(FLEETMAP_FIELD_SCRIPT, error) ? FLEETMAP_FIELD_SCRIPT : FLEETMAP_INSTALLED_FIELD_SCRIPT;
+}
+
 struct TrialOptions {
   GridOptions grid;
   std::string traces;
-  std::string script = FLEETMAP_FIELD_SCRIPT;
+  std::string script = field_script();
 };
 
 int run(TrialOptions options) {

@@ -1,0 +1,27 @@
+# `cmake --install` and `cpack` (deploy/package.sh): the program, its QoS profiles and examples, and what runs it as a
+# service.
+include(GNUInstallDirs)
+set(package ${PROJECT_SOURCE_DIR}/deploy/package)
+install(TARGETS fleetmap RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY qos config DESTINATION ${CMAKE_INSTALL_DATADIR}/fleetmap)
+install(DIRECTORY deploy/netns DESTINATION ${CMAKE_INSTALL_DATADIR}/fleetmap/deploy USE_SOURCE_PERMISSIONS)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY docs/reference DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
+install(FILES ${package}/fleetmap-agent@.service DESTINATION lib/systemd/system)
+install(FILES ${package}/sysctl.conf DESTINATION lib/sysctl.d RENAME 60-fleetmap.conf)
+install(FILES ${package}/sysusers.conf DESTINATION lib/sysusers.d RENAME fleetmap.conf)
+install(DIRECTORY DESTINATION /etc/fleetmap)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_CONTACT "fleetmap <fleetmap@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "ground robots map a large outdoor site together, without a server")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "iproute2, python3")  # `trial`
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${package}/postinst ${package}/postrm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+include(CPack)
