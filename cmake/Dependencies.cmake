@@ -16,43 +16,21 @@ find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(BZip2 REQUIRED)
 
-# GeographicLib and Draco install CMake files that Debian's layout does not let
-# find_package see without help, and SLEEF none, so their libraries are looked up directly.
-find_path(GEOGRAPHICLIB_INCLUDE_DIR GeographicLib/LocalCartesian.hpp REQUIRED)
-find_library(GEOGRAPHICLIB_LIBRARY NAMES GeographicLib Geographic REQUIRED)
-add_library(GeographicLib INTERFACE IMPORTED)
-target_include_directories(GeographicLib SYSTEM INTERFACE ${GEOGRAPHICLIB_INCLUDE_DIR})
-target_link_libraries(GeographicLib INTERFACE ${GEOGRAPHICLIB_LIBRARY})
-
-find_library(SLEEF_LIBRARY NAMES sleef REQUIRED)
-find_path(SLEEF_INCLUDE_DIR sleef.h REQUIRED)
-add_library(Sleef INTERFACE IMPORTED)
-target_include_directories(Sleef SYSTEM INTERFACE ${SLEEF_INCLUDE_DIR})
-target_link_libraries(Sleef INTERFACE ${SLEEF_LIBRARY})
-
-find_path(DRACO_INCLUDE_DIR draco/compression/encode.h REQUIRED)
-find_library(DRACO_LIBRARY NAMES draco REQUIRED)
-add_library(Draco INTERFACE IMPORTED)
-target_include_directories(Draco SYSTEM INTERFACE ${DRACO_INCLUDE_DIR})
-target_link_libraries(Draco INTERFACE ${DRACO_LIBRARY})
-
-find_library(SYSTEMD_LIBRARY NAMES systemd REQUIRED)
-find_path(SYSTEMD_INCLUDE_DIR systemd/sd-daemon.h REQUIRED)
-add_library(Systemd INTERFACE IMPORTED)
-target_include_directories(Systemd SYSTEM INTERFACE ${SYSTEMD_INCLUDE_DIR})
-target_link_libraries(Systemd INTERFACE ${SYSTEMD_LIBRARY})
-
-find_library(LZ4_LIBRARY NAMES lz4 REQUIRED)
-find_path(LZ4_INCLUDE_DIR lz4frame.h REQUIRED)
-add_library(Lz4 INTERFACE IMPORTED)
-target_include_directories(Lz4 SYSTEM INTERFACE ${LZ4_INCLUDE_DIR})
-target_link_libraries(Lz4 INTERFACE ${LZ4_LIBRARY})
-
-find_library(ZSTD_LIBRARY NAMES zstd REQUIRED)
-find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
-add_library(Zstd INTERFACE IMPORTED)
-target_include_directories(Zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
-target_link_libraries(Zstd INTERFACE ${ZSTD_LIBRARY})
+# GeographicLib and Draco install CMake files that Debian's layout does not let find_package see without help, and the
+# others install none.
+function(fleetmap_find_library name header)
+  find_path(${name}_INCLUDE_DIR ${header} REQUIRED)
+  find_library(${name}_LIBRARY NAMES ${ARGN} REQUIRED)
+  add_library(${name} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${name} SYSTEM INTERFACE ${${name}_INCLUDE_DIR})
+  target_link_libraries(${name} INTERFACE ${${name}_LIBRARY})
+endfunction()
+fleetmap_find_library(GeographicLib GeographicLib/LocalCartesian.hpp GeographicLib Geographic)
+fleetmap_find_library(Draco draco/compression/encode.h draco)
+fleetmap_find_library(Sleef sleef.h sleef)
+fleetmap_find_library(Lz4 lz4frame.h lz4)
+fleetmap_find_library(Zstd zstd.h zstd)
+fleetmap_find_library(Systemd systemd/sd-daemon.h systemd)
 
 # PCL's own package file pulls in VTK and Qt, which cost minutes and are of no use here, so only the components that are
 # needed are looked up.
