@@ -11,6 +11,7 @@
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
+#include "fleetmap/sensor/ground_plane.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -122,6 +123,7 @@ void Perception::start_next() {
   busy_ = true;
   auto job = std::make_shared<Job>();
   std::tie(job->arrival, job->scan) = std::move(*scans_.pop());
+  job->find_ground = health_.ground_due();
   job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
@@ -137,6 +139,8 @@ void Perception::start_next() {
                         decoded->scan.stamp += job->clock_correction;
                         job->times_in_microseconds = decoded->times_in_microseconds;
                         job->sweep = {decoded->scan.stamp, sensor::sweep_of(decoded->scan)};
+                        if (job->find_ground)
+                          job->ground = sensor::ground_normal(decoded->scan, config_.odometry.T_base_lidar);
                       }
                       job->update = decoded ? loam_.add_scan(decoded->scan) : tl::unexpected(decoded.error());
                       job->cpu_seconds = thread_cpu_seconds() - start;
@@ -152,6 +156,7 @@ void Perception::finish(Job& job) {
   loam_counters_ = loam_.counters();
   for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
   if (job.sweep) health_.check_scan(job.sweep->first, job.sweep->second);
+  if (job.ground) health_.check_ground(*job.ground);
   for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
   if (job.times_in_microseconds)
     warn("point times in microseconds",

@@ -45,7 +45,7 @@ void print(std::ostream& out, const char* name, const Stream& stream) {
 int inspect(const RecordingOptions& options) {
   const auto input = open_recording(options);
   if (!input) return input.error();
-  SampleCheck check(input->log_clock);
+  SampleCheck check(input->log_clock, input->config.agent.perception.odometry.T_base_lidar);
   std::array<Stream, std::variant_size_v<recording::Sample>> streams;
   std::vector<std::string> findings;
   for (;;) {

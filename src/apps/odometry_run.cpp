@@ -18,7 +18,9 @@ namespace {
 class OdometryFeed {
  public:
   OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
-      : config_(config), loam_(config.odometry, config.lidar), check_(log_clock) {}
+      : config_(config),
+        loam_(config.odometry, config.lidar),
+        check_(log_clock, config.odometry.T_base_lidar) {}
 
   /// `recorded` as Reader::recorded() has it.
   void add(recording::Sample sample, std::optional<Stamp> recorded) {

@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <iterator>
 
+#include "fleetmap/sensor/ground_plane.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
 struct Check {
   sensor::SensorHealth& health;
+  const Pose& T_base_lidar;
   bool operator()(sensor::Scan& scan) const {
     health.check_scan(scan.stamp, sensor::sweep_of(scan));
+    if (health.ground_due()) {
+      if (const auto normal = sensor::ground_normal(scan, T_base_lidar)) health.check_ground(*normal);
+    }
     return true;
   }
   bool operator()(sensor::Imu& imu) const { return health.check(imu); }
@@ -24,7 +30,7 @@ bool SampleCheck::admit(recording::Sample& sample, std::optional<Stamp> recorded
   now_ = std::max(now_, times_.of(sample, recorded));
   clocks_.add(source, recording::stamp_of(sample), now_);
   std::visit([&](auto& s) { s.stamp += clocks_.correction(source); }, sample);
-  return !clocks_.unclear(source) && std::visit(Check{health_}, sample);
+  return !clocks_.unclear(source) && std::visit(Check{health_, T_base_lidar_}, sample);
 }
 
 std::vector<std::string> SampleCheck::take_warnings() {

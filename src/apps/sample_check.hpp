@@ -14,7 +14,8 @@ namespace fleetmap::apps {
 /// What perception does to live samples before it uses them, done to those of a recording.
 class SampleCheck {
  public:
-  explicit SampleCheck(const recording::LogClock& log_clock) : times_(log_clock) {}
+  explicit SampleCheck(const recording::LogClock& log_clock, const Pose& T_base_lidar = Pose::Identity())
+      : times_(log_clock), T_base_lidar_(T_base_lidar) {}
 
   /// Corrects the sample. False if it must not be used: its clock is undecided or its values are unsound.
   /// `recorded` as Reader::recorded() has it.
@@ -25,6 +26,7 @@ class SampleCheck {
 
  private:
   recording::PlayTimes times_;
+  Pose T_base_lidar_;
   sensor::ClockOffsets clocks_;
   sensor::SensorHealth health_;
   Stamp now_{};

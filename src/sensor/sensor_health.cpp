@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "fleetmap/geometry/se3.hpp"
+
 namespace fleetmap::sensor {
 namespace {
 
@@ -29,6 +31,9 @@ constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
 constexpr std::uint64_t kScansJudged = 50;
+constexpr std::uint64_t kScansPerGround = 5;
+constexpr std::size_t kGrounds = 40;
+constexpr double kLevel = 5.0 * kDegree;  // tilt of the ground in base_link
 
 /// Unit of a specific force whose norm is that of gravity.
 struct ForceUnit {
@@ -50,6 +55,17 @@ std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
+}
+
+/// Component by component, which ground that is seen askew now and then does not shift.
+Eigen::Vector3d median(std::vector<Eigen::Vector3d> vectors) {
+  Eigen::Vector3d middle;
+  const auto half = vectors.begin() + static_cast<std::ptrdiff_t>(vectors.size() / 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::ranges::nth_element(vectors, half, {}, [axis](const Eigen::Vector3d& v) { return v[axis]; });
+    middle[axis] = (*half)[axis];
+  }
+  return middle.normalized();
 }
 
 }  // namespace
@@ -185,6 +201,24 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
         number(to_seconds(sweep) * all / static_cast<double>(scans_)) +
         " s. Raise net.core.rmem_max and rmem_default to 16 MB, or use a wire; if the driver crops the "
         "cloud, ignore this");
+}
+
+bool SensorHealth::ground_due() {
+  return grounds_.size() < kGrounds && scans_for_ground_++ % kScansPerGround == 0;
+}
+
+void SensorHealth::check_ground(const Eigen::Vector3d& normal) {
+  if (grounds_.size() == kGrounds) return;
+  grounds_.push_back(normal);
+  if (grounds_.size() < kGrounds) return;
+  const Eigen::Vector3d up = median(grounds_);
+  const double tilt = std::acos(std::min(1.0, up.z()));
+  if (tilt < kLevel) return;
+  const Eigen::Vector3d turn = rpy_from_rotation(levelling(up)) / kDegree;
+  state("LiDAR: the ground is tilted by " + number(tilt / kDegree) + " deg in base_link, in the median of " +
+        std::to_string(kGrounds) +
+        " scans, so the LiDAR is not mounted as lidar.rotation_rpy_deg says: it should be turned by [" +
+        number(turn.x()) + ", " + number(turn.y()) + ", 0] deg more");
 }
 
 }  // namespace fleetmap::sensor

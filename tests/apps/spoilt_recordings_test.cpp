@@ -70,6 +70,11 @@ const std::vector<Spoilt>& spoilt() {
        "the acceleration is 0"},
       {"gyro_in_degrees", each<sensor::Imu>([](auto& imu) { imu.angular_velocity /= kDegree; }), "deg/s",
        false},
+      {"lidar_pitched", each<sensor::Scan>([](auto& scan) {
+         const Eigen::Matrix3f R = rotation_from_rpy(0.0, 20.0 * kDegree, 0.0).template cast<float>();
+         for (auto& point : scan.points) point.position = R * point.position;
+       }),
+       "the ground is tilted by", false},
       {"pose_instead_of_twist", pose_instead_of_twist(), "its pose moves while its twist is zero"},
   };
   return all;

@@ -182,5 +182,25 @@ TEST(SensorHealth, FixesWithoutAltitudeAreNamed) {
   EXPECT_TRUE(health.check(fix));
 }
 
+TEST(SensorHealth, GroundThatIsTiltedInTheMedianOfManyScansNamesTheMount) {
+  for (const double pitch : {0.0, 3.0, -20.0}) {
+    SensorHealth health;
+    const Eigen::Vector3d normal =
+        rotation_from_rpy(0.0, pitch * std::numbers::pi / 180.0, 0.0) * Eigen::Vector3d::UnitZ();
+    int asked = 0;
+    for (int scan = 0; scan < 400; ++scan) {
+      if (!health.ground_due()) continue;
+      // Now and then an embankment is taken for the ground.
+      health.check_ground(++asked % 4 == 0 ? Eigen::Vector3d(0.6, 0.0, 0.8) : normal);
+    }
+    EXPECT_EQ(asked, 40);
+    const auto news = health.take_warnings();
+    ASSERT_EQ(news.size(), pitch < -5.0 ? 1u : 0u) << pitch;
+    if (news.empty()) continue;
+    EXPECT_THAT(news[0], HasSubstr("tilted by 20 deg"));
+    EXPECT_THAT(news[0], HasSubstr(", 20, 0] deg more"));
+  }
+}
+
 }  // namespace
 }  // namespace fleetmap::sensor

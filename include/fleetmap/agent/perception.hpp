@@ -92,7 +92,9 @@ class Perception {
     Result<odometry::OdometryUpdate> update = failure("not run");
     bool times_in_microseconds = false;
     std::optional<std::pair<Stamp, Duration>> sweep;  ///< stamp and sweep of a decoded scan
+    std::optional<Eigen::Vector3d> ground;            ///< its normal in base_link
     double cpu_seconds = 0.0;
+    bool find_ground = false;
   };
   void subscribe();
   /// Hands decoded samples of `topic` to `use`; what cannot be decoded is counted and named.

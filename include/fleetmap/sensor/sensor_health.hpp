@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -22,6 +23,11 @@ class SensorHealth {
   /// A scan with point times, in order. A spinning LiDAR's sweep ends where the next one begins, so scans are
   /// missing if they come more seldom: lost by the network or the system's receive buffer.
   void check_scan(Stamp stamp, Duration sweep);
+  /// Counts a scan. True for some, until it is decided how the ground lies: ground_normal() should be found.
+  bool ground_due();
+  /// The upward normal of the ground in base_link. A robot stands on the ground, so that in the median of
+  /// many scans it is base_link's z, on slopes as well; else the LiDAR's mount is wrong.
+  void check_ground(const Eigen::Vector3d& normal);
 
   /// What was found since the last call, each with its remedy.
   std::vector<std::string> take_warnings();
@@ -49,6 +55,8 @@ class SensorHealth {
   std::optional<double> force_scale_;  ///< once the unit is decided, by the median of the first norms
   std::optional<Stamp> last_scan_;
   std::vector<double> first_norms_;
+  std::vector<Eigen::Vector3d> grounds_;
+  std::uint64_t scans_for_ground_ = 0;
   std::vector<std::string> findings_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
