@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   add_replay(app, exit_code);
   add_odometry(app, exit_code);
   add_inspect(app, exit_code);
+  add_doctor(app, exit_code);
   add_register(app, exit_code);
   add_map(app, exit_code);
   add_world(app, exit_code);

@@ -64,7 +64,9 @@ Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_co
       H += J.transpose() * information[k] * J;
       b += J.transpose() * information[k] * residual;
     }
-    const Vector6d step = CholeskyOf(H).solve(b);
+    const CholeskyOf normal(H);
+    if (!normal.positive_definite()) break;
+    const Vector6d step = normal.solve(b);
     const Eigen::Matrix3d R = so3_exp(step.tail<3>());
     T_enu_common =
         make_pose(Eigen::Matrix3d(R * T_enu_common.linear()),

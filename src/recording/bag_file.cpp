@@ -21,7 +21,7 @@ Result<std::unique_ptr<BagFile>> open_plain(const fs::path& file) {
   return open_sqlite_file(file);
 }
 
-/// A file that is removed again.
+/// A file whose name is removed again.
 class TemporaryFile {
  public:
   static Result<TemporaryFile> create(const std::string& ending) {
@@ -50,20 +50,6 @@ class TemporaryFile {
   fs::path path_;
 };
 
-/// The unpacked copy of a file that is compressed as a whole.
-class UnpackedFile : public BagFile {
- public:
-  UnpackedFile(TemporaryFile copy, std::unique_ptr<BagFile> file)
-      : copy_(std::move(copy)), file_(std::move(file)) {}
-  Result<std::vector<BagTopic>> topics() override { return file_->topics(); }
-  Result<std::optional<BagMessage>> next() override { return file_->next(); }
-  std::uint64_t damaged_parts() const override { return file_->damaged_parts(); }
-
- private:
-  TemporaryFile copy_;
-  std::unique_ptr<BagFile> file_;
-};
-
 }  // namespace
 
 Result<std::unique_ptr<BagFile>> open_bag_file(const fs::path& file) {
@@ -72,9 +58,7 @@ Result<std::unique_ptr<BagFile>> open_bag_file(const fs::path& file) {
   if (!copy) return tl::unexpected(copy.error());
   spdlog::info("{}: unpacked to {} while it is read", file.string(), copy->path().string());
   if (auto status = unpack_zstd_file(file, copy->path()); !status) return tl::unexpected(status.error());
-  auto plain = open_plain(copy->path());
-  if (!plain) return tl::unexpected(plain.error());
-  return std::make_unique<UnpackedFile>(std::move(*copy), std::move(*plain));
+  return open_plain(copy->path());  // which stays open when its name goes
 }
 
 }  // namespace fleetmap::recording

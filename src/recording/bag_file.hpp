@@ -32,7 +32,7 @@ class BagFile {
 };
 
 /// Opens a .db3, .mcap or (ROS 1) .bag file; one with .zstd behind its name is unpacked into the folder for
-/// temporary files as long as it is open.
+/// temporary files, where it has no name, so that nothing is left of it whatever becomes of the program.
 Result<std::unique_ptr<BagFile>> open_bag_file(const std::filesystem::path& file);
 
 }  // namespace fleetmap::recording

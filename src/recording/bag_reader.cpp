@@ -91,6 +91,8 @@ class BagReader : public CheckedReader {
       }
       auto file = open_bag_file(files_[next_file_++]);
       if (!file) return tl::unexpected(file.error());
+      // What names a topic may lie behind a message of it.
+      if (const auto topics = (*file)->topics(); !topics) return tl::unexpected(topics.error());
       file_ = std::move(*file);
     }
     const auto message = file_->next();

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace fleetmap::recording {
@@ -10,15 +11,16 @@ namespace {
 
 /// Messages are held back until no chunk that comes later can hold an earlier one, up to this many bytes.
 constexpr std::size_t kMaxHeldBytes = 256u << 20;
+constexpr std::size_t kBytesPerMessage = 100;  // of the queue itself
 
 }  // namespace
 
 Result<std::optional<BagMessage>> ChunkedFile::next() {
   given_ = {};
   while (true) {
+    const bool room = block_bytes_ + kBytesPerMessage * held_.size() < kMaxHeldBytes;
     const bool may_come_first =
-        next_ < found_.size() &&
-        (held_.empty() || (found_[next_].start <= held_.begin()->first && held_bytes_ < kMaxHeldBytes));
+        next_ < found_.size() && (held_.empty() || (found_[next_].start <= held_.begin()->first && room));
     if (may_come_first) {
       Status status = load(found_[next_++]);
       if (status) continue;
@@ -29,9 +31,9 @@ Result<std::optional<BagMessage>> ChunkedFile::next() {
     if (held_.empty()) return std::optional<BagMessage>();
     auto first = held_.extract(held_.begin());
     given_ = std::move(first.mapped());
-    held_bytes_ -= given_.data.size();
     if (const BagTopic* topic = topic_of(given_.connection))
       return BagMessage{topic->name, static_cast<std::int64_t>(first.key()), cdr_of(*topic, given_.data)};
+    leave_out("a message of a topic that is named nowhere");
   }
 }
 
@@ -42,14 +44,22 @@ Status ChunkedFile::load_once() {
     if (Status status = load(found); !status) return status;
     held_.clear();
   }
-  held_bytes_ = 0;
   damaged_ = 0;
   return {};
 }
 
+std::shared_ptr<const Bytes> ChunkedFile::block_of(Bytes bytes) {
+  block_bytes_ += bytes.size();
+  return {new Bytes(std::move(bytes)), [this](const Bytes* block) {
+            block_bytes_ -= block->size();
+            delete block;
+          }};
+}
+
 void ChunkedFile::hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection,
                        ByteView data) {
-  held_bytes_ += data.size();
+  if (time > std::numeric_limits<std::int64_t>::max())
+    return leave_out("a message of the year 2262 or later");
   held_.emplace(time, Held{std::move(block), connection, data});
 }
 

@@ -45,6 +45,8 @@ class ChunkedFile : public BagFile {
   void sort_found();
   /// Loads all, for what it says of topics, and forgets the messages.
   Status load_once();
+  /// Bytes for hold(), which count as long as a message needs them.
+  std::shared_ptr<const Bytes> block_of(Bytes bytes);
   void hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection, ByteView data);
   Result<Bytes> read(std::uint64_t at, std::uint64_t count);
   /// Counts a damaged part, and logs the first.
@@ -68,8 +70,8 @@ class ChunkedFile : public BagFile {
   std::ifstream stream_;
   std::uint64_t size_;
   std::size_t next_ = 0;                     ///< of found_
-  std::multimap<std::uint64_t, Held> held_;  ///< by time, equal ones as they lie in the file
-  std::size_t held_bytes_ = 0;
+  std::size_t block_bytes_ = 0;              ///< of all blocks that are held
+  std::multimap<std::uint64_t, Held> held_;  ///< by time
   Held given_;
   std::uint64_t damaged_ = 0;
 };

@@ -110,7 +110,7 @@ void McapFile::hold_messages(const std::shared_ptr<const Bytes>& records) {
 Status McapFile::load(const Found& found) {
   auto content = read(found.at, found.length);
   if (!content) return tl::unexpected(content.error());
-  const auto block = std::make_shared<const Bytes>(std::move(*content));
+  const auto block = block_of(std::move(*content));
   const std::string where = " at byte " + std::to_string(found.at);
   if (!found.chunk) {
     if (const auto message = mcap::read_message(*block)) {
@@ -127,7 +127,7 @@ Status McapFile::load(const Found& found) {
   }
   auto records = mcap::unpack_records(*chunk, kMaxRecordBytes);
   if (records) {
-    hold_messages(std::make_shared<const Bytes>(std::move(*records)));
+    hold_messages(block_of(std::move(*records)));
   } else {
     leave_out("the chunk" + where + ": " + records.error().message);
   }
@@ -154,7 +154,9 @@ bool McapFile::read_summary() {
     note(opcode_of, rest.first(length_of));
     rest = rest.subspan(length_of);
   }
-  return !channels_.empty();
+  // Types may be left out of it.
+  return !channels_.empty() &&
+         std::ranges::none_of(channels_, [](const auto& channel) { return channel.second.type.empty(); });
 }
 
 Result<std::vector<BagTopic>> McapFile::topics() {

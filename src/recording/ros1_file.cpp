@@ -31,7 +31,8 @@ class Ros1File : public ChunkedFile {
   void note_connection(const ros1::Record& record);
 
   std::map<std::uint32_t, BagTopic> connections_;
-  std::size_t indexed_ = 0;  ///< found_ when an index came last
+  std::size_t indexed_ = 0;                    ///< found_ when an index came last
+  std::uint32_t promised_ = 0, repeated_ = 0;  ///< connections at the end of the bag
   Bytes cdr_;
 };
 
@@ -52,6 +53,8 @@ Status Ros1File::note_record(std::uint64_t at, std::uint64_t header_bytes, std::
   const auto header = read(at + 4, header_bytes);
   if (!header) return tl::unexpected(header.error());
   const Op op = ros1::op({*header, {}});
+  if (op == Op::kBagHeader)
+    promised_ = ByteFields(ros1::field({*header, {}}, "conn_count")).number<std::uint32_t>();
   if (op == Op::kChunk || op == Op::kMessage) {
     // A chunk's times stand in the indices behind it; without them it keeps its place.
     const std::uint64_t before = found_.empty() ? 0 : found_.back().start;
@@ -63,7 +66,10 @@ Status Ros1File::note_record(std::uint64_t at, std::uint64_t header_bytes, std::
     const auto data = read(at + 8 + header_bytes, data_bytes);
     if (!data) return tl::unexpected(data.error());
     const ros1::Record record{*header, *data};
-    if (op == Op::kConnection) note_connection(record);
+    if (op == Op::kConnection) {
+      note_connection(record);
+      ++repeated_;
+    }
     if (const auto first = ros1::earliest(record); op == Op::kIndex && first) {
       // The first index of a chunk takes the place of the time before.
       Found& chunk = found_.back();
@@ -120,7 +126,7 @@ Status Ros1File::load(const Found& found) {
   }
   auto bytes = read(found.at, found.length);
   if (!bytes) return tl::unexpected(bytes.error());
-  auto block = std::make_shared<const Bytes>(std::move(*bytes));
+  auto block = block_of(std::move(*bytes));
   ByteView rest = *block;
   if (found.chunk) {
     const auto chunk = ros1::take_record(rest);
@@ -129,7 +135,7 @@ Status Ros1File::load(const Found& found) {
       leave_out("the chunk" + where + ": " + records.error().message);
       return {};
     }
-    block = std::make_shared<const Bytes>(std::move(*records));
+    block = block_of(std::move(*records));
     rest = *block;
   }
   while (const auto record = ros1::take_record(rest)) {
@@ -143,8 +149,8 @@ Status Ros1File::load(const Found& found) {
 }
 
 Result<std::vector<BagTopic>> Ros1File::topics() {
-  // A bag that was closed repeats its connections at its end.
-  if (connections_.empty()) {
+  // A bag that was closed repeats its connections at its end, unless that was cut off.
+  if (promised_ == 0 || repeated_ < promised_) {
     if (Status status = load_once(); !status) return tl::unexpected(status.error());
   }
   std::vector<BagTopic> topics;

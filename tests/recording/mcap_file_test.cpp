@@ -45,7 +45,8 @@ void expect_drive(const fs::path& file, std::size_t scans = 4, std::size_t imus 
 }
 
 TEST(McapFile, IsReadWhateverItsChunks) {
-  for (const char* name : {"plain.mcap", "zstd.mcap", "lz4.mcap", "no_chunks.mcap", "disordered.mcap"})
+  for (const char* name :
+       {"plain.mcap", "zstd.mcap", "lz4.mcap", "no_chunks.mcap", "disordered.mcap", "no_schemas.mcap"})
     expect_drive(kData / name);
 }
 

@@ -34,9 +34,9 @@ std::string imu(std::uint64_t ns) {
 /// at the end, as a bag that was closed, or only in its chunks.
 std::string bag(const std::string& compression, bool closed) {
   const std::string names =
-      connection(0, "/imu/data", "sensor_msgs/Imu") + connection(1, "/text", "std_msgs/String");
+      connection(1, "/text", "std_msgs/String") + connection(0, "/imu/data", "sensor_msgs/Imu");
   std::string bytes(ros1::kMagic);
-  bytes += record({{"op", "\x03"}, {"conn_count", u32(2)}}, std::string(100, ' '));
+  bytes += record({{"op", "\x03"}, {"conn_count", u32(closed ? 2 : 0)}}, std::string(100, ' '));
   for (const auto& times : {std::vector<std::uint64_t>{10, 11, 14, 15}, {12, 13, 16, 17}, {18, 19, 20, 21}}) {
     std::string records = names;
     std::vector<std::uint64_t> ns;

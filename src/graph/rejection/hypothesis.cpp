@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fleetmap/geometry/plain_cholesky.hpp"
+#include "fleetmap/geometry/portable_math.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -50,7 +51,7 @@ JointResidual joint_residual(const std::vector<Indices>& hypotheses,
 
 }  // namespace
 
-double support_of(double members) { return kSupportOfOne * std::log2(1.0 + members); }
+double support_of(double members) { return kSupportOfOne * portable::log2(1.0 + members); }
 
 double squared_distance_to_prior(const std::vector<Indices>& hypotheses,
                                  std::span<const LinearisedCandidate> candidates,

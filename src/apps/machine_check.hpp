@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fleetmap::apps {
+
+/// What of a robot's computer a mission depends on.
+struct MachineState {
+  std::optional<std::uint64_t> receive_buffer;  ///< net.core.rmem_max, bytes
+  std::optional<std::uint64_t> free_bytes;      ///< where the store lies
+  std::filesystem::path directory;              ///< of the store
+};
+
+/// `directory` need not exist yet.
+MachineState machine_state(const std::filesystem::path& directory);
+/// What would spoil a mission, each with its remedy.
+std::vector<std::string> machine_findings(const MachineState& state);
+
+}  // namespace fleetmap::apps

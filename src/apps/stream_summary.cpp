@@ -1,0 +1,36 @@
+#include "stream_summary.hpp"
+
+#include <algorithm>
+#include <iomanip>
+
+namespace fleetmap::apps {
+namespace {
+
+constexpr std::array kNames{"LiDAR", "IMU", "GPS", "wheels"};
+
+}  // namespace
+
+void StreamSummary::add(const recording::Sample& sample) {
+  const Stamp stamp = recording::stamp_of(sample);
+  Stream& stream = streams_.at(sample.index());
+  ++stream.count;
+  if (!stream.first) stream.first = stamp;
+  if (stream.last) stream.longest_gap = std::max(stream.longest_gap, stamp - *stream.last);
+  stream.last = stamp;
+}
+
+void StreamSummary::print(std::ostream& out) const {
+  for (std::size_t k = 0; k < streams_.size(); ++k) {
+    const Stream& stream = streams_[k];
+    out << std::left << std::setw(8) << kNames.at(k) << std::right << std::setw(8) << stream.count;
+    if (stream.count > 1) {
+      const double seconds = to_seconds(*stream.last - *stream.first);
+      out << std::fixed << std::setprecision(1) << std::setw(10) << seconds << " s" << std::setw(8)
+          << static_cast<double>(stream.count - 1) / std::max(seconds, 1e-9) << " Hz, longest gap "
+          << std::setprecision(2) << to_seconds(stream.longest_gap) << " s";
+    }
+    out << (stream.count == 0 ? "  none\n" : "\n");
+  }
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <ostream>
+#include <variant>
+
+#include "fleetmap/recording/reader.hpp"
+
+namespace fleetmap::apps {
+
+/// How many samples of each sensor came, how often, and the longest gap between two, by their stamps.
+class StreamSummary {
+ public:
+  void add(const recording::Sample& sample);
+  /// A line a sensor.
+  void print(std::ostream& out) const;
+  std::size_t scans() const { return streams_.front().count; }
+
+ private:
+  struct Stream {
+    std::size_t count = 0;
+    std::optional<Stamp> first, last;
+    Duration longest_gap = Duration::zero();
+  };
+  std::array<Stream, std::variant_size_v<recording::Sample>> streams_;
+};
+
+}  // namespace fleetmap::apps
