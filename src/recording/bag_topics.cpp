@@ -9,18 +9,18 @@ constexpr char kNone[] = "none";
 
 /// One kind of topic: its config key, its type and our own name for it.
 struct Role {
-  Kind kind;
   const char* key;
   const char* type;
   const char* own_name;
   std::string Topics::*wanted;
+  Kind kind;
   bool needed;
 };
 const Role kRoles[] = {
-    {Kind::kScan, "recording.topics.points", "sensor_msgs/msg/PointCloud2", "/points", &Topics::points, true},
-    {Kind::kImu, "recording.topics.imu", "sensor_msgs/msg/Imu", "/imu", &Topics::imu, false},
-    {Kind::kFix, "recording.topics.fix", "sensor_msgs/msg/NavSatFix", "/fix", &Topics::fix, false},
-    {Kind::kWheel, "recording.topics.wheel", "nav_msgs/msg/Odometry", "/wheel_odometry", &Topics::wheel,
+    {"recording.topics.points", "sensor_msgs/msg/PointCloud2", "/points", &Topics::points, Kind::kScan, true},
+    {"recording.topics.imu", "sensor_msgs/msg/Imu", "/imu", &Topics::imu, Kind::kImu, false},
+    {"recording.topics.fix", "sensor_msgs/msg/NavSatFix", "/fix", &Topics::fix, Kind::kFix, false},
+    {"recording.topics.wheel", "nav_msgs/msg/Odometry", "/wheel_odometry", &Topics::wheel, Kind::kWheel,
      false},
 };
 

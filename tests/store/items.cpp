@@ -22,6 +22,25 @@ Bytes random_bytes(std::size_t size, std::uint32_t seed) {
   return bytes;
 }
 
+namespace {
+
+// The stores of older versions hold items that were computed by the C library, down to the last bit.
+
+Eigen::Matrix3d turn(const Eigen::Vector3d& phi) {
+  return Eigen::AngleAxisd(phi.norm(), phi / phi.norm()).toRotationMatrix();
+}
+
+Pose pose_of(const Vector6d& xi) {
+  const Eigen::Vector3d phi = xi.tail<3>();
+  const double theta2 = phi.squaredNorm(), theta = std::sqrt(theta2);
+  const Eigen::Matrix3d W = skew(phi);
+  const Eigen::Matrix3d V = Eigen::Matrix3d::Identity() + (1.0 - std::cos(theta)) / theta2 * W +
+                            (theta - std::sin(theta)) / (theta2 * theta) * W * W;
+  return make_pose(turn(phi), Eigen::Vector3d(V * xi.head<3>()));
+}
+
+}  // namespace
+
 graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Bytes& submap, double east_m,
                       std::uint32_t seed) {
   std::mt19937 random(seed + seq);
@@ -34,10 +53,10 @@ graph::Node make_node(const AgentId& agent, std::uint32_t seq, const Bytes& subm
   node.G->stamp = node.stamp;
   node.G->position = geo_point_from_degrees(49.0, 8.4, 110.0 + normal(random));
   node.G->position.longitude += east_m / (kMeanEarthRadius * std::cos(node.G->position.latitude));
-  node.G->q_enu_base = Eigen::Quaterniond(so3_exp({normal(random), normal(random), normal(random)}));
+  node.G->q_enu_base = Eigen::Quaterniond(turn({normal(random), normal(random), normal(random)}));
   for (int k = 0; k < 36; ++k) node.G->covariance.data()[k] = normal(random);
   node.T_odom_base =
-      se3_exp(Vector6d{normal(random), normal(random), normal(random), 0.1, 0.2, normal(random)});
+      pose_of(Vector6d{normal(random), normal(random), normal(random), 0.1, 0.2, normal(random)});
   node.up_in_base = Eigen::Vector3d(0.1, -0.2, 0.97);
   node.descriptor = random_bytes(100 + seq % 3, seed + seq);
   node.odom_covariance = 1e-3 / 7.0 * Matrix6d::Identity();
