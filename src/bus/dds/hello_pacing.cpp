@@ -18,8 +18,8 @@ constexpr auto kMaxPause = std::chrono::seconds(2);  // and a second for each ot
 constexpr int kAnswersOfAFleet = 4;
 constexpr auto kNoNewcomer = std::chrono::seconds(10);
 constexpr double kNewcomerShares = 5.0;
-/// Of a pair's two Hellos a radio that loses one in five loses one in a third of the tries: with twelve, one of
-/// 200,000 pairs is still apart, with seven one of 1,300.
+/// Of a pair's two Hellos a radio that loses one in five loses one in a third of the tries: with twelve, one
+/// of 200,000 pairs is still apart, with seven one of 1,300.
 constexpr int kQuickHellos = 7, kNewcomerHellos = 12;
 
 }  // namespace
@@ -55,8 +55,9 @@ int HelloPacing::quick_hellos(Clock::time_point now) const {
 
 HelloPacing::Clock::duration HelloPacing::pause_after(int hellos_sent, Clock::duration pause,
                                                       Clock::time_point now) const {
-  return fleet_is_connected(now) && hellos_sent < kNewcomerHellos ? std::min(pause, to_duration(kNewcomerPause))
-                                                               : pause;
+  return fleet_is_connected(now) && hellos_sent < kNewcomerHellos
+             ? std::min(pause, to_duration(kNewcomerPause))
+             : pause;
 }
 
 HelloPacing::Clock::duration HelloPacing::longer_pause(Clock::duration pause, double others,

@@ -25,7 +25,8 @@ class HelloPacing {
   /// The pause until a Hello without an answer is repeated; it includes the queue of answers of a fleet that
   /// starts at once.
   Clock::duration first_pause(double others) const;
-  /// Hellos to an address that are sent with the first pause, since the radio loses some; later pauses double.
+  /// Hellos to an address that are sent with the first pause, since the radio loses some; later pauses
+  /// double.
   int quick_hellos(Clock::time_point now) const;
   /// The pause after the `hellos_sent`-th Hello to an address whose pause is `pause`.
   Clock::duration pause_after(int hellos_sent, Clock::duration pause, Clock::time_point now) const;
