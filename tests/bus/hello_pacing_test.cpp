@@ -50,6 +50,8 @@ TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
   EXPECT_TRUE(pacing.count_answer(true, false, kStart));
   EXPECT_FALSE(pacing.count_answer(true, false, kStart)) << "reported once";
   EXPECT_NEAR(5.0 * s(pacing.pause_between(5.0, kStart)), s(alone), 1e-8);
+  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kStart + seconds(10))), s(alone), 1e-8)
+      << "no newcomer any more";
   EXPECT_NEAR(s(pacing.pause_after(0, seconds(5), kStart)), HelloPacing::kNewcomerPause, 1e-9);
   EXPECT_EQ(pacing.pause_after(pacing.quick_hellos(kStart), seconds(5), kStart), seconds(5));
   const int to_a_connected_fleet = pacing.quick_hellos(kStart);
@@ -57,6 +59,8 @@ TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
   EXPECT_LT(pacing.quick_hellos(kStart), to_a_connected_fleet);
   EXPECT_FALSE(pacing.fleet_is_connected(kStart + seconds(10)));
   EXPECT_TRUE(pacing.fleet_is_connected(kStart + seconds(11)));
+  EXPECT_NEAR(2.0 * s(pacing.pause_between(5.0, kStart + seconds(11))), s(alone), 1e-8)
+      << "it is not the only one";
 }
 
 TEST(HelloPacing, HellosForTheRobotBeforeUsAreNoNewcomers) {

@@ -18,6 +18,9 @@ constexpr auto kMaxPause = std::chrono::seconds(2);  // and a second for each ot
 constexpr int kAnswersOfAFleet = 4;
 constexpr auto kNoNewcomer = std::chrono::seconds(10);
 constexpr double kNewcomerShares = 5.0;
+/// Later than this after its first answer, or if others came as well, it leaves them more.
+constexpr auto kNewcomerFor = std::chrono::seconds(10);
+constexpr double kLaterShares = 2.0;
 /// Of a pair's two Hellos a radio that loses one in five loses one in a third of the tries: with twelve, one
 /// of 200,000 pairs is still apart, with seven one of 1,300.
 constexpr int kQuickHellos = 7, kNewcomerHellos = 12;
@@ -69,7 +72,9 @@ HelloPacing::Clock::duration HelloPacing::longer_pause(Clock::duration pause, do
 }
 
 HelloPacing::Clock::duration HelloPacing::pause_between(double others, Clock::time_point now) const {
-  const double shares = fleet_is_connected(now) ? std::min(kNewcomerShares, others + 1.0) : 1.0;
+  const bool only_one = newcomer_ == Clock::time_point{} && now - first_answer_ < kNewcomerFor;
+  const double most = only_one ? kNewcomerShares : kLaterShares;
+  const double shares = fleet_is_connected(now) ? std::min(most, others + 1.0) : 1.0;
   return to_duration((others + 1.0) * hello_bits() / (shares * kMaxPart * config_.fleet_bits_per_second));
 }
 
@@ -81,7 +86,7 @@ bool HelloPacing::fleet_is_connected(Clock::time_point now) const {
 bool HelloPacing::count_answer(bool names_us, bool names_another, Clock::time_point now) {
   const bool was_connected = fleet_is_connected(now);
   if (names_us) {
-    ++answers_;
+    if (answers_++ == 0) first_answer_ = now;
   } else if (!names_another) {
     newcomer_ = now;
   }

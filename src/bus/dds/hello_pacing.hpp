@@ -46,7 +46,8 @@ class HelloPacing {
   double hello_time(double others, double rate) const;
 
   Config config_;
-  int answers_ = 0;               ///< to our Hellos
+  int answers_ = 0;  ///< to our Hellos
+  Clock::time_point first_answer_{};
   Clock::time_point newcomer_{};  ///< last Hello of a robot that has no peer here
 };
 
