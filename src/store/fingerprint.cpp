@@ -27,8 +27,9 @@ class Digest {
     for (int axis = 0; axis < 3; ++axis) single(T.translation()(axis));
     rotation(T.linear());
   }
-  void variances(const Matrix6d& C) {
-    for (int k = 0; k < 6; ++k) single(C(k, k));
+  void covariance(const Matrix6d& C) {
+    for (int row = 0; row < 6; ++row)
+      for (int col = 0; col <= row; ++col) single(C(row, col));
   }
   std::uint32_t bits() const {
     const ContentHash hash = content_hash(bytes_);
@@ -52,12 +53,12 @@ std::uint32_t fingerprint(const graph::Node& node) {
     digest.exact(node.G->position.longitude);
     digest.exact(node.G->position.altitude);
     digest.rotation(node.G->q_enu_base.toRotationMatrix());
-    digest.variances(node.G->covariance);
+    digest.covariance(node.G->covariance);
   }
   for (int axis = 0; axis < 3; ++axis) digest.single(node.up_in_base(axis));
   digest.exact(content_hash(node.descriptor));
   digest.pose(node.T_odom_base);
-  digest.variances(node.odom_covariance);
+  digest.covariance(node.odom_covariance);
   digest.exact(node.submap_hash);
   digest.exact(node.submap_bytes);
   return digest.bits();
@@ -73,7 +74,7 @@ std::uint32_t fingerprint(const graph::Alignment& alignment) {
     digest.single(mode.rmse);
     digest.single(mode.inlier_fraction);
     digest.single(mode.score);
-    digest.variances(mode.covariance);
+    digest.covariance(mode.covariance);
   }
   return digest.bits();
 }
