@@ -56,7 +56,7 @@ Result<std::unique_ptr<BagFile>> open_bag_file(const fs::path& file) {
   if (file.extension() != ".zstd") return open_plain(file);
   auto copy = TemporaryFile::create(file.stem().extension().string());
   if (!copy) return tl::unexpected(copy.error());
-  spdlog::info("{}: unpacked to {} while it is read", file.string(), copy->path().string());
+  spdlog::info("{}: is unpacked under {}", file.string(), copy->path().parent_path().string());
   if (auto status = unpack_zstd_file(file, copy->path()); !status) return tl::unexpected(status.error());
   return open_plain(copy->path());  // which stays open when its name goes
 }

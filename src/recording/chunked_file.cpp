@@ -31,14 +31,29 @@ Result<std::optional<BagMessage>> ChunkedFile::next() {
     if (held_.empty()) return std::optional<BagMessage>();
     auto first = held_.extract(held_.begin());
     given_ = std::move(first.mapped());
-    if (const BagTopic* topic = topic_of(given_.connection))
-      return BagMessage{topic->name, static_cast<std::int64_t>(first.key()), cdr_of(*topic, given_.data)};
+    if (const auto topic = topics_.find(given_.connection); topic != topics_.end())
+      return BagMessage{topic->second.name, static_cast<std::int64_t>(first.key()),
+                        cdr_of(topic->second, given_.data)};
     leave_out("a message of a topic that is named nowhere");
   }
 }
 
+Result<std::vector<BagTopic>> ChunkedFile::topics() {
+  if (!topics_are_named()) {
+    if (Status status = load_once(); !status) return tl::unexpected(status.error());
+  }
+  std::vector<BagTopic> topics;
+  for (const auto& [connection, topic] : topics_) topics.push_back(topic);
+  return topics;
+}
+
+void ChunkedFile::name_topic(std::uint32_t connection, BagTopic topic) {
+  topics_.insert_or_assign(connection, std::move(topic));
+}
+
 void ChunkedFile::sort_found() { std::ranges::stable_sort(found_, {}, &Found::start); }
 
+/// Loads all, for what it says of topics, and forgets the messages.
 Status ChunkedFile::load_once() {
   for (const Found& found : found_) {
     if (Status status = load(found); !status) return status;

@@ -16,6 +16,7 @@ namespace fleetmap::recording {
 /// time of reception, without holding more than the chunks that overlap in time.
 class ChunkedFile : public BagFile {
  public:
+  Result<std::vector<BagTopic>> topics() override;
   Result<std::optional<BagMessage>> next() override;
   std::uint64_t damaged_parts() const override { return damaged_; }
 
@@ -36,15 +37,16 @@ class ChunkedFile : public BagFile {
   /// Reads what was found and gives its messages to hold(). Damage is left out; an error means that the file
   /// cannot be read at all.
   virtual Status load(const Found& found) = 0;
-  /// Of what hold() was given; null if it was not named.
-  virtual const BagTopic* topic_of(std::uint32_t connection) const = 0;
+  /// Whether all topics are named outside of the messages; else all of these are loaded for topics().
+  virtual bool topics_are_named() = 0;
   /// A message as CDR; valid until the next call.
   virtual ByteView cdr_of(const BagTopic& topic, ByteView data) = 0;
 
   /// Everything was found.
   void sort_found();
-  /// Loads all, for what it says of topics, and forgets the messages.
-  Status load_once();
+  /// Names what hold() will be given.
+  void name_topic(std::uint32_t connection, BagTopic topic);
+  const std::map<std::uint32_t, BagTopic>& named() const { return topics_; }
   /// Bytes for hold(), which count as long as a message needs them.
   std::shared_ptr<const Bytes> block_of(Bytes bytes);
   void hold(std::shared_ptr<const Bytes> block, std::uint64_t time, std::uint32_t connection, ByteView data);
@@ -66,12 +68,15 @@ class ChunkedFile : public BagFile {
     ByteView data;
   };
 
+  Status load_once();
+
   std::filesystem::path file_;
   std::ifstream stream_;
   std::uint64_t size_;
-  std::size_t next_ = 0;                     ///< of found_
-  std::size_t block_bytes_ = 0;              ///< of all blocks that are held
-  std::multimap<std::uint64_t, Held> held_;  ///< by time
+  std::map<std::uint32_t, BagTopic> topics_;  ///< by connection
+  std::size_t next_ = 0;                      ///< of found_
+  std::size_t block_bytes_ = 0;               ///< of all blocks that are held
+  std::multimap<std::uint64_t, Held> held_;   ///< by time
   Held given_;
   std::uint64_t damaged_ = 0;
 };

@@ -20,11 +20,10 @@ class McapFile : public ChunkedFile {
 
   /// Finds all records, without reading messages.
   Status index();
-  Result<std::vector<BagTopic>> topics() override;
 
  private:
   Status load(const Found& found) override;
-  const BagTopic* topic_of(std::uint32_t channel) const override;
+  bool topics_are_named() override { return read_summary(); }
   ByteView cdr_of(const BagTopic&, ByteView data) override { return data; }
   Status note_record(Opcode opcode, std::uint64_t content, std::uint64_t length);
   void note(Opcode opcode, ByteView content);
@@ -32,7 +31,6 @@ class McapFile : public ChunkedFile {
   void hold_messages(const std::shared_ptr<const Bytes>& records);
 
   std::map<std::uint16_t, std::string> types_;  ///< by schema
-  std::map<std::uint32_t, BagTopic> channels_;
 };
 
 void McapFile::note(Opcode opcode, ByteView content) {
@@ -45,7 +43,7 @@ void McapFile::note(Opcode opcode, ByteView content) {
     const auto type = types_.find(channel->schema);
     std::string name = type == types_.end() ? "" : ros_type(type->second);
     if (channel->encoding != "cdr") name += " in " + channel->encoding;  // so that none is chosen
-    channels_.insert_or_assign(channel->id, BagTopic{ros_topic(channel->topic), std::move(name)});
+    name_topic(channel->id, BagTopic{ros_topic(channel->topic), std::move(name)});
   }
 }
 
@@ -84,11 +82,6 @@ Status McapFile::index() {
   }
   sort_found();
   return {};
-}
-
-const BagTopic* McapFile::topic_of(std::uint32_t channel) const {
-  const auto topic = channels_.find(channel);
-  return topic == channels_.end() ? nullptr : &topic->second;
 }
 
 void McapFile::hold_messages(const std::shared_ptr<const Bytes>& records) {
@@ -155,18 +148,8 @@ bool McapFile::read_summary() {
     rest = rest.subspan(length_of);
   }
   // Types may be left out of it.
-  return !channels_.empty() &&
-         std::ranges::none_of(channels_, [](const auto& channel) { return channel.second.type.empty(); });
-}
-
-Result<std::vector<BagTopic>> McapFile::topics() {
-  // Without a summary, topics are named between the messages.
-  if (!read_summary()) {
-    if (Status status = load_once(); !status) return tl::unexpected(status.error());
-  }
-  std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : channels_) topics.push_back(topic);
-  return topics;
+  return !named().empty() &&
+         std::ranges::none_of(named(), [](const auto& channel) { return channel.second.type.empty(); });
 }
 
 }  // namespace

@@ -21,16 +21,17 @@ class Ros1File : public ChunkedFile {
 
   /// Finds all records, without reading messages.
   Status index();
-  Result<std::vector<BagTopic>> topics() override;
 
  private:
   Status load(const Found& found) override;
-  const BagTopic* topic_of(std::uint32_t connection) const override;
+  bool topics_are_named() override {
+    // A bag that was closed repeats its connections at its end, unless that was cut off.
+    return promised_ > 0 && repeated_ >= promised_;
+  }
   ByteView cdr_of(const BagTopic& topic, ByteView data) override;
   Status note_record(std::uint64_t at, std::uint64_t header_bytes, std::uint64_t data_bytes);
   void note_connection(const ros1::Record& record);
 
-  std::map<std::uint32_t, BagTopic> connections_;
   std::size_t indexed_ = 0;                    ///< found_ when an index came last
   std::uint32_t promised_ = 0, repeated_ = 0;  ///< connections at the end of the bag
   Bytes cdr_;
@@ -44,7 +45,7 @@ std::string ros2_type(std::string type) {
 
 void Ros1File::note_connection(const ros1::Record& record) {
   if (const auto connection = ros1::read_connection(record))
-    connections_.insert_or_assign(connection->id, BagTopic{connection->topic, ros2_type(connection->type)});
+    name_topic(connection->id, BagTopic{connection->topic, ros2_type(connection->type)});
 }
 
 /// Remembers where messages lie, and what names their topics.
@@ -106,11 +107,6 @@ Status Ros1File::index() {
   return {};
 }
 
-const BagTopic* Ros1File::topic_of(std::uint32_t connection) const {
-  const auto topic = connections_.find(connection);
-  return topic == connections_.end() ? nullptr : &topic->second;
-}
-
 /// No bytes, which no message decodes from, if the message is damaged or of a type that nobody asks for.
 ByteView Ros1File::cdr_of(const BagTopic& topic, ByteView data) {
   auto cdr = ros_codec::cdr_from_ros1(topic.type, data);
@@ -146,16 +142,6 @@ Status Ros1File::load(const Found& found) {
   }
   if (!rest.empty()) leave_out("a chunk" + where + " ends within a record");
   return {};
-}
-
-Result<std::vector<BagTopic>> Ros1File::topics() {
-  // A bag that was closed repeats its connections at its end, unless that was cut off.
-  if (promised_ == 0 || repeated_ < promised_) {
-    if (Status status = load_once(); !status) return tl::unexpected(status.error());
-  }
-  std::vector<BagTopic> topics;
-  for (const auto& [id, topic] : connections_) topics.push_back(topic);
-  return topics;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ class Chunks : public ChunkedFile {
     for (std::size_t k = 0; k < chunks_.size(); ++k)
       found_.push_back({k, 1, *std::ranges::min_element(chunks_[k]), true});
     sort_found();
+    name_topic(0, topic_);
   }
-  Result<std::vector<BagTopic>> topics() override { return std::vector<BagTopic>{topic_}; }
   std::size_t loaded() const { return loaded_; }
 
  private:
@@ -34,9 +34,7 @@ class Chunks : public ChunkedFile {
     }
     return {};
   }
-  const BagTopic* topic_of(std::uint32_t connection) const override {
-    return connection == 0 ? &topic_ : nullptr;
-  }
+  bool topics_are_named() override { return true; }
   ByteView cdr_of(const BagTopic&, ByteView data) override { return data; }
 
   std::vector<Times> chunks_;
