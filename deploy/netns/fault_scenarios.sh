@@ -127,7 +127,7 @@ scenario_three_machines() { # docs/three_machines.md, taken literally
     on_machine $i "exec $(command_of_guide agent)" > "$out/r$i.log" 2>&1 &
     disown $!
   done
-  until_then=known watch_radio all_heard 20
+  until_then=known watch_radio all_know 20
   heard=$waited
   for ((i = 1; i <= agents; ++i)); do
     ! on_machine $i "$(command_of_guide 'check-config --network')" > "$out/network$i.txt" 2>&1 || checked=$((checked + 1))

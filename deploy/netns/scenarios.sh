@@ -102,10 +102,13 @@ need_recordings() {
 # ---- what is waited for
 
 says() { grep -cE "$2" "$out/r$1.log" 2>/dev/null || true; } # robot number, pattern
-# How many others each of the robots has heard on the radio since its log was begun anew.
-all_heard() {
+# How many others a robot knows by the radio since its log was begun anew: it heard them, or another introduced them.
+knows() { # robot number
+  { grep -oE 'long_range: (heard|knows) r[0-9]+' "$out/r$1.log" 2>/dev/null || true; } | awk '{print $3}' | sort -u | wc -l
+}
+all_know() {
   local i
-  for ((i = 1; i <= agents; ++i)); do (($(says $i 'long_range: heard') >= agents - 1)) || return 1; done
+  for ((i = 1; i <= agents; ++i)); do (($(knows $i) >= agents - 1)) || return 1; done
 }
 all_ended() { # and have begun
   local i
@@ -182,7 +185,7 @@ radio_figures() { echo "$((($(passed radio) - ${before:-0}) / 1000)) kB, worst s
 scenario_discovery() { # all start at once
   before=$(passed radio)
   all_start
-  watch_radio all_heard 20
+  watch_radio all_know 20
   verdict $([[ -n $waited ]] && ((waited < 10000 && worst <= radio * 4 / 5)) && echo 1 || echo 0) \
     "all know all after $(seconds_of "$waited"); in 20 s $(radio_figures)"
 }
@@ -191,13 +194,13 @@ scenario_restart() { # each robot of a fleet that knows itself is killed and sta
   local killed slowest=0 in_time=1 until_then=
   known_again() { # each other has heard it anew, and it has heard them
     local i
-    (($(says "$killed" 'long_range: heard') >= agents - 1)) || return 1
+    (($(knows "$killed") >= agents - 1)) || return 1
     for ((i = 1; i <= agents; ++i)); do
       ((i == killed || $(says $i "long_range: heard r$killed ") > 0)) || return 1
     done
   }
   all_start
-  watch_radio all_heard 20
+  watch_radio all_know 20
   before=$(passed radio) highest=0
   for ((killed = 1; killed <= agents; ++killed)); do
     crash "$killed"
@@ -216,7 +219,7 @@ scenario_restart() { # each robot of a fleet that knows itself is killed and sta
 
 scenario_idle() { # what a fleet that waits costs
   all_start
-  watch_radio all_heard 20
+  watch_radio all_know 20
   before=$(passed radio)
   watch_radio never 60
   local rate=$((($(passed radio) - before) * 8 / 60 / 1000))
@@ -228,10 +231,10 @@ scenario_one_way() { # nothing reaches one robot for 15 s
   all_start
   watch_radio never 15
   local deaf i known=1
-  deaf=$(says 1 'long_range: heard')
-  for ((i = 2; i <= agents; ++i)); do (($(says $i 'long_range: heard') >= agents - 2)) || known=0; done
+  deaf=$(knows 1)
+  for ((i = 2; i <= agents; ++i)); do (($(knows $i) >= agents - 2)) || known=0; done
   relay radio --delay 0 "${impairment[@]}"
-  watch_radio all_heard 20
+  watch_radio all_know 20
   verdict $([[ -n $waited ]] && ((deaf == 0 && known && waited < 10000 && worst <= radio * 4 / 5)) && echo 1 || echo 0) \
     "the others knew each other meanwhile: $known; all know all $(seconds_of "$waited") after it hears again; worst second $worst kbit/s"
 }
@@ -246,7 +249,7 @@ scenario_absent_interface() { # the radio of one robot comes up 8 s after its ag
   radio_of_1 down
   all_start
   events=("8 radio_of_1 up")
-  watch_radio all_heard 30
+  watch_radio all_know 30
   verdict $([[ -n $waited ]] && ((waited < 20000 && worst <= radio * 4 / 5 && $(says 1 'silent until it is there') > 0)) && echo 1 || echo 0) \
     "all know all after $(seconds_of "$waited"); said: $(says 1 'silent until it is there')"
 }
@@ -331,7 +334,7 @@ scenario_multicast() { # 30 s of mapping with one datagram for all, beside one f
       sed -i "s/long_range: {[^}]*}/long_range: {domain: 1, address: 10.79.0.$i, multicast: $with, peers: [$(hub_others $i)]}/" "$scratch/r$i.yaml"
     done
     all_start
-    until_then=known watch_radio all_heard 20
+    until_then=known watch_radio all_know 20
     bytes+=($((-$(sent_to_hub))))
     all_play
     watch_radio never 30
@@ -498,7 +501,7 @@ scenario_trial() { # the robots get to know each other, then map; all that has c
   idle=30 # encounters ripen for 20 s, also those of two others
   if ((wifi_from > 0)); then off wifi; fi
   all_start
-  until_then=known watch_radio all_heard 60
+  until_then=known watch_radio all_know 60
   known=$waited
   all_play
   begin_traces
@@ -532,7 +535,7 @@ begin_apart() {
   done
   off wifi
   all_start
-  watch_radio all_heard 10
+  watch_radio all_know 10
 }
 submap_bytes() { # of each robot
   local i

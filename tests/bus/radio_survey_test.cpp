@@ -1,13 +1,7 @@
 // The robots heard on a radio and their differences, in the log of the robots and in DdsBus::survey().
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include "bus/captured_log.hpp"
-#include "bus/dds/hello.hpp"
-#include "bus/dds_domains.hpp"
-#include "fleetmap/bus/dds_bus.hpp"
+#include "bus/lone_radio.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
@@ -18,58 +12,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr auto kPatience = std::chrono::seconds(60);
-constexpr FleetSettings kSettings{
-    .wire_schema = 3, .fleet = 0x12345678, .submap_voxel = 1000, .map_voxel = 1000, .placement = 7};
-
-AgentId name(const char* text) { return AgentId::parse(text).value(); }
-
-class RadioSurveyTest : public ::testing::Test {
- protected:
-  /// On the long range of this machine alone.
-  static DdsBusConfig robot(const char* id, const std::optional<FleetSettings>& settings = kSettings) {
-    DdsBusConfig config;
-    config.agent = name(id);
-    config.qos_directory = FLEETMAP_SOURCE_DIR "/qos";
-    config.onboard.enabled = false;
-    config.short_range.enabled = false;
-    config.long_range.domain = first_test_domain();
-    config.long_range.address = "127.0.0.1";
-    config.settings = settings;
-    return config;
-  }
-  DdsBus& start(const DdsBusConfig& config) {
-    auto bus = DdsBus::create(config);
-    if (!bus) throw std::runtime_error(bus.error().message);
-    buses_.push_back(*std::move(bus));
-    return *buses_.back();
-  }
-  bool run_until(const std::function<bool()>& done) {
-    const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (std::chrono::steady_clock::now() < deadline) {
-      for (const auto& bus : buses_) {
-        if (bus->run_until(done, std::chrono::milliseconds(5))) return true;
-      }
-    }
-    return done();
-  }
-  static std::size_t heard(const DdsBus& bus) { return bus.survey(Link::kLongRange).robots.size(); }
-
-  CapturedLog log_;
-  std::vector<std::unique_ptr<DdsBus>> buses_;
-};
-
-Hello some_hello() {
-  Hello hello;
-  hello.knows.fill(9);
-  hello.sender = name("r2");
-  hello.address = {10, 0, 0, 2};
-  hello.port = 7660;
-  hello.settings = kSettings;
-  hello.link = Link::kShortRange;
-  hello.reads = {1, 2, 3};
-  return hello;
-}
+using RadioSurveyTest = LoneRadio;
 
 TEST(Hello, CarriesTheSettings) {
   const auto decoded = decode_hello(encode(some_hello()));
@@ -85,7 +28,7 @@ TEST(Hello, CarriesTheSettings) {
 TEST(Hello, OfAnotherVersionSaysWhoAndWhere) {
   Bytes bytes = encode(some_hello());
   EXPECT_FALSE(decode_other_hello(bytes));
-  for (const std::uint8_t version : std::initializer_list<std::uint8_t>{2, 4, 200}) {
+  for (const std::uint8_t version : std::initializer_list<std::uint8_t>{2, 3, 5, 200}) {
     bytes[4] = version;
     EXPECT_FALSE(decode_hello(bytes));
     const auto other = decode_other_hello(bytes);
@@ -183,31 +126,6 @@ TEST_F(RadioSurveyTest, RadiosThatAreMixedUpAreNamed) {
   EXPECT_EQ(log_.count("r2 has its short_range here"), 1);
 }
 
-/// `payload` as one DATA submessage of RTPS 2.2 from the participant with prefix {participant, 2, 3, ...,
-/// 12}.
-Bytes rtps_message(const Bytes& payload, std::uint8_t number, std::uint8_t participant = 1) {
-  Bytes bytes{'R', 'T', 'P', 'S', 2, 2, 1, 15, participant, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-  const auto length = static_cast<std::uint16_t>(20 + payload.size());
-  bytes.insert(bytes.end(),
-               {0x15, 0x05, static_cast<std::uint8_t>(length), static_cast<std::uint8_t>(length >> 8)});
-  bytes.insert(bytes.end(), {0, 0, 16, 0});       // offset of what follows the sequence number
-  bytes.insert(bytes.end(), {0, 0, 0, 0});        // to any reader
-  bytes.insert(bytes.end(), {0xff, 0, 1, 0x03});  // of this writer
-  bytes.insert(bytes.end(), {0, 0, 0, 0, number, 0, 0, 0});
-  bytes.insert(bytes.end(), payload.begin(), payload.end());
-  return bytes;
-}
-
-void send_to(std::uint16_t port, const Bytes& bytes) {
-  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(port);
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  sendto(fd, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
-  close(fd);
-}
-
 TEST_F(RadioSurveyTest, ARobotOfAnotherVersionIsNamedOncePerAddress) {
   const DdsBus& first = start(robot("r1"));
   const auto own = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
@@ -229,7 +147,7 @@ TEST_F(RadioSurveyTest, ARobotOfAnotherVersionIsNamedOncePerAddress) {
 }
 
 /// r1 has heard r2, whose messages the test sends, and then one Hello of another participant at r2's place.
-class RadioClaim : public RadioSurveyTest {
+class RadioClaim : public LoneRadio {
  protected:
   void SetUp() override {
     start(robot("r1"));

@@ -142,6 +142,8 @@ void radio(const fs::path& corpus) {
   hello.link = bus::Link::kLongRange;
   hello.settings = bus::FleetSettings{.wire_schema = 5, .fleet = 1};
   hello.reads = {1, 2, 3};
+  hello.introduces = {
+      {.prefix = {1, 15, 9}, .agent = r1.certificate.name, .address = {10, 0, 0, 2}, .port = 7660}};
   const Bytes cdr = bus::encode(hello);
   Bytes rtps{'R', 'T', 'P', 'S', 2, 3, 1, 15, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0x15, 5, 0, 0};
   rtps.insert(rtps.end(), {0, 0, 16, 0, 0, 0, 0, 0, 0xff, 0, 0, 3, 0, 0, 0, 0, 1, 0, 0, 0});

@@ -20,7 +20,7 @@ namespace fleetmap::bus {
 /// profile.
 struct Topic {
   Link link = Link::kOnboard;
-  std::string name;     ///< as on the wire: "rt/points", "fleetmap/node"
+  std::string name;     ///< as on the wire: "rt/points", "fleetmap/node", to one robot "fleetmap/hold/r2"
   std::string type;     ///< IDL type as on the wire: "sensor_msgs::msg::dds_::PointCloud2_"
   std::string profile;  ///< names the data writer and data reader profiles in qos/<link>.xml
 };

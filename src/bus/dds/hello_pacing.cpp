@@ -9,7 +9,7 @@ namespace {
 constexpr double kHelloBits = 8.0 * 260.0, kGreetingBits = 8.0 * 345.0 * 3.0 / 2.0;
 /// The part of the link's fleet_bits_per_second that the Hellos of all robots may take: in the mean while a
 /// fleet starts, and in any second.
-constexpr double kMeanPart = 0.43, kMaxPart = 0.93;
+constexpr double kMeanPart = 0.43, kMaxPart = 0.85;
 constexpr double kMaxSpread = 6.0;                   // s, so that a fleet is connected within ten
 constexpr double kFirstPause = 0.5;                  // s, of a pair alone
 constexpr auto kMaxPause = std::chrono::seconds(2);  // and a second for each other robot
@@ -33,23 +33,25 @@ Executor::Clock::duration to_duration(double seconds) {
 
 double HelloPacing::hello_bits() const { return config_.keys ? kGreetingBits : kHelloBits; }
 
-/// s that the Hellos of a fleet that starts at once, each robot's to each other's, take at `rate` (bit/s).
-double HelloPacing::hello_time(double others, double rate) const {
-  return others * (others + 1.0) * hello_bits() / rate;
+/// s that the Hellos of a fleet that starts at once, each robot's to `sought` others, take at `rate` (bit/s).
+double HelloPacing::hello_time(double others, double sought, double rate) const {
+  return sought * (others + 1.0) * hello_bits() / rate;
 }
 
 HelloPacing::Clock::duration HelloPacing::spread(double others) const {
   if (config_.observes) return {};
-  return to_duration(std::min(hello_time(others, kMeanPart * config_.fleet_bits_per_second), kMaxSpread));
+  return to_duration(
+      std::min(hello_time(others, others, kMeanPart * config_.fleet_bits_per_second), kMaxSpread));
 }
 
-HelloPacing::Clock::duration HelloPacing::first_pause(double others) const {
+HelloPacing::Clock::duration HelloPacing::first_pause(double others, double sought) const {
   // A share of the time that all Hellos take at the highest rate. Three messages are lost more often than
   // two, so with keys a repetition pays earlier.
   const double answered = config_.keys ? 0.4 : 0.75;
-  return to_duration(
-      kFirstPause +
-      (config_.observes ? 0.0 : answered * hello_time(others, kMaxPart * config_.fleet_bits_per_second)));
+  return to_duration(kFirstPause +
+                     (config_.observes
+                          ? 0.0
+                          : answered * hello_time(others, sought, kMaxPart * config_.fleet_bits_per_second)));
 }
 
 int HelloPacing::quick_hellos(Clock::time_point now) const {
@@ -71,23 +73,27 @@ HelloPacing::Clock::duration HelloPacing::longer_pause(Clock::duration pause, do
   return std::clamp(2 * pause, least, std::max(most, least));
 }
 
-HelloPacing::Clock::duration HelloPacing::pause_between(double others, Clock::time_point now) const {
+HelloPacing::Clock::duration HelloPacing::pause_between(double others, std::size_t bytes,
+                                                        Clock::time_point now) const {
   const bool only_one = newcomer_ == Clock::time_point{} && now - first_answer_ < kNewcomerFor;
   const double most = only_one ? kNewcomerShares : kLaterShares;
   const double shares = fleet_is_connected(now) ? std::min(most, others + 1.0) : 1.0;
-  return to_duration((others + 1.0) * hello_bits() / (shares * kMaxPart * config_.fleet_bits_per_second));
+  // With keys a Hello counts for the three that a pair needs.
+  const double bits = config_.keys ? kGreetingBits : 8.0 * static_cast<double>(bytes);
+  return to_duration((others + 1.0) * bits / (shares * kMaxPart * config_.fleet_bits_per_second));
 }
 
 bool HelloPacing::fleet_is_connected(Clock::time_point now) const {
   const bool alone = newcomer_ == Clock::time_point{} || now - newcomer_ > kNoNewcomer;
-  return !config_.observes && alone && answers_ >= kAnswersOfAFleet;
+  return !config_.observes && alone && (joined_late_ || answers_ >= kAnswersOfAFleet);
 }
 
-bool HelloPacing::count_answer(bool names_us, bool names_another, Clock::time_point now) {
+bool HelloPacing::count_answer(const Answer& answer, Clock::time_point now) {
   const bool was_connected = fleet_is_connected(now);
-  if (names_us) {
+  if (answer.names_us) {
     if (answers_++ == 0) first_answer_ = now;
-  } else if (!names_another) {
+    joined_late_ |= answer.joined_before;
+  } else if (!answer.names_another && !answer.joined_before) {
     newcomer_ = now;
   }
   return !was_connected && fleet_is_connected(now);

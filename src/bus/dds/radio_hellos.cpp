@@ -31,11 +31,15 @@ constexpr std::size_t kMaxNamesakes = 16;
 
 }  // namespace
 
-void RadioLink::Hellos::count_answer(const Acquaintance& acquaintance) {
+void RadioLink::Hellos::count_answer(const Hello& hello, const Acquaintance& acquaintance) {
   const auto now = Clock::now();
-  if (!radio_.pacing_.count_answer(acquaintance.names_us, acquaintance.names_another, now)) return;
+  const HelloPacing::Answer answer{
+      .names_us = acquaintance.names_us,
+      .names_another = acquaintance.names_another,
+      .joined_before = hello.seeks == 0 || joined_before(now - hello.joined_ago)};
+  if (!radio_.pacing_.count_answer(answer, now)) return;
   for (const auto& remote : radio_.remotes_) {
-    if (remote->robot || remote->hellos_sent >= radio_.pacing_.quick_hellos(now)) continue;
+    if (radio_.heard_itself(*remote) || remote->hellos_sent >= radio_.pacing_.quick_hellos(now)) continue;
     const double part = std::uniform_real_distribution(0.0, HelloPacing::kNewcomerPause)(random_);
     remote->next = std::min(remote->next, now + to_duration(part));
   }
@@ -43,7 +47,9 @@ void RadioLink::Hellos::count_answer(const Acquaintance& acquaintance) {
 
 void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
   Hello hello;
-  const std::optional<Prefix> there = remote.claimed ? remote.claimed : remote.robot;
+  std::optional<Prefix> there = remote.claimed;
+  // A robot that is not known there must answer, so an introduced one is not named.
+  if (!there && radio_.heard_itself(remote)) there = remote.robot;
   if (there) std::copy_n(there->value, hello.knows.size(), hello.knows.begin());
   hello.leaves = leaves;
   hello.sender = radio_.agent_;
@@ -55,18 +61,23 @@ void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
   for (const EntityKey key : radio_.reads_) {
     if (hello.reads.size() < kMaxReads) hello.reads.push_back(key);
   }
+  hello.joined_ago = std::chrono::duration_cast<Duration>(Clock::now() - radio_.opened_);
+  hello.seeks = static_cast<std::uint8_t>(std::min<std::int64_t>(sought(), 255));
+  if (introduces() && !leaves) hello.introduces = introductions_to(remote);
   const Bytes cdr = radio_.guard_ ? radio_.greetings_->greeting_of(hello, remote) : encode(hello);
   send(*remote.writer, *remote.history, cdr, 1);
-  radio_.hello_bytes_ += wire_bytes(cdr.size(), {.seal = radio_.guard_ ? kSealBytes : 0});
+  const std::size_t bytes = wire_bytes(cdr.size(), {.seal = radio_.guard_ ? kSealBytes : 0});
+  radio_.hello_bytes_ += bytes;
   const auto now = Clock::now();
+  hello_free_ =
+      std::max(hello_free_, now - kTick) + radio_.pacing_.pause_between(radio_.others(), bytes, now);
   // Robots that start together would else meet in step.
   const double jitter = std::uniform_real_distribution(0.5, 1.5)(random_);
   const Clock::duration pause = radio_.pacing_.pause_after(remote.hellos_sent, remote.pause, now);
   remote.next = now + std::chrono::duration_cast<Clock::duration>(jitter * pause);
   if (remote.claimed) {
     if (--remote.answers > 0) {  // the radio loses some, and what they are answered by
-      remote.next = now + std::chrono::duration_cast<Clock::duration>(
-                              jitter * radio_.pacing_.first_pause(radio_.others()) / 2);
+      remote.next = now + std::chrono::duration_cast<Clock::duration>(jitter * first_pause() / 2);
       return;
     }
     remote.claimed.reset();
@@ -78,7 +89,7 @@ void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
   if (!remote.robot) return;
   Peer& peer = radio_.peers_.at(*remote.robot);
   peer.last_sent = peer.last_hello = now;
-  if (remote.names_predecessor) return;
+  if (remote.names_predecessor || peer.introduced) return;
   // It repeated its Hello, so our last answer was lost, and this one may be.
   remote.next = std::exchange(remote.missed_answer, false) ? now + kAnswerAgain : Clock::time_point::max();
 }
@@ -111,10 +122,11 @@ void RadioLink::Hellos::tick() {
   }
   for (const Prefix& robot : silent()) radio_.forget(robot);
   admit_successors();
+  hear_introduced();
   const auto now = Clock::now();
   for (const auto& remote : radio_.remotes_) {
     if (remote->next == Clock::time_point{}) {
-      remote->pause = radio_.pacing_.first_pause(radio_.others());
+      remote->pause = first_pause();
       remote->hellos_sent = 0;
       const double part = std::uniform_real_distribution(0.0, 1.0)(random_);
       remote->next =
@@ -163,17 +175,19 @@ void RadioLink::Hellos::warn_of_silent_remotes(Clock::time_point now) {
   }
 }
 
-/// The longest due first, no faster than this robot's share of what Hellos may take.
+/// To robots that are sought, then answers, then to robots that others introduced; the longest due first; no
+/// faster than this robot's share of what Hellos may take.
 void RadioLink::Hellos::send_due_hellos(Clock::time_point now) {
-  const Clock::duration pause = radio_.pacing_.pause_between(radio_.others(), now);
   std::vector<RemoteLocator*> due;
   for (const auto& remote : radio_.remotes_) {
     if (remote->next <= now) due.push_back(remote.get());
   }
-  std::ranges::sort(due, {}, &RemoteLocator::next);
+  std::ranges::sort(due, {}, [this](const RemoteLocator* remote) {
+    const int rank = radio_.heard_itself(*remote) ? 1 : remote->robot ? 2 : 0;
+    return std::pair(rank, remote->next);
+  });
   for (RemoteLocator* remote : due) {
     if (now < hello_free_) return;
-    hello_free_ = std::max(hello_free_, now - kTick) + pause;
     send_hello(*remote);
   }
 }
@@ -211,12 +225,13 @@ void RadioLink::Hellos::on_hello(const Prefix& sender, const Hello& hello, const
     spdlog::info("{}: {} leaves", to_string(radio_.link_), hello.sender.str());
     return radio_.forget(sender);
   }
-  count_answer(acquaintance);
+  count_answer(hello, acquaintance);
   warn_of_namesake(sender, hello, from);
   bool replaced = false;
   RemoteLocator* remote = claim_remote(sender, hello, acquaintance, from, replaced);
   if (remote == nullptr) return;
   meet(sender, hello, acquaintance, *remote, replaced);
+  if (introduces()) on_introductions(sender, hello);
 }
 
 void RadioLink::Hellos::warn_of_namesake(const Prefix& sender, const Hello& hello, const Locator& from) {
@@ -266,7 +281,7 @@ void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acq
     ++robot.traffic.hellos;
   }
   Peer& peer = radio_.peers_[sender];
-  const bool known = remote.robot.has_value();
+  const bool known = radio_.heard_itself(remote);
   if (!known) {
     spdlog::info("{}: heard {} at {}{}", to_string(radio_.link_), hello.sender.str(), to_text(remote.locator),
                  radio_.settings_ && !hello.settings ? " (an operator's program)" : "");
@@ -274,32 +289,35 @@ void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acq
     remote.heard = remote.heard || hello.settings;
     remote.next = Clock::time_point::max();
   }
-  note(hello, remote.locator);
+  note(hello.sender, hello.settings, hello.multicast, remote.locator);
   radio_.notices_.compare(hello);
   peer.agent = hello.sender;
   peer.locator = remote.locator;
   peer.reads = {hello.reads.begin(), hello.reads.end()};
   peer.multicast = hello.multicast;
-  for (const auto& [key, end] : radio_.ends_) {
-    end->meet(sender, peer);
-    end->hear(sender);
-  }
+  peer.seeks = hello.seeks;
+  peer.alike = introduces() && is_alike(hello);
+  peer.joined = Clock::now() - hello.joined_ago;
+  peer.introduced.reset();
+  radio_.introductions_.meet(bytes_of(sender));
+  connect(sender, peer);
   remote.names_predecessor = acquaintance.names_another;
   if (!acquaintance.names_us || replaced) {
     if (known && remote.next == Clock::time_point::max())
       remote.missed_answer = true;           // no answer is under way
     remote.next = Clock::time_point::min();  // before those to robots that may not be there
   } else if (peer.last_hello == Clock::time_point{}) {
-    peer.last_hello = Clock::now();  // the message to which this is the answer
+    peer.last_sent = peer.last_hello = Clock::now();  // the message to which this is the answer
   }
   radio_.executor_->wake();  // a call of matches() may wait for it
 }
 
-void RadioLink::Hellos::note(const Hello& hello, const Locator& from) {
+void RadioLink::Hellos::note(const AgentId& agent, const std::optional<FleetSettings>& settings,
+                             bool multicast, const Locator& from) {
   const bool here = IPLocator::compareAddress(from, radio_.own_) || IPLocator::isLocal(from);
-  radio_.notices_.note({hello.sender, to_text(from), here, domain_of(from.port, radio_.profile_),
-                        std::chrono::duration_cast<Duration>(Clock::now() - radio_.opened_), hello.settings,
-                        hello.multicast});
+  radio_.notices_.note({agent, to_text(from), here, domain_of(from.port, radio_.profile_),
+                        std::chrono::duration_cast<Duration>(Clock::now() - radio_.opened_), settings,
+                        multicast});
 }
 
 /// A robot with which no exchange is possible.

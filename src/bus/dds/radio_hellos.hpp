@@ -24,11 +24,15 @@ class RadioLink::Hellos {
   /// Processes a Hello whose sender needs no proof or has given it.
   void on_hello(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance);
   void on_other_version(const Bytes& cdr);
+  static Introductions::Prefix bytes_of(const Prefix& prefix);
   void refuse(const Locator& from, const std::string& why);
 
  private:
-  void count_answer(const Acquaintance& acquaintance);
+  void count_answer(const Hello& hello, const Acquaintance& acquaintance);
   void admit_successors();
+  Clock::duration first_pause() const;
+  std::int64_t sought() const;
+  bool joined_before(Clock::time_point joined) const;
   void warn_of_silent_remotes(Clock::time_point now);
   void send_due_hellos(Clock::time_point now);
   std::vector<Prefix> silent() const;
@@ -37,7 +41,17 @@ class RadioLink::Hellos {
                               const Locator& from, bool& replaced);
   void meet(const Prefix& sender, const Hello& hello, const Acquaintance& acquaintance, RemoteLocator& remote,
             bool replaced);
-  void note(const Hello& hello, const Locator& from);
+  void note(const AgentId& agent, const std::optional<FleetSettings>& settings, bool multicast,
+            const Locator& from);
+  void connect(const Prefix& robot, const Peer& peer);
+  bool introduces() const;
+  std::set<EntityKey> reads_of(const AgentId& robot) const;
+  bool is_alike(const Hello& hello) const;
+  std::vector<Introduction> introductions_to(const RemoteLocator& remote) const;
+  void on_introductions(const Prefix& sender, const Hello& hello);
+  bool introduce(const Introduction& introduction, const AgentId& by);
+  void seek_sooner();
+  void hear_introduced();
 
   RadioLink& radio_;
   std::mt19937 random_{std::random_device{}()};

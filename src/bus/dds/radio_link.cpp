@@ -257,7 +257,7 @@ Status RadioLink::add_remote(const Locator& locator, bool configured) {
   auto remote = std::make_unique<RemoteLocator>();
   remote->locator = locator;
   remote->configured = configured;
-  remote->pause = pacing_.first_pause(others());
+  remote->pause = pacing_.first_pause(others(), others());
   remote->history = std::make_unique<rtps::WriterHistory>(unbounded_history());
   auto attributes = best_effort<rtps::WriterAttributes>();
   attributes.mode = rtps::SYNCHRONOUS_WRITER;
@@ -303,6 +303,10 @@ std::optional<RadioLink::Clock::time_point> RadioLink::last_heard(const Prefix& 
   return last == received_->robots.end() ? std::nullopt : std::optional(last->second.heard);
 }
 
+bool RadioLink::heard_itself(const RemoteLocator& remote) const {
+  return remote.robot && !peers_.at(*remote.robot).introduced;
+}
+
 bool RadioLink::heard_recently(const Prefix& robot) const {
   const auto heard = last_heard(robot);
   return heard && Clock::now() - *heard < kStillThere;
@@ -310,6 +314,7 @@ bool RadioLink::heard_recently(const Prefix& robot) const {
 
 void RadioLink::forget(Prefix robot) {
   if (peers_.erase(robot) == 0) return;
+  introductions_.forget(Hellos::bytes_of(robot));
   for (const auto& [key, end] : ends_) end->forget(robot);
   std::erase_if(remotes_, [&](const auto& remote) {
     if (remote->robot != robot) return false;

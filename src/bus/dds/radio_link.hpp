@@ -16,6 +16,7 @@
 #include "fleetmap/core/ids.hpp"
 #include "hello.hpp"
 #include "hello_pacing.hpp"
+#include "introductions.hpp"
 #include "link_end.hpp"
 #include "payload.hpp"
 #include "qos_file.hpp"
@@ -96,7 +97,12 @@ class RadioLink final : public LinkEnd {
     AgentId agent;
     Locator locator;
     std::set<EntityKey> reads;
-    bool multicast = false;          ///< it listens at the group
+    bool multicast = false;      ///< it listens at the group
+    std::uint8_t seeks = 255;    ///< robots that it does not know, as it says
+    bool alike = false;          ///< it has this robot's settings and topics
+    Clock::time_point joined{};  ///< as it says
+    /// Another robot introduced it: when it is said to have been heard. Empty once it was heard here.
+    std::optional<Clock::time_point> introduced;
     Clock::time_point last_sent{};   ///< anything, from here to it
     Clock::time_point last_hello{};  ///< from here to it
   };
@@ -120,6 +126,8 @@ class RadioLink final : public LinkEnd {
   double others() const;
   std::optional<Locator> origin_of(const std::array<std::uint8_t, 4>& address, std::uint16_t port) const;
   void forget(Prefix robot);
+  /// It was heard there itself, so it knows this robot.
+  bool heard_itself(const RemoteLocator& remote) const;
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
   Locator group() const;
 
@@ -130,6 +138,7 @@ class RadioLink final : public LinkEnd {
   const std::shared_ptr<RadioGuard> guard_;  ///< null without keys
   HelloPacing pacing_;                       ///< guarded by mutex_
   RadioNotices notices_;                     ///< guarded by mutex_
+  Introductions introductions_;              ///< guarded by mutex_
   eprosima::fastdds::dds::DomainParticipantQos profile_;
   Clock::duration lease_{}, announcement_{};
   const std::shared_ptr<PayloadPool> payloads_ = std::make_shared<PayloadPool>();

@@ -80,6 +80,16 @@ class RadioLink::End final : public TopicEnd {
     return result;
   }
 
+  /// The key of this topic of `robot`, if it is this robot's own; else that of this topic, which is
+  /// everybody's.
+  EntityKey key_of_robot(const AgentId& robot) const {
+    const std::string own = "/" + link_.agent_.str();
+    if (!topic_.name.ends_with(own)) return key_;
+    Topic theirs = topic_;
+    theirs.name.replace(theirs.name.size() - own.size(), own.size(), "/" + robot.str());
+    return key_of(theirs);
+  }
+
   /// Sends to `robot` if it reads this topic, else no more.
   void meet(const Prefix& robot, const Peer& peer) {
     if (writer_ == nullptr) return;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "hello.hpp"
+
+namespace fleetmap::bus {
+
+/// Which robots a Hello introduces, and which introductions of others are believed. Each Hello of a fleet
+/// that starts lists whom its sender knows, so that all know all after a few Hellos of each, where a Hello to
+/// each other robot would fill a radio for ten seconds.
+///
+/// What is passed on grows old, so that a robot that is gone is soon introduced by nobody.
+class Introductions {
+ public:
+  using Prefix = std::array<std::uint8_t, 12>;
+  static constexpr Duration kFresh = std::chrono::seconds(10);  ///< heard by somebody within
+  /// Robots that joined longer ago than this know each other.
+  static constexpr Duration kAcquainted = std::chrono::seconds(30);
+
+  /// The robot `sender` knows those whom it introduces.
+  void note_known(const Prefix& sender, const std::vector<Introduction>& introduced);
+  /// Those of `known` whom a Hello to `recipient` introduces: heard lately and perhaps not known there; those
+  /// heard last first, at most kMaxIntroductions. `recipient_joined_ago` is empty if nobody is known there.
+  std::vector<Introduction> choose(std::vector<Introduction> known, const Prefix& recipient,
+                                   std::optional<Duration> recipient_joined_ago) const;
+  /// The robot left or was silent for too long. Only itself can make it known again.
+  void forget(const Prefix& robot);
+  /// A Hello of the robot itself came.
+  void meet(const Prefix& robot);
+  bool believes(const Introduction& introduction) const;
+
+ private:
+  std::map<Prefix, std::set<Prefix>> knows_;  ///< what each peer's last Hellos listed
+  std::deque<Prefix> gone_;
+};
+
+}  // namespace fleetmap::bus

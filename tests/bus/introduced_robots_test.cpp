@@ -1,0 +1,219 @@
+// A robot that another one knows: r1 is a bus, the test plays r2 and r3 on sockets of this machine.
+#include <gmock/gmock.h>
+#include <poll.h>
+
+#include "bus/dds/introductions.hpp"
+#include "bus/dds/rtps_header.hpp"
+#include "bus/dds/rtps_messages.hpp"
+#include "bus/lone_radio.hpp"
+
+namespace fleetmap::bus::testing {
+namespace {
+
+/// A UDP socket at a port of this machine.
+class Place {
+ public:
+  explicit Place(std::uint16_t port) {
+    sockaddr_in here{};
+    here.sin_family = AF_INET;
+    here.sin_port = htons(port);
+    here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (bind(fd_, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0)
+      throw std::runtime_error("port " + std::to_string(port) + " is taken");
+  }
+  ~Place() { close(fd_); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  /// The next Hello that waits, if any.
+  std::optional<Hello> hello() {
+    pollfd waits{fd_, POLLIN, 0};
+    while (poll(&waits, 1, 0) == 1) {
+      Bytes bytes(65536);
+      bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(recv(fd_, bytes.data(), bytes.size(), 0), 0)));
+      if (const auto cdr = hello_in(bytes)) {
+        std::copy_n(bytes.begin() + 8, from.size(), from.begin());
+        return decode_hello(*cdr);
+      }
+    }
+    return std::nullopt;
+  }
+
+  Introductions::Prefix from{};  ///< of the last Hello
+
+ private:
+  int fd_ = socket(AF_INET, SOCK_DGRAM, 0);
+};
+
+Topic topic(const std::string& name) { return {Link::kLongRange, name, "Type", "small"}; }
+
+class IntroducedRobot : public LoneRadio {
+ protected:
+  void SetUp() override {
+    robot_ = &start(robot("r1"));
+    for (const char* name : {"fleetmap/status", "fleetmap/hold/r1"})
+      handles_.push_back(robot_->subscribe(topic(name), [this](const Bytes&) { ++came_; }));
+    for (const char* name : {"fleetmap/status", "fleetmap/hold/r2", "fleetmap/hold/r3"})
+      robot_->advertise(topic(name));
+  }
+  /// Of r2, which introduces `robots`.
+  void send_hello_of_r2(std::vector<Introduction> robots) {
+    Hello hello = hello_of("r2", 2);
+    hello.introduces = std::move(robots);
+    send_to(own_, rtps_message(encode(hello), ++sent_, /*participant=*/2));
+  }
+  Hello hello_of(const char* agent, std::uint16_t place) const {
+    Hello hello = some_hello();
+    hello.link = Link::kLongRange;
+    hello.sender = name(agent);
+    hello.address = {127, 0, 0, 1};
+    hello.port = static_cast<std::uint16_t>(own_ + 2 * place);
+    hello.seeks = 1;
+    hello.reads = {key_of(topic("fleetmap/status")), key_of(topic(std::string("fleetmap/hold/") + agent))};
+    return hello;
+  }
+  /// As r2 would introduce a robot that started with r1.
+  Introduction introduction(const char* agent, std::uint16_t place) const {
+    Introduction robot;
+    robot.prefix = {1, 15, static_cast<std::uint8_t>(place), 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    robot.agent = name(agent);
+    robot.address = {127, 0, 0, 1};
+    robot.port = static_cast<std::uint16_t>(own_ + 2 * place);
+    robot.heard_ago = std::chrono::milliseconds(500);
+    return robot;
+  }
+  /// r1 knows r4, introduced last, and so has believed or not what else r2 said.
+  void introduce_and_wait(std::vector<Introduction> robots) {
+    robots.push_back(introduction("r4", 4));
+    ASSERT_TRUE(run_until([&] {
+      send_hello_of_r2(robots);
+      return log_.count("knows r4") == 1;
+    })) << log_.text();
+  }
+
+  DdsBus* robot_ = nullptr;
+  std::vector<Handle> handles_;
+  const std::uint16_t own_ = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
+  int came_ = 0;
+  std::uint8_t sent_ = 0;
+};
+
+TEST_F(IntroducedRobot, IsKnownWithoutAHelloOfItsOwn) {
+  introduce_and_wait({introduction("r3", 3)});
+  EXPECT_EQ(log_.count("knows r3 at 127.0.0.1:" + std::to_string(own_ + 6) + " from r2"), 1);
+  EXPECT_EQ(robot_->matches(topic("fleetmap/status")).readers, 3u) << "r2, r3, r4";
+  EXPECT_EQ(robot_->matches(topic("fleetmap/hold/r3")).readers, 1u) << "its topics are r1's with its name";
+  EXPECT_EQ(heard(*robot_), 1u) << "only r2 was heard";
+  EXPECT_EQ(log_.count("heard r3"), 0);
+}
+
+TEST_F(IntroducedRobot, IsHeardOnceItSpeaks) {
+  introduce_and_wait({introduction("r3", 3)});
+  const Hello hello = hello_of("r3", 3);
+  ASSERT_TRUE(run_until([&] {
+    Bytes message = rtps_message(encode(hello), ++sent_);
+    std::ranges::copy(introduction("r3", 3).prefix, message.begin() + 8);
+    send_to(own_, message);
+    return heard(*robot_) == 2;
+  })) << log_.text();
+  EXPECT_EQ(log_.count("heard r3"), 1);
+}
+
+TEST_F(IntroducedRobot, IsIntroducedToOthersInTurn) {
+  Place r5(static_cast<std::uint16_t>(own_ + 10));
+  introduce_and_wait({});
+  std::optional<Hello> hello;
+  ASSERT_TRUE(run_until([&] {
+    hello = r5.hello();
+    return hello && hello->introduces.size() == 2;
+  })) << log_.text();
+  EXPECT_EQ(hello->sender, name("r1"));
+  const auto fourth = std::ranges::find(hello->introduces, name("r4"), &Introduction::agent);
+  ASSERT_NE(fourth, hello->introduces.end());
+  EXPECT_EQ(fourth->prefix, introduction("r4", 4).prefix);
+  EXPECT_GE(fourth->heard_ago, introduction("r4", 4).heard_ago) << "it grows old on its way";
+}
+
+/// It may take r1 for its start before.
+TEST_F(IntroducedRobot, IsSentAHelloThatItMustAnswer) {
+  Place r3(static_cast<std::uint16_t>(own_ + 6));
+  introduce_and_wait({introduction("r3", 3)});
+  while (r3.hello()) {
+  }
+  std::optional<Hello> hello;
+  ASSERT_TRUE(run_until([&] { return (hello = r3.hello()).has_value(); })) << log_.text();
+  EXPECT_EQ(hello->knows, Introductions::Prefix{}) << "it names nobody";
+  EXPECT_THAT(hello->introduces, ::testing::IsEmpty()) << "whoever introduced r3 tells it whom it lacks";
+}
+
+TEST_F(IntroducedRobot, IsNotKnownOutsideOfTheConfiguration) {
+  Introduction elsewhere = introduction("r3", 3);
+  elsewhere.port = static_cast<std::uint16_t>(own_ + 1000);
+  introduce_and_wait({elsewhere});
+  EXPECT_EQ(log_.count("knows r3"), 0);
+}
+
+TEST_F(IntroducedRobot, DoesNotTakeThePlaceOrTheNameOfOneThatIsKnown) {
+  introduce_and_wait({introduction("r3", 2), introduction("r1", 5)});
+  EXPECT_EQ(log_.count("knows r3"), 0) << "r2 is there";
+  EXPECT_EQ(log_.count("knows r1"), 0);
+}
+
+TEST_F(IntroducedRobot, IsNotKnownIfItWasHeardLongAgo) {
+  Introduction old = introduction("r3", 3);
+  old.heard_ago = std::chrono::seconds(11);
+  introduce_and_wait({old});
+  EXPECT_EQ(log_.count("knows r3"), 0);
+}
+
+TEST_F(IntroducedRobot, IsNotTakenFromARobotWithOtherTopics) {
+  Hello hello = hello_of("r2", 2);
+  hello.reads.pop_back();
+  hello.introduces = {introduction("r3", 3)};
+  ASSERT_TRUE(run_until([&] {
+    send_to(own_, rtps_message(encode(hello), ++sent_, /*participant=*/2));
+    return heard(*robot_) == 1;
+  }));
+  introduce_and_wait({});
+  EXPECT_EQ(log_.count("knows r3"), 0);
+}
+
+TEST_F(IntroducedRobot, ThatLeftIsNotIntroducedAgain) {
+  introduce_and_wait({introduction("r3", 3)});
+  Hello last = hello_of("r3", 3);
+  last.leaves = true;
+  ASSERT_TRUE(run_until([&] {
+    Bytes message = rtps_message(encode(last), ++sent_);
+    std::ranges::copy(introduction("r3", 3).prefix, message.begin() + 8);
+    send_to(own_, message);
+    return log_.count("r3 leaves") == 1;
+  })) << log_.text();
+  ASSERT_TRUE(run_until([&] {
+    send_hello_of_r2({introduction("r3", 3), introduction("r5", 5)});
+    return log_.count("knows r5") == 1;
+  })) << log_.text();
+  EXPECT_EQ(log_.count("knows r3"), 1);
+}
+
+/// Two messages make a pair known to each other.
+TEST_F(IntroducedRobot, AnAnswerIsNotAnswered) {
+  Place r2(static_cast<std::uint16_t>(own_ + 4)), r4(static_cast<std::uint16_t>(own_ + 8));
+  std::optional<Hello> hello;
+  ASSERT_TRUE(run_until([&] { return (hello = r2.hello()).has_value(); }));
+  Hello answer = hello_of("r2", 2);
+  answer.knows = r2.from;
+  send_to(own_, rtps_message(encode(answer), ++sent_, /*participant=*/2));
+  ASSERT_TRUE(run_until([&] { return heard(*robot_) == 1; }));
+  for (int later = 0; later < 3; ++later) {
+    while (r4.hello()) {
+    }
+    send_to(own_, rtps_message(encode(hello_of("r4", 4)), ++sent_, /*participant=*/4));
+    ASSERT_TRUE(run_until([&] {
+      const auto answered = r4.hello();
+      return answered && answered->knows.front() == 4;
+    }));
+  }
+  EXPECT_FALSE(r2.hello());
+}
+
+}  // namespace
+}  // namespace fleetmap::bus::testing
