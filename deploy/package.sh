@@ -34,6 +34,15 @@ in_debian fleetmap run -c /usr/share/fleetmap/config/fleets/farm_small.yaml --ag
   --record /tmp/recordings --out /tmp/out > "$debian/tmp/run.log" 2>&1 || true  # cut off: not all rows are driven
 in_debian fleetmap inspect /tmp/recordings/r1
 in_debian fleetmap odometry /tmp/recordings/r1 --out /tmp/o.tum --set lidar.model=vlp16
+in_debian bash -euc 'load() { . /usr/share/bash-completion/completions/fleetmap; }
+  load  # in a function, as bash-completion does
+  COMP_WORDS=(fleetmap map in) COMP_CWORD=2 && _fleetmap && test "${COMPREPLY[*]}" = info'
+if command -v man > /dev/null; then  # by that of this machine
+  MANWIDTH=100 man --warnings -l "$debian/usr/share/man/man1/fleetmap.1" > "$debian/tmp/page" 2> "$debian/tmp/page.errors" ||
+    { cat "$debian/tmp/page.errors"; exit 1; }
+  grep -q 'fleetmap map info' "$debian/tmp/page"
+  [ ! -s "$debian/tmp/page.errors" ] || { cat "$debian/tmp/page.errors"; exit 1; }
+fi
 in_debian test -s /tmp/out/r1/map.ply -a -s /tmp/o.tum
 # systemd itself is not among the dependencies, so the service is judged by that of this machine.
 service=$debian/tmp/fleetmap-agent@r1.service

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "manual.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
@@ -45,6 +46,10 @@ int run(int argc, char** argv) {
   add_check_config(app, exit_code);
   add_keys(app, exit_code);
   add_fuzz_fleet(app, exit_code);
+  app.add_subcommand("manual", "prints the man page")->callback([&] { std::cout << man_page(app); });
+  app.add_subcommand("completion", "prints a script that completes the command line in bash")->callback([&] {
+    std::cout << bash_completion(app);
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

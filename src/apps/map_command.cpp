@@ -1,20 +1,25 @@
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
 #include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/graph_file.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/results.hpp"
+#include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 #include "options.hpp"
@@ -78,6 +83,43 @@ int export_map(const MapOptions& options) {
   return kDone;
 }
 
+Status write_text(const std::string& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  if ((out << text).flush()) return {};
+  return failure(file + ": cannot be written; is there room, and a folder?");
+}
+
+int export_tracks(const MapOptions& options) {
+  const auto map = open_map(options.store, configured_origin(options), std::nullopt);
+  if (!map) return report(map.error(), kFailed);
+  const auto nodes = output::nodes_of(map->store);
+  const auto main = output::map_parts(nodes, map->placement).main;
+  if (!main.georeferenced) {
+    return report(
+        {options.store + ": no node of its map has GPS, so that nobody knows where on Earth its tracks are"},
+        kFailed);
+  }
+  const bool gpx = std::filesystem::path(options.out).extension() == ".gpx";
+  const std::string text = gpx ? output::to_gpx(nodes, main.T_map_node, map->recipe.origin)
+                               : output::to_geojson(nodes, main.T_map_node, map->recipe.origin);
+  if (const Status written = write_text(options.out, text); !written) return report(written.error(), kFailed);
+  std::cout << options.out << ": " << main.T_map_node.size() << " nodes\n";
+  return kDone;
+}
+
+int export_graph(const MapOptions& options) {
+  const auto map = open_map(options.store, configured_origin(options), std::nullopt);
+  if (!map) return report(map.error(), kFailed);
+  const output::GraphText text = output::to_g2o(output::nodes_of(map->store), map->placement);
+  const std::string names = options.out + ".csv";
+  if (const Status written = write_text(options.out, text.graph); !written)
+    return report(written.error(), kFailed);
+  if (const Status written = write_text(names, text.names); !written) return report(written.error(), kFailed);
+  std::cout << options.out << ", names of its " << map->placement.T_enu_node.size() << " vertices: " << names
+            << '\n';
+  return kDone;
+}
+
 int draw_map(const MapOptions& options) {
   auto map = open_map(options.store, configured_origin(options), options.voxel);
   if (!map) return report(map.error(), kFailed);
@@ -92,6 +134,17 @@ int draw_map(const MapOptions& options) {
   return kDone;
 }
 
+CLI::Validator ends_with(std::vector<std::string> extensions) {
+  const auto check = [extensions = std::move(extensions)](const std::string& file) -> std::string {
+    const std::string extension = std::filesystem::path(file).extension();
+    if (std::ranges::find(extensions, extension) != extensions.end()) return {};
+    std::string expected;
+    for (const std::string& one : extensions) expected += (expected.empty() ? "" : " or ") + one;
+    return file + ": must end with " + expected;
+  };
+  return {check, "FILE"};
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, int& exit_code) {
@@ -102,7 +155,10 @@ void add_map(CLI::App& app, int& exit_code) {
   CLI::App* export_command = command->add_subcommand("export", "the merged map in ENU as PLY or PCD");
   CLI::App* picture_command = command->add_subcommand(
       "picture", "the merged map from above and in perspective, by robot and density");
-  for (CLI::App* sub : {info_command, export_command, picture_command}) {
+  CLI::App* tracks_command = command->add_subcommand("tracks", "the ways of all robots as placed, in WGS84");
+  CLI::App* graph_command =
+      command->add_subcommand("graph", "nodes, odometry and alignments in use, for g2o");
+  for (CLI::App* sub : {info_command, export_command, picture_command, tracks_command, graph_command}) {
     sub->add_option("store", options->store, "store.db of an agent")->required();
     sub->add_option("--origin", options->origin_deg,
                     "latitude_deg,longitude_deg,altitude_m of ENU; else that of the agent's last map, or the "
@@ -122,6 +178,12 @@ void add_map(CLI::App& app, int& exit_code) {
   picture_command->callback([options, &exit_code] { exit_code = draw_map(*options); });
   info_command->callback([options, &exit_code] { exit_code = info(*options); });
   export_command->callback([options, &exit_code] { exit_code = export_map(*options); });
+  tracks_command->add_option("--out", options->out, "FILE.gpx or FILE.geojson")
+      ->required()
+      ->check(ends_with({".gpx", ".geojson"}));
+  tracks_command->callback([options, &exit_code] { exit_code = export_tracks(*options); });
+  graph_command->add_option("--out", options->out, "FILE.g2o")->required()->check(ends_with({".g2o"}));
+  graph_command->callback([options, &exit_code] { exit_code = export_graph(*options); });
 }
 
 }  // namespace fleetmap::apps

@@ -1,3 +1,4 @@
+#include <fastdds/rtps/participant/RTPSParticipant.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <spdlog/spdlog.h>
 
@@ -16,6 +17,9 @@ using eprosima::fastrtps::rtps::IPLocator;
 
 /// A robot that joined at most so long before this one seeks it, too, so that a Hello to it can wait.
 constexpr auto kJoinsWithUs = std::chrono::seconds(10);
+/// Hellos to an address that introduce others; later ones are short, since nobody may be there.
+constexpr int kIntroducing = 2;
+constexpr int kSoughtFirst = 4;
 constexpr double kMinWait = 2.0, kMaxWait = 5.0;  // s
 
 }  // namespace
@@ -30,6 +34,15 @@ Introductions::Prefix RadioLink::Hellos::bytes_of(const Prefix& prefix) {
 /// operator's program says whom it heard itself.
 bool RadioLink::Hellos::introduces() const {
   return radio_.link_ == Link::kLongRange && !radio_.guard_ && radio_.settings_;
+}
+
+/// The least is sent a Hello first: answers, where each pair must meet by itself. Where robots are
+/// introduced, those that are sought, unless they have been silent so often that they may be off; then
+/// answers; then introduced ones.
+int RadioLink::Hellos::rank(const RemoteLocator& remote) const {
+  if (!introduces()) return remote.robot || remote.claimed ? 0 : 1;
+  if (!remote.robot) return remote.hellos_sent < kSoughtFirst ? 0 : 1;
+  return radio_.heard_itself(remote) ? 1 : 2;
 }
 
 /// The topics that a robot reads if it reads what this one does.
@@ -52,9 +65,10 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
   const auto now = Clock::now();
   Introductions::Prefix recipient{};
   std::optional<Duration> joined_ago;
+  if (!remote.robot && remote.hellos_sent >= kIntroducing) return {};
   if (remote.robot) {
     const Peer& there = radio_.peers_.at(*remote.robot);
-    if (there.seeks == 0) return {};
+    if (!there.alike || there.seeks == 0) return {};
     recipient = bytes_of(*remote.robot);
     joined_ago = std::chrono::duration_cast<Duration>(now - there.joined);
   }
@@ -119,8 +133,10 @@ bool RadioLink::Hellos::introduce(const Introduction& introduction, const AgentI
   std::ranges::copy(introduction.prefix, robot.value);
   const auto there = radio_.origin_of(introduction.address, introduction.port);
   RemoteLocator* remote = there ? radio_.remote_at(*there) : nullptr;
+  const auto has_name = [&](const auto& peer) { return peer.second.agent == introduction.agent; };
   if (remote == nullptr || !remote->configured || remote->robot || introduction.agent == radio_.agent_ ||
-      radio_.peers_.contains(robot))
+      robot == radio_.participant_->getGuid().guidPrefix || radio_.peers_.contains(robot) ||
+      std::ranges::any_of(radio_.peers_, has_name))
     return false;
   const auto now = Clock::now();
   const auto heard = now - introduction.heard_ago;
@@ -151,16 +167,16 @@ bool RadioLink::Hellos::introduce(const Introduction& introduction, const AgentI
   return true;
 }
 
-/// What an introduced robot sends shows that it knows this one.
+/// Data of an introduced robot shows that it is there. It may be meant for this robot's start before, so that
+/// only a Hello shows that this one is known.
 void RadioLink::Hellos::hear_introduced() {
   for (const auto& remote : radio_.remotes_) {
     if (!remote->robot) continue;
     Peer& peer = radio_.peers_.at(*remote->robot);
     const auto heard = radio_.last_heard(*remote->robot);
-    if (!peer.introduced || !heard || *heard <= *peer.introduced) continue;
-    peer.introduced.reset();
+    if (!peer.introduced || peer.spoke || !heard || *heard <= *peer.introduced) continue;
+    peer.spoke = true;
     remote->heard = true;
-    remote->next = Clock::time_point::max();
     spdlog::info("{}: heard {} at {}", to_string(radio_.link_), peer.agent.str(), to_text(remote->locator));
     note(peer.agent, radio_.settings_, peer.multicast, remote->locator);
   }

@@ -74,7 +74,7 @@ void RadioLink::Greetings::answer_claim(const Prefix& sender, const Locator& fro
   }
   remote->certificate = introduction.fingerprint;
   remote->lacks_our_certificate = introduction.lacks_certificate;
-  remote->next = Clock::time_point::min();
+  remote->next = std::min(remote->next, Clock::now());
 }
 
 /// Returns whether the sender is the member that it claims to be; else it is reported once, and its messages

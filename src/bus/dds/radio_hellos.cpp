@@ -36,7 +36,7 @@ void RadioLink::Hellos::count_answer(const Hello& hello, const Acquaintance& acq
   const HelloPacing::Answer answer{
       .names_us = acquaintance.names_us,
       .names_another = acquaintance.names_another,
-      .joined_before = hello.seeks == 0 || joined_before(now - hello.joined_ago)};
+      .joined_before = hello.settings && (hello.seeks == 0 || joined_before(now - hello.joined_ago))};
   if (!radio_.pacing_.count_answer(answer, now)) return;
   for (const auto& remote : radio_.remotes_) {
     if (radio_.heard_itself(*remote) || remote->hellos_sent >= radio_.pacing_.quick_hellos(now)) continue;
@@ -175,17 +175,14 @@ void RadioLink::Hellos::warn_of_silent_remotes(Clock::time_point now) {
   }
 }
 
-/// To robots that are sought, then answers, then to robots that others introduced; the longest due first; no
-/// faster than this robot's share of what Hellos may take.
+/// By rank, the longest due first, no faster than this robot's share of what Hellos may take.
 void RadioLink::Hellos::send_due_hellos(Clock::time_point now) {
   std::vector<RemoteLocator*> due;
   for (const auto& remote : radio_.remotes_) {
     if (remote->next <= now) due.push_back(remote.get());
   }
-  std::ranges::sort(due, {}, [this](const RemoteLocator* remote) {
-    const int rank = radio_.heard_itself(*remote) ? 1 : remote->robot ? 2 : 0;
-    return std::pair(rank, remote->next);
-  });
+  std::ranges::sort(due, {},
+                    [this](const RemoteLocator* remote) { return std::pair(rank(*remote), remote->next); });
   for (RemoteLocator* remote : due) {
     if (now < hello_free_) return;
     send_hello(*remote);
@@ -282,9 +279,12 @@ void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acq
   }
   Peer& peer = radio_.peers_[sender];
   const bool known = radio_.heard_itself(remote);
+  const bool spoke = peer.spoke;
   if (!known) {
-    spdlog::info("{}: heard {} at {}{}", to_string(radio_.link_), hello.sender.str(), to_text(remote.locator),
-                 radio_.settings_ && !hello.settings ? " (an operator's program)" : "");
+    if (!spoke)
+      spdlog::info("{}: heard {} at {}{}", to_string(radio_.link_), hello.sender.str(),
+                   to_text(remote.locator),
+                   radio_.settings_ && !hello.settings ? " (an operator's program)" : "");
     remote.robot = sender;
     remote.heard = remote.heard || hello.settings;
     remote.next = Clock::time_point::max();
@@ -304,8 +304,9 @@ void RadioLink::Hellos::meet(const Prefix& sender, const Hello& hello, const Acq
   remote.names_predecessor = acquaintance.names_another;
   if (!acquaintance.names_us || replaced) {
     if (known && remote.next == Clock::time_point::max())
-      remote.missed_answer = true;           // no answer is under way
-    remote.next = Clock::time_point::min();  // before those to robots that may not be there
+      remote.missed_answer = true;  // no answer is under way
+    // In turn, or it would keep this robot from seeking others.
+    remote.next = std::min(remote.next, Clock::now());
   } else if (peer.last_hello == Clock::time_point{}) {
     peer.last_sent = peer.last_hello = Clock::now();  // the message to which this is the answer
   }

@@ -45,6 +45,7 @@ class RadioLink::Hellos {
             const Locator& from);
   void connect(const Prefix& robot, const Peer& peer);
   bool introduces() const;
+  int rank(const RemoteLocator& remote) const;
   std::set<EntityKey> reads_of(const AgentId& robot) const;
   bool is_alike(const Hello& hello) const;
   std::vector<Introduction> introductions_to(const RemoteLocator& remote) const;

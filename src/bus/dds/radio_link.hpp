@@ -75,7 +75,7 @@ class RadioLink final : public LinkEnd {
     bool configured = true;  ///< else it came in a Hello
     std::unique_ptr<eprosima::fastrtps::rtps::WriterHistory> history;
     eprosima::fastrtps::rtps::RTPSWriter* writer = nullptr;  ///< of Hellos to this address
-    std::optional<Prefix> robot;                             ///< that was heard from there
+    std::optional<Prefix> robot;                             ///< that was heard from there, or is said to be
     std::optional<Successor> successor;                      ///< waits until `robot` is silent
     bool heard = false;                                      ///< a robot was heard here, of any version
     bool warned = false;                                     ///< the log reports that none was
@@ -92,7 +92,7 @@ class RadioLink final : public LinkEnd {
     Clock::time_point next{};  ///< Hello; zero: not planned yet, max: none
     Clock::duration pause{};   ///< after it, without an answer
   };
-  /// A robot that was heard.
+  /// A robot that was heard, or that another one introduced.
   struct Peer {
     AgentId agent;
     Locator locator;
@@ -101,8 +101,9 @@ class RadioLink final : public LinkEnd {
     std::uint8_t seeks = 255;    ///< robots that it does not know, as it says
     bool alike = false;          ///< it has this robot's settings and topics
     Clock::time_point joined{};  ///< as it says
-    /// Another robot introduced it: when it is said to have been heard. Empty once it was heard here.
+    /// Another robot introduced it: when it is said to have been heard. Empty once a Hello of its own came.
     std::optional<Clock::time_point> introduced;
+    bool spoke = false;              ///< of an introduced one: data came from it
     Clock::time_point last_sent{};   ///< anything, from here to it
     Clock::time_point last_hello{};  ///< from here to it
   };
@@ -126,7 +127,7 @@ class RadioLink final : public LinkEnd {
   double others() const;
   std::optional<Locator> origin_of(const std::array<std::uint8_t, 4>& address, std::uint16_t port) const;
   void forget(Prefix robot);
-  /// It was heard there itself, so it knows this robot.
+  /// A Hello came from the robot there itself.
   bool heard_itself(const RemoteLocator& remote) const;
   eprosima::fastrtps::rtps::ReaderProxyData reader_of(const Prefix& robot, const Peer& peer) const;
   Locator group() const;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace fleetmap::apps {
+
+/// A man page (section 1, roff) of a program: its options, and those of each command and of the commands in
+/// it.
+std::string man_page(const CLI::App& program);
+
+/// A script for bash that completes the program's commands, its options after a dash, and the values of
+/// options that have few; everything else is completed as a file name.
+std::string bash_completion(const CLI::App& program);
+
+}  // namespace fleetmap::apps

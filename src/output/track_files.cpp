@@ -1,0 +1,102 @@
+#include "fleetmap/output/track_files.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "fleetmap/graph/frame_name.hpp"
+
+namespace fleetmap::output {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct TrackPoint {
+  NodeId id;
+  GeoPoint position;
+  Stamp stamp;
+};
+
+using Tracks = std::map<graph::FrameId, std::vector<TrackPoint>>;
+
+Tracks tracks_of(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
+                 const GeoPoint& origin) {
+  const LocalFrame enu(origin);
+  Tracks tracks;
+  for (const graph::Node& node : nodes) {
+    const auto placed = T_enu_node.find(node.id);
+    if (placed == T_enu_node.end()) continue;
+    tracks[node.frame()].push_back({node.id, enu.to_geo(placed->second.translation()), node.stamp});
+  }
+  return tracks;
+}
+
+/// "2026-11-26T18:12:39.500Z" (RFC 3339).
+std::string to_utc(Stamp stamp) {
+  constexpr std::int64_t kSecond = 1'000'000'000, kMillisecond = 1'000'000;
+  const std::int64_t ns = to_ns(stamp);
+  const std::time_t seconds = ns / kSecond;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900,
+                utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                static_cast<int>(ns % kSecond / kMillisecond));
+  return text.data();
+}
+
+/// Longitude, latitude, height, as GeoJSON orders them; to 1e-9 deg (0.1 mm) and 0.1 mm.
+nlohmann::json coordinates(const GeoPoint& point) {
+  const auto rounded = [](double value, double unit) { return std::round(value / unit) * unit; };
+  return {rounded(point.longitude / kDegree, 1e-9), rounded(point.latitude / kDegree, 1e-9),
+          rounded(point.altitude, 1e-4)};
+}
+
+}  // namespace
+
+std::string to_gpx(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
+                   const GeoPoint& origin) {
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+         "<gpx version=\"1.1\" creator=\"fleetmap\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n"
+      << std::fixed;
+  for (const auto& [frame, points] : tracks_of(nodes, T_enu_node, origin)) {
+    out << "<trk><name>" << graph::to_string(frame) << "</name><trkseg>\n";
+    for (const TrackPoint& point : points) {
+      out << std::setprecision(9) << "<trkpt lat=\"" << point.position.latitude / kDegree << "\" lon=\""
+          << point.position.longitude / kDegree << "\"><ele>" << std::setprecision(4)
+          << point.position.altitude << "</ele><time>" << to_utc(point.stamp) << "</time></trkpt>\n";
+    }
+    out << "</trkseg></trk>\n";
+  }
+  out << "</gpx>\n";
+  return out.str();
+}
+
+std::string to_geojson(const std::vector<graph::Node>& nodes, const std::map<NodeId, Pose>& T_enu_node,
+                       const GeoPoint& origin) {
+  nlohmann::json features = nlohmann::json::array();
+  for (const auto& [frame, points] : tracks_of(nodes, T_enu_node, origin)) {
+    nlohmann::json line = nlohmann::json::array();
+    for (const TrackPoint& point : points) {
+      line.push_back(coordinates(point.position));
+      features.push_back(
+          {{"type", "Feature"},
+           {"geometry", {{"type", "Point"}, {"coordinates", line.back()}}},
+           {"properties",
+            {{"node", to_string(point.id)}, {"robot", frame.agent.str()}, {"time", to_utc(point.stamp)}}}});
+    }
+    if (points.size() < 2) continue;  // no line
+    features.push_back({{"type", "Feature"},
+                        {"geometry", {{"type", "LineString"}, {"coordinates", line}}},
+                        {"properties", {{"track", graph::to_string(frame)}, {"robot", frame.agent.str()}}}});
+  }
+  return nlohmann::json{{"type", "FeatureCollection"}, {"features", features}}.dump(1) + "\n";
+}
+
+}  // namespace fleetmap::output
