@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <sstream>
 #include <vector>
 
 namespace fleetmap::apps {
@@ -81,10 +82,9 @@ void collect(const CLI::App& app, const std::string& path, Words& words) {
     if (option->get_group().empty() || option->get_positional()) continue;
     options += names_of(*option);
     if (option->get_items_expected_max() == 0) continue;
-    for (const std::string& name : option->get_snames())
-      words.values[path + " -" + name] = values_of(*option);
-    for (const std::string& name : option->get_lnames())
-      words.values[path + " --" + name] = values_of(*option);
+    std::istringstream names(names_of(*option));
+    for (std::string name; names >> name;)
+      words.values[std::string(path).append(" ").append(name)] = values_of(*option);
   }
   for (const CLI::App* command : commands_of(app)) collect(*command, path + " " + command->get_name(), words);
 }
@@ -92,7 +92,8 @@ void collect(const CLI::App& app, const std::string& path, Words& words) {
 /// Global, since bash-completion reads the script inside a function.
 std::string table(const std::string& name, const std::map<std::string, std::string>& rows) {
   std::string text = "declare -gA " + name + "=(\n";
-  for (const auto& [key, value] : rows) text += "  ['" + key + "']='" + value + "'\n";
+  for (const auto& [key, value] : rows)
+    text.append("  ['").append(key).append("']='").append(value).append("'\n");
   return text + ")\n";
 }
 

@@ -36,8 +36,8 @@ class Manual : public ::testing::Test {
     const auto file = std::filesystem::path(::testing::TempDir()) / ("fleetmap_completion_" + test + ".bash");
     std::ofstream(file) << bash_completion(program_);
     const std::string command =
-        "bash -euc 'load() { source " + file.string() +
-        "; }; load; complete -p tool > /dev/null; COMP_WORDS=(" + words +
+        "bash -uc 'load() { source " + file.string() +
+        "; }; load && complete -p tool > /dev/null || exit; COMP_WORDS=(" + words +
         "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _tool; printf \"%s\\n\" \"${COMPREPLY[@]}\"'";
     std::vector<std::string> offered;
     FILE* pipe = popen(command.c_str(), "r");
