@@ -12,9 +12,9 @@ install(FILES ${package}/fleetmap-agent@.service DESTINATION lib/systemd/system)
 install(FILES ${package}/sysctl.conf DESTINATION lib/sysctl.d RENAME 00-fleetmap.conf)
 install(FILES ${package}/sysusers.conf DESTINATION lib/sysusers.d RENAME fleetmap.conf)
 install(DIRECTORY DESTINATION /etc/fleetmap)
-install(FILES ${PROJECT_BINARY_DIR}/fleetmap.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${PROJECT_BINARY_DIR}/fleetmap.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 install(FILES ${PROJECT_BINARY_DIR}/fleetmap.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
-        RENAME fleetmap)
+        RENAME fleetmap OPTIONAL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
