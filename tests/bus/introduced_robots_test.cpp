@@ -1,48 +1,13 @@
 // A robot that another one knows: r1 is a bus, the test plays r2 and r3 on sockets of this machine.
 #include <gmock/gmock.h>
-#include <poll.h>
 
 #include "bus/dds/introductions.hpp"
-#include "bus/dds/rtps_header.hpp"
 #include "bus/dds/rtps_messages.hpp"
 #include "bus/lone_radio.hpp"
+#include "bus/place.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
-
-/// A UDP socket at a port of this machine.
-class Place {
- public:
-  explicit Place(std::uint16_t port) {
-    sockaddr_in here{};
-    here.sin_family = AF_INET;
-    here.sin_port = htons(port);
-    here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (bind(fd_, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0)
-      throw std::runtime_error("port " + std::to_string(port) + " is taken");
-  }
-  ~Place() { close(fd_); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  /// The next Hello that waits, if any.
-  std::optional<Hello> hello() {
-    pollfd waits{fd_, POLLIN, 0};
-    while (poll(&waits, 1, 0) == 1) {
-      Bytes bytes(65536);
-      bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(recv(fd_, bytes.data(), bytes.size(), 0), 0)));
-      if (const auto cdr = hello_in(bytes)) {
-        std::copy_n(bytes.begin() + 8, from.size(), from.begin());
-        return decode_hello(*cdr);
-      }
-    }
-    return std::nullopt;
-  }
-
-  Introductions::Prefix from{};  ///< of the last Hello
-
- private:
-  int fd_ = socket(AF_INET, SOCK_DGRAM, 0);
-};
 
 Topic topic(const std::string& name) { return {Link::kLongRange, name, "Type", "small"}; }
 

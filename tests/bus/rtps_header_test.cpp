@@ -28,5 +28,18 @@ TEST(HelloIn, NoMutilatedMessageHasOne) {
   EXPECT_EQ(hello_in(other), std::nullopt);
 }
 
+TEST(WithoutStatistics, IsTheMessageThatTheWriterMade) {
+  const Bytes message = rtps_message(0x12);
+  Bytes sent = message;
+  sent.insert(sent.end(), {0x80, 0x01, 56, 0});
+  sent.resize(message.size() + kStatisticsBytes);
+  EXPECT_TRUE(ends_like_statistics(sent));
+  const ByteView left = without_statistics(sent);
+  EXPECT_EQ(Bytes(left.begin(), left.end()), message);
+  EXPECT_EQ(without_statistics(message).size(), message.size());
+  EXPECT_EQ(without_statistics(ByteView(sent).last(kStatisticsBytes)).size(), kStatisticsBytes)
+      << "no RTPS message is that short";
+}
+
 }  // namespace
 }  // namespace fleetmap::bus::testing

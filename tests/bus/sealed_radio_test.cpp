@@ -206,6 +206,7 @@ TEST_F(SealedRadio, WhatArrivesIsCountedWithItsSeal) {
   ASSERT_EQ(traffic.size(), 1u);
   EXPECT_EQ(traffic[0].bytes, traffic[0].messages * wire_bytes(204, {.seal = kSealBytes}));
   static_assert(kSealBytes == trust::kMessageHeaderBytes + trust::kTagBytes - 20);
+  static_assert(hello_overhead(true).seal == trust::kGreetingHeaderBytes + trust::kTagBytes - 20);
 }
 
 TEST_F(SealedRadio, ARobotWithoutKeysIsNamed) { expect_refused(std::nullopt, "r3 has no keys"); }

@@ -124,11 +124,11 @@ TEST(SendQueue, tells_one_robot_after_the_other_and_near_ones_by_another_link) {
   config.pace = {.burst_seconds = 0.0, .min_burst_bytes = 430.0};  // one datagram at a time
   SendQueue queue(config, kFour, testing::payload_size);
   queue.push(Priority::kNews, node(0));
-  EXPECT_EQ(queue.backlog_bytes(), 4u * (kNodeBytes + 174u));
+  EXPECT_EQ(queue.backlog_bytes(), 4u * (kNodeBytes + config.overhead_bytes));
   std::vector<AgentId> told;
   for (const Outgoing& outgoing : queue.take(kStart)) told.push_back(outgoing.to.value());
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(queue.backlog_bytes(), 3u * (kNodeBytes + 174u));
+  EXPECT_EQ(queue.backlog_bytes(), 3u * (kNodeBytes + config.overhead_bytes));
   const AgentId near = told[0] == kFour[2] ? kFour[1] : kFour[2];
   const auto diverted = queue.take_for({near, told[0]});
   ASSERT_EQ(diverted.size(), 1u);
@@ -145,9 +145,10 @@ TEST(SendQueue, tells_one_robot_after_the_other_and_near_ones_by_another_link) {
   EXPECT_EQ(queue.stats().sent[static_cast<std::size_t>(Priority::kNews)], 1u);
 
   queue.push_to({kFour[1], kFour[3]}, Priority::kState, Digest{kSelf, {}, {}});
-  EXPECT_EQ(queue.backlog_bytes(), 2u * testing::payload_size(Digest{kSelf, {}, {}}) + 2u * 174u);
+  EXPECT_EQ(queue.backlog_bytes(),
+            2u * testing::payload_size(Digest{kSelf, {}, {}}) + 2u * config.overhead_bytes);
   queue.push_to({kFour[1]}, Priority::kState, Digest{kSelf, {}, {}});
-  EXPECT_EQ(queue.backlog_bytes(), testing::payload_size(Digest{kSelf, {}, {}}) + 174u);
+  EXPECT_EQ(queue.backlog_bytes(), testing::payload_size(Digest{kSelf, {}, {}}) + config.overhead_bytes);
   EXPECT_EQ(queue.take_for({kFour[1]}).size(), 1u);
   EXPECT_TRUE(queue.empty());
   queue.push_to({}, Priority::kState, Digest{kSelf, {}, {}});

@@ -113,7 +113,7 @@ std::vector<Duration> SimFleet::arrivals(const fault_injection::Packet& packet, 
 
 std::optional<Duration> SimFleet::queueing(const fault_injection::Packet& packet) {
   constexpr double kMtu = 1500.0,
-                   kHeaders = 90.0;  // B; headers as submap_transfer.overhead_bytes counts them
+                   kHeaders = 60.0;  // B; headers as submap_transfer.overhead_bytes counts them
   queue_empty_ = std::max(queue_empty_, now());
   bool whole = true;
   const auto payload = static_cast<double>(packet.wire_bytes);

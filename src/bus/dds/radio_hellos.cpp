@@ -66,7 +66,7 @@ void RadioLink::Hellos::send_hello(RemoteLocator& remote, bool leaves) {
   if (introduces() && !leaves) hello.introduces = introductions_to(remote);
   const Bytes cdr = radio_.guard_ ? radio_.greetings_->greeting_of(hello, remote) : encode(hello);
   send(*remote.writer, *remote.history, cdr, 1);
-  const std::size_t bytes = wire_bytes(cdr.size(), {.seal = radio_.guard_ ? kSealBytes : 0});
+  const std::size_t bytes = wire_bytes(cdr.size(), hello_overhead(radio_.guard_ != nullptr));
   radio_.hello_bytes_ += bytes;
   const auto now = Clock::now();
   hello_free_ =

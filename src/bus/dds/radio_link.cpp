@@ -17,7 +17,7 @@
 #include "radio_received.hpp"
 #include "radio_topic.hpp"
 #include "rtps_messages.hpp"
-#include "sealed_transport.hpp"
+#include "radio_transport.hpp"
 
 namespace fleetmap::bus {
 namespace {
@@ -94,7 +94,7 @@ Status RadioLink::join() {
 Status RadioLink::make_entities() {
   const std::string name = to_string(link_);
   auto attributes = radio_attributes(config_, link_, agent_, observes_, profile_);
-  if (guard_) seal_transports(attributes, guard_);
+  prepare_transports(attributes, guard_);
   participant_ = rtps::RTPSDomain::createParticipant(config_.domain, attributes);
   if (participant_ == nullptr) {
     return failure(name + ": cannot join DDS domain " + std::to_string(config_.domain) + " on " +

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kMagic = "RTPS";
 constexpr std::size_t kSubmessageHeader = 4, kDataHeader = 20;
 constexpr std::size_t kWriterAt = 8;  // in DATA
-constexpr std::uint8_t kData = 0x15;
+constexpr std::uint8_t kData = 0x15, kStatistics = 0x80;
 constexpr std::uint8_t kLittleEndian = 1, kInlineQos = 2, kHasData = 4;
 
 /// DATA without its header: 2 bytes of flags, 2 of offset, reader, writer, sequence number, payload.
@@ -24,6 +24,16 @@ std::optional<Bytes> hello_of(std::uint8_t flags, ByteView data) {
 }
 
 }  // namespace
+
+bool ends_like_statistics(ByteView datagram) {
+  return datagram.size() >= kRtpsHeaderBytes + kStatisticsBytes &&
+         datagram[datagram.size() - kStatisticsBytes] == kStatistics;
+}
+
+ByteView without_statistics(ByteView rtps_message) {
+  return ends_like_statistics(rtps_message) ? rtps_message.first(rtps_message.size() - kStatisticsBytes)
+                                            : rtps_message;
+}
 
 std::optional<Bytes> hello_in(ByteView rtps_message) {
   if (rtps_message.size() < kRtpsHeaderBytes ||

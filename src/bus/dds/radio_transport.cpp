@@ -1,4 +1,4 @@
-#include "sealed_transport.hpp"
+#include "radio_transport.hpp"
 
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
@@ -10,50 +10,58 @@
 #include <fastdds/rtps/common/LocatorsIterator.hpp>
 #include <utility>
 
+#include "rtps_header.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
 namespace dds = eprosima::fastdds::rtps;
 namespace rtps = eprosima::fastrtps::rtps;
 
-struct SealedDescriptor final : dds::ChainingTransportDescriptor {
-  SealedDescriptor(std::shared_ptr<dds::TransportDescriptorInterface> low, std::shared_ptr<RadioGuard> keys)
+struct RadioDescriptor final : dds::ChainingTransportDescriptor {
+  RadioDescriptor(std::shared_ptr<dds::TransportDescriptorInterface> low, std::shared_ptr<RadioGuard> keys)
       : ChainingTransportDescriptor(std::move(low)), guard(std::move(keys)) {}
   dds::TransportInterface* create_transport() const override;
-  std::shared_ptr<RadioGuard> guard;
+  std::shared_ptr<RadioGuard> guard;  ///< null without keys
 };
 
-class SealedTransport final : public dds::ChainingTransport {
+class RadioTransport final : public dds::ChainingTransport {
  public:
-  explicit SealedTransport(const SealedDescriptor& descriptor)
+  explicit RadioTransport(const RadioDescriptor& descriptor)
       : ChainingTransport(descriptor), descriptor_(descriptor) {}
   dds::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
 
   bool send(rtps::SenderResource* low, const rtps::octet* buffer, std::uint32_t size,
             rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
             const std::chrono::steady_clock::time_point& deadline) override {
-    const Bytes datagram = descriptor_.guard->seal({buffer, size});
-    return low->send(datagram.data(), static_cast<std::uint32_t>(datagram.size()), first, last, deadline);
+    const auto put = [&](ByteView datagram) {
+      return low->send(datagram.data(), static_cast<std::uint32_t>(datagram.size()), first, last, deadline);
+    };
+    const ByteView whole(buffer, size), message = without_statistics(whole);
+    if (descriptor_.guard) return put(descriptor_.guard->seal(message));
+    return put(ends_like_statistics(message) ? whole : message);
   }
   void receive(dds::TransportReceiverInterface* next, const rtps::octet* buffer, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
+    if (!descriptor_.guard) return next->OnDataReceived(buffer, size, local, remote);
     const auto message = descriptor_.guard->open({buffer, size}, rtps::IPLocator::toIPv4string(remote));
     if (message)
       next->OnDataReceived(message->data(), static_cast<std::uint32_t>(message->size()), local, remote);
   }
 
  private:
-  SealedDescriptor descriptor_;
+  RadioDescriptor descriptor_;
 };
 
-dds::TransportInterface* SealedDescriptor::create_transport() const { return new SealedTransport(*this); }
+dds::TransportInterface* RadioDescriptor::create_transport() const { return new RadioTransport(*this); }
 
 }  // namespace
 
-void seal_transports(rtps::RTPSParticipantAttributes& attributes, const std::shared_ptr<RadioGuard>& guard) {
-  std::ranges::copy(guard->session(), attributes.prefix.value);
+void prepare_transports(rtps::RTPSParticipantAttributes& attributes,
+                        const std::shared_ptr<RadioGuard>& guard) {
+  if (guard) std::ranges::copy(guard->session(), attributes.prefix.value);
   for (auto& transport : attributes.userTransports)
-    transport = std::make_shared<SealedDescriptor>(transport, guard);
+    transport = std::make_shared<RadioDescriptor>(transport, guard);
 }
 
 }  // namespace fleetmap::bus
