@@ -2,17 +2,17 @@
 
 namespace fleetmap::agent {
 
-const char* to_string(StandReason reason) {
+const char* to_string(StopReason reason) {
   switch (reason) {
-    case StandReason::kStopping:
+    case StopReason::kStopping:
       return "the program is told to stop";
-    case StandReason::kHeld:
+    case StopReason::kHeld:
       return "an operator holds it";
-    case StandReason::kNoScan:
+    case StopReason::kNoScan:
       return "no scan comes";
-    case StandReason::kNoOdometry:
+    case StopReason::kNoOdometry:
       return "the odometry is lost or too slow";
-    case StandReason::kNoPose:
+    case StopReason::kNoPose:
       return "its pose is not known";
   }
   return "unknown";
@@ -26,14 +26,14 @@ bool DriveGuard::overdue(const std::optional<Stamp>& last, Stamp now) const {
   return !last || now < *last || now - *last > config_.patience;
 }
 
-std::optional<StandReason> DriveGuard::check(Stamp now) {
+std::optional<StopReason> DriveGuard::check(Stamp now) {
   if (checked_ && now < *checked_) scan_ = odometry_ = pose_ = std::nullopt;
   checked_ = now;
-  if (stopping_) return StandReason::kStopping;
-  if (held_) return StandReason::kHeld;
-  if (overdue(scan_, now)) return StandReason::kNoScan;
-  if (overdue(odometry_, now)) return StandReason::kNoOdometry;
-  if (overdue(pose_, now)) return StandReason::kNoPose;
+  if (stopping_) return StopReason::kStopping;
+  if (held_) return StopReason::kHeld;
+  if (overdue(scan_, now)) return StopReason::kNoScan;
+  if (overdue(odometry_, now)) return StopReason::kNoOdometry;
+  if (overdue(pose_, now)) return StopReason::kNoPose;
   return std::nullopt;
 }
 

@@ -57,7 +57,7 @@ Navigator::Navigator(const NavigatorConfig& config, const AgentId& self, plannin
 
 /// Also when an exception ends the program.
 Navigator::~Navigator() {
-  if (stand_reason_ != StandReason::kStopping) stop();
+  if (stop_reason_ != StopReason::kStopping) stop();
 }
 
 std::optional<planning::Pose2> Navigator::pose_of(const GlobalPose& G) const {
@@ -81,23 +81,23 @@ void Navigator::drive(const planning::Command& command) {
                ros_codec::encode(ros_codec::VelocityCommand{passed.forward_speed, passed.yaw_rate}));
 }
 
-void Navigator::note(const std::optional<StandReason>& reason) {
+void Navigator::note(const std::optional<StopReason>& reason) {
   drove_ |= !reason;
-  if (reason == stand_reason_) return;
+  if (reason == stop_reason_) return;
   if (!reason) {
     if (standing_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
-  } else if ((drove_ && !done()) || reason == StandReason::kHeld) {  // else there is nothing to warn of
-    spdlog::log(reason == StandReason::kStopping ? spdlog::level::info : spdlog::level::warn,
+  } else if ((drove_ && !done()) || reason == StopReason::kHeld) {  // else there is nothing to warn of
+    spdlog::log(reason == StopReason::kStopping ? spdlog::level::info : spdlog::level::warn,
                 "{}: stands still: {}", self_.str(), to_string(*reason));
   }
-  stand_reason_ = reason;
+  stop_reason_ = reason;
   standing_since_ = bus_.now();
 }
 
 void Navigator::watch() {
   const auto reason = guard_.check(bus_.now());
-  if (reason == StandReason::kHeld) follower_.pause(bus_.now());
-  if (reason || stand_reason_) drive({});
+  if (reason == StopReason::kHeld) follower_.pause(bus_.now());
+  if (reason || stop_reason_) drive({});
 }
 
 bool Navigator::locate(const Perceived& perceived) {
@@ -132,7 +132,7 @@ void Navigator::on_node(const graph::Node& node) {
 }
 
 void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
-  if (stand_reason_ == StandReason::kStopping || !pose_) return;
+  if (stop_reason_ == StopReason::kStopping || !pose_) return;
   planning::MissionInput input;
   input.now = bus_.now();
   input.pose = *pose_;
@@ -160,8 +160,8 @@ bool Navigator::all_rows_driven() const {
 
 /// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.
 bool Navigator::stuck(Stamp now) const {
-  if (stand_reason_ == StandReason::kHeld) return false;
-  const bool blind = stand_reason_ && now - standing_since_ > from_seconds(config_.follower.stuck_after);
+  if (stop_reason_ == StopReason::kHeld) return false;
+  const bool blind = stop_reason_ && now - standing_since_ > from_seconds(config_.follower.stuck_after);
   return blind || follower_.stuck(now);
 }
 

@@ -41,7 +41,7 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
   }
   if (none_yet) return;
   if (const agent::Navigator* navigator = agent.navigator()) {
-    if (const auto reason = navigator->stand_reason())
+    if (const auto reason = navigator->stop_reason())
       spdlog::info("{}: stands still: {}", agent.config().id.str(), to_string(*reason));
     const auto mission = navigator->status();
     spdlog::info("{}: {}, {} of {} rows driven by the fleet, {} to go for this robot",
@@ -86,8 +86,8 @@ bool time_to_end(agent::Agent& agent, const bus::Bus& bus, Duration patience, bo
     return false;
   }
   const Duration silence = bus.now() - agent.last_exchange();
-  const bool settled = agent.idle() && agent.complete() && agent.fleet_caught_up() && !agent.others_busy();
-  return settled ? silence > patience : silence > patience + kPeerPatience;
+  const bool ended = agent.idle() && agent.complete() && agent.fleet_caught_up() && !agent.others_busy();
+  return ended ? silence > patience : silence > patience + kPeerPatience;
 }
 
 }  // namespace

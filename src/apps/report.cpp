@@ -181,7 +181,7 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
                     const RunProfile& profile) {
   json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
                  {"settle_time_s", to_seconds(outcome.settle_time)},
-                 {"settled", outcome.settled},
+                 {"settled", outcome.exchange_ended},
                  {"wall_time_s", profile.wall},
                  {"profile", to_json(profile)},
                  {"links", links_json(outcome.links)}};

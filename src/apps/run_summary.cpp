@@ -49,7 +49,7 @@ void print_agreement(std::ostream& out, const FleetOutcome& outcome) {
     if (entry.agent) maps.insert(entry.results ? entry.results->map.hash : "none of " + entry.id.str());
   }
   out << (maps.size() <= 1 ? "all robots hold the same map\n" : "the robots' maps differ: see report.json\n");
-  if (!outcome.settled) {
+  if (!outcome.exchange_ended) {
     out << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
            "report.json\n";
   }

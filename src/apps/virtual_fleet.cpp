@@ -211,7 +211,7 @@ bool VirtualFleet::playing() const {
   return false;
 }
 
-bool VirtualFleet::settled() {
+bool VirtualFleet::exchange_ended() {
   bool all = true;
   for (std::size_t k = 0; k < members_.size(); ++k) {
     Member& member = members_[k];
@@ -257,8 +257,8 @@ Result<FleetOutcome> VirtualFleet::run() {
     end_mission(network_->now() - start);
     note_completion(network_->now() - start);
     if (playing()) last_sample = network_->now();
-    outcome.settled = settled();
-    if (outcome.settled || network_->now() - last_sample > from_seconds(config_.settle_time)) break;
+    outcome.exchange_ended = exchange_ended();
+    if (outcome.exchange_ended || network_->now() - last_sample > from_seconds(config_.settle_time)) break;
     if (network_->now() < next_report) continue;
     next_report += kReportEvery;
     report_progress(network_->now() - start);

@@ -49,7 +49,7 @@ struct FleetOutcome {
   bool origin_known = false;
   Duration virtual_time{};               ///< from the first sensor sample to the end of the exchange
   Duration settle_time{};                ///< of it, after the last sensor sample
-  bool settled = false;                  ///< the exchange came to its end by itself
+  bool exchange_ended = false;           ///< the exchange came to its end by itself
   std::optional<Completion> completion;  ///< of a mission
   FeedSeconds feed_seconds;              ///< CPU
   agent::WorkSeconds work_seconds;       ///< CPU, of all agents
@@ -106,7 +106,7 @@ class VirtualFleet {
   void end_mission(Duration elapsed);
   bool all_driven() const;
   void note_completion(Duration elapsed);
-  bool settled();
+  bool exchange_ended();
   void report_progress(Duration elapsed) const;
   Result<FleetOutcome::AgentOutcome> finish(std::size_t member);
   /// Outcome of a member that is switched off at the end.

@@ -26,11 +26,11 @@ int first_stop(DriveGuard& guard) {
 
 TEST(DriveGuard, NothingWasSeenYet) {
   DriveGuard guard;
-  EXPECT_EQ(guard.check(kStart), StandReason::kNoScan);
+  EXPECT_EQ(guard.check(kStart), StopReason::kNoScan);
   guard.on_scan(kStart);
-  EXPECT_EQ(guard.check(kStart), StandReason::kNoOdometry);
+  EXPECT_EQ(guard.check(kStart), StopReason::kNoOdometry);
   guard.on_odometry(kStart, kStart);
-  EXPECT_EQ(guard.check(kStart), StandReason::kNoPose);
+  EXPECT_EQ(guard.check(kStart), StopReason::kNoPose);
   guard.on_pose(kStart);
   EXPECT_EQ(guard.check(kStart), std::nullopt);
 }
@@ -41,18 +41,18 @@ TEST(DriveGuard, StandsWithin300MsOfTheLastScan) {
   const int stop = first_stop(guard);
   EXPECT_GT(stop, 200) << "a LiDAR of 5 Hz, and one that is a little late";
   EXPECT_LE(stop, 280);
-  EXPECT_EQ(guard.check(kStart + 1s), StandReason::kNoScan);
+  EXPECT_EQ(guard.check(kStart + 1s), StopReason::kNoScan);
 }
 
 TEST(DriveGuard, EachOfScanOdometryAndPoseIsNeeded) {
-  for (const StandReason missing : {StandReason::kNoScan, StandReason::kNoOdometry, StandReason::kNoPose}) {
+  for (const StopReason missing : {StopReason::kNoScan, StopReason::kNoOdometry, StopReason::kNoPose}) {
     DriveGuard guard;
     see(guard, kStart);
     for (Duration age{}; age <= 500ms; age += 100ms) {
       const Stamp now = kStart + age;
-      if (missing != StandReason::kNoScan) guard.on_scan(now);
-      if (missing != StandReason::kNoOdometry) guard.on_odometry(now, now);
-      if (missing != StandReason::kNoPose) guard.on_pose(now);
+      if (missing != StopReason::kNoScan) guard.on_scan(now);
+      if (missing != StopReason::kNoOdometry) guard.on_odometry(now, now);
+      if (missing != StopReason::kNoPose) guard.on_pose(now);
       EXPECT_EQ(guard.check(now).has_value(), age > 260ms) << to_string(missing);
     }
     EXPECT_EQ(guard.check(kStart + 500ms), missing);
@@ -70,7 +70,7 @@ TEST(DriveGuard, AResultThatComesLateIsNone) {
     slow.on_scan(now);
     slow.on_pose(now);
     slow.on_odometry(now - 301ms, now);
-    EXPECT_EQ(slow.check(now), StandReason::kNoOdometry);
+    EXPECT_EQ(slow.check(now), StopReason::kNoOdometry);
     slow.on_odometry(now - 299ms, now);
     EXPECT_EQ(slow.check(now), std::nullopt);
   }
@@ -80,7 +80,7 @@ TEST(DriveGuard, WhoIsHeldStandsUntilItIsLetGo) {
   DriveGuard guard;
   see(guard, kStart);
   guard.set_held(true);
-  EXPECT_EQ(guard.check(kStart), StandReason::kHeld);
+  EXPECT_EQ(guard.check(kStart), StopReason::kHeld);
   guard.set_held(false);
   EXPECT_EQ(guard.check(kStart), std::nullopt);
 }
@@ -90,7 +90,7 @@ TEST(DriveGuard, WhoStopsNeverDrivesAgain) {
   guard.stop();
   see(guard, kStart);
   guard.set_held(false);
-  EXPECT_EQ(guard.check(kStart), StandReason::kStopping);
+  EXPECT_EQ(guard.check(kStart), StopReason::kStopping);
 }
 
 TEST(DriveGuard, AClockThatIsSetDoesNotLetItDriveOn) {

@@ -32,7 +32,7 @@ TEST_P(ScansStop, AndTheRobotStands) {
   const Stamp last = fleet.robot().last_scan;
   fleet.run_for(5s);
   expect_stands_since(fleet, fleet.robot(), last);
-  EXPECT_EQ(fleet.robot().agent->navigator()->stand_reason(), StandReason::kNoScan);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stop_reason(), StopReason::kNoScan);
   fleet.robot().scans = true;
   EXPECT_TRUE(fleet.run_until_driving());
 }
@@ -56,7 +56,7 @@ TEST(DriveSafety, StandsWhenTheOdometryGivesNothingThoughScansCome) {
   fleet.run_for(3s);
   EXPECT_GT(fleet.robot().agent->perception().counters().refused_scans, 20u);
   expect_stands_since(fleet, fleet.robot(), event);
-  EXPECT_EQ(fleet.robot().agent->navigator()->stand_reason(), StandReason::kNoOdometry);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stop_reason(), StopReason::kNoOdometry);
 }
 
 TEST(DriveSafety, IsNotDrivenByAnOdometryThatIsTooSlow) {
@@ -75,7 +75,7 @@ TEST(DriveSafety, StandsWhenNobodyTellsAnyMoreWhereItIs) {
   const Stamp last = fleet.robot().last_guide;
   fleet.run_for(5s);
   expect_stands_since(fleet, fleet.robot(), last);
-  EXPECT_EQ(fleet.robot().agent->navigator()->stand_reason(), StandReason::kNoPose);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stop_reason(), StopReason::kNoPose);
 }
 
 TEST(DriveSafety, StandsWhenGpsAndWheelsAreGoneForTooLong) {
@@ -84,14 +84,14 @@ TEST(DriveSafety, StandsWhenGpsAndWheelsAreGoneForTooLong) {
   fleet.robot().fixes = fleet.robot().wheel = false;
   const double limit = DriveGuardConfig{}.max_position_sigma;
   Stamp last_good{};
-  for (int k = 0; k < 1000 && !fleet.robot().agent->navigator()->stand_reason(); ++k) {
+  for (int k = 0; k < 1000 && !fleet.robot().agent->navigator()->stop_reason(); ++k) {
     fleet.run_for(20ms);
     const double sigma = place::horizontal_sigma(fleet.robot().G.covariance);
     if (sigma <= limit) last_good = fleet.robot().G.stamp;
   }
   fleet.run_for(3s);
   expect_stands_since(fleet, fleet.robot(), last_good);
-  EXPECT_EQ(fleet.robot().agent->navigator()->stand_reason(), StandReason::kNoPose);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stop_reason(), StopReason::kNoPose);
 }
 
 TEST(DriveSafety, StandsBeforeTheProgramWritesItsMaps) {
@@ -120,8 +120,8 @@ TEST(DriveSafety, AnOperatorHoldsOneRobotAndLetsItGo) {
   fleet.order("r1", true);
   fleet.run_for(4s);
   expect_stands_since(fleet, fleet.robot("r1"), event);
-  EXPECT_EQ(fleet.robot("r1").agent->navigator()->stand_reason(), StandReason::kHeld);
-  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stand_reason());
+  EXPECT_EQ(fleet.robot("r1").agent->navigator()->stop_reason(), StopReason::kHeld);
+  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stop_reason());
   const auto nodes = fleet.robot("r1").agent->perception().counters().scans;
   fleet.run_for(20s);
   EXPECT_GT(fleet.robot("r1").agent->perception().counters().scans, nodes + 150) << "it goes on to see";
@@ -156,10 +156,10 @@ TEST(DriveSafety, WhoMissedAnOrderHearsOfItFromTheOthers) {
     fleet.order("", true);
     fleet.run_for(200ms);
   }
-  EXPECT_EQ(fleet.robot("r1").agent->navigator()->stand_reason(), StandReason::kHeld);
-  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stand_reason());
+  EXPECT_EQ(fleet.robot("r1").agent->navigator()->stop_reason(), StopReason::kHeld);
+  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stop_reason());
   fleet.run_for(25s);
-  EXPECT_EQ(fleet.robot("r2").agent->navigator()->stand_reason(), StandReason::kHeld);
+  EXPECT_EQ(fleet.robot("r2").agent->navigator()->stop_reason(), StopReason::kHeld);
 }
 
 TEST(DriveSafety, WhoIsHeldStaysSoWhenItsProgramStartsAnew) {
@@ -169,7 +169,7 @@ TEST(DriveSafety, WhoIsHeldStaysSoWhenItsProgramStartsAnew) {
   fleet.run_for(2s);
   const double before = fleet.robot().twin->odometer();
   fleet.restart("r1");
-  EXPECT_EQ(fleet.robot().agent->navigator()->stand_reason(), StandReason::kHeld);
+  EXPECT_EQ(fleet.robot().agent->navigator()->stop_reason(), StopReason::kHeld);
   fleet.run_for(20s);
   EXPECT_LT(fleet.robot().twin->odometer() - before, 0.01);
   fleet.order("r1", false);
@@ -191,7 +191,7 @@ TEST(DriveSafety, AButtonOnTheRobotHoldsIt) {
   press(true);
   fleet.run_for(4s);
   expect_stands_since(fleet, fleet.robot("r1"), event);
-  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stand_reason());
+  EXPECT_FALSE(fleet.robot("r2").agent->navigator()->stop_reason());
   press(false);
   EXPECT_TRUE(fleet.run_until_driving());
 }

@@ -238,13 +238,13 @@ TEST_F(NavigatorTest, OnceStoppedItStandsForGood) {
   stand(at({0.0, 0.0}, 0.0), 2);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
-  EXPECT_EQ(navigator_->stand_reason(), StandReason::kStopping);
+  EXPECT_EQ(navigator_->stop_reason(), StopReason::kStopping);
 }
 
 TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
   stand(at({0.0, 0.0}, 0.0), 2);
   network_->run_until(network_->now() + std::chrono::milliseconds(300));
-  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoScan);
+  EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoScan);
   commands_.clear();
   network_->run_until(network_->now() + std::chrono::seconds(1));
   EXPECT_GE(commands_.size(), 45u) << "whoever lost one gets the next";
@@ -262,10 +262,10 @@ TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
   commands_.clear();
   stand(doubtful, 1);
   expect_zeros();
-  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoPose);
+  EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
   doubtful.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
   stand(doubtful, 1);
-  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoPose);
+  EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
   stand(at({0.0, 0.0}, 0.0), 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
 }
@@ -278,7 +278,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   stand(lost, 1);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
-  EXPECT_EQ(navigator_->stand_reason(), StandReason::kNoOdometry);
+  EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoOdometry);
   commands_.clear();
   stand(lost, 1, fleet_codec::encode(*at({0.0, 0.0}, 0.0).G));
   expect_zeros();  // whoever leads it does not see what is in the way

@@ -7,14 +7,14 @@
 namespace fleetmap::agent {
 
 /// Reason for which a robot must stand still.
-enum class StandReason {
+enum class StopReason {
   kStopping,    ///< the process is ending
   kHeld,        ///< an operator's order
   kNoScan,      ///< the LiDAR is silent
   kNoOdometry,  ///< scans come, but the odometry is lost or too slow
   kNoPose,      ///< neither G with a small enough covariance nor a guide
 };
-const char* to_string(StandReason reason);
+const char* to_string(StopReason reason);
 
 struct DriveGuardConfig {
   /// Longest time since the last scan, the odometry's last result and the last pose. A LiDAR of 5 Hz may be
@@ -46,7 +46,7 @@ class DriveGuard {
   void stop() { stopping_ = true; }
 
   /// Nothing if the robot may be driven.
-  std::optional<StandReason> check(Stamp now);
+  std::optional<StopReason> check(Stamp now);
   const DriveGuardConfig& config() const { return config_; }
 
  private:

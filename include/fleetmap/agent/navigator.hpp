@@ -59,7 +59,7 @@ class Navigator {
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.
-  std::optional<StandReason> stand_reason() const { return stand_reason_; }
+  std::optional<StopReason> stop_reason() const { return stop_reason_; }
 
   /// Nothing is left to do for this robot.
   bool done() const { return action_.kind == planning::MissionAction::Kind::kDone; }
@@ -76,7 +76,7 @@ class Navigator {
   /// Publishes the command, or zero if the guard has a reason.
   void drive(const planning::Command& command);
   void watch();
-  void note(const std::optional<StandReason>& reason);
+  void note(const std::optional<StopReason>& reason);
   /// Takes the pose of the scan; whether the mission can be driven by it.
   bool locate(const Perceived& perceived);
   bool stuck(Stamp now) const;
@@ -96,7 +96,7 @@ class Navigator {
   std::optional<planning::Pose2> guide_;  ///< the last pose of the guide
   Stamp guided_at_{};
   DriveGuard guard_;
-  std::optional<StandReason> stand_reason_;  ///< as of the last check
+  std::optional<StopReason> stop_reason_;  ///< as of the last check
   Stamp standing_since_{};
   bool drove_ = false;             ///< the guard let a command pass
   std::optional<double> battery_;  ///< share left

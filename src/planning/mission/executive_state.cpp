@@ -236,9 +236,9 @@ bool ExecutiveState::alone_too_long(bool nothing_to_come, Stamp now) {
   return all_done_since_ && now - *all_done_since_ > from_seconds(rules().meeting_timeout + planned);
 }
 
-void ExecutiveState::go_home(const MissionInput& input, bool settled, bool alone) {
+void ExecutiveState::go_home(const MissionInput& input, bool finished, bool alone) {
   const bool may_go = may_set_out(input.now);
-  if (settled && arrived_ && input.maps_exchanged) state = MissionState::kDone;
+  if (finished && arrived_ && input.maps_exchanged) state = MissionState::kDone;
   if (goal == Goal::kNone && alone) state = MissionState::kDone;
   if (state != MissionState::kDone && may_go && !arrived_) go(Goal::kHome, home_, input);
 }
@@ -249,7 +249,7 @@ void ExecutiveState::wait_stuck(const MissionInput& input, bool alone) {
   if (alone) state = MissionState::kDone;
 }
 
-void ExecutiveState::meet(const MissionInput& input, bool settled, bool alone) {
+void ExecutiveState::meet(const MissionInput& input, bool finished, bool alone) {
   if (plan->meeting && !arrived_) {
     state = MissionState::kDriving;
     if (goal == Goal::kMeeting) return;
@@ -261,14 +261,14 @@ void ExecutiveState::meet(const MissionInput& input, bool settled, bool alone) {
     return;
   }
   state = plan->meeting ? MissionState::kMeeting : MissionState::kDriving;
-  if (settled && (!plan->meeting || input.maps_exchanged || alone)) state = MissionState::kDone;
+  if (finished && (!plan->meeting || input.maps_exchanged || alone)) state = MissionState::kDone;
 }
 
 void ExecutiveState::select_goal(const MissionInput& input) {
   if (state == MissionState::kDone) return;
-  const bool settled = board.all_settled(input.now);
-  const bool alone = alone_too_long(settled || board.nobody_left(input.now), input.now);
-  if (state == MissionState::kLowBattery) return go_home(input, settled, alone);
+  const bool finished = board.all_finished(input.now);
+  const bool alone = alone_too_long(finished || board.nobody_left(input.now), input.now);
+  if (state == MissionState::kLowBattery) return go_home(input, finished, alone);
   if (state == MissionState::kStuck) return wait_stuck(input, alone);
   if (claims.current() || keep_appointment(input)) {
     state = MissionState::kDriving;
@@ -276,7 +276,7 @@ void ExecutiveState::select_goal(const MissionInput& input) {
     state = MissionState::kDriving;
     if (input.now >= retry_at_) start_row(input);
   } else {
-    meet(input, settled, alone);
+    meet(input, finished, alone);
   }
 }
 

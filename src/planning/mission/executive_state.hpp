@@ -63,9 +63,9 @@ class ExecutiveState {
   void start_row(const MissionInput& input);
   bool go(Goal where, const Eigen::Vector2d& place, const MissionInput& input);
   bool alone_too_long(bool nothing_to_come, Stamp now);
-  void go_home(const MissionInput& input, bool settled, bool alone);
+  void go_home(const MissionInput& input, bool finished, bool alone);
   void wait_stuck(const MissionInput& input, bool alone);
-  void meet(const MissionInput& input, bool settled, bool alone);
+  void meet(const MissionInput& input, bool finished, bool alone);
   bool may_set_out(Stamp now) const { return goal == Goal::kNone && now >= retry_at_; }
 
   Eigen::Vector2d home_ = Eigen::Vector2d::Zero();

@@ -156,9 +156,9 @@ bool MissionBoard::nobody_left(Stamp now) const {
   return true;
 }
 
-bool MissionBoard::all_settled(Stamp now) const {
+bool MissionBoard::all_finished(Stamp now) const {
   for (std::size_t row = 0; row < rows(); ++row) {
-    if (!settled(row, now)) return false;
+    if (!finished(row, now)) return false;
   }
   return true;
 }
@@ -166,7 +166,7 @@ bool MissionBoard::all_settled(Stamp now) const {
 std::vector<std::size_t> MissionBoard::orphans(Stamp now) const {
   std::vector<std::size_t> found;
   for (std::size_t row = 0; row < rows(); ++row) {
-    if (settled(row, now) || claims(self_, row)) continue;
+    if (finished(row, now) || claims(self_, row)) continue;
     bool taken = false;
     for (std::size_t robot = 0; robot < robots() && !taken; ++robot) {
       taken = robot != self_ && available(robot, now) && claims(robot, row);

@@ -53,9 +53,9 @@ class MissionBoard {
   /// No robot, this one included, can drive rows.
   bool nobody_left(Stamp now) const;
   /// Done or abandoned.
-  bool settled(std::size_t row, Stamp now) const { return done_.has(row) || abandoned(row, now); }
-  bool all_settled(Stamp now) const;
-  /// Not settled and claimed by nobody who is available, by us neither.
+  bool finished(std::size_t row, Stamp now) const { return done_.has(row) || abandoned(row, now); }
+  bool all_finished(Stamp now) const;
+  /// Not finished and claimed by nobody who is available, by us neither.
   std::vector<std::size_t> orphans(Stamp now) const;
   /// s that a robot still needs for what it claims, roughly.
   double remaining(std::size_t robot) const;

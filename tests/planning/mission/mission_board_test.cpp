@@ -116,8 +116,8 @@ TEST_F(MissionBoardTest, ARowThatTwoGaveUpIsAbandoned) {
     board_.hear(failed, at(1.0));
   }
   EXPECT_TRUE(board_.abandoned(row, at(1.0)));
-  EXPECT_TRUE(board_.settled(row, at(1.0)));
-  EXPECT_FALSE(board_.all_settled(at(1.0)));
+  EXPECT_TRUE(board_.finished(row, at(1.0)));
+  EXPECT_FALSE(board_.all_finished(at(1.0)));
   // Once both are lost their word does not hold this robot back.
   EXPECT_FALSE(board_.abandoned(row, at(100.0)));
 }
