@@ -68,6 +68,7 @@ field --scenario discovery --loss 10 --delay 300 --jitter 100 --duplicate 5
 field --scenario discovery --agents 6 --radio 50 --set long_range.budget_kbit_s=36
 room=1  # twenty agents keep two cores busy when they start, and ten when they map
 field --scenario discovery --agents 20
+field --scenario half_off --agents 20 --loss 20
 field --scenario discovery --agents 20 --loss 20
 field --scenario restart --agents 20
 field --scenario restart --agents 20 --loss 20

@@ -190,6 +190,25 @@ scenario_discovery() { # all start at once
     "all know all after $(seconds_of "$waited"); in 20 s $(radio_figures)"
 }
 
+scenario_half_off() { # half of the fleet is switched off; of the others one comes 15 s late
+  local on=$(((agents + 1) / 2)) i late_s
+  present_know() { # those up to $present, each other
+    for ((i = 1; i <= present; ++i)); do (($(knows $i) >= present - 1)) || return 1; done
+  }
+  local present=$((on - 1))
+  before=$(passed radio)
+  for ((i = 1; i <= present; ++i)); do start $i; done
+  watch_radio present_know 15
+  local first=$waited
+  present=$on
+  start $on
+  watch_radio present_know 15
+  late_s=$(seconds_of "$waited")
+  worst=$highest
+  verdict $([[ -n $first && -n $waited ]] && ((first < 10000 && waited < 10000 && worst <= radio * 4 / 5)) && echo 1 || echo 0) \
+    "$((on - 1)) that are on know each other after $(seconds_of "$first"), with the late one after $late_s; in 30 s $(radio_figures)"
+}
+
 scenario_restart() { # each robot of a fleet that knows itself is killed and started again at once
   local killed slowest=0 in_time=1 until_then=
   known_again() { # each other has heard it anew, and it has heard them

@@ -17,7 +17,7 @@ constexpr auto kCloud = static_cast<std::size_t>(Priority::kCloud);
 constexpr double kLead = 0.5;
 /// Bytes of items for each byte of clouds while both wait. Less than one, so that with the lead clouds have
 /// at least half of what goes in any time of five seconds' share.
-constexpr double kItemsPerCloud = 0.8;
+constexpr double kItemsPerCloud = 0.7;
 
 }  // namespace
 

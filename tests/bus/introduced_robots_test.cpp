@@ -83,6 +83,29 @@ TEST_F(IntroducedRobot, IsHeardOnceItSpeaks) {
   EXPECT_EQ(log_.count("heard r3"), 1);
 }
 
+/// What it sends may be meant for the start of r1 before this one, so a Hello of its own is still asked for.
+TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
+  Place r3(static_cast<std::uint16_t>(own_ + 6));
+  introduce_and_wait({introduction("r3", 3)});
+  const std::uint32_t writer = key_of(topic("fleetmap/status"));
+  const int before = came_;
+  ASSERT_TRUE(run_until([&] {
+    Bytes message = rtps_message({0, 1, 0, 0, 1, 2, 3, 4}, ++sent_);
+    std::ranges::copy(introduction("r3", 3).prefix, message.begin() + 8);
+    // The writer's entity behind RTPS header, submessage header, offset and reader.
+    constexpr std::ptrdiff_t kWriter = 20 + 4 + 4 + 4;
+    for (int k = 0; k < 3; ++k)
+      message[static_cast<std::size_t>(kWriter + k)] = static_cast<std::uint8_t>(writer >> (16 - 8 * k));
+    send_to(own_, message);
+    return came_ > before && log_.count("heard r3") == 1;
+  })) << log_.text();
+  while (r3.hello()) {
+  }
+  std::optional<Hello> hello;
+  ASSERT_TRUE(run_until([&] { return (hello = r3.hello()).has_value(); })) << log_.text();
+  EXPECT_EQ(hello->knows, Introductions::Prefix{}) << "it names nobody, so it must be answered";
+}
+
 TEST_F(IntroducedRobot, IsIntroducedToOthersInTurn) {
   Place r5(static_cast<std::uint16_t>(own_ + 10));
   introduce_and_wait({});
