@@ -124,8 +124,11 @@ async function onADesk(page, state) {
   await page.keyboard.press('p');
   assert.equal(await page.locator('#view-plan').getAttribute('aria-pressed'), 'true');
   await page.keyboard.press('f');
-  await page.locator('[data-colour=height]').click();
-  await mapIsDrawn(page);
+  for (const [mode, ends] of [['age', /\d:\d\d\d:\d\d/], ['sigma', /0\.\d\d m.*m/], ['height', /-?\d+\.\d m-?\d+\.\d m/]]) {
+    await page.locator(`[data-colour=${mode}]`).click();
+    await mapIsDrawn(page);
+    await page.waitForFunction(([text]) => new RegExp(text).test(document.querySelector('#legend .ramp')?.textContent ?? ''), [ends.source]);
+  }
   await page.locator('#tab-fleet').click();
   const node = page.locator('.robot .link').first();
   const name = await node.textContent();
@@ -152,6 +155,8 @@ async function onADesk(page, state) {
   });
   assert.ok(Math.abs(plan / expected - 1) < 0.12, `measured ${plan} m, the scale says ${expected} m`);
   assert.match(measured, /A(38\.999|39\.000)\d+°.*B(38\.999|39\.000)\d+°/s);
+  // 3° W is the middle of zone 30.
+  assert.match(measured, /UTM 30N (4999|5000)\d\d\.\d\d 431(6|7)\d{3}\.\d\d/);
   await shot(page, 'desk_measure');
 }
 

@@ -25,12 +25,16 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
   fleet.view.has_submap[1] = false;
   fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
+  Matrix6d C = Matrix6d::Zero();
+  C.diagonal() << 0.09, 0.23, 9.0, 1.0, 1.0, 1.0;
+  fleet.view.placement.covariance[node_id("r1", 2)] = C;
   const auto state = nlohmann::json::parse(state_json(fleet.view));
 
   EXPECT_NEAR(state["origin"]["latitude_deg"], 49.0, 1e-9);
   ASSERT_EQ(state["nodes"].size(), 5u);
   EXPECT_EQ(state["nodes"][2]["id"], "r1/2");
   EXPECT_EQ(state["nodes"][2]["T"], nlohmann::json({8.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_NEAR(state["nodes"][2]["sigma_m"], 0.4, 1e-9) << "root of the mean of both horizontal variances";
   EXPECT_TRUE(state["nodes"][0].contains("submap"));
   EXPECT_FALSE(state["nodes"][1].contains("submap"));
   ASSERT_EQ(state["robots"].size(), 2u);

@@ -28,6 +28,56 @@ export function toGeo(origin: Geo, [e, n, u]: readonly number[]): Geo {
   return {latitude_deg: (lat * 180) / Math.PI, longitude_deg: (Math.atan2(y, x) * 180) / Math.PI, altitude_m: h};
 }
 
+/** Universal Transverse Mercator; outside of 80° S to 84° N there is none. */
+export interface Utm {
+  zone: number;
+  north: boolean;
+  easting_m: number;
+  northing_m: number;
+}
+
+function zoneOf(latitude_deg: number, longitude_deg: number): number {
+  const longitude = ((((longitude_deg + 180) % 360) + 360) % 360) - 180;
+  const zone = Math.floor((longitude + 180) / 6) + 1;
+  // South-west Norway, and Svalbard with its four wide zones.
+  if (latitude_deg >= 56 && latitude_deg < 64 && zone === 31 && longitude >= 3) return 32;
+  if (latitude_deg >= 72 && longitude >= 0 && longitude < 42) return [31, 33, 35, 37][Math.floor((longitude + 3) / 12)];
+  return zone;
+}
+
+/** Krüger's series to the fourth power of n (Karney 2011), good to a micrometre within a zone. */
+export function toUtm({latitude_deg, longitude_deg}: Geo): Utm | null {
+  if (latitude_deg < -80 || latitude_deg >= 84) return null;
+  const zone = zoneOf(latitude_deg, longitude_deg);
+  const n = kF / (2 - kF), e = Math.sqrt(kE2);
+  const radius = (kA / (1 + n)) * (1 + n ** 2 / 4 + n ** 4 / 64);
+  const alpha = [
+    n / 2 - (2 / 3) * n ** 2 + (5 / 16) * n ** 3 + (41 / 180) * n ** 4,
+    (13 / 48) * n ** 2 - (3 / 5) * n ** 3 + (557 / 1440) * n ** 4,
+    (61 / 240) * n ** 3 - (103 / 140) * n ** 4,
+    (49561 / 161280) * n ** 4,
+  ];
+  const s = Math.sin((latitude_deg * Math.PI) / 180);
+  let east_deg = longitude_deg - (6 * zone - 183);
+  east_deg = ((((east_deg + 180) % 360) + 360) % 360) - 180;
+  const lambda = (east_deg * Math.PI) / 180;
+  const t = Math.sinh(Math.atanh(s) - e * Math.atanh(e * s));  // tangent of the conformal latitude
+  const xi0 = Math.atan2(t, Math.cos(lambda)), eta0 = Math.asinh(Math.sin(lambda) / Math.hypot(t, Math.cos(lambda)));
+  let xi = xi0, eta = eta0;
+  alpha.forEach((a, k) => {
+    const j = 2 * (k + 1);
+    xi += a * Math.sin(j * xi0) * Math.cosh(j * eta0);
+    eta += a * Math.cos(j * xi0) * Math.sinh(j * eta0);
+  });
+  const kScale = 0.9996, north = latitude_deg >= 0;
+  return {zone, north, easting_m: 500_000 + kScale * radius * eta, northing_m: kScale * radius * xi + (north ? 0 : 10_000_000)};
+}
+
+export function utmText(geo: Geo): string {
+  const utm = toUtm(geo);
+  return utm ? `UTM ${utm.zone}${utm.north ? 'N' : 'S'} ${utm.easting_m.toFixed(2)} ${utm.northing_m.toFixed(2)}` : 'no UTM at the poles';
+}
+
 export function geoText(geo: Geo): string {
   return `${geo.latitude_deg.toFixed(7)}°, ${geo.longitude_deg.toFixed(7)}°, ${geo.altitude_m.toFixed(2)} m`;
 }

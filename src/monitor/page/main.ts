@@ -200,16 +200,23 @@ function showScale(picture: Picture): void {
   byId('scale').querySelector('span')!.textContent = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
 }
 
+function rampEnds({heights, range}: Picture): string[] {
+  if (colour === 'height') return heights.map((h) => `${h.toFixed(1)} m`);
+  if (colour === 'age') return range.map(duration);
+  if (colour === 'sigma') return range.map(metres);
+  return ['weak', 'strong'];
+}
+
 let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
-  const heights = picture.heights.map((h) => h.toFixed(1));
-  const key = colour + heights.join() + state.robots.length;
+  const ends = rampEnds(picture);
+  const key = colour + ends.join() + state.robots.length;
   if (key === legendOf) return;
   legendOf = key;
   const robots = state.robots.map((robot) => el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id));
   if (colour === 'robot') byId('legend').replaceChildren(...robots);
-  else byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, colour === 'height' ? `${heights[0]} m` : 'weak', el('i', {class: 'turbo'}), colour === 'height' ? `${heights[1]} m` : 'strong'));
+  else byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]));
 }
 
 // Pointer and keys.

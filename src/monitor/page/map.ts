@@ -7,7 +7,7 @@ import {Shading} from './shading';
 import {Submap, Submaps} from './submaps';
 import {Lines} from './lines';
 
-export type ColourMode = 'robot' | 'height' | 'intensity';
+export type ColourMode = 'robot' | 'height' | 'intensity' | 'age' | 'sigma';
 export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected';
 
 export type Hit = {node: string} | {edge: Edge};
@@ -20,6 +20,7 @@ export interface Picture {
   metresPerPixel: number;
   planar: boolean;
   heights: [number, number];
+  range: [number, number];  // of the submaps' ages, s, or sigmas, m
 }
 
 const kFov = 50;
@@ -42,6 +43,7 @@ export class FleetMap {
   private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
   private controls: {perspective: MapControls; plan: MapControls};
   private look = pointLook();
+  private mode: ColourMode = 'robot';
   private submaps: Submaps;
   private lines: Lines;
   private scheduled = false;
@@ -99,6 +101,7 @@ export class FleetMap {
         this.submaps.group.add(submap.object);
       }
       submap.place(T);
+      submap.sigma_m = node.sigma_m;
     }
     for (const [hash, submap] of this.submaps.all) {
       if (wanted.has(hash)) continue;
@@ -134,7 +137,8 @@ export class FleetMap {
   }
 
   setColour(mode: ColourMode): void {
-    this.look.mode.value = {robot: 0, height: 1, intensity: 2}[mode];
+    this.mode = mode;
+    this.look.mode.value = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3}[mode];
     this.draw();
   }
 
@@ -299,6 +303,7 @@ export class FleetMap {
     this.look.planar.value = this.planar ? 1 : 0;
     this.look.ratio.value = this.renderer.getPixelRatio();
     this.setHeights();
+    const range = this.setShares();
     this.submaps.group.visible = this.layers.points;
     this.submaps.allocate(camera, this.planar, this.until);
     this.renderer.setRenderTarget(null);
@@ -310,8 +315,19 @@ export class FleetMap {
     for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
     this.onPicture({
       drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, metresPerPixel: this.metresPerPixel(), planar: this.planar,
-      heights: [this.look.low.value, this.look.high.value],
+      heights: [this.look.low.value, this.look.high.value], range,
     });
+  }
+
+  /** Puts each submap on the ramp by its age (seconds since the first) or the sigma of its node; returns the ramp's ends. */
+  private setShares(): [number, number] {
+    const value = (submap: Submap) => (this.mode === 'age' ? submap.t : submap.sigma_m);
+    const shown = [...this.submaps.all.values()].filter((one) => one.t <= this.until);
+    const values = shown.map(value).filter((one) => one !== undefined).sort((a, b) => a - b);
+    if (values.length === 0) return [0, 0];
+    const low = values[0], high = values[Math.floor(0.985 * (values.length - 1))];
+    for (const submap of shown) submap.share = ((value(submap) ?? high) - low) / Math.max(1e-9, high - low);
+    return [low, high];
   }
 
   /** The colours of height span most of the points. */

@@ -1,5 +1,5 @@
 import type * as THREE from 'three';
-import {geoText, toGeo, type Geo} from './geodesy';
+import {geoText, toGeo, utmText, type Geo} from './geodesy';
 import type {FleetMap} from './map';
 import {metres} from './model';
 import {el} from './panels';
@@ -32,7 +32,10 @@ export class Measure {
     const p = this.map.pointAt(x, y, reach);
     if (!p) return;
     this.picked = this.picked.length === 2 ? [p] : [...this.picked, p];
-    const rows = this.picked.flatMap((point, k) => [el('dt', {}, 'AB'[k]), el('dd', {}, geoText(toGeo(origin, point.toArray())), el('br'), `ENU ${point.toArray().map((v) => v.toFixed(2)).join(', ')} m`)]);
+    const rows = this.picked.flatMap((point, k) => {
+      const geo = toGeo(origin, point.toArray()), enu = point.toArray().map((v) => v.toFixed(2)).join(', ');
+      return [el('dt', {}, 'AB'[k]), el('dd', {}, geoText(geo), el('br'), utmText(geo), el('br'), `ENU ${enu} m`)];
+    });
     const [a, b] = this.picked;
     if (b) {
       const flat = Math.hypot(b.x - a.x, b.y - a.y);

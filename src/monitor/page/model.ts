@@ -27,6 +27,7 @@ export interface FleetNode {
   T?: PoseValues;
   submap?: string;
   gps_sigma_m?: number;
+  sigma_m?: number;
 }
 
 export interface Alignment {

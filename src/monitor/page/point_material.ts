@@ -2,7 +2,7 @@ import * as THREE from 'three';
 
 /** What all points share; a change is seen by every submap at once. */
 export interface PointLook {
-  mode: {value: number};       // 0 robot, 1 height, 2 intensity
+  mode: {value: number};       // 0 robot, 1 height, 2 intensity, 3 the submap's own share
   low: {value: number};        // m, of the colours of height
   high: {value: number};
   pixelsPerMetre: {value: number};  // in plan view; at 1 m in perspective
@@ -17,7 +17,7 @@ export function pointLook(): PointLook {
 const kVertex = /* glsl */ `
 attribute float intensity;
 uniform vec3 colour;
-uniform float mode, low, high, pixelsPerMetre, planar, ratio;
+uniform float mode, share, low, high, pixelsPerMetre, planar, ratio;
 varying vec3 vColour;
 
 // Turbo (A. Mikhailov, 2019), by a polynomial.
@@ -45,6 +45,8 @@ void main() {
     vColour = mix(colour * 0.72, mix(colour, vec3(1.0), 0.42), h);
   } else if (mode < 1.5) {
     vColour = turbo(clamp((world.z - low) / max(0.1, high - low), 0.0, 1.0));
+  } else if (mode > 2.5) {
+    vColour = turbo(share);
   } else {
     vColour = turbo(0.08 + 0.84 * clamp(intensity, 0.0, 1.0));
   }
@@ -59,6 +61,6 @@ export function pointMaterial(look: PointLook, colour: string): THREE.ShaderMate
   return new THREE.ShaderMaterial({
     vertexShader: kVertex,
     fragmentShader: kFragment,
-    uniforms: {...look, colour: {value: rgb}},
+    uniforms: {...look, colour: {value: rgb}, share: {value: 0}},
   });
 }

@@ -38,6 +38,7 @@ export class Submap {
   wanted = 0;   // points that the budget leaves it
   asked = false;
   failed = false;
+  sigma_m: number | undefined;  // of its node in ENU, horizontal
   visible = true;
   inView = true;
   private values: Int16Array<ArrayBufferLike> = new Int16Array(0);  // x, y, z, intensity of each point
@@ -55,6 +56,11 @@ export class Submap {
     this.object.matrix.multiplyMatrices(this.T, this.local);
     this.object.matrixWorldNeedsUpdate = true;
     this.centre.setFromMatrixPosition(this.object.matrix);
+  }
+
+  /** Where it stands on the ramp of colours, 0 to 1. */
+  set share(value: number) {
+    this.object.material.uniforms.share.value = Math.min(1, Math.max(0, value));
   }
 
   add(part: Part): void {
