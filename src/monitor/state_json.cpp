@@ -44,6 +44,7 @@ Stamp begin_of(const FleetView& view) {
 
 json nodes_json(const FleetView& view) {
   const Stamp begin = begin_of(view);
+  const LocalFrame frame(view.origin);
   json nodes = json::array();
   for (std::size_t k = 0; k < view.nodes.size(); ++k) {
     const graph::Node& node = view.nodes[k];
@@ -57,7 +58,10 @@ json nodes_json(const FleetView& view) {
     if (view.has_submap[k] && node.submap_bytes > 0) one["submap"] = to_hex(node.submap_hash);
     if (const auto C = view.placement.covariance.find(node.id); C != view.placement.covariance.end())
       one["sigma_m"] = rounded(horizontal_sigma(C->second), 1e4);
-    if (node.G) one["gps_sigma_m"] = rounded(horizontal_sigma(node.G->covariance), 1e3);
+    if (node.G) {
+      one["gps_sigma_m"] = rounded(horizontal_sigma(node.G->covariance), 1e3);
+      one["gps"] = pose_json(pose_in(frame, *node.G));
+    }
     nodes.push_back(std::move(one));
   }
   return nodes;
@@ -79,11 +83,14 @@ json alignments_json(const FleetView& view, const Outcomes& outcomes) {
   for (const graph::Alignment& alignment : view.alignments) {
     const auto outcome = outcomes.find({alignment.computed_by, alignment.seq});
     const auto status = outcome == outcomes.end() ? graph::AlignmentStatus::undecided : outcome->second;
+    json poses = json::array();
+    for (const graph::AlignmentMode& mode : alignment.modes) poses.push_back(pose_json(mode.T_i_j));
     alignments.push_back({{"i", to_string(alignment.i)},
                           {"j", to_string(alignment.j)},
                           {"by", alignment.computed_by.str()},
                           {"status", graph::to_string(status)},
                           {"modes", alignment.modes.size()},
+                          {"poses", std::move(poses)},
                           {"rmse_m", rounded(alignment.best().rmse, 1e5)},
                           {"sentence", sentence_of(alignment, status)}});
   }

@@ -118,6 +118,18 @@ async function onADesk(page, state) {
   await page.locator('#verdict-all').click();
   await page.keyboard.press('Escape');
 
+  // Its two clouds alone, before the registration and as placed.
+  const picture = () => page.locator('#canvas').evaluate((canvas) => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.toDataURL())))));
+  const pictures = [];
+  await page.locator('.registration').first().click();
+  for (const place of ['gps', 'placed']) {
+    await page.locator(`[data-compare=${place}]`).click();
+    assert.equal(await page.locator(`[data-compare=${place}]`).getAttribute('aria-pressed'), 'true');
+    await mapIsDrawn(page);
+    pictures.push(await picture());
+  }
+  assert.notEqual(pictures[0], pictures[1], 'GPS and placement show the clouds alike');
+
   // The map by keyboard, in plan view, with a node that tells what it is.
   await page.locator('#canvas').focus();
   await page.keyboard.press('Escape');

@@ -35,6 +35,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_EQ(state["nodes"][2]["id"], "r1/2");
   EXPECT_EQ(state["nodes"][2]["T"], nlohmann::json({8.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
   EXPECT_NEAR(state["nodes"][2]["sigma_m"], 0.4, 1e-9) << "root of the mean of both horizontal variances";
+  EXPECT_EQ(state["nodes"][0]["gps"].size(), 7u);
   EXPECT_TRUE(state["nodes"][0].contains("submap"));
   EXPECT_FALSE(state["nodes"][1].contains("submap"));
   ASSERT_EQ(state["robots"].size(), 2u);
@@ -46,6 +47,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_THAT(state["registrations"][1]["sentence"].get<std::string>(),
               HasSubstr("rejected, because only 3 inliers"));
   EXPECT_EQ(state["alignments"][0]["status"], "used");
+  EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);
   EXPECT_EQ(state["holdings"][0]["submaps"], 1);
 }

@@ -5,6 +5,7 @@ import type {Edge} from './edges';
 import {Measure} from './measure';
 import {colourOf, count, duration, metres, type State} from './model';
 import {FleetNow} from './fleet_now';
+import {PairView} from './pair_view';
 import {el, FleetPanel, WhyPanel} from './panels';
 import {RadioPanel} from './radio';
 
@@ -20,6 +21,7 @@ try {
   byId('no-map').textContent = 'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
 const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
+const pairView = map && new PairView(map);
 const actions = {selectNode: (id: string) => select({node: id}, true), selectRegistration};
 const why = new WhyPanel(byId('why'), actions);
 const now = new FleetNow();
@@ -56,6 +58,7 @@ follow({
 
 function select(hit: Hit | undefined, go = false): void {
   map?.select(hit);
+  pairView?.end();
   if (!hit || !state) return showCard(null);
   if ('node' in hit) return selectNode(hit.node, go);
   selectEdge(hit.edge, go);
@@ -82,8 +85,9 @@ function selectEdge(edge: Edge, go: boolean): void {
   const a = map?.place(edge.a), b = map?.place(edge.b);
   const rows: [string, string][] = [];
   if (a && b) rows.push(['nodes', `${metres(a.distanceTo(b))} apart as placed`]);
+  const both = pairView?.buttons(state!, edge);
   if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
-  showCard([el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kind}: ${edge.b} → ${edge.a}`), el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''), table(rows)]);
+  showCard([el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kind}: ${edge.b} → ${edge.a}`), el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''), table(rows), ...(both ? [both] : [])]);
   if (edge.registration !== undefined) why.mark(edge.registration);
   if (go && a && b) map?.goTo(a.clone().add(b).multiplyScalar(0.5));
 }

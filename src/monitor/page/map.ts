@@ -4,7 +4,7 @@ import {type Edge, edgesOf} from './edges';
 import {colourOf, type FleetNode, type State} from './model';
 import {pointLook} from './point_material';
 import {Shading} from './shading';
-import {Submap, Submaps} from './submaps';
+import {matrixOf, Submap, Submaps} from './submaps';
 import {Lines} from './lines';
 
 export type ColourMode = 'robot' | 'height' | 'intensity' | 'age' | 'sigma';
@@ -23,6 +23,7 @@ export interface Picture {
   range: [number, number];  // of the submaps' ages, s, or sigmas, m
 }
 
+const kModes: Record<ColourMode, number> = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3};  // of PointLook
 const kFov = 50;
 const kFar = 20_000;
 
@@ -44,7 +45,7 @@ export class FleetMap {
   private controls: {perspective: MapControls; plan: MapControls};
   private look = pointLook();
   private mode: ColourMode = 'robot';
-  private submaps: Submaps;
+  readonly submaps: Submaps;
   private lines: Lines;
   private scheduled = false;
   private selected?: Hit;
@@ -89,9 +90,8 @@ export class FleetMap {
     const wanted = new Set<string>();
     for (const node of state.nodes) {
       if (!node.T) continue;
-      const [x, y, z, qx, qy, qz, qw] = node.T;
-      const T = new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
-      this.nodes.set(node.id, {node, p: new THREE.Vector3(x, y, z)});
+      const T = matrixOf(node.T);
+      this.nodes.set(node.id, {node, p: new THREE.Vector3().setFromMatrixPosition(T)});
       if (!node.submap) continue;
       wanted.add(node.submap);
       let submap = this.submaps.all.get(node.submap);
@@ -138,7 +138,14 @@ export class FleetMap {
 
   setColour(mode: ColourMode): void {
     this.mode = mode;
-    this.look.mode.value = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3}[mode];
+    this.look.mode.value = kModes[mode];
+    this.draw();
+  }
+
+  /** Hides all submaps but these; undefined shows all. Two that are compared are told apart by their colours. */
+  showOnly(hashes: ReadonlySet<string> | undefined): void {
+    this.submaps.only = hashes;
+    this.look.mode.value = hashes ? 0 : kModes[this.mode];
     this.draw();
   }
 
@@ -302,8 +309,9 @@ export class FleetMap {
     this.look.pixelsPerMetre.value = 1 / pixelAtOne;
     this.look.planar.value = this.planar ? 1 : 0;
     this.look.ratio.value = this.renderer.getPixelRatio();
-    this.setHeights();
-    const range = this.setShares();
+    const heights = this.submaps.heights();
+    if (heights) [this.look.low.value, this.look.high.value] = heights;
+    const range = this.submaps.putOnRamp((one) => (this.mode === 'age' ? one.t : one.sigma_m), this.until);
     this.submaps.group.visible = this.layers.points;
     this.submaps.allocate(camera, this.planar, this.until);
     this.renderer.setRenderTarget(null);
@@ -317,29 +325,5 @@ export class FleetMap {
       drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, metresPerPixel: this.metresPerPixel(), planar: this.planar,
       heights: [this.look.low.value, this.look.high.value], range,
     });
-  }
-
-  /** Puts each submap on the ramp by its age (seconds since the first) or the sigma of its node; returns the ramp's ends. */
-  private setShares(): [number, number] {
-    const value = (submap: Submap) => (this.mode === 'age' ? submap.t : submap.sigma_m);
-    const shown = [...this.submaps.all.values()].filter((one) => one.t <= this.until);
-    const values = shown.map(value).filter((one) => one !== undefined).sort((a, b) => a - b);
-    if (values.length === 0) return [0, 0];
-    const low = values[0], high = values[Math.floor(0.985 * (values.length - 1))];
-    for (const submap of shown) submap.share = ((value(submap) ?? high) - low) / Math.max(1e-9, high - low);
-    return [low, high];
-  }
-
-  /** The colours of height span most of the points. */
-  private setHeights(): void {
-    const heights: number[] = [], p = new THREE.Vector3();
-    for (const submap of this.submaps.all.values()) {
-      const step = Math.max(1, Math.floor(Math.min(submap.loaded, 4096) / 40));
-      for (let k = 0; k < Math.min(submap.loaded, 4096); k += step) heights.push(submap.point(k, p).z);
-    }
-    if (heights.length < 10) return;
-    heights.sort((a, b) => a - b);
-    this.look.low.value = heights[Math.floor(0.02 * heights.length)];
-    this.look.high.value = heights[Math.floor(0.985 * heights.length)];
   }
 }

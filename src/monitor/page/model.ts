@@ -25,6 +25,7 @@ export interface FleetNode {
   t: number;
   bytes: number;
   T?: PoseValues;
+  gps?: PoseValues;  // its own G, which nothing aligned
   submap?: string;
   gps_sigma_m?: number;
   sigma_m?: number;
@@ -36,6 +37,7 @@ export interface Alignment {
   by: string;
   status: string;
   modes: number;
+  poses: PoseValues[];  // T_i_j of each mode, best first
   rmse_m: number;
   sentence: string;
 }

@@ -56,11 +56,13 @@ const kFragment = /* glsl */ `
 varying vec3 vColour;
 void main() { gl_FragColor = vec4(vColour, 1.0); }`;
 
+/** Drawn as written, without tone curves. */
+export const rgbOf = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
+
 export function pointMaterial(look: PointLook, colour: string): THREE.ShaderMaterial {
-  const rgb = new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);  // drawn as written, without tone curves
   return new THREE.ShaderMaterial({
     vertexShader: kVertex,
     fragmentShader: kFragment,
-    uniforms: {...look, colour: {value: rgb}, share: {value: 0}},
+    uniforms: {...look, colour: {value: rgbOf(colour)}, share: {value: 0}},
   });
 }

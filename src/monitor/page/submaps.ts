@@ -1,5 +1,6 @@
 import * as THREE from 'three';
-import {pointMaterial, type PointLook} from './point_material';
+import type {PoseValues} from './model';
+import {pointMaterial, rgbOf, type PointLook} from './point_material';
 
 const kHeader = 36;
 const kFirst = 4096;  // points of the first part of a submap
@@ -28,6 +29,10 @@ export function parsePart(buffer: ArrayBuffer): Part {
   };
 }
 
+export function matrixOf([x, y, z, qx, qy, qz, qw]: PoseValues): THREE.Matrix4 {
+  return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
+}
+
 /** A submap on the map. Its points never change; a correction moves `object` alone. */
 export class Submap {
   readonly object: THREE.Points<THREE.BufferGeometry, THREE.ShaderMaterial>;
@@ -43,9 +48,10 @@ export class Submap {
   inView = true;
   private values: Int16Array<ArrayBufferLike> = new Int16Array(0);  // x, y, z, intensity of each point
   private T = new THREE.Matrix4();
+  private moved?: THREE.Matrix4;
   private local = new THREE.Matrix4();
 
-  constructor(readonly hash: string, readonly robot: string, readonly t: number, look: PointLook, colour: string) {
+  constructor(readonly hash: string, readonly robot: string, readonly t: number, look: PointLook, private colour: string) {
     this.object = new THREE.Points(new THREE.BufferGeometry(), pointMaterial(look, colour));
     this.object.matrixAutoUpdate = false;
     this.object.frustumCulled = false;  // allocate() does that
@@ -53,9 +59,20 @@ export class Submap {
 
   place(T_enu_node: THREE.Matrix4): void {
     this.T.copy(T_enu_node);
-    this.object.matrix.multiplyMatrices(this.T, this.local);
+    this.object.matrix.multiplyMatrices(this.moved ?? this.T, this.local);
     this.object.matrixWorldNeedsUpdate = true;
     this.centre.setFromMatrixPosition(this.object.matrix);
+  }
+
+  /** Draws it elsewhere until it is moved back by undefined. */
+  move(T_enu_node: THREE.Matrix4 | undefined): void {
+    this.moved = T_enu_node;
+    this.place(this.T.clone());
+  }
+
+  /** Draws it in another colour than its robot's; undefined ends that. */
+  tint(colour: string | undefined): void {
+    this.object.material.uniforms.colour.value.copy(rgbOf(colour ?? this.colour));
   }
 
   /** Where it stands on the ramp of colours, 0 to 1. */
@@ -105,6 +122,7 @@ export class Submaps {
   readonly group = new THREE.Group();
   readonly all = new Map<string, Submap>();
   budget = 1_000_000;
+  only: ReadonlySet<string> | undefined;  // the hashes of those that are shown; undefined: all
   drawn = 0;
   private running = 0;
   private order: Submap[] = [];  // nearest first
@@ -118,7 +136,7 @@ export class Submaps {
     const sphere = new THREE.Sphere();
     const seen: {submap: Submap; weight: number}[] = [];
     for (const submap of this.all.values()) {
-      submap.visible = submap.t <= until;
+      submap.visible = submap.t <= until && (this.only?.has(submap.hash) ?? true);
       submap.inView = submap.visible && frustum.intersectsSphere(sphere.set(submap.centre, submap.radius));
       submap.wanted = 0;
       if (!submap.inView) continue;
@@ -136,6 +154,33 @@ export class Submaps {
     this.trim();
     this.order = seen.sort((a, b) => b.weight - a.weight).map((one) => one.submap);
     this.fetchMore();
+  }
+
+  /** Puts each submap on the ramp of colours by a value of it; returns the values at the ramp's ends. */
+  putOnRamp(value: (submap: Submap) => number | undefined, until: number): [number, number] {
+    const shown = [...this.all.values()].filter((one) => one.t <= until);
+    const values: number[] = [];
+    for (const submap of shown) {
+      const one = value(submap);
+      if (one !== undefined) values.push(one);
+    }
+    if (values.length === 0) return [0, 0];
+    values.sort((a, b) => a - b);
+    const low = values[0], high = values[Math.floor(0.985 * (values.length - 1))];
+    for (const submap of shown) submap.share = ((value(submap) ?? high) - low) / Math.max(1e-9, high - low);
+    return [low, high];
+  }
+
+  /** Heights between which most of the points are; undefined while there are few. */
+  heights(): [number, number] | undefined {
+    const heights: number[] = [], p = new THREE.Vector3();
+    for (const submap of this.all.values()) {
+      const known = Math.min(submap.loaded, 4096), step = Math.max(1, Math.floor(known / 40));
+      for (let k = 0; k < known; k += step) heights.push(submap.point(k, p).z);
+    }
+    if (heights.length < 10) return undefined;
+    heights.sort((a, b) => a - b);
+    return [heights[Math.floor(0.02 * heights.length)], heights[Math.floor(0.985 * heights.length)]];
   }
 
   /** Some submap in view is not on the map at all yet. */
