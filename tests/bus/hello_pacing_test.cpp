@@ -10,7 +10,7 @@ using std::chrono::seconds;
 double s(HelloPacing::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 constexpr std::size_t kBytes = 260;
-constexpr HelloPacing::Answer kToUs{.names_us = true};
+constexpr HelloPacing::Answer kToUs{.names_us = true, .joined_before = true};
 const HelloPacing::Clock::time_point kStart = HelloPacing::Clock::time_point(std::chrono::hours(1));
 
 TEST(HelloPacing, HellosOfAFleetKeepToTheirPartOfTheRate) {
@@ -63,7 +63,8 @@ TEST(HelloPacing, PausesDoubleUpToTheLeastOfAnnouncementAndASecondForEachRobot) 
 TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
   HelloPacing pacing({145e3, false, false});
   const auto alone = pacing.pause_between(5.0, kBytes, kStart);
-  for (int answer = 0; answer < 3; ++answer) EXPECT_FALSE(pacing.count_answer(kToUs, kStart));
+  for (int answer = 0; answer < 9; ++answer)
+    EXPECT_FALSE(pacing.count_answer({.names_us = true}, kStart)) << "it started together with us";
   EXPECT_TRUE(pacing.count_answer(kToUs, kStart));
   EXPECT_FALSE(pacing.count_answer(kToUs, kStart)) << "reported once";
   EXPECT_NEAR(5.0 * s(pacing.pause_between(5.0, kBytes, kStart)), s(alone), 1e-8);
@@ -82,7 +83,7 @@ TEST(HelloPacing, ANewcomerToAConnectedFleetIsFaster) {
 
 TEST(HelloPacing, HellosForTheRobotBeforeUsAreNoNewcomers) {
   HelloPacing pacing({145e3, false, false});
-  for (int answer = 0; answer < 4; ++answer) pacing.count_answer(kToUs, kStart);
+  pacing.count_answer(kToUs, kStart);
   pacing.count_answer({.names_another = true}, kStart);
   EXPECT_TRUE(pacing.fleet_is_connected(kStart));
 }

@@ -1,6 +1,8 @@
 // A robot that another one knows: r1 is a bus, the test plays r2 and r3 on sockets of this machine.
 #include <gmock/gmock.h>
 
+#include <deque>
+
 #include "bus/dds/introductions.hpp"
 #include "bus/dds/rtps_messages.hpp"
 #include "bus/lone_radio.hpp"
@@ -180,6 +182,48 @@ TEST_F(IntroducedRobot, ThatLeftIsNotIntroducedAgain) {
     return log_.count("knows r5") == 1;
   })) << log_.text();
   EXPECT_EQ(log_.count("knows r3"), 1);
+}
+
+/// Fourteen other robots of the fleet are off, and the radio has no room for all Hellos to them.
+class RobotsThatAreOff : public LoneRadio {};
+TEST_F(RobotsThatAreOff, KeepNobodyFromAnAnswer) {
+  const auto own = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
+  const auto port = [&](int k) { return static_cast<std::uint16_t>(own + 2 * k); };
+  std::deque<Place> off;
+  for (int k = 3; k < 16; ++k) off.emplace_back(port(k));
+  Place r2(port(2));
+  DdsBusConfig config = robot("r1");
+  config.long_range.fleet_bits_per_second = 30e3;
+  const DdsBus& bus = start(config);
+  int to_silent = 0;
+  const auto count = [&] {
+    for (Place& place : off) {
+      while (place.datagram()) ++to_silent;
+    }
+    return to_silent;
+  };
+  ASSERT_TRUE(run_until([&] { return count() >= 3; }));
+  while (r2.hello()) {
+  }
+  Hello hello = some_hello();
+  hello.link = Link::kLongRange;
+  hello.sender = name("r2");
+  hello.knows = {};
+  hello.address = {127, 0, 0, 1};
+  hello.port = port(2);
+  std::uint8_t number = 0;
+  ASSERT_TRUE(run_until([&] {
+    if (heard(bus) == 0) send_to(own, rtps_message(encode(hello), ++number, /*participant=*/2));
+    return heard(bus) == 1;
+  })) << log_.text();
+  count();
+  to_silent = 0;
+  ASSERT_TRUE(run_until([&] {
+    count();
+    const auto answer = r2.hello();
+    return answer && answer->knows.front() == 2;
+  })) << log_.text();
+  EXPECT_LE(to_silent, 3);
 }
 
 /// Two messages make a pair known to each other.

@@ -13,9 +13,9 @@ constexpr double kMeanPart = 0.43, kMaxPart = 0.85;
 constexpr double kMaxSpread = 6.0;                   // s, so that a fleet is connected within ten
 constexpr double kFirstPause = 0.5;                  // s, of a pair alone
 constexpr auto kMaxPause = std::chrono::seconds(2);  // and a second for each other robot
-/// A robot that joins a connected fleet sends Hellos faster, since the others send none. It concludes that
-/// from this many answers while no other newcomer sent a Hello for a while.
-constexpr int kAnswersOfAFleet = 4;
+/// A robot that joins a connected fleet sends Hellos faster, since the others send none, unless another
+/// newcomer sent a Hello a while ago. Robots that start together are no such fleet: some may be off, and all
+/// seek them.
 constexpr auto kNoNewcomer = std::chrono::seconds(10);
 constexpr double kNewcomerShares = 5.0;
 /// Later than this after its first answer, or if others came as well, it leaves them more.
@@ -85,13 +85,13 @@ HelloPacing::Clock::duration HelloPacing::pause_between(double others, std::size
 
 bool HelloPacing::fleet_is_connected(Clock::time_point now) const {
   const bool alone = newcomer_ == Clock::time_point{} || now - newcomer_ > kNoNewcomer;
-  return !config_.observes && alone && (joined_late_ || answers_ >= kAnswersOfAFleet);
+  return !config_.observes && alone && joined_late_;
 }
 
 bool HelloPacing::count_answer(const Answer& answer, Clock::time_point now) {
   const bool was_connected = fleet_is_connected(now);
   if (answer.names_us) {
-    if (answers_++ == 0) first_answer_ = now;
+    if (first_answer_ == Clock::time_point{}) first_answer_ = now;
     joined_late_ |= answer.joined_before;
   } else if (!answer.names_another && !answer.joined_before) {
     newcomer_ = now;

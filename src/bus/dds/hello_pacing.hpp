@@ -53,8 +53,7 @@ class HelloPacing {
   double hello_time(double others, double sought, double rate) const;
 
   Config config_;
-  int answers_ = 0;           ///< to our Hellos
-  bool joined_late_ = false;  ///< one of them came from a robot that joined before
+  bool joined_late_ = false;  ///< an answer came from a robot that joined before
   Clock::time_point first_answer_{};
   Clock::time_point newcomer_{};  ///< last Hello of a robot that has no peer here
 };

@@ -28,6 +28,7 @@ constexpr auto kReadsChange = std::chrono::milliseconds(100);  // until peers ar
 constexpr auto kNeverHeard = std::chrono::seconds(30);         // until the log names a silent address
 constexpr auto kAnswerAgain = std::chrono::milliseconds(300);
 constexpr std::size_t kMaxNamesakes = 16;
+constexpr int kSoughtInARow = 2;
 
 }  // namespace
 
@@ -175,7 +176,8 @@ void RadioLink::Hellos::warn_of_silent_remotes(Clock::time_point now) {
   }
 }
 
-/// By rank, the longest due first, no faster than this robot's share of what Hellos may take.
+/// By rank, the longest due first, no faster than this robot's share of what Hellos may take. Two to robots
+/// that are sought and may be off, then an answer.
 void RadioLink::Hellos::send_due_hellos(Clock::time_point now) {
   std::vector<RemoteLocator*> due;
   for (const auto& remote : radio_.remotes_) {
@@ -183,9 +185,15 @@ void RadioLink::Hellos::send_due_hellos(Clock::time_point now) {
   }
   std::ranges::sort(due, {},
                     [this](const RemoteLocator* remote) { return std::pair(rank(*remote), remote->next); });
-  for (RemoteLocator* remote : due) {
-    if (now < hello_free_) return;
-    send_hello(*remote);
+  while (!due.empty() && now >= hello_free_) {
+    auto next = due.begin();
+    if (sought_in_a_row_ >= kSoughtInARow)
+      next = std::ranges::find_if(due, [](const RemoteLocator* remote) { return remote->robot.has_value(); });
+    if (next == due.end()) next = due.begin();
+    sought_in_a_row_ = (*next)->robot ? 0 : sought_in_a_row_ + 1;
+    RemoteLocator& remote = **next;
+    due.erase(next);
+    send_hello(remote);
   }
 }
 

@@ -57,6 +57,7 @@ class RadioLink::Hellos {
   RadioLink& radio_;
   std::mt19937 random_{std::random_device{}()};
   Clock::time_point hello_free_{};  ///< no other Hello before
+  int sought_in_a_row_ = 0;         ///< Hellos to robots that are sought, since the last to one that is known
   std::set<Prefix> namesakes_;      ///< reported in the log
 };
 
