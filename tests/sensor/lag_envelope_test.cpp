@@ -57,6 +57,19 @@ TEST(LagEnvelope, AClockThatIsSetBackIsAStepAfterThreeSamples) {
   EXPECT_EQ(samples.come(2.6, 1.0), 3) << "the first two might have been overtaken";
   EXPECT_NEAR(samples.envelope.least(), 2.6, 1e-8);
   EXPECT_EQ(samples.come(2.6, 10.0), 0) << "it is known now";
+  samples.period = 1.0;
+  EXPECT_EQ(samples.come(12.6, 10.0), 3) << "however far apart they are";
+}
+
+TEST(LagEnvelope, LateSamplesThatOvertakeEachOtherAreNoStep) {
+  Samples samples;
+  samples.come(0.1, 10.0);
+  samples.now += 1.0;
+  for (const double stamp : {9.8, 9.7, 9.6, 9.5, 9.45}) {
+    samples.now += 0.1;
+    EXPECT_FALSE(samples.envelope.add(at(stamp), at(samples.now))) << stamp;
+  }
+  EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
 }
 
 TEST(LagEnvelope, SamplesThatAllArriveAtOnceProveNoStep) {
@@ -80,10 +93,10 @@ TEST(LagEnvelope, ASampleOnTimeBetweenLateOnesProvesThatTheClockIsRight) {
 TEST(LagEnvelope, AQueueThatIsEmptiedIsNoStep) {
   Samples samples;
   samples.come(0.1, 10.0);
-  // The program stood still for 8 s; then what waited comes, four times as fast as it was made.
-  samples.now += 8.0;
+  // The program stood still for 15 s; then what waited comes, four times as fast as it was made.
+  samples.now += 15.0;
   samples.period = 0.025;
-  for (double lag = 8.0; lag > 0.1; lag -= 0.075) EXPECT_EQ(samples.come(lag, 0.025), 0) << lag;
+  for (double lag = 15.0; lag > 0.1; lag -= 0.075) EXPECT_EQ(samples.come(lag, 0.025), 0) << lag;
   EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
 }
 
