@@ -169,6 +169,30 @@ TEST(PageScanOfDamage, PagesOfTheLogReplaceThoseOfTheFile) {
   EXPECT_TRUE(records_of(alone) == filled.records);
 }
 
+TEST(PageScanOfDamage, PagesBehindThoseOfTheLogAreReadFromTheFile) {
+  const ScratchFolder folder;
+  const fs::path file = folder / "some.db";
+  Filled filled(file, 4096, "");
+  filled.put_many(4096);
+  filled.run("PRAGMA journal_mode = WAL");
+  // The first page of rows is the only one that changes.
+  filled.run("UPDATE t SET number = 77 WHERE name = 'name0'");
+  filled.records.erase(Record{text("name0"), 0, Bytes(), {}, {}, text("x")});
+  filled.records.insert(Record{text("name0"), 77, Bytes(), {}, {}, text("x")});
+  EXPECT_TRUE(records_of(file) == filled.records);
+}
+
+/// Their numbers take the longest form.
+TEST(PageScanOfDamage, RowsOfNegativeNumbersAreFound) {
+  const ScratchFolder folder;
+  const fs::path file = folder / "some.db";
+  {
+    Filled filled(file, 4096, "");
+    filled.run("INSERT INTO t(rowid, name, number, bytes, more) VALUES(-5, 'a', 3, x'07', 'x')");
+  }
+  EXPECT_TRUE(records_of(file) == (std::set<Record>{Record{text("a"), 3, Bytes{7}, {}, {}, text("x")}}));
+}
+
 TEST(PageScanOfDamage, ARecordWhoseChainOfPagesIsACircleIsLeftOut) {
   const ScratchFolder folder;
   const fs::path file = folder / "some.db";
