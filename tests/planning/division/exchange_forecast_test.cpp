@@ -69,6 +69,16 @@ TEST(ExchangeForecast, WhoDriveSideBySideExchangeUnderWay) {
   EXPECT_NEAR(forecast_exchange(fleet, 0, config, kForever).bytes_in_passing, 495.0, 1e-6);
 }
 
+TEST(ExchangeForecast, WhoNeedsLittleLeavesItsShareToTheOthers) {
+  // 1 B and 10 B each second, over 8 B/s.
+  const std::vector<Itinerary> fleet{{straight({0, 0}, {10, 0}, 100.0)},
+                                     {straight({0, 10}, {100, 10}, 100.0)}};
+  RendezvousConfig config = settings();
+  config.c_max = 200.0;
+  config.bandwidth = 64.0;
+  EXPECT_NEAR(forecast_exchange(fleet, 0, config, kForever).bytes_in_passing, 99.0 * 8.0, 1e-6);
+}
+
 TEST(ExchangeForecast, TheOneInTheMiddlePassesMapsOn) {
   std::vector<Itinerary> fleet;
   for (const double x : {0.0, 50.0, 100.0}) fleet.push_back({straight({x, 0}, {x, 100}, 100.0)});
