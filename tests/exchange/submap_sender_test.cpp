@@ -153,6 +153,19 @@ TEST_F(SubmapSenderTest, TheRateOfTheLinkIsKeptWithOverheads) {
   EXPECT_TRUE(sender.idle());
 }
 
+TEST_F(SubmapSenderTest, AChunkThatWasSentMayBeAskedForAgainWhileOthersWait) {
+  config_.bytes_per_second = config_.burst_bytes = 10'000.0;
+  config_.overhead_bytes = 10'000 - kChunk;
+  SubmapSender sender(kSelf, config_);
+  sender.on_request(request(kSecond, 0, 0, 2 * kChunk), store_);
+  std::vector<std::uint32_t> offsets;
+  for (int second = 0; second < 3; ++second) {
+    for (const SubmapChunk& chunk : sender.tick(store_, at(second))) offsets.push_back(chunk.offset);
+    if (second == 0) sender.on_request(request(kSecond, 0, 0, 1), store_);
+  }
+  EXPECT_THAT(offsets, ElementsAre(0u, kChunk, 0u));
+}
+
 TEST_F(SubmapSenderTest, AFullQueueDropsWhatIsAskedForBeyondIt) {
   config_.max_queued_chunks = 4;
   SubmapSender sender(kSelf, config_);

@@ -75,6 +75,8 @@ TEST_F(CandidateGridTest, CellsBelowZeroAreAsLargeAsOthers) {
   EXPECT_TRUE(grid_.around({kSelf, 1}).contains(pair));
   EXPECT_TRUE(grid_.around({kSelf, 2}).contains(pair));
   EXPECT_FALSE(grid_.around({kSelf, 3}).contains(pair)) << "three cells above";
+  add_node({kSelf, 4}, {25.1, -0.1, -0.1});
+  EXPECT_FALSE(grid_.around({kSelf, 4}).contains(pair)) << "two cells beside";
 }
 
 TEST_F(CandidateGridTest, TheDateLineAndThePolesAreNoBorders) {
