@@ -133,7 +133,11 @@ TEST(ItemCodec, CountsAndNamesBeyondTheirRulesAreRefused) {
   EXPECT_FALSE(decode_node(node));
   node[1] = 'r';
   ASSERT_TRUE(decode_node(node));
-  node[17] = 2;  // G is there: 0 or 1
+  graph::Node without = make_node(kSelf, 1, {});
+  without.G.reset();
+  node = encode(without);
+  ASSERT_EQ(node[17], 0) << "no G";
+  node[17] = 2;
   EXPECT_FALSE(decode_node(node));
 }
 
