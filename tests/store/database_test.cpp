@@ -139,6 +139,28 @@ TEST_F(FilledDatabase, AfterASyncThatFailedTheNextOneWritesTheLogAgain) {
   EXPECT_EQ(Database::open(file_, false)->integer("SELECT sum(k) FROM t").value(), 3);
 }
 
+/// What a disk keeps of a sync that failed differs.
+TEST(DatabaseSync, WhatAFailedSyncLostIsWrittenAgain) {
+  for (std::uint32_t seed = 0; seed < 8; ++seed) {
+    const testing::ScratchFolder folder;
+    testing::PowerCutDisk disk(seed);
+    {
+      auto db = Database::open(folder / "some.db", false, disk.name()).value();
+      for (const char* sql : {"PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL", "CREATE TABLE t(k)",
+                              "INSERT INTO t VALUES(7)"})
+        ASSERT_TRUE(db.execute(sql));
+      disk.fail_syncs(1);
+      EXPECT_FALSE(db.sync_log());
+      EXPECT_TRUE(db.sync_log());
+      disk.cut_after(1);
+      EXPECT_FALSE(db.execute("INSERT INTO t VALUES(8)"));
+    }
+    disk.restore_power();
+    EXPECT_EQ(Database::open(folder / "some.db", false)->integer("SELECT sum(k) FROM t").value_or(-1), 7)
+        << seed;
+  }
+}
+
 TEST_F(FilledDatabase, ALogThatIsGoneIsNotPromised) {
   put(1);
   disk_.fail_syncs(1);
