@@ -1,0 +1,65 @@
+#include "schema.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap_short_range.h"
+
+namespace fleetmap::fleet_codec {
+namespace {
+
+std::string refusal(const Bytes& cdr) {
+  const Status status = check_fleet_type(cdr, "Some");
+  return status ? "none" : status.error().message;
+}
+
+Bytes message(std::size_t size, std::uint8_t version = kSchemaVersion) {
+  Bytes bytes(size);
+  bytes[1] = 1;
+  bytes[4] = version;
+  return bytes;
+}
+
+TEST(FleetSchema, BothByteOrdersOfThisVersionAreTaken) {
+  EXPECT_EQ(refusal(message(5)), "none");
+  Bytes big_endian = message(5);
+  big_endian[1] = 0;
+  EXPECT_EQ(refusal(big_endian), "none");
+}
+
+TEST(FleetSchema, OtherEncapsulationsAreRefusedBeforeAnythingIsRead) {
+  EXPECT_EQ(refusal({}), "Some: 0 bytes are too few for a CDR message");
+  EXPECT_EQ(refusal({0, 1, 0, 0}), "Some: 4 bytes are too few for a CDR message");
+  Bytes parameters = message(100, 99);
+  parameters[1] = 3;
+  EXPECT_EQ(refusal(parameters), "Some: encapsulation 3 is not plain XCDR1 (0 or 1)");
+}
+
+TEST(FleetSchema, AnotherVersionIsNamedBesideThisOne) {
+  EXPECT_EQ(
+      refusal(message(5, 5)),
+      "Some: the sender speaks schema version 5, this program version 6; run the same release on all robots");
+  EXPECT_EQ(refusal(message(100'000, 255)).find("Some: the sender speaks schema version 255"), 0u);
+}
+
+TEST(FleetSchema, NoTypeIsLongerThan32KiB) {
+  EXPECT_EQ(refusal(message(32'768)), "none");
+  EXPECT_EQ(refusal(message(32'769)), "Some: 32769 bytes are more than this type can have");
+}
+
+TEST(FleetSchema, ATypeIsReadOnlyWhereAllThatHolds) {
+  msg::SubmapRequest request;
+  request.schema(kSchemaVersion);
+  request.offset(77);
+  EXPECT_EQ(fleet_type_from_cdr<msg::SubmapRequest>(bus::to_cdr(request), "Some")->offset(), 77u);
+  Bytes cut = bus::to_cdr(request);
+  cut.pop_back();
+  EXPECT_FALSE(fleet_type_from_cdr<msg::SubmapRequest>(cut, "Some"));
+  request.schema(kSchemaVersion + 1);
+  const auto other = fleet_type_from_cdr<msg::SubmapRequest>(bus::to_cdr(request), "Some");
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().message.find("Some: the sender speaks schema version 7"), 0u);
+}
+
+}  // namespace
+}  // namespace fleetmap::fleet_codec
