@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "fleetmap/core/time.hpp"
+
 namespace fleetmap::config {
 namespace {
 
