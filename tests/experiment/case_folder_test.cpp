@@ -62,11 +62,11 @@ TEST_F(CaseFolder, FailuresAndExceptionsAreReasons) {
       run([](const Case&, const fs::path&) -> Result<CaseResult> { return failure("no rows"); });
   EXPECT_FALSE(failed.done());
   EXPECT_EQ(failed.reason, "no rows");
-  EXPECT_EQ(recorded(config_, one_, "h1")->reason, "no rows");
+  EXPECT_EQ(recorded(config_, one_, "h1").value().reason, "no rows");
   const CaseRecord thrown = run(
       [](const Case&, const fs::path&) -> Result<CaseResult> { throw std::runtime_error("out of memory"); });
   EXPECT_EQ(thrown.reason, "out of memory");
-  EXPECT_EQ(recorded(config_, one_, "h1")->reason, "out of memory");
+  EXPECT_EQ(recorded(config_, one_, "h1").value().reason, "out of memory");
 }
 
 TEST_F(CaseFolder, AnInterruptedCaseLeavesNoRecordButAFinishedOneDoes) {
@@ -76,7 +76,7 @@ TEST_F(CaseFolder, AnInterruptedCaseLeavesNoRecordButAFinishedOneDoes) {
   });
   EXPECT_FALSE(fs::exists(file("result.json")));
   run(measured);
-  EXPECT_TRUE(recorded(config_, one_, "h1")->done()) << "it ended although it was told to stop";
+  EXPECT_TRUE(recorded(config_, one_, "h1").value().done()) << "it ended although it was told to stop";
 }
 
 TEST_F(CaseFolder, OnlyWhatIsLargeAndNoReportIsRemoved) {
