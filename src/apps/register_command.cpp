@@ -12,6 +12,7 @@
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
+#include "fleetmap/registration/registration_method.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -94,8 +95,9 @@ int run(const RegisterOptions& options) {
     if (cloud->empty()) return report({*name + ": holds no point; there is nothing to register"}, kFailed);
   }
   const registration::RegistrationConfig& settings = config->agent.registration;
-  if (prior && settings.method == registration::Method::paper)
-    spdlog::warn("--prior is not used: the paper's registration has no prior (registration.method)");
+  if (prior && !registration::uses_prior(settings.method))
+    spdlog::warn("--prior is not used: registration.method '{}' has no prior",
+                 registration::to_string(settings.method));
   const auto result = registration::register_clouds(*target, *source, settings, prior);
   std::cout << to_json(result, settings.method).dump(2) << '\n';
   return kDone;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "fleetmap/registration/registration_method.hpp"
+
 namespace fleetmap::config {
 namespace {
 
@@ -50,9 +52,11 @@ void read_method(Section& top, registration::RegistrationConfig& registration) {
   section.read("min_weight", registration.min_weight);
   std::string method = registration::to_string(registration.method);
   section.read("method", method);
-  if (method != "paper" && method != "correlation")
-    section.problem("method", "expected 'paper' or 'correlation', found '" + method + "'");
-  registration.method = method == "paper" ? registration::Method::paper : registration::Method::correlation;
+  if (const auto known = registration::registration_method(method)) {
+    registration.method = *known;
+  } else {
+    section.problem("method", known.error().message);
+  }
   Section paper = section.section("paper");
   read_paper_registration(paper, registration.paper);
   section.finish();

@@ -2,7 +2,15 @@
 
 namespace fleetmap::registration {
 
-const char* to_string(Method method) { return method == Method::paper ? "paper" : "correlation"; }
+const char* to_string(Method method) {
+  switch (method) {
+    case Method::correlation:
+      return "correlation";
+    case Method::paper:
+      return "paper";
+  }
+  return "?";
+}
 
 Status RegistrationConfig::validate() const {
   if (!(max_range_m >= 5.0f && max_range_m <= 200.0f))

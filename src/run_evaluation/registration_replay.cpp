@@ -8,6 +8,7 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/loop_closure/registered_alignment.hpp"
 #include "fleetmap/loop_closure/submap_drift.hpp"
+#include "fleetmap/registration/registration_method.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/registration_log.hpp"
 
@@ -30,6 +31,17 @@ std::vector<store::LoggedRegistration> logged_by(const AgentFolder& agent, std::
   if (logged) return std::move(*logged);
   notes.push_back(logged.error().message);
   return {};
+}
+
+/// Robots of a run usually share a method. If they do not, the one that is not the default counts.
+void add_method(const std::string& name, const AgentFolder& agent, RegistrationLogs& logs) {
+  const auto method = registration::registration_method(name);
+  if (!method) {
+    logs.notes.push_back((agent.directory / store::kRegistrationLogFile).string() +
+                         ": method of registration: " + method.error().message);
+  } else if (*method != registration::Method::correlation) {
+    logs.method = *method;
+  }
 }
 
 registration::Prior prior_of(const store::LoggedPrior& logged) {
@@ -76,7 +88,7 @@ class Replay {
   }
 
   registration::Drifts drifts(const graph::Node& target, const graph::Node& source) const {
-    if (config_.method == registration::Method::paper) return {};
+    if (!registration::uses_prior(config_.method)) return {};
     const double reach = static_cast<double>(registration::SpherizeConfig{}.radius_m);
     return {loop_closure::drift_around(held_.store, target, reach),
             loop_closure::drift_around(held_.store, source, reach)};
@@ -112,8 +124,7 @@ RegistrationLogs read_registration_logs(const RunFolder& run) {
   RegistrationLogs logs;
   for (const AgentFolder& agent : run.agents) {
     std::vector<store::LoggedRegistration> logged = logged_by(agent, logs.notes);
-    if (!logged.empty() && logged.front().method == registration::to_string(registration::Method::paper))
-      logs.method = registration::Method::paper;
+    if (!logged.empty()) add_method(logged.front().method, agent, logs);
     logs.by_agent.emplace_back(agent.id, std::move(logged));
   }
   return logs;

@@ -17,6 +17,7 @@
 #include "bench/node_files.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
+#include "fleetmap/registration/registration_method.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "registration/encounter_worlds.hpp"
 
@@ -242,8 +243,7 @@ std::string named(double sigma) {
 
 void register_all(const std::filesystem::path& dir, const std::string& set, const std::string& tag) {
   RegistrationConfig config;
-  const char* method = std::getenv("METHOD");
-  if (method != nullptr && std::string(method) == to_string(Method::paper)) config.method = Method::paper;
+  if (const char* name = std::getenv("METHOD")) config.method = registration_method(name).value();
   const bool details = std::getenv("DETAILS") != nullptr;
   std::printf(
       "site, sigma            n | right wrong | amb+  amb-  | rej.  | CPU 50/99 ms  | error 50/90/99 mm     "
