@@ -81,14 +81,16 @@ TEST(FlatMap, APointIsInTheLayerOfItsHeightAboveTheFloor) {
 
 /// Heights of two clouds differ a little, so what lies near the border of two layers is in both.
 TEST(FlatMap, NearABorderBothLayersAreOccupied) {
-  Points points = ground();
-  points.emplace_back(3.3f, 2.2f, 1.0f + 0.35f + 0.62f);
-  const FlatMap map = flat_map(points, {});
-  ASSERT_EQ(map.cells.size(), 1u);
-  EXPECT_EQ(map.cells[0].layer, 1);
-  EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 0), 2);
-  EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 1), 2);
-  EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 2), 0);
+  for (const auto& [height, layer] : std::vector<std::pair<float, int>>{{0.58f, 0}, {0.62f, 1}}) {
+    Points points = ground();
+    points.emplace_back(3.3f, 2.2f, 1.0f + 0.35f + height);
+    const FlatMap map = flat_map(points, {});
+    ASSERT_EQ(map.cells.size(), 1u);
+    EXPECT_EQ(map.cells[0].layer, layer);
+    EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 0), 2) << height;
+    EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 1), 2) << height;
+    EXPECT_EQ(layer_at(map, {3.3f, 2.2f}, 2), 0) << height;
+  }
 }
 
 TEST(FlatMap, WhatIsSeenIsWhereAnyPointIs) {
