@@ -45,6 +45,19 @@ double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log
   return too_big.log_voxel + std::clamp(along, 0.05, 0.95) * width;
 }
 
+/// The step of the voxel after a miss, while nothing fits: bytes fall with its square on surfaces, and by
+/// less where points are sparse, as the two last misses tell.
+double step_after(const std::optional<Trial>& before, const Trial& miss, double target_log_bytes,
+                  int encodings) {
+  constexpr double kMaxStep = 1.0, kLeastSlope = 1e-3;
+  const double excess = miss.log_bytes - target_log_bytes;
+  const double usual = std::max(0.05 * encodings, 0.6 * excess);
+  if (!before) return usual;
+  const double slope =
+      (before->log_bytes - miss.log_bytes) / std::max(miss.log_voxel - before->log_voxel, kLeastSlope);
+  return std::max(usual, std::min(kMaxStep, excess / std::max(slope, kLeastSlope)));
+}
+
 double log_bytes(const FittedCloud& fitted) { return std::log(static_cast<double>(fitted.bytes.size())); }
 
 /// Adds the cloud that every receiver decodes.
@@ -66,6 +79,7 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
   std::optional<FittedCloud> best;
   Trial too_big{std::log(static_cast<double>(config.min_voxel_m)), 0.0};
   Trial fits{std::log(static_cast<double>(config.max_voxel_m)), 0.0};
+  std::optional<Trial> missed;  // the last trial that was too big
   Result<FittedCloud> tried;
   const PointCloud finest = voxel_downsample(cloud, config.min_voxel_m);
   const auto points = static_cast<double>(finest.size());
@@ -76,7 +90,10 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
     if (!tried) return tried;
     ++encodings;
     too_big.log_bytes = log_bytes(*tried);
-    if (tried->bytes.size() <= config.max_bytes) best = std::move(*tried);
+    if (tried->bytes.size() <= config.max_bytes)
+      best = std::move(*tried);
+    else
+      missed = too_big;
   }
 
   // The next voxel after a first miss: bytes fall with its square on surfaces.
@@ -95,10 +112,10 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
       best = std::move(*tried);
     } else {
       if (log_voxel >= std::log(static_cast<double>(config.max_voxel_m))) break;
-      too_big = trial;
+      log_voxel = trial.log_voxel + step_after(missed, trial, target, encodings);
+      missed = too_big = trial;
     }
-    log_voxel = best ? next_log_voxel(too_big, fits, target)
-                     : too_big.log_voxel + std::max(0.05 * encodings, 0.6 * (too_big.log_bytes - target));
+    if (best) log_voxel = next_log_voxel(too_big, fits, target);
   }
   if (!best) {
     return failure("cloud encoding: even voxels of " + std::to_string(config.max_voxel_m) +

@@ -17,9 +17,10 @@ std::optional<RecordingConfig> read_recording(Section& top) {
     recording.start = start;
   }
   if (const auto frames = section.numbers("frames", 2)) {
-    const bool whole = (*frames)[0] >= 0 && (*frames)[1] >= (*frames)[0] &&
+    constexpr double kMaxFrame = 1e9;
+    const bool whole = (*frames)[0] >= 0 && (*frames)[1] >= (*frames)[0] && (*frames)[1] <= kMaxFrame &&
                        std::floor((*frames)[0]) == (*frames)[0] && std::floor((*frames)[1]) == (*frames)[1];
-    if (!whole) section.problem("frames", "expected [first, last] with 0 <= first <= last");
+    if (!whole) section.problem("frames", "expected [first, last] with 0 <= first <= last <= 1e9");
     if (whole) recording.reader.kitti.first_frame = static_cast<std::size_t>((*frames)[0]);
     if (whole) recording.reader.kitti.last_frame = static_cast<std::size_t>((*frames)[1]);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -11,7 +12,7 @@ namespace {
 std::optional<double> number(const std::string& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
@@ -44,10 +45,9 @@ void read_values(Section& section, Axis& axis) {
     for (const std::string& key : keys) value.overrides.push_back({key, text, section.place("keys")});
     if (counts_agents) {
       const auto count = number(text);
-      if (!count || *count < 1.0 || *count > 1000.0 ||
-          *count != static_cast<double>(static_cast<int>(*count)))
-        section.problem("values", "'" + text + "' is not a number of robots");
-      value.agents = static_cast<std::size_t>(count.value_or(1.0));
+      const bool good = count && *count >= 1.0 && *count <= 1000.0 && *count == std::floor(*count);
+      if (!good) section.problem("values", "'" + text + "' is not a number of robots");
+      value.agents = good ? static_cast<std::size_t>(*count) : 1;
     }
     axis.values.push_back(std::move(value));
   }

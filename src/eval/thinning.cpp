@@ -26,7 +26,7 @@ cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::
   while (true) {
     cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
     merger.add(cloud);
-    if (merger.voxels() <= most) return merger.cloud();
+    if (merger.voxels() <= most || voxel > kFarthest) return merger.cloud();  // eight voxels may stay
     voxel *= 1.5;
   }
 }

@@ -51,6 +51,15 @@ std::set<std::string> wanted_modes(const config::Study& study) {
   return modes;
 }
 
+/// The value's part of a case's name. Labels that would be equal as names of files get a number behind them.
+std::string value_name(const config::Axis& axis, std::size_t value) {
+  const std::string name = file_name(axis.values[value].label);
+  const auto same =
+      std::count_if(axis.values.begin(), axis.values.begin() + static_cast<std::ptrdiff_t>(value),
+                    [&](const config::AxisValue& other) { return file_name(other.label) == name; });
+  return same == 0 ? name : name + "_" + std::to_string(same + 1);
+}
+
 /// The case of a study at the given value of each axis.
 Case case_at(const config::ExperimentConfig& config, const config::Study& study,
              const std::vector<std::size_t>& position, std::uint64_t seed) {
@@ -70,7 +79,7 @@ Case case_at(const config::ExperimentConfig& config, const config::Study& study,
     append(one.overrides, value.overrides);
     one.agents = value.agents.value_or(one.agents);
     one.point.push_back(value.label);
-    one.name += "." + study.axes[axis].name + "=" + file_name(value.label);
+    one.name += "." + study.axes[axis].name + "=" + value_name(study.axes[axis], position[axis]);
   }
   for (const std::string& key : config.seed_keys)
     one.overrides.push_back({key, std::to_string(seed), config.seed_keys_at});

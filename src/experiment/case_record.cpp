@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -64,6 +65,7 @@ json to_json(const CaseRecord& record) {
   }
   out["histograms"] = json::object();
   for (const auto& [name, histogram] : record.result->histograms) {
+    if (!std::ranges::all_of(histogram.shares, [](double share) { return std::isfinite(share); })) continue;
     out["histograms"][name] = {{"bin_width", histogram.bin_width}, {"shares", histogram.shares}};
   }
   out["pictures"] = json::object();

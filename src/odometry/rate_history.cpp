@@ -30,7 +30,8 @@ bool RateHistory::covers(Stamp from, Stamp to, Duration hold) const {
     return false;
   const auto first = std::lower_bound(samples_.begin(), samples_.end(), from,
                                       [](const Sample& s, Stamp stamp) { return s.stamp < stamp; });
-  for (auto it = first; it != samples_.end() && it->stamp < to; ++it) {
+  for (auto it = first == samples_.begin() ? first : std::prev(first); it != samples_.end() && it->stamp < to;
+       ++it) {
     const auto next = std::next(it);
     if (next != samples_.end() && next->stamp - it->stamp > kMaxGap) return false;
   }

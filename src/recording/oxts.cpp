@@ -66,10 +66,12 @@ double FixError::normal() {
 
 sensor::Fix FixError::degraded(const sensor::Fix& fix) {
   // The first error is drawn from the stationary distribution, as after an infinite time.
-  const double keep = last_ ? std::exp(-to_seconds(fix.stamp - *last_) / config_.correlation_time) : 0.0;
+  // A stamp that goes back adds nothing.
+  const double elapsed = last_ ? std::max(0.0, to_seconds(fix.stamp - *last_)) : 0.0;
+  const double keep = last_ ? std::exp(-elapsed / config_.correlation_time) : 0.0;
   const double fresh = config_.sigma * std::sqrt(1.0 - keep * keep);
   for (double& error : error_) error = keep * error + fresh * normal();
-  last_ = fix.stamp;
+  last_ = last_ ? std::max(*last_, fix.stamp) : fix.stamp;
   sensor::Fix out = fix;
   if (fix.valid) out.position = LocalFrame(fix.position).to_geo(error_);
   out.covariance = config_.sigma * config_.sigma * Eigen::Matrix3d::Identity();

@@ -177,7 +177,9 @@ void note_missing_truth(RunFolder& run, bool have_truth) {
 
 }  // namespace
 
-Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inputs) {
+namespace {
+
+Result<json> evaluated(const fs::path& directory, const EvaluationInputs& inputs) {
   if (const Status valid = inputs.map.validate(); !valid) return tl::unexpected(valid.error());
   auto run = open_run(directory, inputs.truth_trajectories);
   if (!run) return tl::unexpected(run.error());
@@ -226,6 +228,16 @@ Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inp
       return tl::unexpected(written.error());
   }
   return evaluation;
+}
+
+}  // namespace
+
+Result<json> evaluate_run(const fs::path& directory, const EvaluationInputs& inputs) {
+  try {
+    return evaluated(directory, inputs);
+  } catch (const json::exception& error) {
+    return failure((directory / "report.json").string() + ": is no report of a run (" + error.what() + ")");
+  }
 }
 
 }  // namespace fleetmap::run_evaluation

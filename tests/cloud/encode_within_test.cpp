@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+#include <vector>
+
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/kd_tree.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
@@ -71,6 +75,26 @@ TEST(CloudWithinABudget, HasIntensitiesWhereTheyAreAskedFor) {
   ASSERT_TRUE(with);
   EXPECT_TRUE(with->decoded.has_intensities());
   EXPECT_GT(with->voxel_m, without->voxel_m) << "they take room";
+}
+
+/// Bytes of few points hardly fall with the voxel until many share one.
+TEST(CloudWithinABudget, IsNearlyFullAlsoWherePointsAreSparse) {
+  for (const auto& [points, budget] : std::vector<std::pair<std::size_t, std::size_t>>{
+           {2'000, 4'000}, {2'000, 5'000}, {6'000, 12'000}, {12'000, 25'000}, {13'000, 25'000}}) {
+    const auto fitted = encode_within(testing::street_scene(points, 7), within(budget));
+    ASSERT_TRUE(fitted) << fitted.error().message;
+    EXPECT_LE(fitted->bytes.size(), budget);
+    EXPECT_GT(static_cast<double>(fitted->bytes.size()), 0.9 * static_cast<double>(budget))
+        << points << " points";
+  }
+}
+
+TEST(CloudWithinABudget, LeavesOutPointsThatAreNotFinite) {
+  PointCloud scene = testing::street_scene(500, 7);
+  scene.points[3].x() = std::numeric_limits<float>::quiet_NaN();
+  const auto fitted = encode_within(scene, {});
+  ASSERT_TRUE(fitted);
+  for (const Eigen::Vector3f& p : fitted->decoded.points) EXPECT_TRUE(p.allFinite());
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(RecordingSection, EveryKeyIsRead) {
 TEST(RecordingSection, ProblemsNameTheKey) {
   EXPECT_THAT(read("").problems, HasSubstr("recording.path: expected the folder or file of a recording"));
   EXPECT_THAT(read("path: x, start: -1").problems, HasSubstr("recording.start: expected seconds >= 0"));
-  for (const char* frames : {"[4, 3]", "[-1, 3]", "[0, 1.5]", "[0.5, 2]"}) {
+  for (const char* frames : {"[4, 3]", "[-1, 3]", "[0, 1.5]", "[0.5, 2]", "[3, 1e30]"}) {
     EXPECT_THAT(read(std::string("path: x, frames: ") + frames).problems,
                 HasSubstr("recording.frames: expected [first, last] with 0 <= first <= last"))
         << frames;
@@ -76,7 +76,8 @@ TEST(RecordingSection, ProblemsNameTheKey) {
   EXPECT_THAT(read("path: x, gps_error: {sgma: 1}").problems,
               HasSubstr("recording.gps_error.sgma: unknown key; did you mean 'sigma'?"));
   EXPECT_THAT(read("path: x, frame_rate: 0").problems,
-              HasSubstr("must be a positive number of frames per second"));
+              HasSubstr("recording.frame_rate must be a positive number of frames per second"));
+  EXPECT_THAT(read("path: x, gps_error: {sigma: 0}").problems, HasSubstr("recording.gps_error.sigma must"));
   EXPECT_THAT(read("path: x, topics: {point: /p}").problems, HasSubstr("did you mean 'points'?"));
 }
 

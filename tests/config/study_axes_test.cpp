@@ -103,5 +103,14 @@ TEST(StudyAxes, ProblemsSayWhatIsExpected) {
   EXPECT_THAT(read("{name: a, key: [k], values: [1]}").problems, HasSubstr("did you mean 'keys'?"));
 }
 
+TEST(StudyAxes, NanIsALabelAndNoNumber) {
+  const Reading reading = read("{name: a, keys: [k], values: [3, nan, 1]}");
+  EXPECT_EQ(reading.problems, "");
+  EXPECT_THAT(labels(reading.axis), ElementsAre("3", "nan", "1"));
+  EXPECT_THAT(positions(reading.axis), ElementsAre(0.0, 1.0, 2.0)) << "in the order that was given";
+  EXPECT_THAT(read("{name: agents, values: [nan]}").problems, HasSubstr("'nan' is not a number of robots"));
+  EXPECT_THAT(read("{name: agents, values: [1e300]}").problems, HasSubstr("is not a number of robots"));
+}
+
 }  // namespace
 }  // namespace fleetmap::config

@@ -133,5 +133,15 @@ TEST_F(CaseRecordTest, AFileIsReplacedAsAWholeOrNotAtAll) {
   EXPECT_FALSE(write_whole(folder_.path() / "folder", "x"));
 }
 
+TEST_F(CaseRecordTest, AHistogramThatIsNotFiniteIsLeftOut) {
+  record_.result->histograms["spoilt"] = {1.0, {std::numeric_limits<double>::quiet_NaN(), 1.0}};
+  folder_.write("c/x", "");
+  ASSERT_TRUE(write_record(folder_.path() / "c", record_));
+  const auto found = read_record(folder_.path() / "c", record_.of, "h1", "build-1", LostPictures::kLeftOut);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->result->histograms.contains("density"));
+  EXPECT_FALSE(found->result->histograms.contains("spoilt"));
+}
+
 }  // namespace
 }  // namespace fleetmap::experiment

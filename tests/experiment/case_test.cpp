@@ -169,5 +169,13 @@ TEST(Cases, BadOnesAreFoundBeforeAnyRuns) {
             "--set lidar.modle: unknown key; did you mean 'model'?");
 }
 
+TEST(Cases, LabelsThatAreEqualAsNamesOfFilesGiveDifferentNames) {
+  config::ExperimentConfig config;
+  config.studies = {study("s", {axis("team", {"5 Hz", "5/Hz", "6"})}, {1})};
+  std::vector<std::string> names;
+  for (const Case& one : all_cases(config)) names.push_back(one.name);
+  EXPECT_THAT(names, ElementsAre("s.team=5_Hz.seed=01", "s.team=5_Hz_2.seed=01", "s.team=6.seed=01"));
+}
+
 }  // namespace
 }  // namespace fleetmap::experiment

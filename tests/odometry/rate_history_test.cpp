@@ -130,5 +130,15 @@ TEST(RateHistory, TheTrendOfALineIsItsSlopeWithoutDoubt) {
   EXPECT_FALSE(history.trend(at(201), at(600))) << "four samples are too few";
 }
 
+TEST(RateHistory, AGapInWhichTheIntervalBeginsIsNotBridged) {
+  RateHistory history = ramp(200);
+  history.add(at(2000), {0, 0, 0});
+  EXPECT_FALSE(history.mean(at(900), at(1000), kHold));
+  EXPECT_FALSE(history.mean(at(900), at(2050), kHold));
+  EXPECT_FALSE(history.rotation(at(900), at(1000), Vector3d::Zero(), kHold));
+  EXPECT_FALSE(history.mean(at(150), at(1000), kHold));
+  EXPECT_TRUE(history.mean(at(110), at(190), kHold));
+}
+
 }  // namespace
 }  // namespace fleetmap::odometry

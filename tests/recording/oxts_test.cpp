@@ -114,5 +114,14 @@ TEST(FixError, AFixThatIsNoneIsLeftWhereItIs) {
   EXPECT_EQ(out.covariance, 4.0 * Eigen::Matrix3d::Identity());
 }
 
+TEST(FixError, AStampThatGoesBackSpoilsNoLaterFix) {
+  FixError error({.sigma = 2.0});
+  sensor::Fix fix{.stamp = kBegin, .position = geo_point_from_degrees(49, 8.4, 110)};
+  for (const int seconds : {2, 1, 3, 4}) {
+    fix.stamp = kBegin + std::chrono::seconds(seconds);
+    EXPECT_TRUE(is_valid(error.degraded(fix).position)) << seconds;
+  }
+}
+
 }  // namespace
 }  // namespace fleetmap::recording

@@ -155,5 +155,17 @@ TEST_F(Evaluation, WhatCannotBeMeasuredAtAllIsAnError) {
   EXPECT_FALSE(fs::exists(folder_.path() / "evaluation.json"));
 }
 
+TEST_F(Evaluation, AReportOfOtherTypesIsAnError) {
+  write_track("r1/trajectory.tum", 0.0);
+  for (const char* report :
+       {R"({"links": [{"link": 5}]})", R"({"links": [{"link": "long_range", "wire_bytes": "x"}]})",
+        R"({"agents": [1]})", R"({"agents": {"r1": []}})"}) {
+    folder_.write("report.json", report);
+    const auto evaluation = evaluate_run(folder_.path(), inputs_);
+    ASSERT_FALSE(evaluation) << report;
+    EXPECT_THAT(evaluation.error().message, HasSubstr("report.json: is no report of a run"));
+  }
+}
+
 }  // namespace
 }  // namespace fleetmap::run_evaluation

@@ -17,7 +17,7 @@ struct FittedCloud {
 };
 
 /// The finest voxel grid (centroids) whose encoding fits `max_bytes`, found to within a few per cent of the
-/// budget. Fails on non-finite points and where even `max_voxel_m` does not fit.
+/// budget. Points that are not finite are left out. Fails where even `max_voxel_m` does not fit.
 Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& config);
 
 }  // namespace fleetmap::cloud
