@@ -1,0 +1,208 @@
+#include "fleetmap/agent/perception.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
+#include "support/synthetic_lidar.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+using namespace std::chrono_literals;
+namespace topics = ros_codec::topics;
+
+constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
+const Bytes kNoMessage(40, 7);
+
+/// A scan at rest in a yard.
+const sensor::Scan& yard_scan() {
+  static const sensor::Scan scan = [] {
+    testing::ScanOptions options;
+    options.keep = 0.3;
+    return testing::make_scan(
+        testing::yard_world(), [](double) { return Pose::Identity(); }, 0.0, odometry::vlp16(), options);
+  }();
+  return scan;
+}
+
+class PerceptionTest : public ::testing::Test {
+ protected:
+  PerceptionTest() {
+    config_.waiting_scans = 2;
+    config_.odometry.T_base_lidar = testing::ScanOptions{}.T_base_lidar;
+  }
+  void SetUp() override {
+    bus::LocalNetworkConfig network;
+    network.start = kStart;
+    network.perception_time = 50ms;
+    network_ = bus::LocalNetwork::create(network).value();
+    bus_ = &network_->add_robot(AgentId::parse("r1").value());
+    perception_ = std::make_unique<Perception>(
+        config_, *bus_, [this](Perceived&& perceived) { perceived_.push_back(std::move(perceived)); },
+        [this] { ++scans_heard_; });
+  }
+  void run_for(Duration time) { network_->run_until(network_->now() + time); }
+  /// A scan whose first point was fired just now.
+  void scan() {
+    sensor::Scan scan = yard_scan();
+    scan.stamp = network_->now();
+    bus_->publish(topics::points(), ros_codec::encode(scan));
+  }
+  void imu(const Eigen::Matrix3d& R_enu_base, bool oriented) {
+    sensor::Imu imu;
+    imu.stamp = network_->now();
+    imu.specific_force = 9.80665 * R_enu_base.row(2).transpose();
+    if (oriented) imu.q_enu_imu = Eigen::Quaterniond(R_enu_base);
+    imu.orientation_variance.setConstant(1e-4);
+    bus_->publish(topics::imu(), ros_codec::encode(imu));
+  }
+
+  PerceptionConfig config_;
+  std::unique_ptr<bus::LocalNetwork> network_;
+  bus::Bus* bus_ = nullptr;
+  std::vector<Perceived> perceived_;
+  int scans_heard_ = 0;
+  std::unique_ptr<Perception> perception_;
+};
+
+TEST_F(PerceptionTest, AScanBecomesOdometryHereAndOnTheBus) {
+  std::vector<ros_codec::OdometryMsg> told;
+  const bus::Handle handle = bus_->subscribe(topics::odometry(), [&](const Bytes& cdr) {
+    told.push_back(ros_codec::decode<ros_codec::OdometryMsg>(cdr).value());
+  });
+  EXPECT_EQ(perception_->last_scan(), kStart);
+  run_for(1s);
+  scan();
+  run_for(10ms);
+  EXPECT_EQ(scans_heard_, 1);
+  EXPECT_FALSE(perception_->idle()) << "LOAM takes 50 ms";
+  EXPECT_TRUE(perceived_.empty());
+  run_for(1s);
+  ASSERT_EQ(perceived_.size(), 1u);
+  EXPECT_TRUE(perception_->idle());
+  EXPECT_EQ(perceived_[0].odometry.stamp, kStart + 1s);
+  EXPECT_EQ(perceived_[0].arrival, kStart + 1s);
+  EXPECT_TRUE(perceived_[0].odometry.T_odom_base.isApprox(Pose::Identity()));
+  EXPECT_FALSE(perceived_[0].G) << "there was no fix";
+  EXPECT_FALSE(perceived_[0].up_is_measured);
+  EXPECT_LT((perceived_[0].up_in_base - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].stamp, kStart + 1s);
+  EXPECT_EQ(perception_->last_scan(), kStart + 1s);
+  EXPECT_EQ(perception_->counters().scans, 1u);
+  EXPECT_EQ(perception_->odometry_counters().updates, 1u);
+}
+
+TEST_F(PerceptionTest, WhatCannotBeDecodedIsCountedAndNoEnd) {
+  run_for(1s);
+  for (const bus::Topic& topic : {topics::imu(), topics::fix(), topics::wheel_odometry()})
+    bus_->publish(topic, kNoMessage);
+  bus_->publish(topics::points(), kNoMessage);
+  run_for(1s);
+  EXPECT_EQ(perception_->counters().refused_messages, 3u);
+  EXPECT_EQ(perception_->counters().imu + perception_->counters().fixes + perception_->counters().wheel, 0u);
+  EXPECT_EQ(perception_->counters().refused_scans, 1u);
+  EXPECT_EQ(perception_->last_sample(), kStart + 1s) << "the driver is there, whatever it sends";
+  EXPECT_TRUE(perceived_.empty());
+  scan();
+  run_for(1s);
+  EXPECT_EQ(perceived_.size(), 1u);
+}
+
+TEST_F(PerceptionTest, ScansBeyondThoseThatMayWaitTakeThePlaceOfTheOldest) {
+  for (int k = 0; k < 5; ++k) bus_->publish(topics::points(), kNoMessage);
+  run_for(10ms);
+  EXPECT_EQ(scans_heard_, 5);
+  EXPECT_EQ(perception_->counters().scans, 5u);
+  EXPECT_EQ(perception_->counters().dropped_scans, 2u) << "one is under way, two wait";
+  run_for(130ms);
+  EXPECT_EQ(perception_->counters().refused_scans, 2u) << "one after the other, 50 ms each";
+  run_for(1s);
+  EXPECT_EQ(perception_->counters().refused_scans, 3u);
+  EXPECT_TRUE(perception_->idle());
+}
+
+TEST_F(PerceptionTest, AfterStopNothingIsHeardAndNothingWaits) {
+  for (int k = 0; k < 3; ++k) bus_->publish(topics::points(), kNoMessage);
+  run_for(10ms);
+  perception_->stop();
+  EXPECT_FALSE(perception_->idle()) << "one is under way";
+  bus_->publish(topics::points(), kNoMessage);
+  run_for(1s);
+  EXPECT_TRUE(perception_->idle());
+  EXPECT_EQ(perception_->counters().scans, 3u);
+  EXPECT_EQ(perception_->counters().refused_scans, 1u);
+}
+
+TEST_F(PerceptionTest, UpIsWhereTheImuSaysThatItIs) {
+  const Eigen::Matrix3d R = rotation_from_rpy(0.1, -0.15, 0.0);
+  for (int k = 0; k < 100; ++k) {
+    imu(R, false);
+    run_for(10ms);
+  }
+  scan();
+  run_for(1s);
+  ASSERT_EQ(perceived_.size(), 1u);
+  EXPECT_TRUE(perceived_[0].up_is_measured);
+  EXPECT_LT((perceived_[0].up_in_base - R.row(2).transpose()).norm(), 0.01);
+  EXPECT_EQ(perception_->counters().imu, 100u);
+}
+
+TEST_F(PerceptionTest, WithFixesAndAHeadingThereIsAGlobalPoseOfTheScansInstant) {
+  std::vector<GlobalPose> told;
+  const bus::Handle handle = bus_->subscribe(fleet_codec::topics::global_pose(), [&](const Bytes& cdr) {
+    told.push_back(fleet_codec::decode<GlobalPose>(cdr).value());
+  });
+  const GeoPoint place = geo_point_from_degrees(49.0, 8.4, 110.0);
+  const Eigen::Matrix3d R = rotation_from_rpy(0.0, 0.0, 0.7);
+  for (int k = 0; k < 300; ++k) {
+    imu(R, true);
+    if (k % 20 == 0) {
+      sensor::Fix fix;
+      fix.stamp = network_->now();
+      fix.position = place;
+      fix.covariance = Eigen::Matrix3d::Identity();
+      bus_->publish(topics::fix(), ros_codec::encode(fix));
+    }
+    run_for(10ms);
+  }
+  EXPECT_TRUE(perception_->global_pose());
+  const Stamp now = network_->now();
+  scan();
+  run_for(1s);
+  ASSERT_EQ(perceived_.size(), 1u);
+  ASSERT_TRUE(perceived_[0].G);
+  EXPECT_EQ(perceived_[0].G->stamp, now);
+  EXPECT_LT(LocalFrame(place).to_enu(perceived_[0].G->position).norm(), 0.5);
+  EXPECT_NEAR(rpy_from_rotation(perceived_[0].G->q_enu_base.toRotationMatrix()).z(), 0.7, 0.05);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].stamp, now);
+  EXPECT_EQ(perception_->counters().fixes, 15u);
+}
+
+/// A robot whose driver names its topic otherwise.
+class RenamedTopic : public PerceptionTest {
+ protected:
+  RenamedTopic() { config_.topics.points = "rt/velodyne_points"; }
+};
+
+TEST_F(RenamedTopic, IsHeardAndOursIsNot) {
+  scan();
+  run_for(10ms);
+  EXPECT_EQ(perception_->counters().scans, 0u);
+  bus::Topic topic = topics::points();
+  topic.name = "rt/velodyne_points";
+  bus_->publish(topic, kNoMessage);
+  run_for(10ms);
+  EXPECT_EQ(perception_->counters().scans, 1u);
+}
+
+}  // namespace
+}  // namespace fleetmap::agent
