@@ -32,7 +32,9 @@ void add_access_options(CLI::App& command, MonitorAccess& access, const std::str
       .add_option("--" + prefix + "token-file", access.token_file,
                   "file with the page's token, instead of a random one")
       ->check(some_path());
-  command.add_option("--" + prefix + "viewers", access.viewers, "pages that may be open at once")
+  command
+      .add_option("--" + prefix + "viewers", access.viewers,
+                  "pages and Foxglove clients that may be open at once")
       ->check(whole_number(1, 64));
 }
 

@@ -1,5 +1,6 @@
 #include "connection.hpp"
 
+#include "foxglove/client_session.hpp"
 #include "http_answer.hpp"
 #include "viewer.hpp"
 
@@ -43,8 +44,7 @@ void Connection::on_request(error_code error) {
   ++state_.requests;
   const Request request = parser_->release();
   Response response = answer(state_, request);
-  const bool opens = response.result() == http::status::switching_protocols;
-  if (opens) return std::make_shared<Viewer>(state_, std::move(stream_), counted_)->run(request);
+  if (response.result() == http::status::switching_protocols) return open(request, response);
   response.version(request.version());
   response.keep_alive(request.keep_alive());
   if (request.method() == http::verb::head) {
@@ -55,6 +55,14 @@ void Connection::on_request(error_code error) {
     response.prepare_payload();
   }
   write(std::move(response));
+}
+
+void Connection::open(const Request& request, const Response& response) {
+  const auto granted = response[http::field::sec_websocket_protocol];
+  const std::string subprotocol(granted.data(), granted.size());
+  if (subprotocol.empty())
+    return std::make_shared<Viewer>(state_, std::move(stream_), counted_)->run(request);
+  std::make_shared<foxglove::ClientSession>(state_, std::move(stream_), counted_)->run(request, subprotocol);
 }
 
 void Connection::write(Response response) {

@@ -18,6 +18,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
  private:
   void on_request(error_code error);
+  /// Hands the connection to the WebSocket that `response` grants.
+  void open(const Request& request, const Response& response);
   void write(Response response);
   void close();
 

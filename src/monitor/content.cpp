@@ -62,19 +62,26 @@ Reply Content::page_file(std::string_view path) const {
   return plain(404, "nothing is here");
 }
 
+Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const graph::Node& node) {
+  return cloud(node.id, to_hex(node.submap_hash));
+}
+
+Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const NodeId& node, const std::string& hash) {
+  if (auto kept = cache_.find(hash)) return kept;
+  const auto loaded = load_(node);
+  if (!loaded) return tl::unexpected(loaded.error());
+  return std::make_shared<const QuantisedCloud>(quantised(*loaded));
+}
+
 Reply Content::submap(std::string_view target) {
   const auto request = parse_submap_request(target);
   if (!request) return plain(400, "expected /submap/HASH?from=N&count=N");
   const auto node = submaps_.find(request->hash);
   if (node == submaps_.end()) return plain(404, "no such submap");
-  std::shared_ptr<const QuantisedCloud> cloud = cache_.find(request->hash);
-  if (!cloud) {
-    const auto loaded = load_(node->second);
-    if (!loaded) return plain(503, "the submap cannot be read: " + loaded.error().message);
-    cloud = std::make_shared<const QuantisedCloud>(quantised(*loaded));
-    cache_.keep(request->hash, cloud);
-  }
-  const Bytes points = encoded_points(*cloud, request->from, std::min(request->count, kMaxPointsAtOnce));
+  const auto loaded = cloud(node->second, request->hash);
+  if (!loaded) return plain(503, "the submap cannot be read: " + loaded.error().message);
+  cache_.keep(request->hash, *loaded);
+  const Bytes points = encoded_points(**loaded, request->from, std::min(request->count, kMaxPointsAtOnce));
   return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
 }
 

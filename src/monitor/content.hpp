@@ -56,8 +56,11 @@ class Content {
   /// The live status as JSON; empty before the first show().
   std::shared_ptr<const std::string> live() const { return live_; }
   Reply reply(std::string_view target);
+  /// A node's submap, of those kept or freshly decoded; it is kept only if the page asks for it (reply()).
+  Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
  private:
+  Result<std::shared_ptr<const QuantisedCloud>> cloud(const NodeId& node, const std::string& hash);
   Reply page_file(std::string_view path) const;
   Reply submap(std::string_view target);
 

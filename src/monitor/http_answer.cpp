@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "fleetmap/monitor/request_check.hpp"
+#include "foxglove/protocol.hpp"
 
 namespace fleetmap::monitor {
 namespace {
@@ -35,20 +36,60 @@ Reply reply_to_order(ServerState& state, const RequestHead& head, std::string_vi
   return {.status = 202, .body = "ordered\n"};
 }
 
+Response refused(ServerState& state, http::status status, std::string_view text) {
+  ++state.refused;
+  Response response;
+  response.result(status);
+  response.set(http::field::content_type, "text/plain; charset=utf-8");
+  response.body() = std::string(text) + '\n';
+  return response;
+}
+
+/// Refusal of a Foxglove client, which cannot send headers: its token is in its address. Who has the token
+/// has been given it, so the site that the client is from does not matter then: a browser attaches a cookie
+/// to the requests of any site, but puts no token into their addresses.
+std::optional<std::string_view> foxglove_refusal(const ServerState& state, const RequestHead& head,
+                                                 std::string_view target) {
+  const std::string& token = state.config.token;
+  if (!token.empty() && equal_secrets(query_value(target, "token"), token))
+    return refusal({.host = head.host, .origin = {}, .cookie = {}, .authorization = {}}, "", "");
+  return refusal(head, token, state.cookie);
+}
+
+/// The subprotocol of Foxglove that a request offers; empty if it offers none.
+std::string offered_subprotocol(const Request& request) {
+  std::string offered;
+  const auto [begin, end] = request.equal_range(http::field::sec_websocket_protocol);
+  for (auto field = begin; field != end; ++field) offered += std::string(view_of(field->value())) + ',';
+  return std::string(foxglove::chosen_subprotocol(offered));
+}
+
+Response answer_upgrade(ServerState& state, const Request& request, const RequestHead& head,
+                        std::string_view target) {
+  const std::string subprotocol = offered_subprotocol(request);
+  const auto why = subprotocol.empty() ? refusal(head, state.config.token, state.cookie)
+                                       : foxglove_refusal(state, head, target);
+  if (why) return refused(state, http::status::forbidden, *why);
+  const std::string_view path = target.substr(0, target.find('?'));
+  if (subprotocol.empty() ? target != "/live" : path != "/live" && path != "/")
+    return refused(state, http::status::not_found,
+                   "the page's WebSocket is at /live, Foxglove's at / with subprotocol foxglove.sdk.v1");
+  if (state.viewers_now >= state.config.max_viewers)
+    return refused(state, http::status::service_unavailable, "too many pages are open; close one");
+  Response response;
+  response.result(http::status::switching_protocols);
+  if (!subprotocol.empty()) response.set(http::field::sec_websocket_protocol, subprotocol);
+  return response;
+}
+
 }  // namespace
 
 Response answer(ServerState& state, const Request& request) {
   const std::string_view target = view_of(request.target()), host = view_of(request[http::field::host]);
   const RequestHead head{host, view_of(request[http::field::origin]), view_of(request[http::field::cookie]),
                          view_of(request[http::field::authorization])};
+  if (beast::websocket::is_upgrade(request)) return answer_upgrade(state, request, head, target);
   Response response;
-  const auto refuse = [&](http::status status, std::string_view text) {
-    ++state.refused;
-    response.result(status);
-    response.set(http::field::content_type, "text/plain; charset=utf-8");
-    response.body() = std::string(text) + '\n';
-    return response;
-  };
   constexpr std::string_view kWithToken = "/?token=";
   if (!state.config.token.empty() && target.starts_with(kWithToken) && !refusal(head, "", "") &&
       equal_secrets(target.substr(kWithToken.size()), state.config.token)) {
@@ -59,17 +100,10 @@ Response answer(ServerState& state, const Request& request) {
     return response;
   }
   if (const auto why = refusal(head, state.config.token, state.cookie))
-    return refuse(http::status::forbidden, *why);
+    return refused(state, http::status::forbidden, *why);
   const bool orders = request.method() == http::verb::post;
   if (!orders && request.method() != http::verb::get && request.method() != http::verb::head)
-    return refuse(http::status::method_not_allowed, "everything here is read only");
-  if (!orders && beast::websocket::is_upgrade(request)) {
-    if (target != "/live") return refuse(http::status::not_found, "the WebSocket is at /live");
-    if (state.viewers.size() >= state.config.max_viewers)
-      return refuse(http::status::service_unavailable, "too many pages are open; close one");
-    response.result(http::status::switching_protocols);
-    return response;
-  }
+    return refused(state, http::status::method_not_allowed, "everything here is read only");
   Reply reply = orders ? reply_to_order(state, head, target) : state.content.reply(target);
   if (reply.status >= 400) ++state.refused;
   response.result(reply.status);

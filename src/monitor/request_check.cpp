@@ -71,6 +71,17 @@ std::string_view cookie_value(std::string_view cookie, std::string_view name) {
   return {};
 }
 
+std::string_view query_value(std::string_view target, std::string_view name) {
+  target.remove_prefix(std::min(target.find('?'), target.size()));
+  while (!target.empty()) {
+    target.remove_prefix(1);
+    const std::string_view one = target.substr(0, target.find('&'));
+    target.remove_prefix(one.size());
+    if (one.starts_with(name) && one.substr(name.size()).starts_with('=')) return one.substr(name.size() + 1);
+  }
+  return {};
+}
+
 bool equal_secrets(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;

@@ -93,6 +93,7 @@ void Server::publish(std::shared_ptr<const FleetView> view) {
   net::post(state_->io, [state = state_.get(), view = std::move(view)] {
     state->content.show(*view);
     for (Viewer* viewer : state->viewers) viewer->send(Viewer::kState, state->content.state());
+    state->feed.show(view);
   });
 }
 
@@ -103,6 +104,7 @@ void Server::publish(std::shared_ptr<const LiveStatus> status) {
     if (!status) return;
     state->content.show(*status, state->operated());
     for (Viewer* viewer : state->viewers) viewer->send(Viewer::kLive, state->content.live());
+    state->feed.show(status);
   });
 }
 

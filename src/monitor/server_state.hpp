@@ -9,6 +9,7 @@
 
 #include "content.hpp"
 #include "fleetmap/monitor/server.hpp"
+#include "foxglove/feed.hpp"
 #include "http_types.hpp"
 #include "latest_slot.hpp"
 
@@ -28,12 +29,14 @@ struct Server::State {
   LatestSlot<LiveStatus> live;  ///< filled by any thread
   Server::GiveOrder give_order;
   std::set<Viewer*> viewers;
+  std::set<foxglove::Client*> foxglove_clients;
   std::size_t connections = 0;
   std::atomic<std::uint64_t> requests{0}, refused{0}, cut{0};
   std::atomic<std::size_t> viewers_now{0};
   net::io_context io{1};
   tcp::acceptor acceptor{io};
   net::steady_timer pause{io};
+  foxglove::Feed feed{io, content, foxglove_clients, {config.foxglove_points, config.foxglove_map_period}};
   std::uint16_t port = 0;
   std::thread thread;
 

@@ -64,8 +64,14 @@ class Browser {
     const std::string all = answer();
     return all.size() > 12 ? all.substr(9, 3) : all;
   }
-  /// The next text that came over the WebSocket; pings are passed over. Empty when it closed.
-  std::string message() {
+  /// A message of the WebSocket: kind 1 is text, 2 binary, 8 that it closed.
+  struct Message {
+    int kind = 8;
+    std::string payload;
+  };
+  /// The next message that came over the WebSocket, all of its frames; pings are passed over.
+  Message any_message() {
+    Message whole;
     while (true) {
       const std::string head = take(2);
       if (head.size() < 2) return {};
@@ -77,9 +83,28 @@ class Browser {
       }
       const std::string payload = take(length);
       const int kind = head[0] & 0x0f;
-      if (kind == 1) return payload;
       if (kind == 8) return {};
+      if (kind > 8) continue;
+      if (kind > 0) whole.kind = kind;
+      whole.payload += payload;
+      if ((head[0] & 0x80) != 0) return whole;
     }
+  }
+  /// The next text. Empty when the WebSocket closed.
+  std::string message() {
+    while (true) {
+      const Message next = any_message();
+      if (next.kind == 1) return next.payload;
+      if (next.kind == 8) return {};
+    }
+  }
+  /// Writes a message of the kind 1 (text) or 2 (binary) in one frame, masked with zeros.
+  bool send_message(const std::string& payload, int kind = 1) {
+    std::string frame(1, static_cast<char>(0x80 | kind));
+    const std::size_t size = payload.size(), bytes = size < 126 ? 0 : size < 65536 ? 2 : 8;
+    frame.push_back(static_cast<char>(0x80 | (bytes == 0 ? size : bytes == 2 ? 126 : 127)));
+    for (std::size_t k = bytes; k-- > 0;) frame.push_back(static_cast<char>(size >> 8 * k));
+    return send(frame + std::string(4, '\0') + payload);
   }
   /// The other side has closed (or reset); what came before is dropped. False when 20 s pass first.
   bool closed() {

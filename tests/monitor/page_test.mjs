@@ -4,12 +4,13 @@
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
-import {spawn, spawnSync} from 'node:child_process';
+import {spawn} from 'node:child_process';
 import {existsSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
+import {makeRun, serve} from './shown_run.mjs';
 
 const [fleetmap, pageFolder, screenshots] = process.argv.slice(2);
 const require = createRequire(resolve(pageFolder, 'package.json'));
@@ -20,30 +21,6 @@ if (!executablePath) {
 }
 const {chromium} = require('playwright-core');
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_page_'));
-
-/** Two robots on a small farm. E must be smaller than it ever is, so that their registrations are rejected. */
-function makeRun() {
-  const out = join(folder, 'run');
-  const source = join(fileURLToPath(new URL('../..', import.meta.url)), 'config/fleets/farm_small.yaml');
-  const run = spawnSync(fleetmap, ['run', '-c', source, '--agents', '2', '--set', 'max_time=30', '--set', 'registration.max_rmse=0.05', '--out', out],
-    {encoding: 'utf8', timeout: 200_000});
-  assert.equal(run.status, 0, run.stderr);
-  return out;
-}
-
-async function serve(out) {
-  const server = spawn(fleetmap, ['monitor', '--run', out, '--port', '0'], {stdio: ['ignore', 'pipe', 'inherit']});
-  const url = await new Promise((found, failed) => {
-    let said = '';
-    server.stdout.on('data', (text) => {
-      said += text;
-      const match = said.match(/http:\S+/);
-      if (match) found(match[0]);
-    });
-    server.on('exit', (code) => failed(new Error(`fleetmap monitor ended with ${code}: ${said}`)));
-  });
-  return {server, url};
-}
 
 /** How many colours and how many covered pixels the map's middle has. */
 async function pixelsOfMap(page) {
@@ -309,9 +286,10 @@ async function testLive(browser) {
 
 let server;
 try {
-  const made = process.env.FLEETMAP_RUN ?? makeRun();
+  // E must be smaller than it ever is, so that their registrations are rejected.
+  const made = process.env.FLEETMAP_RUN ?? makeRun(fleetmap, folder, ['registration.max_rmse=0.05']);
   let url;
-  ({server, url} = await serve(made));
+  ({server, url} = await serve(fleetmap, made));
   const state = await (await fetch(new URL('state.json', url))).json();
   const browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist']});
   await visit(browser, url, 1366, 768, state, async (page) => {

@@ -50,6 +50,14 @@ TEST(RequestCheck, a_token_is_taken_from_the_cookie_or_the_header_and_from_nowhe
   EXPECT_TRUE(refusal(head, token, "fleetmap_80"));
 }
 
+TEST(RequestCheck, a_query_has_values_by_name) {
+  EXPECT_EQ(query_value("/?token=abc", "token"), "abc");
+  EXPECT_EQ(query_value("/live?a=b&token=abc&c=d", "token"), "abc");
+  for (const char* without :
+       {"", "/", "/?", "?", "/token=abc", "/?mytoken=abc", "/?token", "/?a=token=abc", "/?&&"})
+    EXPECT_EQ(query_value(without, "token"), "") << without;
+}
+
 TEST(RequestCheck, submaps_are_asked_for_by_hash_alone) {
   const auto request = parse_submap_request("/submap/0123456789abcdef0123456789abcdef?from=4096&count=100");
   ASSERT_TRUE(request);

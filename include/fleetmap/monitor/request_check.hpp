@@ -24,6 +24,8 @@ bool is_loopback(std::string_view address);
 
 /// "Cookie: a=b; NAME=VALUE" -> VALUE.
 std::string_view cookie_value(std::string_view cookie, std::string_view name);
+/// "/path?a=b&NAME=VALUE" -> VALUE.
+std::string_view query_value(std::string_view target, std::string_view name);
 /// Takes as long whatever the first difference is.
 bool equal_secrets(std::string_view a, std::string_view b);
 /// 32 random hexadecimal digits.

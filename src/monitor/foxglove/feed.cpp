@@ -1,0 +1,75 @@
+#include "feed.hpp"
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+
+#include "fleetmap/monitor/request_check.hpp"
+
+namespace fleetmap::monitor::foxglove {
+
+Feed::Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const Config& config)
+    : io_(io),
+      clients_(clients),
+      config_(config),
+      session_(random_token()),
+      map_(config.map_points, [&content](const graph::Node& node) { return content.cloud(node); }),
+      pause_(io, std::chrono::steady_clock::now()) {}
+
+void Feed::show(std::shared_ptr<const FleetView> view) {
+  view_ = view;
+  outdated_ = true;
+  channels_.show(std::move(view));
+  wake_all();
+  build_map();
+}
+
+void Feed::show(std::shared_ptr<const LiveStatus> status) {
+  channels_.show(std::move(status));
+  wake_all();
+}
+
+void Feed::wake_all() {
+  for (Client* client : clients_) client->wake();
+}
+
+bool Feed::map_is_wanted() const {
+  return std::ranges::any_of(clients_, [](const Client* client) { return client->wants_map(); });
+}
+
+void Feed::build_map() {
+  if (building_ || !outdated_ || !map_is_wanted()) return;
+  building_ = true;
+  pause_.async_wait([this](error_code error) {
+    if (error) return;
+    outdated_ = false;
+    map_.begin(view_);
+    next_submap();
+  });
+}
+
+void Feed::next_submap() {
+  building_ = false;  // also where a submap throws: the next view begins anew
+  if (!map_is_wanted()) {
+    outdated_ = true;
+    return;
+  }
+  if (!map_.step()) return finish_map();
+  building_ = true;
+  net::post(io_, [this] { next_submap(); });
+}
+
+void Feed::finish_map() {
+  channels_.show_map(map_.message());
+  pause_.expires_after(config_.map_period);
+  const std::vector<NodeId>& unreadable = map_.unreadable();
+  for (Client* client : clients_) {
+    if (!unreadable.empty() && client->wants_map())
+      client->warn(std::to_string(unreadable.size()) +
+                   " submaps cannot be read and are missing from /fleet/map; the first is " +
+                   to_string(unreadable.front()));
+    client->wake();
+  }
+  build_map();
+}
+
+}  // namespace fleetmap::monitor::foxglove
