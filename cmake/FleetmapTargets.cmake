@@ -27,7 +27,7 @@ if(FLEETMAP_SANITIZE MATCHES "undefined")
   # AddressSanitizer finds what is null or no object at all; misaligned ones are looked for where bytes are read.
   add_compile_options(-fno-sanitize=null,alignment,vptr,object-size,nonnull-attribute,returns-nonnull-attribute,pointer-overflow)
 endif()
-set(FLEETMAP_READS_BYTES core trust cloud store exchange ros_codec fleet_codec recording bus bus_dds)
+set(FLEETMAP_READS_BYTES core trust sensor cloud store exchange ros_codec fleet_codec recording bus bus_dds)
 
 # Reading Eigen, gtest and the standard library is most of the work of compiling a small file, so it is done once for
 # all libraries and once for all programs (GCC compiles those with other flags). Configure with

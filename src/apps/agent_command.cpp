@@ -95,6 +95,13 @@ void log_keys(const bus::DdsBusConfig& dds) {
   }
 }
 
+/// Null without a folder.
+Result<std::unique_ptr<SensorRecorder>> recorder_into(const std::string& folder,
+                                                      const agent::SensorTopics& topics, bus::Bus& bus) {
+  if (folder.empty()) return std::unique_ptr<SensorRecorder>();
+  return SensorRecorder::create(folder, topics, bus);
+}
+
 void print_map(const std::filesystem::path& directory, const output::Results& results) {
   std::cout << (directory / "map.ply").string() << "  " << results.map.points << " points from "
             << results.map.submaps << " submaps, " << results.missing_submaps << " missing, hash "
@@ -118,12 +125,10 @@ int run(const AgentOptions& options) {
   if (!agent) return report(agent.error(), kFailed);
   auto log = LinkLog::open(config->agent.directory, config->agent.id);
   if (!log) return report(log.error(), kFailed);
-  std::unique_ptr<SensorRecorder> recorder;
-  if (!options.record.empty()) {
-    auto made = SensorRecorder::create(options.record, config->agent.perception.topics, **bus);
-    if (!made) return report(made.error(), kFailed);
-    recorder = std::move(*made);
-  }
+  const auto recorder = recorder_into(options.record, config->agent.perception.topics, **bus);
+  if (!recorder) return report(recorder.error(), kFailed);
+  const auto lidar = publish_velodyne(config->agent.perception, **bus);
+  if (!lidar) return report(lidar.error(), kFailed);
   const auto page = page_of_robot(*page_config, config->agent.directory);
   if (!page) return report(page.error(), kFailed);
   spdlog::info("{}: ready, store {}", config->agent.id.str(),
@@ -134,8 +139,8 @@ int run(const AgentOptions& options) {
   if (*page) live.emplace(**agent, **bus, (*page)->server());
   run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
                  options.exit_after_idle, stop_on_signals());
-  if (recorder) {
-    if (const Status closed = recorder->close(); !closed) spdlog::error("{}", closed.error().message);
+  if (*recorder) {
+    if (const Status closed = (*recorder)->close(); !closed) spdlog::error("{}", closed.error().message);
   }
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();

@@ -1,4 +1,6 @@
 // `fleetmap doctor`: listens to a robot's sensors as its agent would, beside it or before it runs.
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <iostream>
 #include <iterator>
@@ -82,6 +84,9 @@ int examine(const DoctorOptions& options) {
   auto bus = join_dds(dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
   Listener listener(robot->agent.perception, **bus);
+  // Its agent receives there if it runs, and publishes the scans.
+  const auto lidar = publish_velodyne(robot->agent.perception, **bus);
+  if (!lidar) spdlog::info("{}", lidar.error().message);
   std::cout << "listening for " << options.seconds << " s; drive a turn, so that units of turn rates show\n";
   (*bus)->run_until([] { return stop_on_signals().load(); }, from_seconds(options.seconds));
   listener.streams().print(std::cout);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "fleetmap/ros_codec/sensors.hpp"
+#include "sample_player.hpp"
+
 namespace fleetmap::apps {
 
 Result<std::unique_ptr<bus::DdsBus>> join_dds(const bus::DdsBusConfig& config) {
@@ -11,6 +14,18 @@ Result<std::unique_ptr<bus::DdsBus>> join_dds(const bus::DdsBusConfig& config) {
   if (!made) return made;
   for (const std::string& warning : (*made)->warnings()) spdlog::warn("{}: {}", config.agent.str(), warning);
   return made;
+}
+
+Result<std::unique_ptr<VelodyneInput>> publish_velodyne(const agent::PerceptionConfig& config,
+                                                        bus::DdsBus& bus) {
+  if (config.velodyne_port == 0) return std::unique_ptr<VelodyneInput>();
+  const bus::Topic points = sensor_topics(config.topics).front();
+  bus.advertise(points);
+  auto input = VelodyneInput::open(config.velodyne_port, [&bus, points](const sensor::Scan& scan) {
+    bus.publish(points, ros_codec::encode(scan));
+  });
+  if (input) spdlog::info("UDP port {}: receives a Velodyne LiDAR for {}", config.velodyne_port, points.name);
+  return input;
 }
 
 AgentId free_name(const std::string& wanted, const std::vector<AgentId>& robots) {

@@ -100,7 +100,7 @@ void add_replay(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "plays a recording onto a robot's onboard domain");
   command->add_option("recording", options->recording,
-                      "rosbag2 folder, .db3 or .mcap, KITTI folder, or a folder of scans");
+                      "rosbag2 folder, .db3, .mcap, .bag or .pcap, KITTI folder, or a folder of scans");
   command->add_option("-c,--config", options->config,
                       "AGENT.yaml: its dds.onboard and recording keys are used");
   command->add_option("--as", options->as, "play as this robot");

@@ -22,6 +22,12 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   lidar.read("range_noise", perception.odometry.range_noise);
   lidar.read("scan_period", perception.lidar.scan_period);
   lidar.read_degrees("elevations_deg", perception.lidar.vertical_angles);
+  if (lidar.has("velodyne_port")) {
+    std::uint32_t port = 0;
+    lidar.read("velodyne_port", port);
+    if (port < 1 || port > 65535) lidar.problem("velodyne_port", "expected a UDP port, usually 2368");
+    perception.velodyne_port = static_cast<std::uint16_t>(port);
+  }
   lidar.finish();
 }
 

@@ -6,7 +6,8 @@
 #include "bag_file.hpp"
 #include "bag_metadata.hpp"
 #include "bag_topics.hpp"
-#include "checked_reader.hpp"
+#include "fleetmap/ros_codec/velodyne_scan.hpp"
+#include "packet_reader.hpp"
 #include "unpack.hpp"
 
 namespace fleetmap::recording {
@@ -61,23 +62,27 @@ Result<std::vector<fs::path>> bag_files(const fs::path& path) {
   return files;
 }
 
-class BagReader : public CheckedReader {
+class BagReader : public PacketReader {
  public:
   BagReader(std::string source, std::vector<fs::path> files, std::map<std::string, Kind> kinds,
             ScanContent content)
-      : CheckedReader(std::move(source)),
+      : PacketReader(std::move(source), content),
         files_(std::move(files)),
         kinds_(std::move(kinds)),
         content_(content) {}
 
   Result<std::optional<Sample>> next() override {
-    while (!ended_) {
+    while (true) {
+      if (auto scan = next_scan()) {
+        recorded_ = scan->recorded;
+        return Sample(std::move(scan->scan));
+      }
+      if (ended_) return std::optional<Sample>();
       recorded_.reset();
       auto sample = advance();
       if (!sample) ended_ = true;
       if (!sample || *sample) return sample;
     }
-    return std::optional<Sample>();
   }
   std::optional<Stamp> recorded() const override { return recorded_; }
 
@@ -87,6 +92,7 @@ class BagReader : public CheckedReader {
     if (!file_) {
       if (next_file_ == files_.size()) {
         ended_ = true;
+        finish_packets();
         return std::optional<Sample>();
       }
       auto file = open_bag_file(files_[next_file_++]);
@@ -112,9 +118,9 @@ class BagReader : public CheckedReader {
     std::optional<Sample> sample;
     if (is_zstd(message.cdr)) {  // no CDR begins so
       const auto cdr = unpack_zstd(message.cdr, kMaxMessageBytes);
-      sample = cdr ? decode(kind->second, *cdr, message.topic) : undecodable(message.topic, cdr.error());
+      sample = cdr ? decode(kind->second, *cdr, message) : undecodable(message.topic, cdr.error());
     } else {
-      sample = decode(kind->second, message.cdr, message.topic);
+      sample = decode(kind->second, message.cdr, message);
     }
     if (!sample) return std::optional<Sample>();
     if (to_ns(stamp_of(*sample)) == 0 && message.received_ns > 1'000'000'000)
@@ -124,8 +130,12 @@ class BagReader : public CheckedReader {
     return sample;
   }
 
-  std::optional<Sample> decode(Kind kind, ByteView cdr, const std::string& topic) {
+  std::optional<Sample> decode(Kind kind, ByteView cdr, const BagMessage& message) {
+    const std::string& topic = message.topic;
     switch (kind) {
+      case Kind::kPackets:
+        add_packets(cdr, message);
+        return std::nullopt;  // a message ends within a turn; next_scan() returns those that are complete
       case Kind::kScan: {
         if (content_ == ScanContent::kStampOnly) {
           const auto stamp = ros_codec::stamp_of_scan(cdr);
@@ -145,6 +155,21 @@ class BagReader : public CheckedReader {
         return sample_of<sensor::Fix>(cdr, topic);
       default:
         return sample_of<sensor::Wheel>(cdr, topic);
+    }
+  }
+
+  void add_packets(ByteView cdr, const BagMessage& message) {
+    const auto decoded = ros_codec::decode_velodyne_scan(cdr);
+    if (!decoded) return void(undecodable(message.topic, decoded.error()));
+    const Stamp recorded = stamp_from_ns(message.received_ns);
+    for (const auto& packet : decoded->packets) {
+      Stamp arrival = packet.received;
+      if (to_ns(arrival) == 0) {
+        arrival = recorded;
+        skip(&Counters::unstamped_messages,
+             message.topic + ": a packet has no stamp; the time of recording is taken instead");
+      }
+      add_packet(packet.data, arrival, recorded);
     }
   }
 

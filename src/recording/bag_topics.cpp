@@ -1,5 +1,7 @@
 #include "bag_topics.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 
 namespace fleetmap::recording {
@@ -24,6 +26,14 @@ const Role kRoles[] = {
      false},
 };
 
+/// Read for the points where there are no clouds.
+const Role kPackets{"recording.topics.points",
+                    "velodyne_msgs/msg/VelodyneScan",
+                    "/velodyne_packets",
+                    &Topics::points,
+                    Kind::kPackets,
+                    true};
+
 std::string list(const std::vector<BagTopic>& topics) {
   std::string out;
   for (const BagTopic& topic : topics)
@@ -31,11 +41,28 @@ std::string list(const std::vector<BagTopic>& topics) {
   return out.empty() ? "none" : out;
 }
 
+std::vector<BagTopic> of_type(const std::vector<BagTopic>& topics, const char* type) {
+  std::vector<BagTopic> found;
+  std::ranges::copy_if(topics, std::back_inserter(found),
+                       [&](const BagTopic& topic) { return topic.type == type; });
+  return found;
+}
+
+/// Whether the points come from packets: those that are wanted, or all that there is.
+bool takes_packets(const std::vector<BagTopic>& topics, const Role& clouds, const std::string& wanted,
+                   const std::string& bag) {
+  const std::vector<BagTopic> packets = of_type(topics, kPackets.type);
+  if (!wanted.empty())
+    return std::ranges::any_of(packets, [&](const BagTopic& topic) { return topic.name == wanted; });
+  const bool has_clouds = !of_type(topics, clouds.type).empty();
+  if (has_clouds && !packets.empty())
+    spdlog::info("{}: holds clouds and packets of a LiDAR; the clouds are taken, not {}", bag, list(packets));
+  return !has_clouds && !packets.empty();
+}
+
 Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
                            const std::string& bag) {
-  std::vector<BagTopic> candidates;
-  std::ranges::copy_if(topics, std::back_inserter(candidates),
-                       [&](const BagTopic& topic) { return topic.type == role.type; });
+  const std::vector<BagTopic> candidates = of_type(topics, role.type);
   const auto named = [&](const std::string& name) {
     return std::ranges::any_of(candidates, [&](const BagTopic& topic) { return topic.name == name; });
   };
@@ -60,6 +87,7 @@ Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& t
                                                   const std::string& bag, bool scans_needed) {
   std::map<std::string, Kind> chosen;
   for (Role role : kRoles) {
+    if (role.kind == Kind::kScan && takes_packets(topics, role, wanted.points, bag)) role = kPackets;
     role.needed = role.needed && scans_needed;
     if (wanted.*role.wanted == kNone && !role.needed) continue;
     const auto name = select(role, topics, wanted.*role.wanted, bag);

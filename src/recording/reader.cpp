@@ -4,6 +4,7 @@
 
 #include "bag_reader.hpp"
 #include "kitti_reader.hpp"
+#include "pcap_reader.hpp"
 
 namespace fleetmap::recording {
 
@@ -13,10 +14,11 @@ Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const Re
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return failure(path.string() + ": there is no such recording");
   if (looks_like_bag(path)) return open_bag(path, config, content);
+  if (looks_like_capture(path)) return open_capture(path, content);
   if (has_kitti_layout(path)) return open_kitti(path, config.kitti);
   return failure(path.string() +
                  ": is neither a rosbag2 folder (metadata.yaml, .db3 or .mcap), nor such a file or a ROS 1 "
-                 ".bag, nor a KITTI folder "
+                 ".bag, nor a capture (.pcap), nor a KITTI folder "
                  "(velodyne_points and oxts, or velodyne and times.txt), nor a folder of .bin or .pcd scans");
 }
 

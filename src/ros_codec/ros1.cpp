@@ -96,6 +96,15 @@ void odometry(Transcoder& message) {
   message.numbers(8, 7 + 36 + 6 + 36);  // pose and twist, each with its covariance
 }
 
+void velodyne_scan(Transcoder& message) {
+  message.header();
+  const std::uint32_t packets = message.count();
+  for (std::uint32_t k = 0; k < packets && message.more(); ++k) {
+    message.numbers(4, 2);     // s, ns
+    message.numbers(1, 1206);  // data
+  }
+}
+
 }  // namespace
 
 Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message) {
@@ -108,6 +117,8 @@ Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message) {
     nav_sat_fix(transcoder);
   } else if (type == "nav_msgs/msg/Odometry") {
     odometry(transcoder);
+  } else if (type == "velodyne_msgs/msg/VelodyneScan") {
+    velodyne_scan(transcoder);
   } else {
     return failure(std::string(type) + ": is not read from ROS 1");
   }

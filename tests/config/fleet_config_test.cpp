@@ -134,6 +134,18 @@ TEST_F(FleetConfigTest, UnknownMethodsAreRefusedWhereTheyStand) {
               HasSubstr("paper.feature_radius"));
 }
 
+TEST_F(FleetConfigTest, ThePortOfAVelodyneLidar) {
+  const auto robot = load_robot(write(kRobot), {});
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_EQ(robot->agent.perception.velodyne_port, 0) << "a driver publishes its scans";
+  const auto with_port = load_robot(write(kRobot + "lidar: {velodyne_port: 2368}\n"), {});
+  ASSERT_TRUE(with_port) << with_port.error().message;
+  EXPECT_EQ(with_port->agent.perception.velodyne_port, 2368);
+  for (const char* port : {"0", "65536", "-1", "lidar"})
+    EXPECT_THAT(robot_error(kRobot, {{"lidar.velodyne_port", port}}),
+                HasSubstr("lidar.velodyne_port: expected"));
+}
+
 TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
   const auto robot = load_robot(
       write(kRobot + "nodes: {spacing: 5}\n"),

@@ -17,10 +17,13 @@
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/ros_codec/sensors.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
+#include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/store/store.hpp"
 #include "fleetmap/trust/introduction.hpp"
+#include "recording/pcap_bytes.hpp"
 #include "store/item_codec.hpp"
 #include "store/items.hpp"
+#include "support/velodyne_packets.hpp"
 #include "trust/key_files.hpp"
 
 namespace fleetmap::fuzz {
@@ -224,6 +227,40 @@ void stores(const fs::path& corpus) {
   items.add("alignment", store::encode(alignment));
 }
 
+/// The first packet of a turn, its last one and the next.
+ros_codec::VelodyneScan three_packets(std::uint8_t product, std::uint8_t mode) {
+  ros_codec::VelodyneScan scan{kNow, {}};
+  const auto add = [&](testing::VelodyneDevice device, int packets) {
+    device.product = product;
+    device.mode = mode;
+    for (int k = 0; k < packets; ++k) {
+      auto packet = device.next();
+      scan.packets.push_back({Stamp(packet.fired), std::move(packet.bytes)});
+    }
+  };
+  const Duration start = kNow.time_since_epoch();
+  add(testing::VelodyneDevice(start, 1.0), 1);
+  add(testing::VelodyneDevice(start + std::chrono::milliseconds(99), 358.4), 2);
+  return scan;
+}
+
+void velodyne(const fs::path& corpus) {
+  const Seeds seeds(corpus, "velodyne");
+  seeds.add("vlp16_message", 0, ros_codec::encode(three_packets(0x22, 0x37)));
+  Bytes datagrams;
+  for (const auto& packet : three_packets(0x28, 0x39).packets) {
+    datagrams.insert(datagrams.end(), {10, 0});
+    datagrams.insert(datagrams.end(), packet.data.begin(), packet.data.end());
+  }
+  seeds.add("vlp32c_dual_datagrams", 1, datagrams);
+  namespace pcap = recording::testing;
+  std::string capture = pcap::pcap_header();
+  for (const auto& packet : three_packets(0x21, 0x38).packets)
+    capture += pcap::pcap_record(packet.received, pcap::udp_frame({}, packet.data));
+  Seeds(corpus, "pcap")
+      .add("hdl32e", ByteView(reinterpret_cast<const std::uint8_t*>(capture.data()), capture.size()));
+}
+
 void scans(const fs::path& corpus) {
   const Seeds seeds(corpus, "kitti");
   const Bytes scan(64, 0x41);
@@ -246,7 +283,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   using namespace fleetmap::fuzz;
-  for (const auto make : {fleet_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, scans})
+  for (const auto make :
+       {fleet_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, velodyne, scans})
     make(argv[1]);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/velodyne_scan.hpp"
 
 namespace fleetmap::ros_codec {
 namespace {
@@ -108,6 +109,27 @@ TEST(Ros1, PointCloud2WithFieldNamesOfOddLengths) {
   EXPECT_EQ(decoded->scan.points[1].intensity, 8.0f);
 }
 
+TEST(Ros1, VelodyneScanWhosePacketsAreNoMultipleOfFourBytes) {
+  for (const char* frame : {"", "velodyne", "front"}) {
+    Ros1Message message;
+    message.header(frame).put(std::uint32_t{3});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      message.put(6 + k).put(std::uint32_t{500});
+      for (int byte = 0; byte < 1206; ++byte)
+        message.put(static_cast<std::uint8_t>(byte + static_cast<int>(k)));
+    }
+    const auto cdr = cdr_from_ros1("velodyne_msgs/msg/VelodyneScan", message.bytes());
+    ASSERT_TRUE(cdr) << cdr.error().message;
+    const auto scan = decode_velodyne_scan(*cdr);
+    ASSERT_TRUE(scan) << scan.error().message;
+    EXPECT_EQ(to_ns(scan->stamp), 5'250'000'000);
+    ASSERT_EQ(scan->packets.size(), 3u);
+    EXPECT_EQ(to_ns(scan->packets[2].received), 8'000'000'500);
+    EXPECT_EQ(scan->packets[2].data.front(), 2);
+    EXPECT_EQ(scan->packets[2].data.back(), static_cast<std::uint8_t>(1207));
+  }
+}
+
 TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
   const Bytes whole = imu("imu");
   for (std::size_t size = 0; size < whole.size(); ++size)
@@ -120,6 +142,7 @@ TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
   Bytes many = whole;
   std::fill(many.begin() + 12, many.end(), 0xff);
   EXPECT_FALSE(cdr_from_ros1("sensor_msgs/msg/PointCloud2", many)) << "4 billion fields";
+  EXPECT_FALSE(cdr_from_ros1("velodyne_msgs/msg/VelodyneScan", many)) << "4 billion packets";
 }
 
 }  // namespace

@@ -28,19 +28,24 @@ Stamp stamp_of(const Sample& sample);
 struct Counters {
   std::uint64_t scans = 0, imus = 0, fixes = 0, wheels = 0;  ///< given out
   std::uint64_t non_finite_points = 0;                       ///< of the scans read
-  std::uint64_t origin_points = 0;          ///< exactly (0, 0, 0): no return; of the scans read
-  std::uint64_t undecodable_messages = 0;   ///< truncated or contradictory; skipped
-  std::uint64_t damaged_parts = 0;          ///< of an mcap or ROS 1 file; left out
-  std::uint64_t empty_scans = 0;            ///< without a single return; skipped
-  std::uint64_t time_backwards = 0;         ///< not later than the one before of its kind; skipped
-  std::uint64_t clocks_set_back = 0;        ///< times that the stamps of a kind went on far earlier
-  std::uint64_t microsecond_scans = 0;      ///< point times in microseconds instead of nanoseconds
-  std::uint64_t foreign_clock_scans = 0;    ///< point times in a clock unrelated to the scan's stamp
-  std::uint64_t unstamped_messages = 0;     ///< header stamp 0: the time of recording was taken
-  std::uint64_t unreadable_scan_files = 0;  ///< KITTI; skipped
-  std::uint64_t missing_scan_frames = 0;    ///< KITTI: a gap in the numbers of the scan files
-  std::uint64_t missing_oxts_frames = 0;    ///< KITTI: a scan without its OXTS record
-  std::uint64_t malformed_oxts_frames = 0;  ///< KITTI; skipped
+  std::uint64_t origin_points = 0;              ///< exactly (0, 0, 0): no return; of the scans read
+  std::uint64_t undecodable_messages = 0;       ///< truncated or contradictory; skipped
+  std::uint64_t damaged_parts = 0;              ///< of an mcap or ROS 1 file; left out
+  std::uint64_t empty_scans = 0;                ///< without a single return; skipped
+  std::uint64_t time_backwards = 0;             ///< not later than the one before of its kind; skipped
+  std::uint64_t clocks_set_back = 0;            ///< times that the stamps of a kind went on far earlier
+  std::uint64_t microsecond_scans = 0;          ///< point times in microseconds instead of nanoseconds
+  std::uint64_t foreign_clock_scans = 0;        ///< point times in a clock unrelated to the scan's stamp
+  std::uint64_t unstamped_messages = 0;         ///< header stamp 0: the time of recording was taken
+  std::uint64_t packets_of_wrong_size = 0;      ///< of a Velodyne LiDAR, as the next two; skipped
+  std::uint64_t packets_of_wrong_blocks = 0;    ///< a data block without its flag or with no azimuth; skipped
+  std::uint64_t packets_of_unknown_device = 0;  ///< product id or return mode; skipped
+  std::uint64_t packets_of_other_devices = 0;   ///< of a capture with several LiDARs; skipped
+  std::uint64_t incomplete_sweeps = 0;          ///< a part of a turn at an end or a pause; skipped
+  std::uint64_t unreadable_scan_files = 0;      ///< KITTI; skipped
+  std::uint64_t missing_scan_frames = 0;        ///< KITTI: a gap in the numbers of the scan files
+  std::uint64_t missing_oxts_frames = 0;        ///< KITTI: a scan without its OXTS record
+  std::uint64_t malformed_oxts_frames = 0;      ///< KITTI; skipped
 
   /// (name, count) of all, for reports.
   std::vector<std::pair<std::string, std::uint64_t>> named() const;
@@ -64,11 +69,11 @@ class Reader {
   virtual const Counters& counters() const = 0;
 };
 
-/// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a ROS 1 bag, a KITTI
-/// folder (raw: velodyne_points and oxts; odometry benchmark: velodyne and times.txt, scans that are motion
-/// compensated), or a bare folder of scans (.bin or .pcd, as everywhere also as .xz). Missing parts of such a
-/// folder are assumed with a warning. Errors name the remedy for other formats and topics that cannot be
-/// chosen.
+/// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a ROS 1 bag, a capture
+/// of a Velodyne LiDAR's packets (.pcap), a KITTI folder (raw: velodyne_points and oxts; odometry benchmark:
+/// velodyne and times.txt, scans that are motion compensated), or a bare folder of scans (.bin or .pcd, as
+/// everywhere also as .xz). Missing parts of such a folder are assumed with a warning. Errors name the remedy
+/// for other formats and topics that cannot be chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {},
                                      ScanContent content = ScanContent::kPoints);
 

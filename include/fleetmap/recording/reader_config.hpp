@@ -10,7 +10,7 @@ namespace fleetmap::recording {
 /// Topics of a bag ("/points"). Empty: the only topic of that type, or else the one with our own name.
 /// "none": not read. The config keys are recording.topics.points and so on.
 struct Topics {
-  std::string points;  ///< sensor_msgs/msg/PointCloud2; needed
+  std::string points;  ///< sensor_msgs/msg/PointCloud2, or velodyne_msgs/msg/VelodyneScan; needed
   std::string imu;     ///< sensor_msgs/msg/Imu
   std::string fix;     ///< sensor_msgs/msg/NavSatFix
   std::string wheel;   ///< nav_msgs/msg/Odometry
