@@ -14,6 +14,8 @@
 #include "commands.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/graph_file.hpp"
+#include "fleetmap/output/map_comments.hpp"
+#include "fleetmap/output/map_crs.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/map_recipe.hpp"
@@ -22,6 +24,7 @@
 #include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "fleetmap/store/thinned_map.hpp"
+#include "las_export.hpp"
 #include "options.hpp"
 #include "store_summary.hpp"
 #include "stored_map.hpp"
@@ -35,6 +38,7 @@ struct MapOptions {
   std::optional<double> voxel;
   std::vector<double> origin_deg;
   bool json = false;
+  LasOptions las;
 };
 
 std::optional<GeoPoint> configured_origin(const MapOptions& options) {
@@ -71,11 +75,20 @@ int info(const MapOptions& options) {
 }
 
 int export_map(const MapOptions& options) {
+  const bool las = wants_las(options.out, options.las);
+  if (options.las.any() && !las)
+    return report({options.out + ": --crs and --geoid are of LAS; end it with .las"}, kUsage);
   auto map = open_map(options.store, configured_origin(options), options.voxel);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
+  if (las) {
+    const Status written = export_las(*map, options.store, options.out, options.las);
+    return written ? kDone : report(written.error(), kFailed);
+  }
   const std::array files{std::filesystem::path(options.out)};
-  const auto written = output::write_merged(map->store, shown_poses(*map), map->recipe.merge, files);
+  const output::MapPart main = output::map_parts(output::nodes_of(map->store), map->placement).main;
+  const auto written = output::write_merged(map->store, main.T_map_node, map->recipe.merge, files,
+                                            output::map_comments(map->store, main, map->recipe.origin));
   if (!written) return report(written.error(), kFailed);
   name_unreadable(written->outline);
   std::cout << options.out << ": " << written->points << " points from " << written->outline.submaps
@@ -145,6 +158,31 @@ CLI::Validator ends_with(std::vector<std::string> extensions) {
   return {check, "FILE"};
 }
 
+CLI::Validator reference_system() {
+  const auto check = [](const std::string& text) {
+    const auto choice = output::parse_crs(text);
+    return choice ? std::string() : choice.error().message;
+  };
+  return {check, "CRS"};
+}
+
+void add_export_options(CLI::App& command, MapOptions& options) {
+  command.add_option("--out", options.out, "FILE.las, FILE.ply or FILE.pcd; with --tile a folder")
+      ->required()
+      ->check(some_path());
+  command.add_option("--voxel", options.voxel,
+                     "m, one point is kept in each cube of this edge; else as in the agent's last map");
+  command
+      .add_option("--crs", options.las.crs,
+                  "coordinates of LAS: utm (the origin's zone, the default), EPSG:326xx or 327xx, or enu")
+      ->check(reference_system());
+  command.add_option(
+      "--geoid", options.las.geoid,
+      "heights of LAS above this geoid of GeographicLib (egm2008-5); else above the ellipsoid");
+  command.add_option("--tile", options.las.tile_m, "m, LAS files of squares of this edge, in a folder")
+      ->check(whole_number(1, 1'000'000));
+}
+
 }  // namespace
 
 void add_map(CLI::App& app, int& exit_code) {
@@ -152,7 +190,8 @@ void add_map(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("map", "looks into a store, or writes its map");
   command->require_subcommand(1);
   CLI::App* info_command = command->add_subcommand("info", "what a store holds");
-  CLI::App* export_command = command->add_subcommand("export", "the merged map in ENU as PLY or PCD");
+  CLI::App* export_command =
+      command->add_subcommand("export", "the merged map as LAS, or in ENU as PLY or PCD");
   CLI::App* picture_command = command->add_subcommand(
       "picture", "the merged map from above and in perspective, by robot and density");
   CLI::App* tracks_command = command->add_subcommand("tracks", "the ways of all robots as placed, in WGS84");
@@ -168,10 +207,7 @@ void add_map(CLI::App& app, int& exit_code) {
   }
   info_command->add_flag("--json", options->json,
                          "nodes, alignments and submaps held, by robot, and the hash of the set");
-  export_command->add_option("--out", options->out, "FILE.ply or FILE.pcd")->required()->check(some_path());
-  export_command->add_option(
-      "--voxel", options->voxel,
-      "m, one point is kept in each cube of this edge; else as in the agent's last map");
+  add_export_options(*export_command, *options);
   picture_command->add_option("--out", options->out, "folder for the PNG files")
       ->required()
       ->check(some_path());

@@ -21,8 +21,11 @@ constexpr std::size_t kBlock = 65'536;  // points that are put together before t
 }  // namespace
 
 CloudWriter::CloudWriter(std::filesystem::path file, std::unique_ptr<std::FILE, Close> out,
-                         bool with_intensities)
-    : file_(std::move(file)), out_(std::move(out)), with_intensities_(with_intensities) {}
+                         bool with_intensities, std::vector<std::string> comments)
+    : file_(std::move(file)),
+      out_(std::move(out)),
+      with_intensities_(with_intensities),
+      comments_(std::move(comments)) {}
 
 CloudWriter::~CloudWriter() {
   if (!out_) return;
@@ -38,15 +41,16 @@ Status CloudWriter::failed(int error) const {
 Status CloudWriter::write_header() {
   const auto format = format_of(file_);
   if (!format) return failure(file_.string() + ": " + format.error().message);
-  const std::string header = header_of(*format, points_, with_intensities_);
+  const std::string header = header_of(*format, points_, with_intensities_, comments_);
   if (std::fwrite(header.data(), 1, header.size(), out_.get()) != header.size()) return failed(errno);
   return {};
 }
 
-Result<CloudWriter> CloudWriter::create(const std::filesystem::path& file, bool with_intensities) {
+Result<CloudWriter> CloudWriter::create(const std::filesystem::path& file, bool with_intensities,
+                                        std::vector<std::string> comments) {
   if (const auto format = format_of(file); !format)
     return failure(file.string() + ": " + format.error().message);
-  CloudWriter writer(file, nullptr, with_intensities);
+  CloudWriter writer(file, nullptr, with_intensities, std::move(comments));
   writer.out_.reset(std::fopen(writer.part().c_str(), "wb"));
   if (!writer.out_) return tl::unexpected(writer.failed(errno).error());
   if (const Status written = writer.write_header(); !written) return tl::unexpected(written.error());

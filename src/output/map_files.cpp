@@ -16,27 +16,6 @@ namespace {
 
 constexpr std::array kMapNames{"map.ply", "map.pcd"};
 
-ContentHash hash_of_inputs(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
-                           const store::MergeConfig& config) {
-  Bytes inputs;
-  const auto add = [&inputs](const auto& value) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
-    inputs.insert(inputs.end(), bytes, bytes + sizeof(value));
-  };
-  add(config.voxel_m);
-  add(config.centroids);
-  for (const auto& [id, T] : T_map_node) {
-    const graph::Node* node = store.node(id);
-    if (node == nullptr || !store.has_submap(id)) continue;
-    for (const char c : id.agent.str()) add(c);
-    add(id.seq);
-    add(node->submap_hash);
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 3; ++row) add(T.matrix()(row, column));
-  }
-  return content_hash(inputs);
-}
-
 Result<MapFiles> copied_map(const MapFiles& other, const std::filesystem::path& directory) {
   for (const char* name : kMapNames) {
     std::error_code error;
@@ -69,12 +48,13 @@ Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, 
 
 Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                 const store::MergeConfig& config,
-                                std::span<const std::filesystem::path> files) {
+                                std::span<const std::filesystem::path> files,
+                                const std::vector<std::string>& comments) {
   auto merge = tiled_map(store, T_map_node, config);
   if (!merge) return tl::unexpected(merge.error());
   std::vector<cloud::CloudWriter> writers;
   for (const std::filesystem::path& file : files) {
-    auto writer = cloud::CloudWriter::create(file, merge->outline().has_intensities);
+    auto writer = cloud::CloudWriter::create(file, merge->outline().has_intensities, comments);
     if (!writer) return tl::unexpected(writer.error());
     writers.push_back(std::move(*writer));
   }
@@ -94,12 +74,33 @@ Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose
   return written;
 }
 
+ContentHash map_hash(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                     const store::MergeConfig& config) {
+  Bytes inputs;
+  const auto add = [&inputs](const auto& value) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
+    inputs.insert(inputs.end(), bytes, bytes + sizeof(value));
+  };
+  add(config.voxel_m);
+  add(config.centroids);
+  for (const auto& [id, T] : T_map_node) {
+    const graph::Node* node = store.node(id);
+    if (node == nullptr || !store.has_submap(id)) continue;
+    for (const char c : id.agent.str()) add(c);
+    add(id.seq);
+    add(node->submap_hash);
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) add(T.matrix()(row, column));
+  }
+  return content_hash(inputs);
+}
+
 Result<MapFiles> write_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                            const store::MergeConfig& config, const std::filesystem::path& directory,
                            std::span<const MapFiles> others) {
   MapFiles files;
   files.directory = directory;
-  files.made_of = hash_of_inputs(store, T_map_node, config);
+  files.made_of = map_hash(store, T_map_node, config);
   if (const auto same = std::ranges::find(others, files.made_of, &MapFiles::made_of); same != others.end())
     return copied_map(*same, directory);
   std::vector<std::filesystem::path> paths;

@@ -26,6 +26,15 @@ std::vector<graph::Alignment> alignments_of(const store::Store& store) {
   return alignments;
 }
 
+std::optional<Stamp> newest_stamp(const store::Store& store, const std::map<NodeId, Pose>& T_map_node) {
+  std::optional<Stamp> newest;
+  for (const auto& [id, T] : T_map_node) {
+    const graph::Node* node = store.node(id);
+    if (node != nullptr && (!newest || node->stamp > *newest)) newest = node->stamp;
+  }
+  return newest;
+}
+
 graph::Placement place(const store::Store& store, const GeoPoint& origin,
                        const graph::PlacementConfig& config, std::span<const NodeId> covariance_of) {
   return graph::compute_placement(nodes_of(store), alignments_of(store), LocalFrame(origin), config,

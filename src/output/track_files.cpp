@@ -1,14 +1,12 @@
 #include "fleetmap/output/track_files.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <ctime>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 
 namespace fleetmap::output {
@@ -34,20 +32,6 @@ Tracks tracks_of(const std::vector<graph::Node>& nodes, const std::map<NodeId, P
     tracks[node.frame()].push_back({node.id, enu.to_geo(placed->second.translation()), node.stamp});
   }
   return tracks;
-}
-
-/// "2026-11-26T18:12:39.500Z" (RFC 3339).
-std::string to_utc(Stamp stamp) {
-  constexpr std::int64_t kSecond = 1'000'000'000, kMillisecond = 1'000'000;
-  const std::int64_t ns = to_ns(stamp);
-  const std::time_t seconds = ns / kSecond;
-  std::tm utc{};
-  gmtime_r(&seconds, &utc);
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900,
-                utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
-                static_cast<int>(ns % kSecond / kMillisecond));
-  return text.data();
 }
 
 /// Longitude, latitude, height, as GeoJSON orders them; to 1e-9 deg (0.1 mm) and 0.1 mm.

@@ -1,15 +1,19 @@
 #include "fleetmap/store/map_merge.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
 
 namespace fleetmap::store {
 
-std::uint8_t MapOutline::add_submap(const NodeId& id, std::size_t points) {
+std::uint8_t MapOutline::add_submap(const NodeId& id, const cloud::PointCloud& submap) {
   ++submaps;
-  points_in += points;
+  points_in += submap.size();
+  for (const float intensity : submap.intensities) {
+    if (std::isfinite(intensity)) max_intensity = std::max(max_intensity, intensity);
+  }
   if (agents.empty() || agents.back() != id.agent) agents.push_back(id.agent);
   return static_cast<std::uint8_t>(std::min<std::size_t>(agents.size() - 1, 255));
 }
@@ -25,7 +29,7 @@ MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& lo
       map.unreadable.push_back(id);
       continue;
     }
-    const std::uint8_t agent = map.add_submap(id, submap->size());
+    const std::uint8_t agent = map.add_submap(id, *submap);
     const std::size_t added = merger.add(cloud::transformed(*submap, T_enu));
     // Voxels appear in the order in which they were first hit.
     map.seen_by.insert(map.seen_by.end(), added, agent);

@@ -22,7 +22,7 @@ class TiledMerge::Planner {
       outline.unreadable.push_back(id);
       return;
     }
-    const std::uint8_t agent = outline.add_submap(id, placed->size());
+    const std::uint8_t agent = outline.add_submap(id, *placed);
     all_intensities_ = all_intensities_ && (placed->empty() || placed->has_intensities());
     merge_.sources_.push_back({id, T_enu_node, agent, columns_of(*placed), true});
     keep(std::move(*placed));

@@ -66,6 +66,20 @@ TEST(CloudWriter, PiecesMakeTheFileOfTheWhole) {
   EXPECT_EQ(files_in(folder.path()), 0u) << "nothing else is left";
 }
 
+TEST(CloudWriter, CommentsAreLinesOfTheHeaderThatReadersSkip) {
+  const fleetmap::testing::TemporaryFolder folder;
+  const PointCloud cloud = testing::street_scene(100, 7);
+  for (const std::string name : {"map.ply", "map.pcd"}) {
+    auto writer = CloudWriter::create(folder.path() / name, true, {"DATA of one place", "element 2"});
+    ASSERT_TRUE(writer && writer->add(cloud) && writer->finish());
+    const std::string mark = name == "map.ply" ? "\ncomment " : "\n# ";
+    EXPECT_THAT(content(folder.path() / name), HasSubstr(mark + "DATA of one place" + mark + "element 2\n"));
+    const auto back = read_cloud(folder.path() / name);
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->points, cloud.points);
+  }
+}
+
 TEST(CloudWriter, AFullDiskIsAnErrorThatNamesTheFile) {
   const fleetmap::testing::TemporaryFolder folder;
   const fs::path file = folder.path() / "map.ply";

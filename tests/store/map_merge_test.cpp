@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <random>
 
 #include "store/items.hpp"
@@ -77,6 +78,19 @@ TEST(MapMerge, tells_which_agent_saw_a_voxel_first) {
   const auto alone = merge(of_a_alone, load, config);
   for (std::size_t i = 0; i < map.cloud.size(); ++i)
     EXPECT_EQ(map.seen_by[i], i < alone.cloud.size() ? 0 : 1);
+}
+
+TEST(MapMerge, finds_the_greatest_intensity_that_is_a_number) {
+  const auto bright = [](const NodeId& id) -> Result<cloud::PointCloud> {
+    auto cloud = load(id).value();
+    cloud.intensities.assign(cloud.size(), 3.0f);
+    cloud.intensities[4] = 17.0f + static_cast<float>(id.seq);
+    cloud.intensities[5] = std::numeric_limits<float>::quiet_NaN();
+    cloud.intensities[6] = std::numeric_limits<float>::infinity();
+    return cloud;
+  };
+  EXPECT_EQ(merge(poses(), bright, {}).max_intensity, 21.0f);
+  EXPECT_EQ(merge(poses(), load, {}).max_intensity, 0.0f);
 }
 
 TEST(MapMerge, leaves_out_and_names_what_it_cannot_read) {

@@ -95,6 +95,8 @@ TEST(TiledMerge, HasThePointsOfTheMergeInOnePiece) {
       EXPECT_EQ(tiled->outline().points_in, whole.points_in);
       EXPECT_EQ(tiled->outline().agents, whole.agents);
       EXPECT_TRUE(tiled->outline().has_intensities);
+      EXPECT_EQ(tiled->outline().max_intensity, 250.0f);
+      EXPECT_EQ(whole.max_intensity, 250.0f);
     }
   }
 }

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/core/result.hpp"
@@ -16,7 +18,9 @@ namespace fleetmap::cloud {
 /// would also load 60 more shared libraries of 55 MB (VTK, OpenNI).
 class CloudWriter {
  public:
-  static Result<CloudWriter> create(const std::filesystem::path& file, bool with_intensities);
+  /// `comments` are lines for the header.
+  static Result<CloudWriter> create(const std::filesystem::path& file, bool with_intensities,
+                                    std::vector<std::string> comments = {});
   CloudWriter(CloudWriter&&) noexcept = default;
   ~CloudWriter();
 
@@ -29,7 +33,8 @@ class CloudWriter {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  CloudWriter(std::filesystem::path file, std::unique_ptr<std::FILE, Close> out, bool with_intensities);
+  CloudWriter(std::filesystem::path file, std::unique_ptr<std::FILE, Close> out, bool with_intensities,
+              std::vector<std::string> comments);
   std::filesystem::path part() const { return file_.string() + ".part"; }
   Status failed(int error) const;
   Status write_header();
@@ -37,6 +42,7 @@ class CloudWriter {
   std::filesystem::path file_;
   std::unique_ptr<std::FILE, Close> out_;
   bool with_intensities_;
+  std::vector<std::string> comments_;
   std::size_t points_ = 0;
 };
 

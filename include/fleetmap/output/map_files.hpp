@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
@@ -26,15 +27,21 @@ struct WrittenMap {
   std::size_t points = 0;
 };
 /// Merges that map tile by tile into each of `files` (.ply or .pcd), all or none of which appear unless one
-/// cannot be renamed.
+/// cannot be renamed. `comments` are lines for their headers.
 Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                 const store::MergeConfig& config,
-                                std::span<const std::filesystem::path> files);
+                                std::span<const std::filesystem::path> files,
+                                const std::vector<std::string>& comments = {});
+
+/// Of all that a map is a function of: submaps, their poses, how they are merged. Equal on agents that hold
+/// the same set.
+ContentHash map_hash(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
+                     const store::MergeConfig& config);
 
 /// The files of one merged map.
 struct MapFiles {
   std::filesystem::path directory;
-  ContentHash made_of{};  ///< of all that the map is a function of: submaps, their poses, how they are merged
+  ContentHash made_of{};  ///< map_hash()
   std::size_t points = 0;
   std::size_t submaps = 0;
   std::string hash;  ///< content hash of map.ply: equal on agents that hold the same set

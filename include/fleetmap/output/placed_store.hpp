@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,6 +21,9 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 /// Everything held, by name.
 std::vector<graph::Node> nodes_of(const store::Store& store);
 std::vector<graph::Alignment> alignments_of(const store::Store& store);
+
+/// Of the newest of these nodes; empty if none is held.
+std::optional<Stamp> newest_stamp(const store::Store& store, const std::map<NodeId, Pose>& T_map_node);
 
 /// Computes the pose of every node of the store.
 graph::Placement place(const store::Store& store, const GeoPoint& origin,

@@ -27,9 +27,10 @@ struct MapOutline {
   std::vector<NodeId> unreadable;
   std::vector<AgentId> agents;  ///< makers of the merged submaps
   bool has_intensities = false;
+  float max_intensity = 0.0f;  ///< of all points in, in the devices' units
 
   /// Counts a submap, in the order of NodeIds, and returns the index of its agent in `agents`.
-  std::uint8_t add_submap(const NodeId& id, std::size_t points);
+  std::uint8_t add_submap(const NodeId& id, const cloud::PointCloud& submap);
 };
 
 struct MergedMap : MapOutline {

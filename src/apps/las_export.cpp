@@ -1,0 +1,79 @@
+#include "las_export.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <utility>
+
+#include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/las_map.hpp"
+#include "fleetmap/output/map_parts.hpp"
+#include "fleetmap/output/placed_store.hpp"
+#include "version.hpp"
+
+namespace fleetmap::apps {
+namespace {
+
+Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
+                              const std::string& store) {
+  const auto choice = output::parse_crs(options.crs.value_or("utm"));
+  if (!choice) return tl::unexpected(choice.error());
+  std::optional<Geoid> geoid;
+  if (options.geoid) {
+    auto loaded = Geoid::load(*options.geoid);
+    if (!loaded) return tl::unexpected(loaded.error());
+    geoid = std::move(*loaded);
+  }
+  auto crs = output::MapCrs::of(*choice, place, std::move(geoid));
+  if (!crs) return failure(store + ": " + crs.error().message);
+  return crs;
+}
+
+void print(const output::WrittenLas& written, const std::string& out, const output::MapCrs& crs,
+           const LasOptions& options) {
+  std::cout << out << ": ";
+  if (options.tile_m) std::cout << written.files << " files of " << *options.tile_m << " m, ";
+  std::cout << written.points << " points from " << written.outline.submaps << " submaps\n"
+            << crs.text() << '\n';
+  if (crs.name() != "enu") {
+    std::cout << "Scale at the origin: " << std::fixed << std::setprecision(6) << crs.scale()
+              << " (lengths in it over lengths on the ellipsoid).\n";
+  }
+  if (written.left_out > 0)
+    std::cerr << written.left_out << " points are not finite or too far away and are left out\n";
+  name_unreadable(written.outline);
+}
+
+void name_parts_apart(const output::MapParts& parts) {
+  for (const output::MapPart& part : parts.apart) {
+    std::cerr << "not in it, for nobody knows where to lay them:";
+    for (const graph::FrameId& frame : part.frames) std::cerr << ' ' << graph::to_string(frame);
+    std::cerr << '\n';
+  }
+}
+
+}  // namespace
+
+bool wants_las(const std::string& out, const LasOptions& options) {
+  std::string extension = std::filesystem::path(out).extension();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return options.tile_m || extension == ".las";
+}
+
+Status export_las(StoredMap& map, const std::string& store, const std::string& out,
+                  const LasOptions& options) {
+  const output::MapParts parts = output::map_parts(output::nodes_of(map.store), map.placement);
+  const auto crs = crs_of(options, {map.recipe.origin, parts.main.georeferenced}, store);
+  if (!crs) return tl::unexpected(crs.error());
+  const output::LasMapConfig config{out, options.tile_m, std::string("fleetmap ") + kVersion};
+  const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
+  if (!written) return tl::unexpected(written.error());
+  print(*written, out, *crs, options);
+  name_parts_apart(parts);
+  return {};
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,129 @@
+#include "fleetmap/output/map_crs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "fleetmap/output/crs_wkt.hpp"
+
+namespace fleetmap::output {
+namespace {
+
+constexpr const char* kOffered =
+    "expected utm (the site's own zone), a UTM zone of WGS 84 (EPSG:32601 to EPSG:32660, EPSG:32701 to "
+    "EPSG:32760) or enu";
+
+std::string epsg_name(const UtmZone& zone) { return "EPSG:" + std::to_string(zone.epsg()); }
+
+std::string degrees(double radians) {
+  return std::to_string(std::lround(radians / std::numbers::pi * 180.0));
+}
+
+}  // namespace
+
+Result<CrsChoice> parse_crs(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (lower == "utm") return CrsChoice{};
+  if (lower == "enu") return CrsChoice{CrsChoice::Kind::enu, {}};
+  const std::string prefix = "epsg:";
+  int code = 0;
+  const char* end = lower.data() + lower.size();
+  if (!lower.starts_with(prefix)) return failure(std::string(text) + ": no reference system; " + kOffered);
+  const auto [stopped, error] = std::from_chars(lower.data() + prefix.size(), end, code);
+  if (error != std::errc{} || stopped != end)
+    return failure(std::string(text) + ": no code of EPSG; " + kOffered);
+  const auto zone = utm_zone_of_epsg(code);
+  if (!zone) {
+    return failure(std::string(text) + " cannot be written; " + kOffered +
+                   ". A surveyor's program changes the file to other systems, with their grids");
+  }
+  return CrsChoice{CrsChoice::Kind::zone, *zone};
+}
+
+Result<MapCrs> MapCrs::of(const CrsChoice& choice, const MapPlace& place, std::optional<Geoid> geoid) {
+  if (choice.kind == CrsChoice::Kind::enu) {
+    if (geoid)
+      return failure("heights in enu are above a plane at the origin, not above a geoid: no --geoid");
+    return MapCrs(place, std::nullopt, std::nullopt);
+  }
+  if (!place.georeferenced) {
+    return failure(
+        "no node of its map has GPS, so that nobody knows where on Earth it lies; --crs enu writes it in its "
+        "own frame");
+  }
+  const auto own = utm_zone_at(place.origin);
+  if (!own) {
+    return failure("its origin has latitude " + degrees(place.origin.latitude) +
+                   " deg, where UTM ends; --crs enu writes the map in its own frame");
+  }
+  const UtmZone zone = choice.kind == CrsChoice::Kind::zone ? choice.zone : *own;
+  const auto origin = to_utm(place.origin, zone);
+  if (!origin) {
+    return failure(epsg_name(zone) + " is the zone around longitude " +
+                   std::to_string(zone.central_meridian_deg()) + " deg, and the map is at " +
+                   degrees(place.origin.longitude) + " deg; its own zone is " + epsg_name(*own));
+  }
+  MapCrs crs(place, zone, std::move(geoid));
+  crs.origin_ = origin->p_utm;
+  crs.scale_ = origin->scale;
+  return crs;
+}
+
+std::string MapCrs::name() const { return zone_ ? epsg_name(*zone_) : "enu"; }
+
+std::string MapCrs::wkt() const {
+  if (!zone_) return local_wkt(place_.georeferenced ? std::optional(place_.origin) : std::nullopt);
+  return utm_wkt(*zone_, geoid_ ? std::optional(geoid_->name()) : std::nullopt);
+}
+
+std::string MapCrs::text() const {
+  if (!zone_ && place_.georeferenced)
+    return "Coordinates: metres east, north and up of " + origin_text(place_.origin) + ".";
+  if (!zone_) {
+    return "Coordinates: metres in the map's own frame, z up. Nobody knows its place and its heading on "
+           "Earth, for no robot had GPS.";
+  }
+  const std::string coordinates = "Coordinates: metres in " + name() + " (WGS 84 / UTM zone " +
+                                  std::to_string(zone_->number) + (zone_->north ? "N" : "S") + "). ";
+  if (geoid_) return coordinates + "Heights: metres above the geoid " + geoid_->name() + " (sea level).";
+  return coordinates + "Heights: metres above the WGS 84 ellipsoid, not above sea level.";
+}
+
+Eigen::Vector3i MapCrs::offset() const {
+  constexpr double kKilometre = 1000.0;
+  const Eigen::Vector2i whole = ((origin_ / kKilometre).array().floor() * kKilometre).matrix().cast<int>();
+  return {whole.x(), whole.y(), 0};
+}
+
+Result<Eigen::Vector3d> MapCrs::from_map(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3d p_map = point.cast<double>();
+  if (!zone_) return p_map;
+  const GeoPoint place = frame_.to_geo(p_map);
+  const auto utm = to_utm(place, *zone_);
+  if (!utm) return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()).eval();
+  double height = place.altitude;
+  if (geoid_) {
+    const auto undulation = geoid_->undulation(place);
+    if (!undulation) return tl::unexpected(undulation.error());
+    height -= *undulation;
+  }
+  return Eigen::Vector3d(utm->p_utm.x(), utm->p_utm.y(), height);
+}
+
+Result<std::vector<Eigen::Vector3d>> MapCrs::from_map(std::span<const Eigen::Vector3f> points) const {
+  std::vector<Eigen::Vector3d> coordinates;
+  coordinates.reserve(points.size());
+  for (const Eigen::Vector3f& point : points) {
+    const auto one = from_map(point);
+    if (!one) return tl::unexpected(one.error());
+    coordinates.push_back(*one);
+  }
+  return coordinates;
+}
+
+}  // namespace fleetmap::output
