@@ -27,7 +27,7 @@ TEST(PointFileFormat, OfOtherNamesIsAnErrorThatSaysWhichThereAre) {
 TEST(PointFileHeader, IsReadBack) {
   for (const PointFileFormat format : {PointFileFormat::ply, PointFileFormat::pcd}) {
     for (const bool intensities : {false, true}) {
-      const std::string header = header_of(format, 12, intensities);
+      const std::string header = header_of(format, 12, intensities, {});
       const std::size_t stride = intensities ? 16 : 12;
       const std::string file = header + std::string(12 * stride, 'x');
       const auto layout = format == PointFileFormat::ply ? ply_layout(file) : pcd_layout(file);
@@ -50,10 +50,10 @@ TEST(PointFileHeader, IsReadBack) {
 TEST(PointFileHeader, HasTheSameLengthForAnyNumberOfPoints) {
   for (const PointFileFormat format : {PointFileFormat::ply, PointFileFormat::pcd}) {
     for (const bool intensities : {false, true}) {
-      const std::size_t length = header_of(format, 0, intensities).size();
+      const std::size_t length = header_of(format, 0, intensities, {}).size();
       for (const std::size_t points : {std::size_t{9}, std::size_t{10}, std::size_t{1'234'567},
                                        std::numeric_limits<std::size_t>::max()}) {
-        EXPECT_EQ(header_of(format, points, intensities).size(), length) << points;
+        EXPECT_EQ(header_of(format, points, intensities, {}).size(), length) << points;
       }
     }
   }
