@@ -16,8 +16,8 @@
 #include "radio_hellos.hpp"
 #include "radio_received.hpp"
 #include "radio_topic.hpp"
-#include "rtps_messages.hpp"
 #include "radio_transport.hpp"
+#include "rtps_messages.hpp"
 
 namespace fleetmap::bus {
 namespace {
