@@ -17,7 +17,7 @@ LasWriter::LasWriter(std::filesystem::path file, std::shared_ptr<const LasDescri
 LasWriter::LasWriter(LasWriter&& other) noexcept
     : file_(std::move(other.file_)),
       description_(std::move(other.description_)),
-      totals_(other.totals_),
+      totals_(std::move(other.totals_)),
       left_out_(other.left_out_),
       unfinished_(std::exchange(other.unfinished_, false)),
       damaged_(other.damaged_) {}

@@ -45,7 +45,8 @@ VelodyneModel model_of(std::string_view name, std::span<const double> elevations
     VelodyneModel::Laser& laser = model.lasers[k];
     laser.elevation = static_cast<float>(elevations[k] * kDegree);
     if (!azimuth_offsets.empty()) laser.azimuth_offset = static_cast<float>(azimuth_offsets[k] * kDegree);
-    laser.delay = firing.interval * static_cast<double>(k / firing.at_once);
+    const std::size_t turn = k / firing.at_once;
+    laser.delay = firing.interval * static_cast<double>(turn);
     const auto lower = std::ranges::count_if(elevations, [&](double e) { return e < elevations[k]; });
     laser.ring = static_cast<std::uint16_t>(lower);
   }

@@ -113,8 +113,8 @@ void append_points(const VelodyneModel& model, const VelodyneBlock& block, doubl
     const auto units = little_endian<std::uint16_t>(block.returns, k * kReturnBytes);
     if (units == 0) continue;  // no return
     const VelodyneModel::Laser& laser = model.lasers[k % model.lasers_in_sequence];
-    const double after =
-        laser.delay + model.sequence_period * static_cast<double>(k / model.lasers_in_sequence);
+    const std::size_t sequence = k / model.lasers_in_sequence;
+    const double after = laser.delay + model.sequence_period * static_cast<double>(sequence);
     const auto azimuth =
         static_cast<float>(block.azimuth * kCentidegree + turn_rate * after) + laser.azimuth_offset;
     const float range = static_cast<float>(units) * model.distance_unit;

@@ -264,14 +264,13 @@ TEST(ReaderConfig, SaysWhichRuleIsBroken) {
               HasSubstr("recording.kitti.first_frame must not be beyond last_frame"));
   config = {};
   config.kitti.nominal_rate = 0.0;
-  EXPECT_THAT(config.validate().error().message,
-              HasSubstr("recording.kitti.nominal_rate must be a positive"));
+  EXPECT_THAT(config.validate().error().message, HasSubstr("recording.frame_rate must be a positive"));
   config = {};
   config.kitti.fix_degradation = FixDegradation{-1.0, 60.0, 1};
-  EXPECT_THAT(config.validate().error().message, HasSubstr("fix_degradation.sigma must be a positive"));
+  EXPECT_THAT(config.validate().error().message, HasSubstr("recording.gps_error.sigma must be a positive"));
   config.kitti.fix_degradation = FixDegradation{1.0, std::nan(""), 1};
   EXPECT_THAT(config.validate().error().message,
-              HasSubstr("fix_degradation.correlation_time must be a positive"));
+              HasSubstr("recording.gps_error.correlation_time must be a positive"));
 }
 
 }  // namespace
