@@ -44,9 +44,12 @@ nlohmann::json summary_of(const store::Store& store) {
     add(fleet_codec::encode(alignment));
   }
   for (const NodeId& id : store.partial_submaps()) {
-    const std::uint64_t missing = store.missing_chunks(id).size() * std::uint64_t{store::Store::kChunkBytes};
-    const std::uint64_t whole = store.node(id)->submap_bytes;
-    submap_bytes += whole - std::min(missing, whole);
+    const std::uint32_t whole = store.node(id)->submap_bytes;
+    submap_bytes += whole;
+    for (const std::uint32_t chunk : store.missing_chunks(id)) {
+      const std::uint32_t begin = chunk * store::Store::kChunkBytes;
+      submap_bytes -= std::min(store::Store::kChunkBytes, whole - begin);  // the last one is shorter
+    }
   }
   nlohmann::json json = json_of(all);
   json["store_of"] = store.self().str();

@@ -81,5 +81,15 @@ TEST_F(StoreSummary, TheHashIsThatOfTheItemsWhoeverHoldsThemAndInWhateverOrder) 
   EXPECT_EQ(summary_of(first)["hash"].get<std::string>().size(), 32u);
 }
 
+TEST_F(StoreSummary, AShortLastChunkThatIsMissingCountsItsOwnBytes) {
+  Store held = opened("r1");
+  const Bytes submap = random_bytes(5 * kChunk / 2, 1);
+  graph::Node node = make_node(agent("r2"), first_seq(7), submap);
+  node.session = 7;
+  ASSERT_EQ(held.put_node(node).value(), store::Put::kAdded);
+  ASSERT_TRUE(held.put_submap_chunk(node.id, 0, ByteView(submap).first(kChunk)));
+  EXPECT_EQ(summary_of(held)["submap_bytes"], kChunk);
+}
+
 }  // namespace
 }  // namespace fleetmap::apps
