@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,6 +10,7 @@
 
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "support/no_room.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
@@ -95,33 +94,12 @@ TEST(CloudWriter, AFullDiskIsAnErrorThatNamesTheFile) {
   }
 }
 
-/// Files may not grow beyond a few kB while it lives.
-class NoRoom {
- public:
-  NoRoom() {
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{4'096, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~NoRoom() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  NoRoom(const NoRoom&) = delete;
-  NoRoom& operator=(const NoRoom&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
-
 TEST(CloudWriter, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   const fleetmap::testing::TemporaryFolder folder;
   auto writer = CloudWriter::create(folder.path() / "map.pcd", true);
   ASSERT_TRUE(writer);
   {
-    const NoRoom full;
+    const fleetmap::testing::NoRoom full;
     EXPECT_FALSE(writer->add(testing::street_scene(100'000, 4)));
   }
   EXPECT_FALSE(writer->finish());

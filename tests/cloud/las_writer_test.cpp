@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "cloud/las_reader.hpp"
+#include "support/no_room.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
@@ -109,32 +108,11 @@ TEST_F(LasWriterTest, AFullDiskIsAnErrorThatNamesTheFileWhichStays) {
   EXPECT_EQ(files(), 1u);
 }
 
-/// Files may not grow beyond a few kB while it lives.
-class NoRoom {
- public:
-  NoRoom() {
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{4'096, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~NoRoom() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  NoRoom(const NoRoom&) = delete;
-  NoRoom& operator=(const NoRoom&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
-};
-
 TEST_F(LasWriterTest, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   auto writer = LasWriter::create(file_, description_);
   ASSERT_TRUE(writer);
   {
-    const NoRoom full;
+    const fleetmap::testing::NoRoom full;
     const Status added = writer->add(random_points(1'000));
     ASSERT_FALSE(added);
     EXPECT_THAT(added.error().message, AllOf(HasSubstr("map.las"), HasSubstr("File too large")));

@@ -14,14 +14,9 @@ namespace {
 using fleet_codec::testing::cloud_fragment;
 using fleet_codec::testing::id;
 using fleet_codec::testing::node_id;
+using fleet_codec::testing::refusal;
 using fleet_codec::testing::WireBytes;
 using ::testing::HasSubstr;
-
-template <class T>
-std::string refusal(const T& message) {
-  const auto decoded = decode<T>(encode(message));
-  return decoded ? "none" : decoded.error().message;
-}
 
 template <class T>
 T read(const WireBytes& wire) {

@@ -10,15 +10,10 @@ namespace {
 
 using fleet_codec::testing::id;
 using fleet_codec::testing::node_id;
+using fleet_codec::testing::refusal;
 using fleet_codec::testing::submap_chunk;
 using fleet_codec::testing::WireBytes;
 using ::testing::HasSubstr;
-
-template <class T>
-std::string refusal(const T& message) {
-  const auto decoded = decode<T>(encode(message));
-  return decoded ? "none" : decoded.error().message;
-}
 
 TEST(ShortRange, ADigestLiesOnTheWireAsTheIdlHasIt) {
   const messages::SubmapDigest digest{

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::fleet_codec::testing {
 
@@ -46,5 +47,12 @@ class WireBytes {
   static constexpr std::size_t kHeader = 4;
   Bytes bytes_{0, 1, 0, 0};
 };
+
+/// Why a message that was encoded is not decoded; "none" if it is.
+template <class T>
+std::string refusal(const T& message) {
+  const auto decoded = decode<T>(encode(message));
+  return decoded ? "none" : decoded.error().message;
+}
 
 }  // namespace fleetmap::fleet_codec::testing
