@@ -85,9 +85,10 @@ void LinkLog::add_traffic(const std::vector<bus::HeardTraffic>& received,
 void LinkLog::add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stamp from, Stamp to, bool full) {
   const double kbit_s = 8e-3 * static_cast<double>(traffic.bytes) / to_seconds(to - from);
   const double share = static_cast<double>(lost) / static_cast<double>(lost + traffic.messages);
-  trace_.out << fmt::format("{:.1f},{},{},{},{},{:.1f},{:.1f},{:.1f},{}\n", to_seconds(from),
+  trace_.out << fmt::format("{:.1f},{},{},{},{},{},{:.1f},{:.1f},{}\n", to_seconds(from),
                             bus::to_string(traffic.link), traffic.from.str(), self_.str(),
-                            full ? fmt::format("{:.1f}", kbit_s) : "", 1e3 * to_seconds(traffic.delay),
+                            full ? fmt::format("{:.1f}", kbit_s) : "",
+                            traffic.timed > 0 ? fmt::format("{:.1f}", 1e3 * to_seconds(traffic.delay)) : "",
                             100.0 * share, kbit_s, traffic.messages);
 }
 

@@ -62,7 +62,8 @@ std::vector<monitor::PeerRate> RadioRates::peer_rates() const {
       sum.messages += traffic.messages;
       sum.bytes += traffic.bytes;
       sum.lost += traffic.lost;
-      sum.delay += traffic.delay * static_cast<std::int64_t>(traffic.messages);
+      sum.timed += traffic.timed;
+      sum.delay += traffic.delay * static_cast<std::int64_t>(traffic.timed);
     }
   }
   std::vector<monitor::PeerRate> rates;
@@ -70,7 +71,9 @@ std::vector<monitor::PeerRate> RadioRates::peer_rates() const {
     if (sum.messages == 0) continue;
     const auto messages = static_cast<double>(sum.messages), lost = static_cast<double>(sum.lost);
     rates.push_back({peer.second, bus::to_string(peer.first), rate(0, sum.bytes, seconds()),
-                     lost / (lost + messages), to_seconds(sum.delay) / messages});
+                     lost / (lost + messages),
+                     sum.timed > 0 ? std::optional(to_seconds(sum.delay) / static_cast<double>(sum.timed))
+                                   : std::nullopt});
   }
   return rates;
 }

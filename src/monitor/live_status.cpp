@@ -55,7 +55,7 @@ json radio_json(const RadioNow& radio) {
                      {"link", one.link},
                      {"received", rounded(one.received, 10.0)},
                      {"loss", rounded(one.loss, 1e4)},
-                     {"delay_s", rounded(one.delay_s, 1e4)}});
+                     {"delay_s", optional_json(one.delay_s, 1e4)}});
   }
   return {{"sent", rounded(radio.sent, 10.0)},
           {"received", rounded(radio.received, 10.0)},

@@ -33,7 +33,7 @@ class LinkLogTest : public ::testing::Test {
   }
   static bus::HeardTraffic traffic(bus::Link link, std::uint64_t messages, std::uint64_t bytes,
                                    std::uint64_t lost = 0) {
-    return {link, kR2, messages, 0, bytes, lost, 20ms};
+    return {link, kR2, messages, 0, bytes, lost, messages, 20ms};
   }
 
   testing::TemporaryFolder folder_;
@@ -46,6 +46,15 @@ TEST_F(LinkLogTest, ARowIsOfOneSecondAndOneRobot) {
   log_.add_traffic({traffic(bus::Link::kLongRange, 9, 2500, 1)}, {}, kStart + 3s);
   EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,20.0,0.0,10.0,5",
                                   "1001.0,long_range,r2,r1,,20.0,10.0,10.0,9"));
+}
+
+TEST_F(LinkLogTest, ADelayIsOfMessagesThatCarryATime) {
+  bus::HeardTraffic untimed = traffic(bus::Link::kLongRange, 5, 1250);
+  untimed.timed = 0;
+  untimed.delay = Duration::zero();
+  log_.add_traffic({}, {}, kStart);
+  log_.add_traffic({untimed}, {}, kStart + 1s);
+  EXPECT_THAT(rows(), ElementsAre("1000.0,long_range,r2,r1,,,0.0,10.0,5"));
 }
 
 TEST_F(LinkLogTest, WhatTheLinkCarriesIsKnownWhileSubmapsFillIt) {

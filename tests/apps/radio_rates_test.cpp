@@ -17,7 +17,7 @@ bus::TopicStats topic(const std::string& name, bus::Link link, std::uint64_t sen
 }
 
 bus::HeardTraffic heard(std::uint64_t messages, std::uint64_t bytes, std::uint64_t lost, Duration delay) {
-  return {bus::Link::kLongRange, kR2, messages, 0, bytes, lost, delay};
+  return {bus::Link::kLongRange, kR2, messages, 0, bytes, lost, messages, delay};
 }
 
 TEST(RadioRates, TheLastSecondAgainstTheBudgetIsTheDifferenceOfTheCounters) {
@@ -62,7 +62,17 @@ TEST(RadioRates, LossAndDelayAreMeansOverTheMessagesOfTheWindow) {
   EXPECT_EQ(radio.peers[0].peer, kR2);
   EXPECT_DOUBLE_EQ(radio.peers[0].received, 300.0);
   EXPECT_DOUBLE_EQ(radio.peers[0].loss, 0.5);
-  EXPECT_NEAR(radio.peers[0].delay_s, 0.025, 1e-9);
+  EXPECT_NEAR(radio.peers[0].delay_s.value(), 0.025, 1e-9);
+}
+
+TEST(RadioRates, ADelayIsOfMessagesThatCarryATime) {
+  RadioRates rates;
+  bus::HeardTraffic some = heard(4, 400, 0, 30ms), none = heard(4, 400, 0, 0ms);
+  some.timed = 1;
+  none.timed = 0;
+  rates.add({}, {}, kStart);
+  EXPECT_EQ(rates.add({}, {none}, kStart + 1s).peers.at(0).delay_s, std::nullopt);
+  EXPECT_NEAR(rates.add({}, {some}, kStart + 2s).peers.at(0).delay_s.value(), 0.03, 1e-9);
 }
 
 TEST(RadioRates, WhatIsOlderThanTheWindowIsForgotten) {

@@ -101,6 +101,11 @@ TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
     send_to(own_, message);
     return came_ > before && log_.count("heard r3") == 1;
   })) << log_.text();
+  const std::vector<HeardTraffic> heard = robot_->take_heard_traffic();
+  const auto of_r3 = std::ranges::find(heard, name("r3"), &HeardTraffic::from);
+  ASSERT_NE(of_r3, heard.end());
+  EXPECT_GT(of_r3->messages, 0u);
+  EXPECT_EQ(of_r3->timed, 0u) << "the message says nothing of its time";
   while (r3.hello()) {
   }
   std::optional<Hello> hello;

@@ -3,6 +3,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace fleetmap::bus {
 namespace {
 
@@ -71,6 +73,13 @@ TEST(RtpsMessages, TheAgeOfAStampIsSignedSoThatClocksMayDiffer) {
   EXPECT_LT(since(stamp), std::chrono::seconds(200));
   stamp.seconds(stamp.seconds() + 3700);
   EXPECT_LT(since(stamp), -std::chrono::seconds(3000));
+}
+
+TEST(RtpsMessages, AStampThatNoClockShowsHasNoAge) {
+  EXPECT_FALSE(since(rtps::c_RTPSTimeInvalid)) << "of a message without one";
+  EXPECT_FALSE(since(rtps::Time_t(std::numeric_limits<std::int32_t>::max(), 0)));
+  EXPECT_FALSE(since(rtps::Time_t(std::numeric_limits<std::int32_t>::min(), 0)));
+  EXPECT_FALSE(since(rtps::Time_t(0, 0)));
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ struct KindRate {
 struct PeerRate {
   AgentId peer;
   std::string link;
-  double received = 0.0;  ///< B/s on the wire
-  double loss = 0.0;      ///< share of its messages
-  double delay_s = 0.0;   ///< by the clocks of both robots
+  double received = 0.0;          ///< B/s on the wire
+  double loss = 0.0;              ///< share of its messages
+  std::optional<double> delay_s;  ///< by the clocks of both robots; empty if its messages carry no time
 };
 
 /// Messages of one priority that wait for the radio.

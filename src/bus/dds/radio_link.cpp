@@ -213,7 +213,7 @@ void RadioLink::take_heard_traffic(std::vector<HeardTraffic>& all) {
     HeardTraffic& traffic = all.emplace_back(std::exchange(robot.traffic, {}));
     traffic.link = link_;
     traffic.from = peer->second.agent;
-    if (traffic.messages > 0) traffic.delay /= static_cast<std::int64_t>(traffic.messages);
+    if (traffic.timed > 0) traffic.delay /= static_cast<std::int64_t>(traffic.timed);
   }
 }
 

@@ -62,7 +62,7 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
                              const eprosima::fastrtps::rtps::CacheChange_t* change) override {
     const eprosima::fastrtps::rtps::GUID_t writer = change->writerGUID;
     const std::uint64_t number = change->sequenceNumber.to64long();
-    const Duration delay = since(change->sourceTimestamp);
+    const std::optional<Duration> delay = since(change->sourceTimestamp);
     std::optional<Bytes> cdr = taken(*reader, change);
     if (!cdr) return;
     std::optional<Work> dispatch;
@@ -86,13 +86,15 @@ class RadioLink::DataListener final : public eprosima::fastrtps::rtps::ReaderLis
     return sender;
   }
   void count(Received::Robot& robot, EntityKey writer, std::uint64_t number, std::size_t payload,
-             Duration delay) const {
+             std::optional<Duration> delay) const {
     const auto [last, first] = robot.numbers.try_emplace(writer, number);
     if (!first && number > last->second) robot.traffic.lost += number - last->second - 1;
     last->second = std::max(last->second, number);
     ++robot.traffic.messages;
     robot.traffic.bytes += wire_bytes(payload, overhead_);
-    robot.traffic.delay += delay;
+    if (!delay) return;
+    robot.traffic.delay += *delay;
+    ++robot.traffic.timed;
   }
 
   const std::shared_ptr<Received> received_;

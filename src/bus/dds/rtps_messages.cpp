@@ -57,9 +57,11 @@ std::optional<Bytes> taken(rtps::RTPSReader& reader, const rtps::CacheChange_t* 
   return cdr;
 }
 
-Duration since(const rtps::Time_t& stamp) {
+std::optional<Duration> since(const rtps::Time_t& stamp) {
+  constexpr std::int64_t kMostSeconds = 2 * 86'400;  // a sum of many stays in range
   rtps::Time_t now;
   rtps::Time_t::now(now);
+  if (std::abs(std::int64_t{now.seconds()} - stamp.seconds()) > kMostSeconds) return std::nullopt;
   return Duration(now.to_ns() - stamp.to_ns());
 }
 

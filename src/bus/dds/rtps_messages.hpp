@@ -38,8 +38,9 @@ bool send(eprosima::fastrtps::rtps::RTPSWriter& writer, eprosima::fastrtps::rtps
 /// Takes a change out of its reader's history; empty for what is no message.
 std::optional<Bytes> taken(eprosima::fastrtps::rtps::RTPSReader& reader,
                            const eprosima::fastrtps::rtps::CacheChange_t* change);
-/// By the clocks of the machine that set the stamp and of this one.
-Duration since(const eprosima::fastrtps::rtps::Time_t& stamp);
+/// By the clocks of the machine that set the stamp and of this one. Empty if the message carries no stamp, or
+/// one that no clock shows: whoever reaches the radio may write any.
+std::optional<Duration> since(const eprosima::fastrtps::rtps::Time_t& stamp);
 
 eprosima::fastrtps::rtps::HistoryAttributes unbounded_history();
 

@@ -150,7 +150,7 @@ export interface Radio {
   backlog_s: number | null;
   queues: {priority: string; waiting: number; dropped: number}[];
   kinds: {link: LinkName; kind: string; sent: number; received: number}[];
-  peers: {robot: string; link: LinkName; received: number; loss: number; delay_s: number}[];
+  peers: {robot: string; link: LinkName; received: number; loss: number; delay_s: number | null}[];
   missing_submaps: number;
   missing_bytes: number;
   seconds_to_equal_map: number | null;

@@ -44,7 +44,7 @@ export class RadioPanel {
   }
 
   private peers(radio: Radio): HTMLElement[] {
-    const rows = radio.peers.map((one) => [one.robot, linkName(one.link), `${bytes(one.received)}/s`, `${(100 * one.loss).toFixed(1)} %`, `${(1000 * one.delay_s).toFixed(0)} ms`]);
+    const rows = radio.peers.map((one) => [one.robot, linkName(one.link), `${bytes(one.received)}/s`, `${(100 * one.loss).toFixed(1)} %`, one.delay_s === null ? "–" : `${(1000 * one.delay_s).toFixed(0)} ms`]);
     return table('By robot', ['from', 'link', 'received', 'lost', 'delay'], rows, 'peers');
   }
 
