@@ -51,7 +51,7 @@ for target in "${targets[@]}"; do
   output=build/fuzz/$target.log
   status=0
   "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len="${FUZZ_MAX_LEN:-12288}" \
-    -print_final_stats=1 -artifact_prefix="$findings/" "$corpus" "$committed" >"$output" 2>&1 || status=$?
+    -print_final_stats=1 -artifact_prefix="$findings/" "$corpus" "$committed" 2>"$output" >/dev/null || status=$?
   executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$output")
   covered=$(grep -ao 'cov: [0-9]*' "$output" | tail -n 1 || true)
   echo "$target: ${executed:-?} executions, $covered edges$([ "$status" -eq 0 ] || echo ", FAILED: see $output")"
@@ -60,7 +60,7 @@ for target in "${targets[@]}"; do
     continue
   fi
   rm -rf "$corpus.merged" && mkdir "$corpus.merged"
-  "$program" -merge=1 -timeout=10 "$corpus.merged" "$committed" "$corpus" >>"$output" 2>&1 || continue
+  "$program" -merge=1 -timeout=10 "$corpus.merged" "$committed" "$corpus" 2>>"$output" >/dev/null || continue
   rm -rf "$corpus" && mv "$corpus.merged" "$corpus"
   keep_some "$corpus" "$committed"
 done

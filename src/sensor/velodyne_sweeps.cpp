@@ -39,9 +39,7 @@ void VelodyneSweeps::add_block(const VelodyneModel& model, const VelodyneBlock& 
     }
   }
   if (!sweep_) {
-    sweep_.emplace();
-    sweep_->begun = fired;
-    sweep_->has_begin = passed_zero || block.azimuth <= kMayBeMissing;
+    sweep_ = Sweep{.begun = fired, .has_begin = passed_zero || block.azimuth <= kMayBeMissing, .scan = {}};
     sweep_->scan.has_time = sweep_->scan.has_ring = true;
   }
   sweep_->azimuth = block.azimuth;
