@@ -43,6 +43,11 @@ if(FLEETMAP_TESTS)
   add_executable(fleetmap_precompiled_tests ${PROJECT_BINARY_DIR}/precompiled.cpp)
   target_link_libraries(fleetmap_precompiled_tests PRIVATE fleetmap_flags Eigen3::Eigen GTest::gmock)
   target_precompile_headers(fleetmap_precompiled_tests PRIVATE ${FLEETMAP_PRECOMPILED} <gmock/gmock.h> <gtest/gtest.h>)
+  if(FLEETMAP_SANITIZE AND NOT FLEETMAP_FUZZ)
+    # A failed test says its line anyway, and without the lines of its callers it compiles a tenth faster.
+    set(FLEETMAP_TEST_OPTIONS -g0)
+  endif()
+  target_compile_options(fleetmap_precompiled_tests PRIVATE ${FLEETMAP_TEST_OPTIONS})
 endif()
 
 # fleetmap_library(place SOURCES a.cpp b.cpp PUBLIC fleetmap::geometry PRIVATE Draco)
@@ -89,6 +94,7 @@ function(fleetmap_test name)
   target_compile_definitions(test_${name} PRIVATE FLEETMAP_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                   FLEETMAP_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(test_${name} PRIVATE fleetmap_flags ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_compile_options(test_${name} PRIVATE ${FLEETMAP_TEST_OPTIONS})
   target_precompile_headers(test_${name} REUSE_FROM fleetmap_precompiled_tests)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_REAL_TIME})

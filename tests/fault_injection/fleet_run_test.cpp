@@ -21,24 +21,6 @@ RunConfig checking(const char* invariants) {
   return config;
 }
 
-/// 100 seeds in four tests, which run beside each other.
-class FleetRun : public ::testing::TestWithParam<std::uint64_t> {};
-
-TEST_P(FleetRun, keeps_its_invariants_whatever_fails) {
-  std::size_t nodes = 0, alignments = 0;
-  for (std::uint64_t seed = GetParam(); seed < GetParam() + 25; ++seed) {
-    const Scenario scenario = make_scenario(seed, small_fleets("all"));
-    const Outcome outcome = run(scenario, checking("all"));
-    nodes += outcome.nodes;
-    alignments += outcome.alignments;
-    for (const Violation& violation : outcome.violations)
-      ADD_FAILURE() << "seed " << seed << ": " << to_string(violation);
-  }
-  EXPECT_GT(nodes, 500u);
-  EXPECT_GT(alignments, 50u);
-}
-INSTANTIATE_TEST_SUITE_P(Seeds, FleetRun, ::testing::Values(1, 26, 51, 76));
-
 /// With signed items, forged ones and those that a liar alters not even cost a name.
 TEST(FleetRun, keeps_its_invariants_whatever_fails_where_items_are_signed) {
   RunConfig config = checking("all");

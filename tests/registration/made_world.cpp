@@ -78,6 +78,20 @@ void MadeWorld::add_box(const Eigen::Vector3d& corner, const Eigen::Vector3d& si
   add(corner + c, a, b);
 }
 
+ScanPair scan_pair(const MadeWorld& world, double apart_m, double yaw, unsigned seed, std::size_t count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double bearing = M_PI * unit(random);
+  const Pose T_world_target =
+      make_pose(rotation_from_rpy(0.05 * unit(random), 0.05 * unit(random), M_PI * unit(random)),
+                Eigen::Vector3d(5 * unit(random), 5 * unit(random), 1.2));
+  const Pose T_target_source = make_pose(
+      rotation_from_rpy(0.08 * unit(random), 0.08 * unit(random), yaw),
+      Eigen::Vector3d(apart_m * std::cos(bearing), apart_m * std::sin(bearing), 0.3 * unit(random)));
+  return {world.scan(T_world_target, count, 0.03, seed + 1000),
+          world.scan(T_world_target * T_target_source, count, 0.03, seed + 2000), T_target_source};
+}
+
 PoseError error_between(const Pose& truth, const Pose& estimate) {
   const Pose d = truth.inverse() * estimate;
   return {d.translation().norm(), so3_log(d.linear()).norm()};

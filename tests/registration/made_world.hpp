@@ -33,6 +33,16 @@ class MadeWorld {
   double half_extent_ = 70.0;
 };
 
+struct ScanPair {
+  cloud::PointCloud target;
+  cloud::PointCloud source;
+  Pose T_target_source;
+};
+
+/// Two scans of one place, `apart_m` and `yaw` apart, each with its own noise, the source a little tilted.
+ScanPair scan_pair(const MadeWorld& world, double apart_m, double yaw, unsigned seed,
+                   std::size_t count = 15'000);
+
 struct PoseError {
   double translation_m;
   double rotation_rad;
