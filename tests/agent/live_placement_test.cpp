@@ -4,14 +4,91 @@
 
 #include <vector>
 
-#include "agent/placed_pair.hpp"
+#include "fleetmap/bus/local_network.hpp"
+#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/topics.hpp"
+#include "store/items.hpp"
 
 namespace fleetmap::agent {
 namespace {
 
-using LivePlacementTest = testing::PlacedPair;
-using testing::kOther;
-using testing::kSelf;
+const AgentId kSelf = AgentId::parse("r1").value();
+const AgentId kOther = AgentId::parse("r2").value();
+
+/// Two robots on one straight way to the east, 5 m between nodes, the other's 3 m beside ours. Our odometry
+/// began somewhere else, turned; nobody told where.
+class LivePlacementTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto network = bus::LocalNetwork::create({});
+    ASSERT_TRUE(network);
+    network_ = std::move(*network);
+    bus_ = &network_->add_robot(kSelf);
+    subscription_ = bus_->subscribe(fleet_codec::topics::corrected_pose(), [this](const Bytes& cdr) {
+      heard_.push_back(fleet_codec::decode<GlobalPose>(cdr).value());
+    });
+    config_.id = kSelf;
+    config_.site_origin = origin_;
+    config_.placement.method = graph::PlacementMethod::graph;
+    live_ = std::make_unique<LivePlacement>(
+        config_, *bus_, store_,
+        [this](std::span<const graph::Alignment> used) { used_.push_back(used.size()); });
+  }
+
+  static Pose T_enu_node(const AgentId& agent, std::uint32_t seq) {
+    return make_pose(Eigen::Matrix3d::Identity(),
+                     Eigen::Vector3d(5.0 * seq, agent == kSelf ? 0.0 : 3.0, 0.0));
+  }
+  Pose T_odom_base(std::uint32_t seq) const { return T_enu_odom_.inverse() * T_enu_node(kSelf, seq); }
+
+  void add_node(const AgentId& agent, std::uint32_t seq, bool located) {
+    graph::Node node;
+    node.id = {agent, seq};
+    node.stamp = stamp_from_ns(1'000'000'000LL * (seq + 1));
+    node.T_odom_base = agent == kSelf ? T_odom_base(seq) : T_enu_node(agent, seq);
+    node.odom_covariance = 1e-4 * Matrix6d::Identity();
+    if (located) {
+      node.G.emplace();
+      node.G->stamp = node.stamp;
+      node.G->position = LocalFrame(origin_).to_geo(T_enu_node(agent, seq).translation());
+      node.G->covariance = Vector6d(0.01, 0.01, 0.01, 1e-4, 1e-4, 1e-4).asDiagonal();
+    }
+    const Result<store::Put> put = store_.put_node(node);
+    ASSERT_TRUE(put && *put == store::Put::kAdded);
+  }
+  void add_alignment(std::uint32_t seq) {
+    graph::Alignment alignment = testing::make_alignment({kSelf, seq}, {kOther, seq}, kOther, seq);
+    alignment.modes.front().T_i_j = T_enu_node(kSelf, seq).inverse() * T_enu_node(kOther, seq);
+    const Result<store::Put> put = store_.put_alignment(alignment);
+    ASSERT_TRUE(put && *put == store::Put::kAdded);
+  }
+  void solve() {
+    EXPECT_FALSE(live_->idle()) << "something is new";
+    live_->refresh(0);
+    network_->run_until(network_->now() + std::chrono::seconds(2));
+    EXPECT_TRUE(live_->idle());
+  }
+  /// Poses published while the odometry is at our node `seq`.
+  std::vector<GlobalPose> heard_at(std::uint32_t seq) {
+    heard_.clear();
+    live_->publish({kSelf, 0}, {stamp_from_ns(1'000'000'000LL * (seq + 1)), T_odom_base(seq)});
+    network_->run_until(network_->now() + std::chrono::seconds(1));
+    return heard_;
+  }
+
+  GeoPoint origin_ = geo_point_from_degrees(39.0, -3.0, 600.0);
+  Pose T_enu_odom_ = make_pose(rotation_from_rpy(0.0, 0.0, 2.0), Eigen::Vector3d(-80.0, 30.0, 1.0));
+  testing::ScratchFolder folder_;
+  store::Store store_ = std::move(
+      store::Store::open(folder_ / "store.db", kSelf, {.power_safe = false, .file_system = {}}).value());
+  AgentConfig config_;
+  std::unique_ptr<bus::LocalNetwork> network_;
+  bus::Bus* bus_ = nullptr;
+  bus::Handle subscription_;
+  std::vector<GlobalPose> heard_;
+  std::vector<std::size_t> used_;
+  std::unique_ptr<LivePlacement> live_;
+};
 
 TEST_F(LivePlacementTest, ARobotThatNobodyCanPlaceHasNoCorrectedPoseUntilTheFleetPlacesIt) {
   for (std::uint32_t seq = 0; seq < 12; ++seq) add_node(kSelf, seq, false);
@@ -49,6 +126,19 @@ TEST_F(LivePlacementTest, FollowsTheOdometryBetweenSolutionsAndIgnoresThatOfAnot
   // Nothing new, nothing solved.
   live_->refresh(0);
   EXPECT_EQ(used_.size(), 1u);
+}
+
+/// 5 s for each 10,000 nodes, so that a long day takes no more of the CPU.
+TEST_F(LivePlacementTest, WithManyNodesSolutionsAreFartherApart) {
+  for (std::uint32_t seq = 0; seq < 12'000; ++seq) add_node(kSelf, seq, seq == 0);
+  solve();
+  add_node(kSelf, 12'000, false);
+  live_->refresh(0);
+  network_->run_until(network_->now() + std::chrono::seconds(3));
+  EXPECT_FALSE(live_->idle()) << "5 s after the start of the first, one more is due";
+  network_->run_until(network_->now() + std::chrono::seconds(1));
+  solve();
+  EXPECT_EQ(used_.size(), 2u);
 }
 
 }  // namespace
