@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/graph_file.hpp"
 #include "fleetmap/output/map_comments.hpp"
@@ -96,12 +96,6 @@ int export_map(const MapOptions& options) {
   return kDone;
 }
 
-Status write_text(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  if ((out << text).flush()) return {};
-  return failure(file + ": cannot be written; is there room, and a folder?");
-}
-
 int export_tracks(const MapOptions& options) {
   const auto map = open_map(options.store, configured_origin(options), std::nullopt);
   if (!map) return report(map.error(), kFailed);
@@ -115,7 +109,8 @@ int export_tracks(const MapOptions& options) {
   const bool gpx = std::filesystem::path(options.out).extension() == ".gpx";
   const std::string text = gpx ? output::to_gpx(nodes, main.T_map_node, map->recipe.origin)
                                : output::to_geojson(nodes, main.T_map_node, map->recipe.origin);
-  if (const Status written = write_text(options.out, text); !written) return report(written.error(), kFailed);
+  if (const Status written = write_whole_file(options.out, text); !written)
+    return report(written.error(), kFailed);
   std::cout << options.out << ": " << main.T_map_node.size() << " nodes\n";
   return kDone;
 }
@@ -125,9 +120,10 @@ int export_graph(const MapOptions& options) {
   if (!map) return report(map.error(), kFailed);
   const output::GraphText text = output::to_g2o(output::nodes_of(map->store), map->placement);
   const std::string names = options.out + ".csv";
-  if (const Status written = write_text(options.out, text.graph); !written)
+  if (const Status written = write_whole_file(options.out, text.graph); !written)
     return report(written.error(), kFailed);
-  if (const Status written = write_text(names, text.names); !written) return report(written.error(), kFailed);
+  if (const Status written = write_whole_file(names, text.names); !written)
+    return report(written.error(), kFailed);
   std::cout << options.out << ", names of its " << map->placement.T_enu_node.size() << " vertices: " << names
             << '\n';
   return kDone;

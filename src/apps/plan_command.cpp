@@ -1,4 +1,3 @@
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -15,6 +14,8 @@
 #include "fleetmap/config/override.hpp"
 #include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/config/robot_file.hpp"
+#include "fleetmap/core/paths.hpp"
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/colours.hpp"
 #include "fleetmap/eval/picture.hpp"
 #include "fleetmap/eval/png.hpp"
@@ -68,7 +69,7 @@ Result<config::RobotConfig> robot_of(const PlanOptions& options, std::vector<con
 Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Override> overrides) {
   const auto kind = options.config.empty() ? Result<config::FileKind>(config::FileKind::kFleet)
                                            : config::check(options.config, overrides);
-  overrides.push_back({"mission.file", std::filesystem::absolute(options.site).string()});
+  overrides.push_back({"mission.file", absolute_path(options.site).string()});
   if (options.config.empty()) {
     auto settings = config::load_mission_settings(overrides);
     if (!settings) return tl::unexpected(settings.error());
@@ -97,10 +98,8 @@ Result<FleetToPlan> fleet_of(const PlanOptions& options, std::vector<config::Ove
 Status write(const planning::FleetPlan& plan, const DrawnSite& site, const std::filesystem::path& out) {
   std::vector<std::string> colours;
   for (std::size_t k = 0; k < plan.fleet.size(); ++k) colours.push_back(eval::hex(eval::robot_colour(k)));
-  std::ofstream file(out, std::ios::binary);
-  file << planning::to_geojson(plan, colours, site.enu, site.frame);
-  file.flush();
-  if (!file) return failure(out.string() + ": cannot be written; check the folder and free space");
+  const std::string text = planning::to_geojson(plan, colours, site.enu, site.frame);
+  if (const Status written = write_whole_file(out, text); !written) return written;
   const auto image = picture_of(plan);
   if (!image) return tl::unexpected(image.error());
   const std::filesystem::path picture = std::filesystem::path(out).replace_extension(".png");

@@ -1,13 +1,13 @@
 #include "report.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
 #include "agent_report.hpp"
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/html_page.hpp"
 #include "fleetmap/eval/plot.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
@@ -158,14 +158,6 @@ eval::HtmlPage html(const json& report, const std::string& svg) {
   return page.table(rows).details("Everything", report.dump(2));
 }
 
-Status write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::trunc);
-  out << text;
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
-}
-
 }  // namespace
 
 std::string lost_ways(const odometry::LoamCounters& odometry) {
@@ -195,7 +187,8 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
   }
-  if (const Status written = write_text(out / "report.json", report.dump(2) + "\n"); !written) return written;
+  if (const Status written = write_whole_file(out / "report.json", report.dump(2) + "\n"); !written)
+    return written;
   return html(report, map_svg(out, outcome)).write(out / "report.html");
 }
 
@@ -207,7 +200,7 @@ Status write_report(const std::filesystem::path& directory, const agent::Agent& 
                             {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
   report["stalls"] = stalls_json(stalls);
-  return write_text(directory / "report.json", report.dump(2) + "\n");
+  return write_whole_file(directory / "report.json", report.dump(2) + "\n");
 }
 
 }  // namespace fleetmap::apps

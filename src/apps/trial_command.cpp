@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/experiment/field_engine.hpp"
 #include "grid_command.hpp"
 #include "options.hpp"
@@ -31,7 +32,7 @@ int run(TrialOptions options) {
         kUsage);
   }
   if (!options.traces.empty())
-    options.grid.set.push_back("field.trace=" + fs::absolute(options.traces).string());
+    options.grid.set.push_back("field.trace=" + absolute_path(options.traces).string());
   return run_grid(options.grid, [&](const std::atomic<bool>& stop) {
     return experiment::FieldEngine(options.script, options.grid.out, stop);
   });

@@ -1,12 +1,9 @@
 #include "fleetmap/cloud/cloud_writer.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,46 +17,32 @@ constexpr std::size_t kBlock = 65'536;  // points that are put together before t
 
 }  // namespace
 
-CloudWriter::CloudWriter(std::filesystem::path file, std::unique_ptr<std::FILE, Close> out,
-                         bool with_intensities, std::vector<std::string> comments)
-    : file_(std::move(file)),
-      out_(std::move(out)),
-      with_intensities_(with_intensities),
-      comments_(std::move(comments)) {}
+CloudWriter::CloudWriter(WholeFile file, bool with_intensities, std::vector<std::string> comments)
+    : file_(std::move(file)), with_intensities_(with_intensities), comments_(std::move(comments)) {}
 
-CloudWriter::~CloudWriter() {
-  if (!out_) return;
-  out_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(part(), ignored);
-}
-
-Status CloudWriter::failed(int error) const {
-  return failure(file_.string() + ": cannot be written: " + std::generic_category().message(error));
-}
-
-Status CloudWriter::write_header() {
-  const auto format = format_of(file_);
-  if (!format) return failure(file_.string() + ": " + format.error().message);
-  const std::string header = header_of(*format, points_, with_intensities_, comments_);
-  if (std::fwrite(header.data(), 1, header.size(), out_.get()) != header.size()) return failed(errno);
-  return {};
+Result<std::string> CloudWriter::header() const {
+  const auto format = format_of(file_.path());
+  if (!format) return failure(file_.path().string() + ": " + format.error().message);
+  return header_of(*format, points_, with_intensities_, comments_);
 }
 
 Result<CloudWriter> CloudWriter::create(const std::filesystem::path& file, bool with_intensities,
                                         std::vector<std::string> comments) {
   if (const auto format = format_of(file); !format)
     return failure(file.string() + ": " + format.error().message);
-  CloudWriter writer(file, nullptr, with_intensities, std::move(comments));
-  writer.out_.reset(std::fopen(writer.part().c_str(), "wb"));
-  if (!writer.out_) return tl::unexpected(writer.failed(errno).error());
-  if (const Status written = writer.write_header(); !written) return tl::unexpected(written.error());
+  Result<WholeFile> whole = WholeFile::create(file);
+  if (!whole) return tl::unexpected(whole.error());
+  CloudWriter writer(std::move(*whole), with_intensities, std::move(comments));
+  const Result<std::string> header = writer.header();
+  if (!header) return tl::unexpected(header.error());
+  if (const Status written = writer.file_.append(*header); !written) return tl::unexpected(written.error());
   return writer;
 }
 
 Status CloudWriter::add(const PointCloud& cloud) {
   if (with_intensities_ && !cloud.empty() && !cloud.has_intensities())
-    return failure(file_.string() + ": cannot be written: points without intensities in a file with them");
+    return failure(file_.path().string() +
+                   ": cannot be written: points without intensities in a file with them");
   std::vector<float> numbers;
   for (std::size_t begin = 0; begin < cloud.size(); begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, cloud.size());
@@ -69,25 +52,19 @@ Status CloudWriter::add(const PointCloud& cloud) {
       numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
       if (with_intensities_) numbers.push_back(cloud.intensities[i]);
     }
-    if (std::fwrite(numbers.data(), sizeof(float), numbers.size(), out_.get()) != numbers.size())
-      return failed(errno);
+    const std::string_view bytes(reinterpret_cast<const char*>(numbers.data()),
+                                 numbers.size() * sizeof(float));
+    if (const Status written = file_.append(bytes); !written) return written;
   }
   points_ += cloud.size();
   return {};
 }
 
 Status CloudWriter::finish() {
-  // The disk may have room again, but what it had none for is missing.
-  if (std::ferror(out_.get()) != 0) return failed(EIO);
-  if (std::fseek(out_.get(), 0, SEEK_SET) != 0) return failed(errno);
-  if (const Status written = write_header(); !written) return written;
-  // After a power cut the new name must not stand for a file without its points.
-  if (std::fflush(out_.get()) != 0 || fsync(fileno(out_.get())) != 0) return failed(errno);
-  std::error_code error;
-  std::filesystem::rename(part(), file_, error);
-  if (error) return failed(error.value());
-  out_.reset();
-  return {};
+  const Result<std::string> counted = header();  // as long as the first one
+  if (!counted) return tl::unexpected(counted.error());
+  if (const Status written = file_.overwrite(*counted); !written) return written;
+  return file_.finish();
 }
 
 }  // namespace fleetmap::cloud

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::config {
 namespace {
 
@@ -91,7 +93,7 @@ std::vector<std::string> field_options(const FieldConfig& field) {
   add_impairment("wifi-", field.wifi);
   for (const auto& [name, path] :
        {std::pair{"trace", &field.trace}, std::pair{"qos", &field.qos}, std::pair{"robot", &field.robot}}) {
-    if (!path->empty()) add(name, std::filesystem::absolute(*path).string());
+    if (!path->empty()) add(name, absolute_path(*path).string());
   }
   add("seed", std::to_string(field.seed));
   return options;

@@ -1,7 +1,6 @@
 #include "fleetmap/eval/html_page.hpp"
 
-#include <fstream>
-
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/plot.hpp"
 
 namespace fleetmap::eval {
@@ -100,12 +99,6 @@ std::string HtmlPage::str() const {
          "</h1>\n" + body_ + (in_figures_ ? "</div>\n" : "") + "</body></html>\n";
 }
 
-Status HtmlPage::write(const std::filesystem::path& file) const {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << str();
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
-}
+Status HtmlPage::write(const std::filesystem::path& file) const { return write_whole_file(file, str()); }
 
 }  // namespace fleetmap::eval

@@ -2,7 +2,7 @@
 
 #include <png.h>
 
-#include <fstream>
+#include "fleetmap/core/whole_file.hpp"
 
 namespace fleetmap::eval {
 
@@ -30,11 +30,7 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image) {
 Status write_png(const std::filesystem::path& file, const Image& image) {
   const auto bytes = encode_png(image);
   if (!bytes) return failure(file.string() + ": " + bytes.error().message);
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
+  return write_whole_file(file, *bytes);
 }
 
 }  // namespace fleetmap::eval

@@ -1,12 +1,11 @@
 #include "fleetmap/experiment/case_record.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "fleetmap/core/whole_file.hpp"
 
 namespace fleetmap::experiment {
 namespace {
@@ -73,29 +72,9 @@ json to_json(const CaseRecord& record) {
   return out;
 }
 
-Status write_whole(const std::filesystem::path& file, const std::string& content) {
-  const std::filesystem::path beside = file.string() + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out << content;
-    out.flush();
-    if (!out) return failure(beside.string() + ": cannot be written; is the disk full?");
-  }
-  // Without this a power cut could leave the name on an empty file.
-  const int descriptor = ::open(beside.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor >= 0) {
-    ::fsync(descriptor);
-    ::close(descriptor);
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, file, error);
-  if (error) return failure(file.string() + ": " + error.message());
-  return {};
-}
-
 Status write_record(const std::filesystem::path& directory, const CaseRecord& record) {
   const std::string text = to_json(record).dump(1, ' ', false, json::error_handler_t::replace);
-  return write_whole(directory / "result.json", text + "\n");
+  return write_whole_file(directory / "result.json", text + "\n");
 }
 
 std::optional<CaseRecord> read_record(const std::filesystem::path& directory, const Case& one,

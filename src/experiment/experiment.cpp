@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/experiment/progress_line.hpp"
 #include "report_page.hpp"
 #include "results_file.hpp"
@@ -26,7 +27,7 @@ Status write_plots(const config::ExperimentConfig& config, const std::vector<Cas
   if (error) return failure(directory.string() + ": " + error.message());
   for (const config::Study& study : config.studies) {
     for (const StudyPlot& plot : study_plots(config, study, records)) {
-      const Status written = write_whole(directory / (plot.name + ".svg"), plot.svg);
+      const Status written = write_whole_file(directory / (plot.name + ".svg"), plot.svg);
       if (!written) return written;
     }
   }
@@ -37,15 +38,18 @@ Status write_results(const config::ExperimentConfig& config, const Outcome& outc
                      const std::vector<ShapeCheck>& checks, const std::filesystem::path& directory) {
   const std::string json =
       results_json(config, outcome, checks).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (const Status written = write_whole(directory / "results.json", json + "\n"); !written) return written;
-  if (const Status written = write_whole(directory / "results.csv", results_csv(config, outcome)); !written)
+  if (const Status written = write_whole_file(directory / "results.json", json + "\n"); !written)
     return written;
-  if (const Status written = write_whole(directory / "tables.md", markdown_tables(config, outcome.records));
+  if (const Status written = write_whole_file(directory / "results.csv", results_csv(config, outcome));
+      !written)
+    return written;
+  if (const Status written =
+          write_whole_file(directory / "tables.md", markdown_tables(config, outcome.records));
       !written)
     return written;
   if (const Status written = write_plots(config, outcome.records, directory / "plots"); !written)
     return written;
-  return write_whole(directory / "report.html", report_page(config, outcome, checks, directory));
+  return write_whole_file(directory / "report.html", report_page(config, outcome, checks, directory));
 }
 
 void print_outcome(const ExperimentResult& result, const std::filesystem::path& directory,

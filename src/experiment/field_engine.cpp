@@ -9,6 +9,7 @@
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/config/input_fingerprint.hpp"
 #include "fleetmap/config/override.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/experiment/run_case.hpp"
 
 namespace fleetmap::experiment {
@@ -32,7 +33,7 @@ Result<FieldEngine::Recordings> FieldEngine::recordings_of(const Case& one,
   const std::string robots = std::to_string(one.agents);
   const std::string name = robots + "-" + inputs->substr(0, 8);
   const fs::path bags = directory_ / ("recordings-" + name), run = directory_ / ("recorded-" + name);
-  if (fs::exists(run / "report.json")) return Recordings{bags, run};
+  if (is_there(run / "report.json")) return Recordings{bags, run};
   fs::remove_all(bags);  // of a start that was interrupted
   fs::remove_all(run);
   const fs::path log = directory_ / ("recorded-" + name + ".log");
@@ -48,8 +49,8 @@ Status FieldEngine::run_field(const Case& one, const config::FieldConfig& field,
                               const fs::path& directory) const {
   std::vector<std::string> arguments{"--scenario",   "trial",
                                      "--agents",     std::to_string(one.agents),
-                                     "--recordings", fs::absolute(recordings.bags),
-                                     "--out",        fs::absolute(directory)};
+                                     "--recordings", absolute_path(recordings.bags),
+                                     "--out",        absolute_path(directory)};
   const std::vector<std::string> options = config::field_options(field);
   arguments.insert(arguments.end(), options.begin(), options.end());
   for (const config::Override& entry : one.overrides) {

@@ -2,7 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <fstream>
+#include "fleetmap/core/whole_file.hpp"
 
 namespace fleetmap::recording {
 namespace {
@@ -70,15 +70,7 @@ Status write_metadata(const std::filesystem::path& bag, const BagMetadata& metad
   }
   out << YAML::EndSeq << YAML::EndMap << YAML::EndMap;
 
-  const auto file = bag / kMetadataFile;
-  const auto draft = bag / (std::string(kMetadataFile) + ".new");
-  std::ofstream stream(draft);
-  stream << out.c_str() << '\n';
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(draft, file, error);
-  if (!stream || error) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
+  return write_whole_file(bag / kMetadataFile, std::string(out.c_str()) + '\n');
 }
 
 }  // namespace fleetmap::recording

@@ -6,6 +6,7 @@
 #include "bag_file.hpp"
 #include "bag_metadata.hpp"
 #include "bag_topics.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "packet_reader.hpp"
 #include "unpack.hpp"
@@ -38,9 +39,9 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::string& endi
 /// The files of a bag, in order of time.
 Result<std::vector<fs::path>> bag_files(const fs::path& path) {
   const std::string bag = path.string();
-  if (!fs::is_directory(path)) return std::vector<fs::path>{path};
+  if (!is_folder(path)) return std::vector<fs::path>{path};
   std::vector<fs::path> files;
-  if (fs::exists(path / kMetadataFile)) {
+  if (is_there(path / kMetadataFile)) {
     const auto metadata = read_metadata(path);
     if (!metadata) return tl::unexpected(metadata.error());
     if (metadata->storage != "sqlite3" && metadata->storage != "mcap")
@@ -48,7 +49,7 @@ Result<std::vector<fs::path>> bag_files(const fs::path& path) {
     for (const std::string& name : metadata->files) {
       const fs::path file = path / fs::path(name).filename();
       // One that was unpacked by hand is taken as it is.
-      const bool unpacked = file.extension() == ".zstd" && fs::exists(path / file.stem());
+      const bool unpacked = file.extension() == ".zstd" && is_there(path / file.stem());
       files.push_back(unpacked ? path / file.stem() : file);
     }
   }
@@ -57,7 +58,7 @@ Result<std::vector<fs::path>> bag_files(const fs::path& path) {
   }
   if (files.empty()) return failure(bag + ": has no .db3, .mcap or .bag file");
   for (const fs::path& file : files) {
-    if (!fs::exists(file)) return failure(file.string() + ": is named in metadata.yaml but is not there");
+    if (!is_there(file)) return failure(file.string() + ": is named in metadata.yaml but is not there");
   }
   return files;
 }
@@ -207,9 +208,9 @@ bool looks_like_bag(const fs::path& path) {
     const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
     return name.extension() == ".db3" || name.extension() == ".mcap" || file.extension() == ".bag";
   };
-  if (!fs::is_directory(path)) return has_ending(path);
+  if (!is_folder(path)) return has_ending(path);
   std::error_code error;
-  return fs::exists(path / kMetadataFile) ||
+  return is_there(path / kMetadataFile) ||
          std::any_of(fs::directory_iterator(path, error), fs::directory_iterator(),
                      [&](const auto& entry) { return has_ending(entry.path()); });
 }

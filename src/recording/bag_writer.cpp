@@ -9,6 +9,7 @@
 
 #include "bag_metadata.hpp"
 #include "database.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "ros_names.hpp"
 
 namespace fleetmap::recording {
@@ -87,7 +88,7 @@ Result<BagWriter> BagWriter::create(const fs::path& dir) {
   fs::create_directories(absolute, error);
   if (error) return failure(dir.string() + ": cannot be made: " + error.message());
   const std::string name = absolute.filename().string() + "_0.db3";
-  if (fs::exists(absolute / kMetadataFile) || fs::exists(absolute / name)) {
+  if (is_there(absolute / kMetadataFile) || is_there(absolute / name)) {
     return failure(dir.string() + ": holds a bag already; record to another folder");
   }
   auto database = Database::create(absolute / name);

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "checked_reader.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "oxts.hpp"
 #include "scan_file.hpp"
 
@@ -51,7 +52,7 @@ bool is_oxts_file(const fs::path& file) { return file.extension() == ".txt"; }
 std::vector<fs::path> files_in(const fs::path& folder, bool (*wanted)(const fs::path&)) {
   std::vector<fs::path> files;
   if (folder.empty()) return files;
-  const fs::path place = fs::is_directory(folder / "data") ? folder / "data" : folder;
+  const fs::path place = is_folder(folder / "data") ? folder / "data" : folder;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(place, error)) {
     if (wanted(entry.path())) files.push_back(entry.path());
@@ -72,20 +73,20 @@ Frames by_frame(const std::vector<fs::path>& files, bool numbered, const KittiCo
 
 /// The layout of `path`, if it is one of KITTI's or a bare folder of scans.
 std::optional<Layout> layout_of(const fs::path& path) {
-  if (fs::is_directory(path / "velodyne_points")) {
+  if (is_folder(path / "velodyne_points")) {
     return Layout{path / "velodyne_points", path / "velodyne_points" / "timestamps.txt", path / "oxts",
                   path / "oxts" / "timestamps.txt"};
   }
-  if (fs::is_directory(path / "velodyne"))
+  if (is_folder(path / "velodyne"))
     return Layout{path / "velodyne", path / "times.txt", {}, {}, /*motion_compensated=*/true};
-  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path whole = absolute_path(path).lexically_normal();
   const fs::path folder = whole.has_filename() ? whole : whole.parent_path();
-  if (folder.filename() == "velodyne" && fs::exists(folder.parent_path() / "times.txt"))
+  if (folder.filename() == "velodyne" && is_there(folder.parent_path() / "times.txt"))
     return layout_of(folder.parent_path());
   const std::vector<fs::path> scans =
-      fs::is_directory(path) ? files_in(path, is_scan_file) : std::vector<fs::path>();
+      is_folder(path) ? files_in(path, is_scan_file) : std::vector<fs::path>();
   if (scans.empty()) return std::nullopt;
-  const fs::path stamps = path / (fs::exists(path / "times.txt") ? "times.txt" : "timestamps.txt");
+  const fs::path stamps = path / (is_there(path / "times.txt") ? "times.txt" : "timestamps.txt");
   const bool numbered =
       std::ranges::all_of(scans, [](const fs::path& scan) { return frame_number(scan).has_value(); });
   return Layout{path, stamps, {}, {}, /*motion_compensated=*/false, numbered};

@@ -1,10 +1,10 @@
 #include "fleetmap/run_evaluation/evaluation.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "evaluation_page.hpp"
 #include "fleet_evaluation.hpp"
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "held_fleet.hpp"
@@ -150,19 +150,6 @@ std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<Distinct
   return std::nullopt;
 }
 
-/// The file appears whole or not at all.
-Status write_json(const fs::path& file, const json& content) {
-  fs::path part = file;
-  part += ".part";
-  std::ofstream out(part, std::ios::trunc);
-  out << content.dump(2) << '\n';
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(part, file, error);
-  if (!out || error) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
-}
-
 void note_missing_truth(RunFolder& run, bool have_truth) {
   if (!have_truth) {
     run.notes.push_back(
@@ -215,11 +202,13 @@ Result<json> evaluated(const fs::path& directory, const EvaluationInputs& inputs
     if (const Status written = write_picture(directory, picture); !written)
       return tl::unexpected(written.error());
   }
-  if (const Status written = write_json(directory / "evaluation.json", evaluation); !written)
+  if (const Status written = write_whole_file(directory / "evaluation.json", evaluation.dump(2) + '\n');
+      !written)
     return tl::unexpected(written.error());
   if (run->report.is_object()) {
     run->report["evaluation"] = evaluation;
-    if (const Status written = write_json(directory / "report.json", run->report); !written)
+    if (const Status written = write_whole_file(directory / "report.json", run->report.dump(2) + '\n');
+        !written)
       return tl::unexpected(written.error());
   }
   if (inputs.page) {

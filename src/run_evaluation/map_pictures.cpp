@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <map>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
+#include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/colours.hpp"
 #include "fleetmap/eval/density.hpp"
 #include "fleetmap/eval/picture.hpp"
@@ -165,13 +165,7 @@ void add_density(const cloud::PointCloud& shown, const cloud::PointCloud& tile, 
 }
 
 Status write_picture(const std::filesystem::path& directory, const MapPicture& picture) {
-  const std::filesystem::path file = directory / picture.file;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(reinterpret_cast<const char*>(picture.png.data()),
-            static_cast<std::streamsize>(picture.png.size()));
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
+  return write_whole_file(directory / picture.file, picture.png);
 }
 
 }  // namespace fleetmap::run_evaluation

@@ -10,6 +10,7 @@
 #include <string>
 #include <system_error>
 
+#include "fleetmap/core/whole_file.hpp"
 #include "mesh_text.hpp"
 #include "obj_format.hpp"
 #include "ply_format.hpp"
@@ -66,29 +67,26 @@ void add_bytes(std::string& text, const void* data, std::size_t size) {
 
 using Fill = std::function<void(std::size_t, std::string&)>;
 
-/// Writes `count` pieces, each made by `fill`, a block at a time.
-void write_pieces(std::ofstream& out, std::size_t count, const Fill& fill) {
+/// Appends `count` pieces, each made by `fill`, a block at a time.
+Status append_pieces(WholeFile& out, std::size_t count, const Fill& fill) {
   std::string block;
   for (std::size_t k = 0; k < count; ++k) {
     fill(k, block);
     if (block.size() < kFlushBytes && k + 1 < count) continue;
-    out.write(block.data(), static_cast<std::streamsize>(block.size()));
+    if (const Status written = out.append(block); !written) return written;
     block.clear();
   }
+  return {};
 }
 
-/// Writes next to `file` and renames.
-Status write_whole(const fs::path& file, const std::function<void(std::ofstream&)>& write) {
-  fs::path unfinished = file;
-  unfinished += ".part";
-  std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
-  if (out) write(out);
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(unfinished, file, error);
-  if (out && !error) return {};
-  fs::remove(unfinished, error);
-  return failure(file.string() + ": cannot be written; check the folder and the free space");
+Status write_mesh(const fs::path& file, const std::string& header, std::size_t vertices, const Fill& vertex,
+                  std::size_t triangles, const Fill& triangle) {
+  Result<WholeFile> out = WholeFile::create(file);
+  if (!out) return tl::unexpected(out.error());
+  if (const Status written = out->append(header); !written) return written;
+  if (const Status written = append_pieces(*out, vertices, vertex); !written) return written;
+  if (const Status written = append_pieces(*out, triangles, triangle); !written) return written;
+  return out->finish();
 }
 
 }  // namespace
@@ -112,44 +110,45 @@ Result<Mesh> read_mesh(const fs::path& file) {
 }
 
 Status write_obj(const fs::path& file, const Mesh& mesh) {
-  return write_whole(file, [&mesh](std::ofstream& out) {
-    out << "# metres: east, north, up\n";
-    write_pieces(out, mesh.vertices.size(), [&mesh](std::size_t k, std::string& text) {
-      text += 'v';
-      for (const float value : mesh.vertices[k]) add(text += ' ', value);
+  const auto vertex = [&mesh](std::size_t k, std::string& text) {
+    text += 'v';
+    for (const float value : mesh.vertices[k]) add(text += ' ', value);
+    text += '\n';
+  };
+  const auto triangle = [&mesh](std::size_t k, std::string& text) {
+    if (k == 0 || mesh.materials[k] != mesh.materials[k - 1]) {
+      text += "usemtl ";
+      text += name_of(mesh.materials[k]);
       text += '\n';
-    });
-    write_pieces(out, mesh.triangles.size(), [&mesh](std::size_t k, std::string& text) {
-      if (k == 0 || mesh.materials[k] != mesh.materials[k - 1]) {
-        text += "usemtl ";
-        text += name_of(mesh.materials[k]);
-        text += '\n';
-      }
-      text += 'f';
-      for (const std::uint32_t index : mesh.triangles[k])
-        (text += ' ') += std::to_string(static_cast<std::uint64_t>(index) + 1);
-      text += '\n';
-    });
-  });
+    }
+    text += 'f';
+    for (const std::uint32_t index : mesh.triangles[k])
+      (text += ' ') += std::to_string(static_cast<std::uint64_t>(index) + 1);
+    text += '\n';
+  };
+  return write_mesh(file, "# metres: east, north, up\n", mesh.vertices.size(), vertex, mesh.triangles.size(),
+                    triangle);
 }
 
 Status write_ply(const fs::path& file, const Mesh& mesh) {
-  return write_whole(file, [&mesh](std::ofstream& out) {
-    out << "ply\nformat binary_little_endian 1.0\ncomment metres: east, north, up\n"
-        << "comment materials: 0 ground, 1 glass, 2 metal, 3 concrete, 4 vegetation\n"
-        << "element vertex " << mesh.vertices.size()
-        << "\nproperty float x\nproperty float y\nproperty float z\n"
-        << "element face " << mesh.triangles.size()
-        << "\nproperty list uchar uint vertex_indices\nproperty uchar material\nend_header\n";
-    write_pieces(out, mesh.vertices.size(), [&mesh](std::size_t k, std::string& bytes) {
-      add_bytes(bytes, mesh.vertices[k].data(), 3 * sizeof(float));
-    });
-    write_pieces(out, mesh.triangles.size(), [&mesh](std::size_t k, std::string& bytes) {
-      bytes += '\3';
-      add_bytes(bytes, mesh.triangles[k].data(), 3 * sizeof(std::uint32_t));
-      bytes += static_cast<char>(mesh.materials[k]);
-    });
-  });
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment metres: east, north, up\n"
+      "comment materials: 0 ground, 1 glass, 2 metal, 3 concrete, 4 vegetation\n"
+      "element vertex " +
+      std::to_string(mesh.vertices.size()) +
+      "\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face " +
+      std::to_string(mesh.triangles.size()) +
+      "\nproperty list uchar uint vertex_indices\nproperty uchar material\nend_header\n";
+  const auto vertex = [&mesh](std::size_t k, std::string& bytes) {
+    add_bytes(bytes, mesh.vertices[k].data(), 3 * sizeof(float));
+  };
+  const auto triangle = [&mesh](std::size_t k, std::string& bytes) {
+    bytes += '\3';
+    add_bytes(bytes, mesh.triangles[k].data(), 3 * sizeof(std::uint32_t));
+    bytes += static_cast<char>(mesh.materials[k]);
+  };
+  return write_mesh(file, header, mesh.vertices.size(), vertex, mesh.triangles.size(), triangle);
 }
 
 }  // namespace fleetmap::sim

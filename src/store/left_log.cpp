@@ -9,6 +9,7 @@
 
 #include "database.hpp"
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/paths.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -33,7 +34,7 @@ Bytes log_in(Bytes copy) {
 /// The file system under the store, which a test replaces, sees it as a log: its first sync is one of the
 /// folder, too.
 bool write_synced(sqlite3_vfs& system, const fs::path& file, ByteView bytes) {
-  const std::string name = fs::absolute(file).string();
+  const std::string name = absolute_path(file).string();
   const auto memory = std::make_unique<std::max_align_t[]>(
       static_cast<std::size_t>(system.szOsFile) / sizeof(std::max_align_t) + 1);
   auto* out = reinterpret_cast<sqlite3_file*>(memory.get());
@@ -56,7 +57,7 @@ bool write_synced(sqlite3_vfs& system, const fs::path& file, ByteView bytes) {
 
 bool remove_synced(sqlite3_vfs& system, const fs::path& file) {
   std::error_code none;
-  return !fs::exists(file, none) || system.xDelete(&system, fs::absolute(file).c_str(), 1) == SQLITE_OK;
+  return !fs::exists(file, none) || system.xDelete(&system, absolute_path(file).c_str(), 1) == SQLITE_OK;
 }
 
 /// With its hash behind it.

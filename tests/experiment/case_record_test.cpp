@@ -120,19 +120,6 @@ TEST_F(CaseRecordTest, ItsJsonNamesTheInputs) {
   EXPECT_FALSE(to_json(record_).contains("metrics"));
 }
 
-TEST_F(CaseRecordTest, AFileIsReplacedAsAWholeOrNotAtAll) {
-  const auto file = folder_.write("a.json", "old and longer");
-  ASSERT_TRUE(write_whole(file, "new"));
-  std::ifstream in(file);
-  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(in), {}}), "new");
-  const auto none = folder_.path() / "none" / "a.json";
-  const Status status = write_whole(none, "x");
-  ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().message, none.string() + ".part: cannot be written; is the disk full?");
-  folder_.write("folder/file", "");
-  EXPECT_FALSE(write_whole(folder_.path() / "folder", "x"));
-}
-
 TEST_F(CaseRecordTest, AHistogramThatIsNotFiniteIsLeftOut) {
   record_.result->histograms["spoilt"] = {1.0, {std::numeric_limits<double>::quiet_NaN(), 1.0}};
   folder_.write("c/x", "");

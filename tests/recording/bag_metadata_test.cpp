@@ -84,7 +84,7 @@ TEST(BagMetadata, ProblemsNameTheFileAndItsLine) {
   const TemporaryFolder folder;
   EXPECT_THAT(read_metadata(folder.path()).error().message, HasSubstr("metadata.yaml"));
   EXPECT_THAT(write_metadata(folder.path() / "none", kDrive).error().message,
-              HasSubstr("metadata.yaml: cannot be written; is the disk full?"));
+              HasSubstr("metadata.yaml: cannot be written: No such file or directory"));
 }
 
 }  // namespace

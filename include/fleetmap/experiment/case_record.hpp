@@ -35,7 +35,4 @@ std::optional<CaseRecord> read_record(const std::filesystem::path& directory, co
                                       const std::string& hash, const std::string& program,
                                       LostPictures pictures = LostPictures::kRunAgain);
 
-/// Writes a whole file beside its place and moves it there.
-Status write_whole(const std::filesystem::path& file, const std::string& content);
-
 }  // namespace fleetmap::experiment

@@ -1,7 +1,6 @@
 #include "fleetmap/planning/site/geojson_writer.hpp"
 
-#include <fstream>
-
+#include "fleetmap/core/whole_file.hpp"
 #include "site/geojson_features.hpp"
 
 namespace fleetmap::planning {
@@ -15,11 +14,7 @@ std::string to_geojson(const Mission& mission, const LocalFrame& site, FileFrame
 
 Status write_geojson(const std::filesystem::path& file, const Mission& mission, const LocalFrame& site,
                      FileFrame frame) {
-  std::ofstream out(file, std::ios::binary);
-  out << to_geojson(mission, site, frame);
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; check the folder and free space");
-  return {};
+  return write_whole_file(file, to_geojson(mission, site, frame));
 }
 
 }  // namespace fleetmap::planning

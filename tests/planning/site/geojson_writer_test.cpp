@@ -72,7 +72,7 @@ TEST(GeoJsonWriter, WhatCannotBeWrittenIsNamed) {
   const auto file = folder.path() / "no" / "site.geojson";
   const Status written = write_geojson(file, drawing(), kSite);
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().message, file.string() + ": cannot be written; check the folder and free space");
+  EXPECT_EQ(written.error().message, file.string() + ": cannot be written: No such file or directory");
 }
 
 }  // namespace
