@@ -23,10 +23,10 @@ json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::Loo
     return stats.proofs[static_cast<std::size_t>(proof)];
   };
   return {{"long_range_wire_bytes", stats.long_range.wire_bytes},
-          {"encounters_found", loops.by_position},
-          {"encounters_alike", loops.by_descriptor},
-          {"encounters_tied", loops.by_transform},
-          {"encounters_begun", loops.requested},
+          {"candidates_by_position", loops.by_position},
+          {"candidates_by_descriptor", loops.by_descriptor},
+          {"candidates_by_transform", loops.by_transform},
+          {"candidates_requested", loops.requested},
           {"clouds_received", stats.cloud_receiver.received},
           {"clouds_given_up", stats.cloud_receiver.given_up},
           {"cloud_requests", stats.cloud_receiver.requests},
@@ -139,7 +139,7 @@ void add_holdings(json& report, const store::Store& store, const output::Results
   for (const auto& [agent, credit] : results->placement.credits) {
     credits[agent.str()] = {{"used", credit.used},
                             {"rejected", credit.rejected},
-                            {"mistakes", credit.outlier_sets},
+                            {"outlier_sets", credit.outlier_sets},
                             {"quarantined", credit.quarantined}};
   }
   if (!credits.empty()) report["alignments_computed_by"] = credits;

@@ -80,9 +80,10 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember(mode_choices()))
       ->capture_default_str();
-  command->add_flag("--register-again", options->inputs.register_again,
-                    "register the run's encounters anew with this program, by the run's own method too: what "
-                    "another version of fleetmap would have made of the same clouds");
+  command->add_flag(
+      "--register-again", options->inputs.register_again,
+      "register the run's loop candidates anew with this program, by the run's own method too: what "
+      "another version of fleetmap would have made of the same clouds");
   command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -63,7 +63,7 @@ void print_losses(std::ostream& out, const OdometryRun& run) {
         << " times, and what lay farthest was forgotten: scans do not belong together, or "
            "odometry.map_radius asks for more than the map holds\n";
   }
-  for (const std::string& doubt : run.way.warnings()) out << doubt << '\n';
+  for (const std::string& warning : run.way.warnings()) out << warning << '\n';
 }
 
 }  // namespace fleetmap::apps

@@ -19,10 +19,10 @@ StallDetector::StallDetector(std::string thread, Duration limit) : limit_(limit)
   counters_.thread = std::move(thread);
 }
 
-std::vector<StallNews> StallDetector::look(SteadyTime now, const ThreadActivity& seen) {
-  note_pause(now, seen);
+std::vector<StallNews> StallDetector::check(SteadyTime now, const ThreadActivity& activity) {
+  note_pause(now, activity);
   std::vector<StallNews> news;
-  for (const EndedWork& ended : seen.ended) {
+  for (const EndedWork& ended : activity.ended) {
     const Duration lasted = taken(ended.work.begun, ended.ended);
     if (lasted < limit_) continue;
     if (report(now, ended.work, lasted, " was stuck for ", news)) continue;
@@ -31,9 +31,9 @@ std::vector<StallNews> StallDetector::look(SteadyTime now, const ThreadActivity&
           {counters_.thread + " goes on after " + in_seconds(lasted) + " in " + ended.work.name, true});
     }
   }
-  if (seen.under_way) {
-    const Duration lasted = taken(seen.under_way->begun, now);
-    if (lasted >= limit_) report(now, *seen.under_way, lasted, " stuck for ", news);
+  if (activity.under_way) {
+    const Duration lasted = taken(activity.under_way->begun, now);
+    if (lasted >= limit_) report(now, *activity.under_way, lasted, " stuck for ", news);
   }
   if (more_.times > 0 && now - *reported_at_ >= kReportPeriod) {
     news.push_back({summary(now), false});
@@ -69,11 +69,11 @@ std::string StallDetector::summary(SteadyTime now) const {
          " s, for " + (one ? "" : "up to ") + in_seconds(more_.longest) + " in " + more_.longest_work;
 }
 
-void StallDetector::note_pause(SteadyTime now, const ThreadActivity& seen) {
+void StallDetector::note_pause(SteadyTime now, const ThreadActivity& activity) {
   if (last_check_ && now - *last_check_ > kMaxCheckInterval) pauses_.push_back({*last_check_, now});
   last_check_ = now;
-  SteadyTime oldest = seen.under_way ? seen.under_way->begun : now;
-  for (const EndedWork& ended : seen.ended) oldest = std::min(oldest, ended.work.begun);
+  SteadyTime oldest = activity.under_way ? activity.under_way->begun : now;
+  for (const EndedWork& ended : activity.ended) oldest = std::min(oldest, ended.work.begun);
   std::erase_if(pauses_, [oldest](const Pause& pause) { return pause.ended <= oldest; });
 }
 

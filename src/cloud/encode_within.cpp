@@ -49,13 +49,13 @@ double next_log_voxel(const Trial& too_big, const Trial& fits, double target_log
 /// less where points are sparse, as the two last misses tell.
 double step_after(const std::optional<Trial>& before, const Trial& miss, double target_log_bytes,
                   int encodings) {
-  constexpr double kMaxStep = 1.0, kLeastSlope = 1e-3;
+  constexpr double kMaxStep = 1.0, kMinSlope = 1e-3;
   const double excess = miss.log_bytes - target_log_bytes;
   const double usual = std::max(0.05 * encodings, 0.6 * excess);
   if (!before) return usual;
   const double slope =
-      (before->log_bytes - miss.log_bytes) / std::max(miss.log_voxel - before->log_voxel, kLeastSlope);
-  return std::max(usual, std::min(kMaxStep, excess / std::max(slope, kLeastSlope)));
+      (before->log_bytes - miss.log_bytes) / std::max(miss.log_voxel - before->log_voxel, kMinSlope);
+  return std::max(usual, std::min(kMaxStep, excess / std::max(slope, kMinSlope)));
 }
 
 double log_bytes(const FittedCloud& fitted) { return std::log(static_cast<double>(fitted.bytes.size())); }

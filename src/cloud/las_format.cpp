@@ -47,8 +47,8 @@ struct VariableRecord {
 
 /// A string, with the zero that ends it.
 void append(Fields& fields, const VariableRecord& record) {
-  constexpr std::size_t kMostContent = std::numeric_limits<std::uint16_t>::max() - 1;
-  const std::size_t length = std::min(record.content.size(), kMostContent) + 1;
+  constexpr std::size_t kMaxContent = std::numeric_limits<std::uint16_t>::max() - 1;
+  const std::size_t length = std::min(record.content.size(), kMaxContent) + 1;
   fields.number(std::uint16_t{0});
   fields.text(record.user, 16);
   fields.number(record.id);
@@ -70,11 +70,11 @@ void append_bounds(Fields& fields, const LasDescription& description, const LasT
 }  // namespace
 
 std::optional<Eigen::Vector3i> las_steps(const Eigen::Vector3d& position, const Eigen::Vector3i& offset) {
-  constexpr double kMostSteps = std::numeric_limits<std::int32_t>::max();
+  constexpr double kMaxSteps = std::numeric_limits<std::int32_t>::max();
   constexpr double kStepsPerMetre = 1000.0;  // exact, unlike kLasStep
   const Eigen::Array3d steps = ((position - offset.cast<double>()) * kStepsPerMetre).array().round();
   // NaN compares false as well.
-  if (!(steps.abs() <= kMostSteps).all()) return std::nullopt;
+  if (!(steps.abs() <= kMaxSteps).all()) return std::nullopt;
   return steps.matrix().cast<std::int32_t>();
 }
 

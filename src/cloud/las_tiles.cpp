@@ -63,8 +63,8 @@ LasTiles::Tile LasTiles::tile_of(const Eigen::Vector3i& steps) const {
 
 Result<LasWriter*> LasTiles::writer_of(const Tile& tile) {
   if (const auto found = tiles_.find(tile); found != tiles_.end()) return &found->second;
-  if (tiles_.size() == kMostTiles) {
-    return failure(folder_.string() + ": the map has more than " + std::to_string(kMostTiles) + " tiles of " +
+  if (tiles_.size() == kMaxTiles) {
+    return failure(folder_.string() + ": the map has more than " + std::to_string(kMaxTiles) + " tiles of " +
                    std::to_string(edge_) + " m; make them larger");
   }
   const std::string name =

@@ -99,12 +99,12 @@ class Runner {
   bool take(const CaseGroup& group) {
     const auto found = recorded(config_, cases_, group);
     if (!found || !found->done()) return false;
-    settle(group, *found);
+    finish_group(group, *found);
     progress_.reused += group.cases.size();
     return true;
   }
 
-  void settle(const CaseGroup& group, const CaseRecord& record) {
+  void finish_group(const CaseGroup& group, const CaseRecord& record) {
     for (const std::size_t k : group.cases) {
       records_[k] = record;
       records_[k]->of = cases_[k];
@@ -125,7 +125,7 @@ class Runner {
       lock.lock();
       std::erase(progress_.running, one.name);
       if (!record.done() && stop_) return;  // ended by the interrupt, not by a fault of its own
-      settle(group, record);
+      finish_group(group, record);
       weight_done_ += static_cast<double>(one.agents);
       tell(&record);
     }

@@ -31,9 +31,9 @@ bool is_covariance(const Matrix6d& C) {
 
 }  // namespace
 
-std::array<std::uint16_t, 21> encode_covariance(const Matrix6d& given) {
-  Matrix6d C = given;
-  if (!is_covariance(given)) C = kMaxSigma * kMaxSigma * Matrix6d::Identity();
+std::array<std::uint16_t, 21> encode_covariance(const Matrix6d& requested) {
+  Matrix6d C = requested;
+  if (!is_covariance(requested)) C = kMaxSigma * kMaxSigma * Matrix6d::Identity();
   Vector6d scale;
   for (int k = 0; k < 6; ++k) {
     const double stddev = std::sqrt(C(k, k));

@@ -7,7 +7,7 @@ Status LoopClosureConfig::validate() const {
   if (auto status = descriptors.validate(); !status) return status;
   if (!(max_sigma_m > 0.0)) return failure("encounters.max_sigma_m must be positive");
   if (!(spacing_m >= 0.0) || !(spacing_aligned_m >= 0.0) || !(spacing_failed_m >= 0.0)) {
-    return failure("encounters.spacing_m, spacing_aligned_m and spacing_failed_m must not be negative");
+    return failure("encounters.spacing, spacing_aligned and spacing_failed must not be negative");
   }
   if (max_wait < Duration::zero() || retry_after < Duration::zero()) {
     return failure("encounters.ripe_after and retry_after must not be negative");

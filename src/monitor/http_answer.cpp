@@ -31,8 +31,8 @@ Reply reply_to_order(ServerState& state, const RequestHead& head, std::string_vi
   // Browsers name the page that posts; other programs show the token themselves.
   if (head.origin.empty() && head.authorization.empty())
     return {.status = 403, .body = "an order needs an Origin\n"};
-  if (const Status given = state.give_order(*order); !given)
-    return {.status = 503, .body = given.error().message + '\n'};
+  if (const Status ordered = state.give_order(*order); !ordered)
+    return {.status = 503, .body = ordered.error().message + '\n'};
   return {.status = 202, .body = "ordered\n"};
 }
 

@@ -23,20 +23,20 @@ std::ostream& write_pose(std::ostream& out, const Pose& T) {
 
 /// Status of each alignment, by name, and the mode that was used, if any. Mode `paper` only distinguishes
 /// used alignments.
-struct Fate {
-  std::string judgement;
+struct Outcome {
+  std::string status;
   std::optional<std::size_t> mode;
 };
-std::map<std::pair<AgentId, std::uint32_t>, Fate> fates(const graph::Placement& placement) {
-  std::map<std::pair<AgentId, std::uint32_t>, Fate> fates;
+std::map<std::pair<AgentId, std::uint32_t>, Outcome> outcomes(const graph::Placement& placement) {
+  std::map<std::pair<AgentId, std::uint32_t>, Outcome> outcomes;
   for (const graph::Alignment& used : placement.used)
-    fates[{used.computed_by, used.seq}] = {graph::to_string(graph::AlignmentStatus::used), 0};
+    outcomes[{used.computed_by, used.seq}] = {graph::to_string(graph::AlignmentStatus::used), 0};
   for (const graph::AlignmentOutcome& one : placement.outcomes) {
-    Fate& fate = fates[{one.computed_by, one.seq}];
-    fate.judgement = graph::to_string(one.status);
-    if (one.status == graph::AlignmentStatus::used) fate.mode = one.mode;
+    Outcome& outcome = outcomes[{one.computed_by, one.seq}];
+    outcome.status = graph::to_string(one.status);
+    if (one.status == graph::AlignmentStatus::used) outcome.mode = one.mode;
   }
-  return fates;
+  return outcomes;
 }
 
 /// G as fourteen columns, empty where there is none.
@@ -56,19 +56,19 @@ Status write_alignments(const store::Store& store, const graph::Placement& place
                         const std::filesystem::path& file) {
   std::ofstream out(file, std::ios::trunc);
   out.precision(9);
-  out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used,judgement";
+  out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used,status";
   for (int k = 0; k < 6; ++k) out << ",var_" << k;
   out << '\n';
-  const auto judged = fates(placement);
+  const auto judged = outcomes(placement);
   for (const auto& [id, a] : store.alignments()) {
     const auto known = judged.find({a.computed_by, a.seq});
-    const Fate fate = known == judged.end() ? Fate{} : known->second;
+    const Outcome outcome = known == judged.end() ? Outcome{} : known->second;
     for (std::size_t m = 0; m < a.modes.size(); ++m) {
       const graph::AlignmentMode& mode = a.modes[m];
       out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ',' << m
           << ',';
       write_pose(out, mode.T_i_j) << ',' << mode.rmse << ',' << mode.inlier_fraction << ',' << mode.score
-                                  << ',' << (fate.mode == m ? 1 : 0) << ',' << fate.judgement;
+                                  << ',' << (outcome.mode == m ? 1 : 0) << ',' << outcome.status;
       for (int k = 0; k < 6; ++k) out << ',' << mode.covariance(k, k);
       out << '\n';
     }

@@ -62,26 +62,26 @@ double similarity_of(const Counts& c) {
 #endif
 
 struct Planes {
-  const std::uint64_t* seen;
+  const std::uint64_t* observed;
   const std::uint64_t* low;
   const std::uint64_t* high;
 };
 
 /// Shifts to higher bits for a positive `by`. Rows have four free bits above them, and what leaves a row to
-/// either side lands there, where nothing is seen.
+/// either side lands there, where nothing is observed.
 inline std::uint64_t shifted(std::uint64_t rows, int by) { return by >= 0 ? rows << by : rows >> -by; }
 
 FLEETMAP_COUNTS_BITS
 Counts count(const Planes& a, const Planes& b, int words, int dx) {
   Counts c;
   for (int w = 0; w < words; ++w) {
-    const std::uint64_t seen = a.seen[w] & shifted(b.seen[w], dx);
-    if (seen == 0) continue;
-    const std::uint64_t low_a = a.low[w] & seen;
-    const std::uint64_t high_a = a.high[w] & seen;
-    const std::uint64_t low_b = shifted(b.low[w], dx) & seen;
-    const std::uint64_t high_b = shifted(b.high[w], dx) & seen;
-    c.n += std::popcount(seen);
+    const std::uint64_t observed = a.observed[w] & shifted(b.observed[w], dx);
+    if (observed == 0) continue;
+    const std::uint64_t low_a = a.low[w] & observed;
+    const std::uint64_t high_a = a.high[w] & observed;
+    const std::uint64_t low_b = shifted(b.low[w], dx) & observed;
+    const std::uint64_t high_b = shifted(b.high[w], dx) & observed;
+    c.n += std::popcount(observed);
     c.low_a += std::popcount(low_a);
     c.high_a += std::popcount(high_a);
     c.low_b += std::popcount(low_b);
@@ -116,7 +116,7 @@ Descriptor Descriptor::of(std::span<const Eigen::Vector3f> points_in_base,
       if (heights.low[cell(x, y)] > heights.high[cell(x, y)]) continue;
       const float height = heights.high[cell(x, y)] - ground_around(heights, x, y);
       const std::uint32_t bit = 1u << x;
-      descriptor.seen_[row] |= bit;
+      descriptor.observed_[row] |= bit;
       if (height > kLowHeight) descriptor.low_[row] |= bit;
       if (height > kHighHeight) descriptor.high_[row] |= bit;
     }
@@ -129,7 +129,7 @@ Bytes Descriptor::encode() const {
   for (int k = 0; k < kCells * kCells; ++k) {
     const auto row = static_cast<std::size_t>(k / kCells);
     const int x = k % kCells;
-    const std::uint32_t code = (seen_[row] >> x & 1u) + (low_[row] >> x & 1u) + (high_[row] >> x & 1u);
+    const std::uint32_t code = (observed_[row] >> x & 1u) + (low_[row] >> x & 1u) + (high_[row] >> x & 1u);
     bytes[static_cast<std::size_t>(k / 4)] |= static_cast<std::uint8_t>(code << 2 * (k % 4));
   }
   return bytes;
@@ -145,16 +145,16 @@ Result<Descriptor> Descriptor::decode(ByteView bytes) {
     const auto row = static_cast<std::size_t>(k / kCells);
     const int code = bytes[static_cast<std::size_t>(k / 4)] >> 2 * (k % 4) & 3;
     const std::uint32_t bit = 1u << k % kCells;
-    if (code >= 1) descriptor.seen_[row] |= bit;
+    if (code >= 1) descriptor.observed_[row] |= bit;
     if (code >= 2) descriptor.low_[row] |= bit;
     if (code >= 3) descriptor.high_[row] |= bit;
   }
   return descriptor;
 }
 
-int Descriptor::seen() const {
+int Descriptor::observed() const {
   int n = 0;
-  for (const std::uint32_t row : seen_) n += std::popcount(row);
+  for (const std::uint32_t row : observed_) n += std::popcount(row);
   return n;
 }
 
@@ -183,7 +183,7 @@ DescriptorQuery::DescriptorQuery(const Descriptor& b) {
           const auto set = static_cast<std::size_t>(pairing);
           const auto word = static_cast<std::size_t>((y + pairing) / 2);
           const int bit = x + 32 * ((y + pairing) % 2);
-          turned.seen[set][word] |= std::uint64_t{b.seen_[row] >> from_x & 1u} << bit;
+          turned.observed[set][word] |= std::uint64_t{b.observed_[row] >> from_x & 1u} << bit;
           turned.low[set][word] |= std::uint64_t{b.low_[row] >> from_x & 1u} << bit;
           turned.high[set][word] |= std::uint64_t{b.high_[row] >> from_x & 1u} << bit;
         }
@@ -193,9 +193,9 @@ DescriptorQuery::DescriptorQuery(const Descriptor& b) {
 }
 
 DescriptorMatch DescriptorQuery::compare(const Descriptor& a) const {
-  std::array<std::uint64_t, kWords> seen{}, low{}, high{};
+  std::array<std::uint64_t, kWords> observed{}, low{}, high{};
   for (std::size_t w = 0; w < kWords; ++w) {
-    seen[w] = std::uint64_t{a.seen_[2 * w]} | std::uint64_t{a.seen_[2 * w + 1]} << 32;
+    observed[w] = std::uint64_t{a.observed_[2 * w]} | std::uint64_t{a.observed_[2 * w + 1]} << 32;
     low[w] = std::uint64_t{a.low_[2 * w]} | std::uint64_t{a.low_[2 * w + 1]} << 32;
     high[w] = std::uint64_t{a.high_[2 * w]} | std::uint64_t{a.high_[2 * w + 1]} << 32;
   }
@@ -209,10 +209,10 @@ DescriptorMatch DescriptorQuery::compare(const Descriptor& a) const {
       const int from_a = std::max(0, words_up);
       const int from_b = std::max(0, -words_up);
       const int words = std::min(kWords - from_a, kWords + static_cast<int>(set) - from_b);
-      const Planes plane_a{&seen[static_cast<std::size_t>(from_a)], &low[static_cast<std::size_t>(from_a)],
-                           &high[static_cast<std::size_t>(from_a)]};
+      const Planes plane_a{&observed[static_cast<std::size_t>(from_a)],
+                           &low[static_cast<std::size_t>(from_a)], &high[static_cast<std::size_t>(from_a)]};
       const auto f = static_cast<std::size_t>(from_b);
-      const Planes plane_b{&b.seen[set][f], &b.low[set][f], &b.high[set][f]};
+      const Planes plane_b{&b.observed[set][f], &b.low[set][f], &b.high[set][f]};
       for (int dx = -kShifts; dx <= kShifts; ++dx) {
         const Counts counts = count(plane_a, plane_b, words, dx);
         const double similarity = similarity_of(counts);

@@ -69,26 +69,26 @@ void CheckedReader::skip(std::uint64_t Counters::*reason, const std::string& wha
 }
 
 bool CheckedReader::admit(const Sample& sample) {
-  constexpr std::array kGiven{&Counters::scans, &Counters::imus, &Counters::fixes, &Counters::wheels};
+  constexpr std::array kAdmitted{&Counters::scans, &Counters::imus, &Counters::fixes, &Counters::wheels};
   const Stamp stamp = stamp_of(sample);
   Last& last = last_[sample.index()];
-  if (last.given && stamp <= *last.given) {
+  if (last.admitted && stamp <= *last.admitted) {
     const bool in_order = last.skipped && stamp > *last.skipped;
-    const bool far = *last.given - stamp > kClockSet;
+    const bool far = *last.admitted - stamp > kClockSet;
     last.set_back = !far ? 0 : in_order ? last.set_back + 1 : 1;
     last.skipped = far ? std::optional(stamp) : std::nullopt;
     if (last.set_back <= kClockSetSamples) {
       skip(&Counters::time_backwards, std::string(kKinds[sample.index()]) + " at " +
                                           std::to_string(to_seconds(stamp)) + " s comes after one at " +
-                                          std::to_string(to_seconds(*last.given)) + " s");
+                                          std::to_string(to_seconds(*last.admitted)) + " s");
       return false;
     }
     ++counters_.clocks_set_back;
     spdlog::warn("{}: the clock of the {} samples was set back by {:.2f} s", source_, kKinds[sample.index()],
-                 to_seconds(*last.given - stamp));
+                 to_seconds(*last.admitted - stamp));
   }
-  last = {.given = stamp, .skipped = std::nullopt, .set_back = 0};
-  ++(counters_.*kGiven[sample.index()]);
+  last = {.admitted = stamp, .skipped = std::nullopt, .set_back = 0};
+  ++(counters_.*kAdmitted[sample.index()]);
   return true;
 }
 

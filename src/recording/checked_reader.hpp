@@ -33,9 +33,9 @@ class CheckedReader : public Reader {
   std::string source_;
   std::set<std::string> logged_;
   struct Last {
-    std::optional<Stamp> given;    ///< stamp of the last that was given out
-    std::optional<Stamp> skipped;  ///< of the last since that was not, if it was far earlier
-    int set_back = 0;              ///< of these, in a row and in order
+    std::optional<Stamp> admitted;  ///< stamp of the last that was admitted
+    std::optional<Stamp> skipped;   ///< of the last since that was not, if it was far earlier
+    int set_back = 0;               ///< of these, in a row and in order
   };
   std::array<Last, std::variant_size_v<Sample>> last_;
 };

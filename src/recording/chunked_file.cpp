@@ -16,7 +16,7 @@ constexpr std::size_t kBytesPerMessage = 100;  // of the queue itself
 }  // namespace
 
 Result<std::optional<BagMessage>> ChunkedFile::next() {
-  given_ = {};
+  current_ = {};
   while (true) {
     const bool room = block_bytes_ + kBytesPerMessage * held_.size() < kMaxHeldBytes;
     const bool may_come_first =
@@ -30,10 +30,10 @@ Result<std::optional<BagMessage>> ChunkedFile::next() {
     }
     if (held_.empty()) return std::optional<BagMessage>();
     auto first = held_.extract(held_.begin());
-    given_ = std::move(first.mapped());
-    if (const auto topic = topics_.find(given_.connection); topic != topics_.end())
+    current_ = std::move(first.mapped());
+    if (const auto topic = topics_.find(current_.connection); topic != topics_.end())
       return BagMessage{topic->second.name, static_cast<std::int64_t>(first.key()),
-                        cdr_of(topic->second, given_.data)};
+                        cdr_of(topic->second, current_.data)};
     leave_out("a message of a topic that is named nowhere");
   }
 }

@@ -77,7 +77,7 @@ class ChunkedFile : public BagFile {
   std::size_t next_ = 0;                      ///< of found_
   std::size_t block_bytes_ = 0;               ///< of all blocks that are held
   std::multimap<std::uint64_t, Held> held_;   ///< by time
-  Held given_;
+  Held current_;
   std::uint64_t damaged_ = 0;
 };
 

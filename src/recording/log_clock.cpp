@@ -10,7 +10,7 @@
 namespace fleetmap::recording {
 namespace {
 
-constexpr Duration kLooksAt = std::chrono::seconds(20);
+constexpr Duration kExamined = std::chrono::seconds(20);
 constexpr std::size_t kMaxSamples = 20'000;
 /// A sensor's rate is known from so much of its own time.
 constexpr Duration kMinSpan = std::chrono::seconds(2);
@@ -73,7 +73,7 @@ Result<LogClock> find_log_clock(const std::filesystem::path& recording, const Re
     sensor->last_stamp = stamp;
     sensor->last_recorded = *recorded;
     sensor->least_lag = std::min(sensor->least_lag, *recorded - stamp);
-    if (*recorded - *begun > kLooksAt) break;
+    if (*recorded - *begun > kExamined) break;
   }
   std::vector<SensorTimes> sensors;
   for (const auto& sensor : seen) {

@@ -10,11 +10,11 @@ namespace fleetmap::registration {
 
 /// How well clouds fit at one pose, patch by patch: those of the source, then those of the target.
 struct Fit {
-  std::vector<float> misfit;        ///< mean over the points of each patch, [0, 1]
-  std::vector<std::uint16_t> seen;  ///< points of the patch that lie where the other saw something
+  std::vector<float> misfit;            ///< mean over the points of each patch, [0, 1]
+  std::vector<std::uint16_t> observed;  ///< points of the patch that lie where the other saw something
   double score = 0.0;
   double rmse = 0.0;
-  /// Share of inliers among the source points above the floor that lie in the area seen by the target's
+  /// Share of inliers among the source points above the floor that lie in the area observed by the target's
   /// robot. Floors agree at any pose.
   double agreement = 0.0;
   std::size_t inliers = 0;

@@ -7,7 +7,7 @@ namespace {
 
 /// m; a robot that passes a surface sees it most from within about this distance: farther off its rays lie
 /// too wide apart to hit each voxel.
-constexpr double kSeenFrom = 6.0;
+constexpr double kObservingRange = 6.0;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ DriftModel::DriftModel(const MapDrift& drift, const Eigen::Matrix3d& R_level_clo
 void DriftModel::shares_beyond(const Eigen::Vector2d& center, std::vector<double>& shares) const {
   double all = 0.0;
   const auto weight = [&](std::size_t stop) {
-    return 1.0 / (1.0 + (center - stops_[stop]).squaredNorm() / (kSeenFrom * kSeenFrom));
+    return 1.0 / (1.0 + (center - stops_[stop]).squaredNorm() / (kObservingRange * kObservingRange));
   };
   shares.assign(bends_.size(), 0.0);
   double behind = 0.0;

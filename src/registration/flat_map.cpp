@@ -86,14 +86,14 @@ FlatMap flat_map(const std::vector<Eigen::Vector3f>& points, const FlatConfig& c
   map.size = ((bounds.high - bounds.low) / config.cell_m).array().floor().cast<int>() + 5;
   const std::size_t plane = static_cast<std::size_t>(map.size.x()) * static_cast<std::size_t>(map.size.y());
   map.layers.assign(plane * kLayers, 0);
-  map.seen_size = (map.size.array() + kSeenCells - 1) / kSeenCells;
-  map.seen.assign(static_cast<std::size_t>(map.seen_size.x()) * static_cast<std::size_t>(map.seen_size.y()),
-                  0);
+  map.observed_size = (map.size.array() + kObservedCells - 1) / kObservedCells;
+  map.observed.assign(
+      static_cast<std::size_t>(map.observed_size.x()) * static_cast<std::size_t>(map.observed_size.y()), 0);
   std::vector<std::uint16_t> own(plane, 0);  // bit per layer
   std::vector<FlatCell> all;
   for (const auto& p : points) {
     const Eigen::Vector2i c = ((p.head<2>() - map.origin) / config.cell_m).cast<int>();
-    map.seen[at(map.seen_size, c.x() / kSeenCells, c.y() / kSeenCells)] = 1;
+    map.observed[at(map.observed_size, c.x() / kObservedCells, c.y() / kObservedCells)] = 1;
     const float height = p.z() - map.floor.at(p.head<2>()) - config.min_height_m;
     if (!(height >= 0.0f)) continue;
     const auto layer_at = [&](float h) {

@@ -15,7 +15,7 @@ struct Floor {
   float cell_m = 2.0f;
   Eigen::Vector2f origin = Eigen::Vector2f::Zero();
   Eigen::Vector2i size = Eigen::Vector2i::Zero();
-  std::vector<float> heights;  ///< NaN where nothing was seen
+  std::vector<float> heights;  ///< NaN where nothing was observed
   /// NaN where it is unknown.
   float at(const Eigen::Vector2f& p) const;
 };
@@ -35,14 +35,14 @@ struct FlatMap {
   Eigen::Vector2i size = Eigen::Vector2i::Zero();
   /// Layer by layer, row by row: 2 where occupied, 1 next to that.
   std::vector<std::uint8_t> layers;
-  /// Grid of kSeenCells x kSeenCells cells: 1 where there is any point, floor or not.
-  Eigen::Vector2i seen_size = Eigen::Vector2i::Zero();
-  std::vector<std::uint8_t> seen;
+  /// Grid of kObservedCells x kObservedCells cells: 1 where there is any point, floor or not.
+  Eigen::Vector2i observed_size = Eigen::Vector2i::Zero();
+  std::vector<std::uint8_t> observed;
   std::vector<FlatCell> cells;  ///< picked
   Floor floor;
 };
 
-inline constexpr int kSeenCells = 4;
+inline constexpr int kObservedCells = 4;
 
 /// `points` are levelled (z against gravity).
 FlatMap flat_map(const std::vector<Eigen::Vector3f>& points, const FlatConfig& config);

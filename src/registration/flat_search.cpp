@@ -71,9 +71,9 @@ class Search {
         source_(source),
         window_(window),
         half_(static_cast<int>(std::ceil(window.radius_m / target.cell_m))),
-        seen_half_(half_ / kSeenCells + 2),
+        observed_half_(half_ / kObservedCells + 2),
         sums_(half_),
-        seen_(seen_half_) {
+        observed_(observed_half_) {
     yaw_half_ = std::min(window.yaw_half, std::numbers::pi_v<float>);
     sectors_.resize(static_cast<std::size_t>(std::ceil(2.0f * yaw_half_ / kSectorRad)) + 1);
     const std::size_t shifts = static_cast<std::size_t>(sums_.width) * static_cast<std::size_t>(sums_.width);
@@ -98,7 +98,7 @@ class Search {
  private:
   void correlate(float yaw) {
     sums_.clear();
-    seen_.clear();
+    observed_.clear();
     const float c = std::cos(yaw), s = std::sin(yaw);
     const auto plane =
         static_cast<std::ptrdiff_t>(target_.size.x()) * static_cast<std::ptrdiff_t>(target_.size.y());
@@ -108,12 +108,12 @@ class Search {
       sums_.add(target_.layers.data() + cell.layer * plane, target_.size,
                 cell_of(p.x(), target_.origin.x(), target_.cell_m),
                 cell_of(p.y(), target_.origin.y(), target_.cell_m));
-      const float coarse = target_.cell_m * static_cast<float>(kSeenCells);
-      seen_.add(target_.seen.data(), target_.seen_size, cell_of(p.x(), target_.origin.x(), coarse),
-                cell_of(p.y(), target_.origin.y(), coarse));
+      const float coarse = target_.cell_m * static_cast<float>(kObservedCells);
+      observed_.add(target_.observed.data(), target_.observed_size,
+                    cell_of(p.x(), target_.origin.x(), coarse), cell_of(p.y(), target_.origin.y(), coarse));
     }
     sums_.flush();
-    seen_.flush();
+    observed_.flush();
   }
 
   void keep(Sector& sector, float yaw) {
@@ -121,11 +121,14 @@ class Search {
     const float least = static_cast<float>(window_.min_overlap) * all;
     const int reach2 = half_ * half_;
     for (int y = -half_; y <= half_; ++y) {
-      const int sy = (y + half_ * kSeenCells + kSeenCells / 2) / kSeenCells - half_ + seen_half_;
+      const int sy =
+          (y + half_ * kObservedCells + kObservedCells / 2) / kObservedCells - half_ + observed_half_;
       for (int x = -half_; x <= half_; ++x) {
         if (x * x + y * y > reach2) continue;
-        const int sx = (x + half_ * kSeenCells + kSeenCells / 2) / kSeenCells - half_ + seen_half_;
-        const auto overlap = static_cast<float>(seen_.words[static_cast<std::size_t>(sy * seen_.width + sx)]);
+        const int sx =
+            (x + half_ * kObservedCells + kObservedCells / 2) / kObservedCells - half_ + observed_half_;
+        const auto overlap =
+            static_cast<float>(observed_.words[static_cast<std::size_t>(sy * observed_.width + sx)]);
         if (overlap < least) continue;
         const auto at = static_cast<std::size_t>((y + half_) * sums_.width + x + half_);
         const float agreement = 0.5f * static_cast<float>(sums_.words[at]) / overlap;
@@ -233,9 +236,9 @@ class Search {
   const FlatMap& target_;
   const FlatMap& source_;
   const FlatWindow& window_;
-  int half_, seen_half_;
+  int half_, observed_half_;
   float yaw_half_ = 0.0f;
-  Sums sums_, seen_;
+  Sums sums_, observed_;
   std::vector<Sector> sectors_;
 };
 

@@ -24,7 +24,7 @@ constexpr std::array<std::size_t, 9> kSizes{0, 1, 1, 2, 2, 4, 4, 4, 8};
 
 constexpr std::uint32_t kMaxFields = 256;
 constexpr double kMaxScanSeconds = 10.0;  // point times further from the stamp are not relative to it
-constexpr double kLeastSweep = 5e3;       // integer units of point time, were they microseconds
+constexpr double kMinSweep = 5e3;         // integer units of point time, were they microseconds
 constexpr double kShortestInNanoseconds = 1e6;
 constexpr double kNanosecondsBeyond = 1e12;  // a float time beyond this is in ns: 1e12 s is no date
 
@@ -140,7 +140,7 @@ void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, 
       !field.is_float() || std::max(std::abs(least), std::abs(most)) > kNanosecondsBeyond;
   // A sweep takes 5 ms to 1 s, which is less than 1 ms if microseconds are taken for nanoseconds.
   const double span = most - least;
-  out.times_in_microseconds = !field.is_float() && span >= kLeastSweep && span < kShortestInNanoseconds;
+  out.times_in_microseconds = !field.is_float() && span >= kMinSweep && span < kShortestInNanoseconds;
   const double unit = out.times_in_microseconds ? 1e-6 : nanoseconds ? 1e-9 : 1.0;
   double zero = 0.0;
   if (times.size() > 1 && most == least) return;  // a driver that leaves the field at a constant

@@ -88,11 +88,12 @@ void add_fleet(eval::HtmlPage& page, const json& fleet) {
   page.table(rows);
 }
 
-/// The same nodes and encounters, registered and placed by the paper's methods and by ours.
+/// The same nodes and loop candidates, registered and placed by the paper's methods and by ours.
 void add_modes(eval::HtmlPage& page, const json& modes) {
   page.heading("What registration and placement are each worth");
   page.paragraph(
-      "The same encounters and the same clouds: registered by correlation, or by the paper's FPFH, RANSAC "
+      "The same loop candidates and the same clouds: registered by correlation, or by the paper's FPFH, "
+      "RANSAC "
       "and ICP; "
       "placed by the fleet's graph, or by the paper's one rigid transform a pair of robots.");
   const std::vector<std::pair<const char*, const char*>> columns{
@@ -125,11 +126,11 @@ void add_modes(eval::HtmlPage& page, const json& modes) {
   for (const json& mode : shown)
     rows.back().push_back(shares(mode.value("map", json::object()).value("overlap", json::object()), "f1"));
   page.table(rows);
-  const json judgements = modes.value("fleet", json::object()).value("judgements", json::object());
-  if (judgements.empty()) return;
+  const json statuses = modes.value("fleet", json::object()).value("statuses", json::object());
+  if (statuses.empty()) return;
   eval::Table verdicts{{"the graph's verdict", "alignments", "of them wrong"}};
-  for (const auto& [judgement, numbers] : judgements.items())
-    verdicts.push_back({judgement, text(numbers, "count"), text(numbers, "wrong")});
+  for (const auto& [status, numbers] : statuses.items())
+    verdicts.push_back({status, text(numbers, "count"), text(numbers, "wrong")});
   page.table(verdicts);
 }
 

@@ -90,7 +90,7 @@ json joined_json(const std::vector<eval::JoinedPair>& pairs) {
   for (const eval::JoinedPair& pair : pairs) {
     result.push_back({{"a", pair.a.str()},
                       {"b", pair.b.str()},
-                      {"encounters", pair.encounters},
+                      {"node_pairs", pair.pairs},
                       {"translation", pair.translation},
                       {"rotation_deg", kDegrees * pair.rotation},
                       {"right", pair.right}});

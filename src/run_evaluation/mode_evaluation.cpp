@@ -85,9 +85,9 @@ std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const 
   return trajectory;
 }
 
-/// How many alignments each judgement met, and how many of them were wrong.
-json judgements_json(const graph::Placement& placement, const std::vector<graph::Alignment>& alignments,
-                     const eval::TruePoses& nodes) {
+/// How many alignments each status has, and how many of them were wrong.
+json statuses_json(const graph::Placement& placement, const std::vector<graph::Alignment>& alignments,
+                   const eval::TruePoses& nodes) {
   std::set<std::pair<NodeId, NodeId>> wrong;
   for (const eval::JudgedAlignment& one : eval::judge(alignments, placement, nodes)) {
     if (!one.right) wrong.emplace(one.i, one.j);
@@ -174,7 +174,7 @@ json modes_json(RunFolder& run, HeldFleet& held, const eval::TruePoses& nodes, M
     entry["placement"] = graph::to_string(mode.placement);
     if (again != nullptr) entry["registrations"] = replay_json(*again);
     if (graph) {
-      entry["judgements"] = judgements_json(held.placement, held.alignments, nodes);
+      entry["statuses"] = statuses_json(held.placement, held.alignments, nodes);
       entry["calibration"] = consistency_json(placement_errors(held.placement, nodes));
     }
     if (again != nullptr) std::swap(held.alignments, again->alignments);

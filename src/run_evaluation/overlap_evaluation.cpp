@@ -2,7 +2,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/eval/metrics.hpp"
-#include "fleetmap/eval/places_seen.hpp"
+#include "fleetmap/eval/observed_places.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {
@@ -37,7 +37,7 @@ class OverlapEvaluation::TrueSubmaps {
   }
 
   std::size_t robots() const { return robots_.size(); }
-  const eval::PlacesSeen& seen() const { return seen_; }
+  const eval::ObservedPlaces& seen() const { return seen_; }
 
   /// The part of the submap that two robots observed.
   Result<cloud::PointCloud> shared_part(const NodeId& id) const {
@@ -71,7 +71,7 @@ class OverlapEvaluation::TrueSubmaps {
   const store::MergeConfig& merge_;
   const eval::TruePoses& truth_;
   std::map<AgentId, std::size_t> robots_;
-  eval::PlacesSeen seen_{kPlace, kMinReturns};
+  eval::ObservedPlaces seen_{kPlace, kMinReturns};
 };
 
 OverlapEvaluation::OverlapEvaluation(store::Store& store, const store::MergeConfig& merge,

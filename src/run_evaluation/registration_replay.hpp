@@ -13,7 +13,7 @@
 
 namespace fleetmap::run_evaluation {
 
-/// The result of registering a run's encounters by one method.
+/// The result of registering a run's loop candidates by one method.
 struct ReplayedRegistrations {
   std::vector<graph::Alignment> alignments;  ///< the accepted and ambiguous ones, named as agents name theirs
   std::size_t accepted = 0, ambiguous = 0, rejected = 0;

@@ -149,7 +149,7 @@ double World::clearance(const Eigen::Vector2d& p, double limit) const {
   const Eigen::Vector2i home =
       at.cast<int>().cwiseMin(size_ - Eigen::Vector2i::Ones()).cwiseMax(Eigen::Vector2i::Zero());
   double nearest = limit / config_.cell;
-  const auto look_at = [&](int column, int row) {
+  const auto visit = [&](int column, int row) {
     if (column < 0 || row < 0 || column >= size_.x() || row >= size_.y()) return;
     if (blocked_[static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.x()) +
                  static_cast<std::size_t>(column)] == 0)
@@ -164,12 +164,12 @@ double World::clearance(const Eigen::Vector2d& p, double limit) const {
     const Eigen::Vector2i low = home - Eigen::Vector2i::Constant(ring);
     const Eigen::Vector2i high = home + Eigen::Vector2i::Constant(ring);
     for (int column = low.x(); column <= high.x(); ++column) {
-      look_at(column, low.y());
-      if (ring > 0) look_at(column, high.y());
+      visit(column, low.y());
+      if (ring > 0) visit(column, high.y());
     }
     for (int row = low.y() + 1; row < high.y(); ++row) {
-      look_at(low.x(), row);
-      look_at(high.x(), row);
+      visit(low.x(), row);
+      visit(high.x(), row);
     }
   }
   return nearest * config_.cell;

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "registration/encounter_worlds.hpp"
+#include "registration/pair_worlds.hpp"
 
 namespace fleetmap::registration::testing {
 

@@ -18,8 +18,8 @@
 #include "fleetmap/cloud/file_io.hpp"
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/registration/spherize.hpp"
-#include "registration/encounter_worlds.hpp"
 #include "registration/made_world.hpp"
+#include "registration/pair_worlds.hpp"
 #include "support/process.hpp"
 #include "support/shared_data.hpp"
 
@@ -50,7 +50,7 @@ Site site_of(const std::string& name, unsigned seed) {
 }
 
 /// A place on a lane, where a robot stands.
-struct Spot {
+struct Station {
   std::size_t lane = 0;
   double along = 0.0, aside = 0.0;  ///< m, from the lane's start; to its left
 
@@ -61,22 +61,23 @@ struct Spot {
   }
 };
 
-Spot drawn_spot(const Site& site, std::mt19937_64& random) {
+Station drawn_station(const Site& site, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Spot spot;
-  spot.lane = random() % site.lanes.size();
-  spot.along = unit(random) * (site.lanes[spot.lane].to - site.lanes[spot.lane].from).norm();
-  spot.aside = unit(random) - 0.5;
-  return spot;
+  Station station;
+  station.lane = random() % site.lanes.size();
+  station.along = unit(random) * (site.lanes[station.lane].to - site.lanes[station.lane].from).norm();
+  station.aside = unit(random) - 0.5;
+  return station;
 }
 
-/// The cloud that a robot sends over the radio after it drove past `spot` and stopped there in any heading.
-MappedNode node_at(const Site& site, const Spot& spot, std::mt19937_64& random) {
+/// The cloud that a robot sends over the radio after it drove past `station` and stopped there in any
+/// heading.
+MappedNode node_at(const Site& site, const Station& station, std::mt19937_64& random) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   Gathering how;
   how.drift_m = 0.006, how.drift_rad = 0.0004;
   const bool backwards = random() % 2 == 0;
-  MappedNode node = map_node(site, site.lanes[spot.lane], spot.along, spot.aside, backwards, how,
+  MappedNode node = map_node(site, site.lanes[station.lane], station.along, station.aside, backwards, how,
                              static_cast<unsigned>(random()));
   const double yaw = std::uniform_real_distribution<double>(0.0, kTurn)(random);
   const Pose T_node_turned = make_pose(rotation_from_rpy(0.0, 0.0, yaw), Eigen::Vector3d::Zero());
@@ -89,7 +90,7 @@ MappedNode node_at(const Site& site, const Spot& spot, std::mt19937_64& random) 
 
 Pair drawn_pair(const Site& site, std::mt19937_64& random, const std::filesystem::path& stem) {
   for (;;) {
-    const Spot a = drawn_spot(site, random), b = drawn_spot(site, random);
+    const Station a = drawn_station(site, random), b = drawn_station(site, random);
     const double apart = (a.in(site)-b.in(site)).norm();
     if (apart < kNearest || apart > kFarthest) continue;
     const MappedNode target = node_at(site, a, random), source = node_at(site, b, random);

@@ -1,6 +1,6 @@
-// Registration of encounters on generated sites against what PCL and, where it is installed (libopen3d-dev),
+// Registration of pairs on generated sites against what PCL and, where it is installed (libopen3d-dev),
 // Open3D have for the same step, on the same clouds; CPU time of all threads. `global`: nothing is known;
-// `start`: the pose is known to 0.3 m and 1.5 deg. Counters: share of encounters within 0.5 m and 2 deg of
+// `start`: the pose is known to 0.3 m and 1.5 deg. Counters: share of pairs within 0.5 m and 2 deg of
 // the truth, and the median error of those.
 #include <benchmark/benchmark.h>
 
@@ -10,8 +10,8 @@
 #include "bench/library_registration.hpp"
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
-#include "registration/encounter_worlds.hpp"
 #include "registration/made_world.hpp"
+#include "registration/pair_worlds.hpp"
 
 namespace {
 
@@ -19,7 +19,7 @@ using namespace fleetmap;
 using namespace fleetmap::registration;
 using namespace fleetmap::registration::testing;
 
-struct Encounter {
+struct ClosePair {
   cloud::PointCloud target, source;
   Pose truth;
   Prior prior;
@@ -38,7 +38,7 @@ Prior start_near(const Pose& truth, const Eigen::Vector3d& up_target, unsigned s
           kStartRotation,        kStartTranslation, up_target};
 }
 
-std::vector<Encounter> encounters_on(const Site& site, unsigned seed) {
+std::vector<ClosePair> close_pairs_on(const Site& site, unsigned seed) {
   Gathering how;
   how.scan_spacing_m = 2.0;
   std::vector<MappedNode> nodes;
@@ -50,28 +50,28 @@ std::vector<Encounter> encounters_on(const Site& site, unsigned seed) {
     const Eigen::Vector3d up = nodes.back().T_enu_node.linear().transpose() * Eigen::Vector3d::UnitZ();
     nodes.back().map = spherize(nodes.back().map, up.cast<float>(), {}).value().decoded;
   }
-  std::vector<Encounter> encounters;
+  std::vector<ClosePair> pairs;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-      encounters.push_back({nodes[i].map,
-                            nodes[j].map,
-                            nodes[i].T_enu_node.inverse() * nodes[j].T_enu_node,
-                            drawn_prior(nodes[i].T_enu_node, nodes[j].T_enu_node, 5.0, 0.05, 0.02,
-                                        seed + static_cast<unsigned>(10 * i + j)),
-                            {}});
-      Encounter& made = encounters.back();
+      pairs.push_back({nodes[i].map,
+                       nodes[j].map,
+                       nodes[i].T_enu_node.inverse() * nodes[j].T_enu_node,
+                       drawn_prior(nodes[i].T_enu_node, nodes[j].T_enu_node, 5.0, 0.05, 0.02,
+                                   seed + static_cast<unsigned>(10 * i + j)),
+                       {}});
+      ClosePair& made = pairs.back();
       made.start = start_near(made.truth, nodes[i].T_enu_node.linear().transpose() * Eigen::Vector3d::UnitZ(),
                               seed + static_cast<unsigned>(10 * i + j));
     }
   }
-  return encounters;
+  return pairs;
 }
 
 /// Six on a solar farm, six among trees.
-const std::vector<Encounter>& encounters() {
-  static const std::vector<Encounter> made = [] {
-    std::vector<Encounter> all = encounters_on(farm_site("farm", {}), 1);
-    for (Encounter& encounter : encounters_on(wild_site("wild", 2), 100)) all.push_back(std::move(encounter));
+const std::vector<ClosePair>& pairs() {
+  static const std::vector<ClosePair> made = [] {
+    std::vector<ClosePair> all = close_pairs_on(farm_site("farm", {}), 1);
+    for (ClosePair& pair : close_pairs_on(wild_site("wild", 2), 100)) all.push_back(std::move(pair));
     return all;
   }();
   return made;
@@ -79,12 +79,12 @@ const std::vector<Encounter>& encounters() {
 
 template <class Register>
 void run(benchmark::State& state, Register register_one) {
-  encounters();
+  pairs();
   std::vector<double> errors;
   std::size_t tried = 0;
   for (auto _ : state) {
-    for (const Encounter& encounter : encounters()) {
-      const PoseError error = error_between(encounter.truth, register_one(encounter));
+    for (const ClosePair& pair : pairs()) {
+      const PoseError error = error_between(pair.truth, register_one(pair));
       ++tried;
       if (error.translation_m < 0.5 && error.rotation_rad < 2.0 * kDegree)
         errors.push_back(error.translation_m);
@@ -99,14 +99,14 @@ void run(benchmark::State& state, Register register_one) {
 
 void with_prior(benchmark::State& state) {
   run(state,
-      [](const Encounter& e) { return register_clouds(e.target, e.source, {}, e.prior).T_target_source; });
+      [](const ClosePair& e) { return register_clouds(e.target, e.source, {}, e.prior).T_target_source; });
 }
 void without_prior(benchmark::State& state) {
-  run(state, [](const Encounter& e) { return register_clouds(e.target, e.source, {}).T_target_source; });
+  run(state, [](const ClosePair& e) { return register_clouds(e.target, e.source, {}).T_target_source; });
 }
 void preparation(benchmark::State& state) {
   const RegistrationConfig config;
-  run(state, [&](const Encounter& e) {
+  run(state, [&](const ClosePair& e) {
     benchmark::DoNotOptimize(PreparedCloud(e.target, Eigen::Vector3d::UnitZ(), config).size());
     return Pose::Identity();
   });
@@ -114,18 +114,18 @@ void preparation(benchmark::State& state) {
 
 void from_start(benchmark::State& state) {
   run(state,
-      [](const Encounter& e) { return register_clouds(e.target, e.source, {}, e.start).T_target_source; });
+      [](const ClosePair& e) { return register_clouds(e.target, e.source, {}, e.start).T_target_source; });
 }
 void start_itself(benchmark::State& state) {
-  run(state, [](const Encounter& e) { return e.start.T_target_source; });
+  run(state, [](const ClosePair& e) { return e.start.T_target_source; });
 }
 template <Pose (*method)(const cloud::PointCloud&, const cloud::PointCloud&)>
 void library_global(benchmark::State& state) {
-  run(state, [](const Encounter& e) { return method(e.target, e.source); });
+  run(state, [](const ClosePair& e) { return method(e.target, e.source); });
 }
 template <Pose (*method)(const cloud::PointCloud&, const cloud::PointCloud&, const Pose&)>
 void library_start(benchmark::State& state) {
-  run(state, [](const Encounter& e) { return method(e.target, e.source, e.start.T_target_source); });
+  run(state, [](const ClosePair& e) { return method(e.target, e.source, e.start.T_target_source); });
 }
 
 void spherization(benchmark::State& state) {

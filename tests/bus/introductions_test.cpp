@@ -36,7 +36,7 @@ std::vector<int> numbers(const std::vector<Introduction>& introductions) {
 
 TEST(Introductions, ToAnUnknownRobotAreOfAllThatWereHeardLately) {
   const Introductions introductions;
-  EXPECT_THAT(numbers(introductions.choose({robot(1, seconds(3)), robot(2, seconds(11)), robot(3)}, kNobody,
+  EXPECT_THAT(numbers(introductions.select({robot(1, seconds(3)), robot(2, seconds(11)), robot(3)}, kNobody,
                                            std::nullopt)),
               ElementsAre(3, 1));
 }
@@ -46,7 +46,7 @@ TEST(Introductions, LeaveOutTheReceiverAndWhomItSaidToKnow) {
   introductions.note_known(prefix(1), {robot(3)});
   introductions.note_known(prefix(1), {robot(4)});
   introductions.note_known(prefix(2), {robot(5)});
-  EXPECT_THAT(numbers(introductions.choose({robot(1), robot(2), robot(3), robot(4), robot(5)}, prefix(1),
+  EXPECT_THAT(numbers(introductions.select({robot(1), robot(2), robot(3), robot(4), robot(5)}, prefix(1),
                                            seconds(2))),
               ElementsAre(2, 5));
 }
@@ -54,16 +54,16 @@ TEST(Introductions, LeaveOutTheReceiverAndWhomItSaidToKnow) {
 TEST(Introductions, OfTwoThatJoinedLongAgoAreNotMade) {
   const Introductions introductions;
   const std::vector<Introduction> known{robot(1, seconds(1), seconds(31)), robot(2, seconds(1), seconds(29))};
-  EXPECT_THAT(numbers(introductions.choose(known, prefix(9), seconds(31))), ElementsAre(2));
-  EXPECT_THAT(numbers(introductions.choose(known, prefix(9), seconds(29))), ElementsAre(1, 2));
-  EXPECT_THAT(numbers(introductions.choose(known, kNobody, std::nullopt)), ElementsAre(1, 2));
+  EXPECT_THAT(numbers(introductions.select(known, prefix(9), seconds(31))), ElementsAre(2));
+  EXPECT_THAT(numbers(introductions.select(known, prefix(9), seconds(29))), ElementsAre(1, 2));
+  EXPECT_THAT(numbers(introductions.select(known, kNobody, std::nullopt)), ElementsAre(1, 2));
 }
 
 TEST(Introductions, FitIntoAHello) {
   const Introductions introductions;
   std::vector<Introduction> known;
   for (std::uint8_t i = 1; i <= 50; ++i) known.push_back(robot(i, milliseconds(100 * (51 - i))));
-  const auto chosen = introductions.choose(known, kNobody, std::nullopt);
+  const auto chosen = introductions.select(known, kNobody, std::nullopt);
   ASSERT_EQ(chosen.size(), kMaxIntroductions);
   EXPECT_EQ(chosen.front().prefix.back(), 50) << "the one heard last";
   Hello hello;

@@ -22,13 +22,13 @@ class WatchedThread : public ::testing::Test {
   void pass(Duration time) {
     for (const SteadyTime until = now_ + time; now_ < until;) {
       now_ += std::min<Duration>(500ms, until - now_);
-      look();
+      check();
     }
   }
   /// Lets time pass in which nobody looks.
   void skip(Duration time) { now_ += time; }
-  void look() {
-    for (const StallNews& stall : detector_.look(now_, activity_)) news_.push_back(stall);
+  void check() {
+    for (const StallNews& stall : detector_.check(now_, activity_)) news_.push_back(stall);
     activity_.ended.clear();
   }
 
@@ -110,7 +110,7 @@ TEST_F(WatchedThread, AStallThatEndsBetweenTwoLooksIsReportedAsAnError) {
   pass(1800ms);
   skip(300ms);
   end();
-  look();
+  check();
   ASSERT_EQ(news_.size(), 1u);
   EXPECT_EQ(news_[0].text, "callback thread was stuck for 2.1 s in timer status");
   EXPECT_FALSE(news_[0].goes_on);

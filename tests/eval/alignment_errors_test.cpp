@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "fleetmap/eval/places_seen.hpp"
+#include "fleetmap/eval/observed_places.hpp"
 
 namespace fleetmap::eval {
 namespace {
@@ -110,7 +110,7 @@ TEST(AlignmentErrors, RobotsThatAreJoinedARowOffAreAWrongMerge) {
   auto pairs = joined_pairs(fleet.alignments, fleet.placement, fleet.truth);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_TRUE(pairs[0].right);
-  EXPECT_EQ(pairs[0].encounters, 3u);
+  EXPECT_EQ(pairs[0].pairs, 3u);
   for (std::uint32_t k = 0; k < 3; ++k) {
     Pose& T = fleet.placement.T_enu_node[node("r2", k)];
     T = at(0.0, 7.0) * T;
@@ -147,13 +147,13 @@ TEST(OdometryErrors, AreThoseOfPiecesOfOneFrame) {
   EXPECT_TRUE(odometry_errors(nodes, truth).empty());
 }
 
-TEST(PlacesSeen, AreThoseThatEnoughRobotsSawOftenEnough) {
+TEST(ObservedPlaces, AreThoseThatEnoughRobotsSawOftenEnough) {
   const auto points = [](float x, int count) {
     cloud::PointCloud cloud;
     for (int k = 0; k < count; ++k) cloud.points.emplace_back(x + 0.1f * static_cast<float>(k), 0.5f, -0.5f);
     return cloud;
   };
-  PlacesSeen seen(1.0, 3);
+  ObservedPlaces seen(1.0, 3);
   seen.add(0, points(0.1f, 5));
   seen.add(0, points(-2.9f, 5));
   seen.add(1, points(0.1f, 2));

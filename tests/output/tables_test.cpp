@@ -138,7 +138,7 @@ TEST_F(Tables, AnAlignmentHasALineForEachModeAndTheUsedOneIsMarked) {
   EXPECT_EQ(rows[0].at("used"), "0");
   EXPECT_EQ(rows[1].at("mode"), "1");
   EXPECT_EQ(rows[1].at("used"), "1");
-  EXPECT_EQ(rows[1].at("judgement"), "used");
+  EXPECT_EQ(rows[1].at("status"), "used");
   EXPECT_EQ(rows[1].at("i"), to_string(a));
   EXPECT_EQ(rows[1].at("j"), to_string(b));
   EXPECT_NEAR(number(rows[1], "x"), 7.5, 1e-6);
@@ -149,7 +149,7 @@ TEST_F(Tables, AnAlignmentHasALineForEachModeAndTheUsedOneIsMarked) {
     EXPECT_NEAR(number(rows[1], "var_" + std::to_string(k)), k + 1.0, 0.02 * (k + 1)) << k;
   EXPECT_EQ(rows[2].at("computed_by"), "r2");
   EXPECT_EQ(rows[2].at("used"), "0");
-  EXPECT_EQ(rows[2].at("judgement"), "against GPS");
+  EXPECT_EQ(rows[2].at("status"), "against GPS");
 }
 
 TEST_F(Tables, OfThePapersPlacementOnlyUsedOnesAreKnown) {
@@ -162,9 +162,9 @@ TEST_F(Tables, OfThePapersPlacementOnlyUsedOnesAreKnown) {
   const std::vector<Row> rows = alignments(placement);
   ASSERT_THAT(rows, SizeIs(2));
   EXPECT_EQ(rows[0].at("used"), "1");
-  EXPECT_EQ(rows[0].at("judgement"), "used");
+  EXPECT_EQ(rows[0].at("status"), "used");
   EXPECT_EQ(rows[1].at("used"), "0");
-  EXPECT_EQ(rows[1].at("judgement"), "");
+  EXPECT_EQ(rows[1].at("status"), "");
 }
 
 TEST_F(Tables, OfAnEmptyStoreHaveTheirNamesAlone) {

@@ -62,7 +62,7 @@ TEST(Descriptor, FitsTheNodesTwoHundredBytesAndComesBackAsItWas) {
   ASSERT_TRUE(back);
   EXPECT_EQ(*back, descriptor);
   EXPECT_GT(descriptor.occupied(), 30);
-  EXPECT_GT(descriptor.seen(), descriptor.occupied());
+  EXPECT_GT(descriptor.observed(), descriptor.occupied());
 }
 
 TEST(Descriptor, RefusesBytesOfAnotherLength) {
@@ -137,7 +137,7 @@ TEST(Descriptor, NothingSeenResemblesNothing) {
     for (float y = -36; y < 36; y += 0.5f) flat.emplace_back(x, y, 0.0f);
   }
   const Descriptor bare = Descriptor::of(flat, Eigen::Vector3d::UnitZ());
-  EXPECT_EQ(bare.seen(), Descriptor::kCells * Descriptor::kCells);
+  EXPECT_EQ(bare.observed(), Descriptor::kCells * Descriptor::kCells);
   EXPECT_EQ(compare(bare, bare).similarity, 0.0);
 }
 

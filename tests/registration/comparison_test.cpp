@@ -36,10 +36,10 @@ struct TwoScans {
   }
 };
 
-Fit fit_of(std::vector<float> misfit, std::vector<std::uint16_t> seen) {
+Fit fit_of(std::vector<float> misfit, std::vector<std::uint16_t> observed) {
   Fit fit;
   fit.misfit = std::move(misfit);
-  fit.seen = std::move(seen);
+  fit.observed = std::move(observed);
   return fit;
 }
 
@@ -72,13 +72,13 @@ TEST(Comparison, GoesBothWays) {
   EXPECT_NEAR(forth.score, back.score, 1e-4);
   const std::size_t patches = scans.source.data()->fine.patch_count;
   ASSERT_EQ(forth.misfit.size(), patches + scans.target.data()->fine.patch_count);
-  std::size_t seen = 0;
-  for (std::size_t k = 0; k < forth.seen.size(); ++k) {
+  std::size_t observed = 0;
+  for (std::size_t k = 0; k < forth.observed.size(); ++k) {
     const std::size_t mirrored = k < patches ? k + patches : k - patches;
     EXPECT_NEAR(forth.misfit[k], back.misfit[mirrored], 0.02f);
-    if (k < patches) seen += forth.seen[k];
+    if (k < patches) observed += forth.observed[k];
   }
-  EXPECT_EQ(seen, forth.overlapping) << "those of the source come first";
+  EXPECT_EQ(observed, forth.overlapping) << "those of the source come first";
 }
 
 /// Floors agree wherever they are laid: what stands on them decides.
@@ -156,7 +156,7 @@ TEST(Evidence, GrowsWithThePatchesThatAgree) {
 TEST(Evidence, APatchSeenAtOnePoseOnlyIsComparedWithChanceOrLeftOut) {
   const Fit a = fit_of({0.1f, 0.2f, 0.0f}, {10, 10, 2}), b = fit_of({0.5f, 0.0f, 0.9f}, {10, 2, 2});
   EXPECT_NEAR(evidence(a, b, std::nullopt), 0.5, 1e-6) << "the first patch alone";
-  // The second one is 0.2 against 0.8; the third was hardly seen at all.
+  // The second one is 0.2 against 0.8; the third was hardly observed at all.
   EXPECT_NEAR(evidence(a, b, 0.8), 0.5 * 1.0 * 1.0 / (0.16 + 0.36), 1e-6);
   EXPECT_NEAR(evidence(a, b, 0.2), 0.5, 1e-6) << "no better than chance";
 }

@@ -31,8 +31,8 @@ int layer_at(const FlatMap& map, const Vector2f& p, int layer, int dx = 0, int d
 }
 
 bool seen_at(const FlatMap& map, const Vector2f& p) {
-  const Eigen::Vector2i c = ((p - map.origin) / (map.cell_m * kSeenCells)).cast<int>();
-  return map.seen[static_cast<std::size_t>(c.y() * map.seen_size.x() + c.x())] != 0;
+  const Eigen::Vector2i c = ((p - map.origin) / (map.cell_m * kObservedCells)).cast<int>();
+  return map.observed[static_cast<std::size_t>(c.y() * map.observed_size.x() + c.x())] != 0;
 }
 
 TEST(FlatMap, OfNothingIsEmpty) {
@@ -127,7 +127,7 @@ TEST(FlatMap, TheHeightOfTheWholeDoesNotMatter) {
   const FlatMap higher = flat_map(points, {});
   EXPECT_GT(map.cells.size(), 30u);
   EXPECT_EQ(map.layers, higher.layers);
-  EXPECT_EQ(map.seen, higher.seen);
+  EXPECT_EQ(map.observed, higher.observed);
   EXPECT_EQ(higher.floor.at({0, 0}), map.floor.at({0, 0}) + 8.0f);
 }
 

@@ -5,8 +5,8 @@
 
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
-#include "registration/encounter_worlds.hpp"
 #include "registration/made_world.hpp"
+#include "registration/pair_worlds.hpp"
 #include "support/measured.hpp"
 
 namespace fleetmap::registration {

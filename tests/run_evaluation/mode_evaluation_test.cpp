@@ -51,7 +51,7 @@ TEST_F(ModeEvaluation, TheRunsOwnCombinationIsCopied) {
   EXPECT_EQ(own["registration"], registration::to_string(registration::Method::correlation));
   EXPECT_EQ(own["placement"], graph::to_string(graph::PlacementMethod::graph));
   EXPECT_FALSE(own.contains("registrations")) << "nothing was registered again";
-  EXPECT_EQ(own["judgements"], json::object()) << "there is no alignment";
+  EXPECT_EQ(own["statuses"], json::object()) << "there is no alignment";
   EXPECT_EQ(own["calibration"]["count"], 2);
 }
 
@@ -65,7 +65,7 @@ TEST_F(ModeEvaluation, AnotherPlacementIsMeasuredAndTheRunsStays) {
   EXPECT_LT(paper["map"]["rmse"].get<double>(), 0.1) << "measured, and not the run's own 0.25";
   EXPECT_EQ(paper["alignments"]["held"], 0);
   EXPECT_FALSE(paper["alignments"].contains("attempts"));
-  EXPECT_FALSE(paper.contains("judgements")) << "the paper's placement judges none";
+  EXPECT_FALSE(paper.contains("statuses")) << "the paper's placement judges none";
   EXPECT_EQ(held_.placement.T_enu_node.at(b_).matrix(), before.T_enu_node.at(b_).matrix());
 }
 

@@ -56,7 +56,7 @@ class StallDetector {
   StallDetector(std::string thread, Duration limit);
   /// Reports a stall when it is noticed and when it is over, and those that follow within a minute as one
   /// line with their count.
-  std::vector<StallNews> look(SteadyTime now, const ThreadActivity& seen);
+  std::vector<StallNews> check(SteadyTime now, const ThreadActivity& seen);
   const StallCounters& counters() const { return counters_; }
 
  private:

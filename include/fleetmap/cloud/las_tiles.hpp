@@ -19,7 +19,7 @@ namespace fleetmap::cloud {
 /// until then it is FOLDER.part beside it.
 class LasTiles {
  public:
-  static constexpr std::size_t kMostTiles = 100'000;
+  static constexpr std::size_t kMaxTiles = 100'000;
 
   /// `edge` in m, at least 1. Fails where the folder is there and not empty, or FOLDER.part is there.
   static Result<LasTiles> create(const std::filesystem::path& folder, std::uint32_t edge,
@@ -27,7 +27,7 @@ class LasTiles {
   LasTiles(LasTiles&& other) noexcept;
   ~LasTiles();
 
-  /// As LasWriter::add(). Fails if there would be more than kMostTiles files.
+  /// As LasWriter::add(). Fails if there would be more than kMaxTiles files.
   Status add(std::span<const LasPoint> points);
   Status finish();
   std::uint64_t points() const;

@@ -60,9 +60,9 @@ std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, con
 /// Two robots that alignments connect.
 struct JoinedPair {
   AgentId a, b;
-  std::size_t encounters = 0;  ///< pairs of nodes that an alignment names
-  double translation = 0.0;    ///< m, median error of the placed relative pose over them
-  double rotation = 0.0;       ///< rad, likewise
+  std::size_t pairs = 0;     ///< pairs of nodes that an alignment names
+  double translation = 0.0;  ///< m, median error of the placed relative pose over them
+  double rotation = 0.0;     ///< rad, likewise
   bool right = false;
 };
 /// Whether the robots are joined rightly where they met: of every pair with an alignment in use, directly.

@@ -23,7 +23,7 @@ class Descriptor {
   static constexpr double kCell = 2.5;        ///< m
   static constexpr std::size_t kBytes = 196;  ///< of encode(): two bits a cell
 
-  /// Nothing seen.
+  /// Nothing observed.
   Descriptor() = default;
   /// From points in base_link and the direction against gravity in it (any length; z where it is not finite
   /// or zero). The points may be of any density, from one scan or many; those farther than 35 m along an axis
@@ -34,8 +34,8 @@ class Descriptor {
   /// Fails unless there are kBytes bytes with cells that encode() can have written.
   static Result<Descriptor> decode(ByteView bytes);
 
-  /// Cells seen, and of these those with anything on the ground.
-  int seen() const;
+  /// Cells observed, and of these those with anything on the ground.
+  int observed() const;
   int occupied() const;
   bool operator==(const Descriptor&) const = default;
 
@@ -43,19 +43,19 @@ class Descriptor {
   friend class DescriptorQuery;
   using Rows =
       std::array<std::uint32_t, kCells>;  ///< bit x of row y: the cell at ((x, y) - 14 + 1/2) * kCell
-  Rows seen_{};
+  Rows observed_{};
   Rows low_{};   ///< at least low
   Rows high_{};  ///< high
 };
 
 /// The best fit of two descriptors.
 struct DescriptorMatch {
-  /// [0, 1]: correlation of the heights over the cells that both have seen, less for a small overlap. In a
-  /// repeating scene (rows of panels) unrelated places are similar, so a match is only a candidate.
+  /// [0, 1]: correlation of the heights over the cells that both have observed, less for a small overlap. In
+  /// a repeating scene (rows of panels) unrelated places are similar, so a match is only a candidate.
   double similarity = 0.0;
-  double yaw = 0.0;                                       ///< rad, of b as seen from a, both level
+  double yaw = 0.0;                                       ///< rad, of b as observed from a, both level
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();  ///< m, of b in a's level frame
-  int overlap = 0;                                        ///< cells that both have seen
+  int overlap = 0;                                        ///< cells that both have observed
 };
 
 /// A descriptor made ready to be compared with many: turned by every yaw once (5 deg apart).
@@ -73,12 +73,12 @@ class DescriptorQuery {
   static constexpr int kWords = Descriptor::kCells / 2;
   using Words = std::array<std::uint64_t, kWords + 1>;
   struct Turned {
-    std::array<Words, 2> seen{}, low{}, high{};
+    std::array<Words, 2> observed{}, low{}, high{};
   };
   std::array<Turned, kYaws> turned_;
 };
 
-/// DescriptorMatch of b as seen from a; one comparison by itself.
+/// DescriptorMatch of b as observed from a; one comparison by itself.
 DescriptorMatch compare(const Descriptor& a, const Descriptor& b);
 
 /// T_a_b (base_link of b in that of a) of the match, from each one's direction against gravity; the heights

@@ -37,8 +37,8 @@ struct LoggedRegistration {
 inline constexpr const char* kRegistrationLogFile = "registrations.db";
 
 /// Every registration that an agent ran, with both clouds, in one SQLite file beside the store: the same
-/// encounters can be registered again by another method. A cloud that several registrations use is kept once.
-/// One thread at a time.
+/// loop candidates can be registered again by another method. A cloud that several registrations use is kept
+/// once. One thread at a time.
 class RegistrationLog {
  public:
   /// Opens the file to append to, and makes it where it is missing.

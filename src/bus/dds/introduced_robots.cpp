@@ -85,7 +85,7 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
     one.heard_ago = std::chrono::duration_cast<Duration>(now - *heard);
     one.joined_ago = std::chrono::duration_cast<Duration>(now - peer.joined);
   }
-  return radio_.introductions_.choose(std::move(known), recipient, joined_ago);
+  return radio_.introductions_.select(std::move(known), recipient, joined_ago);
 }
 
 void RadioLink::Hellos::on_introductions(const Prefix& sender, const Hello& hello) {

@@ -16,7 +16,7 @@ void Introductions::note_known(const Prefix& sender, const std::vector<Introduct
   }
 }
 
-std::vector<Introduction> Introductions::choose(std::vector<Introduction> known, const Prefix& recipient,
+std::vector<Introduction> Introductions::select(std::vector<Introduction> known, const Prefix& recipient,
                                                 std::optional<Duration> recipient_joined_ago) const {
   const auto there = knows_.find(recipient);
   std::erase_if(known, [&](const Introduction& one) {

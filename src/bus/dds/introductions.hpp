@@ -29,7 +29,7 @@ class Introductions {
   void note_known(const Prefix& sender, const std::vector<Introduction>& introduced);
   /// Those of `known` whom a Hello to `recipient` introduces: heard lately and perhaps not known there; those
   /// heard last first, at most kMaxIntroductions. `recipient_joined_ago` is empty if nobody is known there.
-  std::vector<Introduction> choose(std::vector<Introduction> known, const Prefix& recipient,
+  std::vector<Introduction> select(std::vector<Introduction> known, const Prefix& recipient,
                                    std::optional<Duration> recipient_joined_ago) const;
   /// The robot left or was silent for too long. Only itself can make it known again.
   void forget(const Prefix& robot);

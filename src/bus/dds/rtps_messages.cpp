@@ -58,10 +58,10 @@ std::optional<Bytes> taken(rtps::RTPSReader& reader, const rtps::CacheChange_t* 
 }
 
 std::optional<Duration> since(const rtps::Time_t& stamp) {
-  constexpr std::int64_t kMostSeconds = 2 * 86'400;  // a sum of many stays in range
+  constexpr std::int64_t kMaxSeconds = 2 * 86'400;  // a sum of many stays in range
   rtps::Time_t now;
   rtps::Time_t::now(now);
-  if (std::abs(std::int64_t{now.seconds()} - stamp.seconds()) > kMostSeconds) return std::nullopt;
+  if (std::abs(std::int64_t{now.seconds()} - stamp.seconds()) > kMaxSeconds) return std::nullopt;
   return Duration(now.to_ns() - stamp.to_ns());
 }
 

@@ -58,15 +58,15 @@ void WorkWatchdog::run(const std::stop_token& end) {
   std::condition_variable_any ended;
   std::unique_lock lock(mutex);
   while (!ended.wait_for(lock, end, period_, [&] { return end.stop_requested(); }))
-    look(std::chrono::steady_clock::now());
+    check(std::chrono::steady_clock::now());
 }
 
-void WorkWatchdog::look(SteadyTime now) {
+void WorkWatchdog::check(SteadyTime now) {
   std::vector<StallNews> news;
   {
     const std::scoped_lock lock(mutex_);
     for (std::size_t k = 0; k < watched_.size(); ++k) {
-      for (StallNews& stall : detectors_[k].look(now, watched_[k].record->take()))
+      for (StallNews& stall : detectors_[k].check(now, watched_[k].record->take()))
         news.push_back(std::move(stall));
     }
   }

@@ -53,7 +53,7 @@ class WorkWatchdog {
 
  private:
   void run(const std::stop_token& end);
-  void look(SteadyTime now);
+  void check(SteadyTime now);
 
   const std::string robot_;
   const std::vector<Watched> watched_;

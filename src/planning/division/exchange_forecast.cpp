@@ -45,7 +45,7 @@ class Simulation {
         break;
       }
       flow();
-      for (std::size_t s = 0; s < stops_.size(); ++s) settle(s, now);
+      for (std::size_t s = 0; s < stops_.size(); ++s) end_exchange_if_even(s, now);
     }
     for (std::size_t k = 0; k < robots_.size(); ++k) {
       out_.lengths[k] = holds_[k][k] / std::max(1e-9, bytes_per_metre());
@@ -144,7 +144,7 @@ class Simulation {
     return (positions_[a] - positions_[b]).squaredNorm() <= config_.c_max * config_.c_max;
   }
 
-  void settle(std::size_t s, double now) {
+  void end_exchange_if_even(std::size_t s, double now) {
     Stop& stop = stops_[s];
     const auto [a, b] = stop.robots;
     if (a == kNobody || b == kNobody || !at(a, s) || !at(b, s)) return;

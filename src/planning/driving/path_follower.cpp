@@ -27,7 +27,7 @@ struct PathFollower::State {
   explicit State(const PathFollowerConfig& settings)
       : config(settings),
         field(settings.horizon + 0.7, settings.wanted_clearance),
-        lane(settings.lateral_doubt) {}
+        lane(settings.lateral_error) {}
 
   void note_progress(Stamp now, const Eigen::Vector2d& position);
   std::vector<LocalField::Source> sources(const Pose2& pose) const;
@@ -76,7 +76,7 @@ std::vector<LocalField::Source> PathFollower::State::sources(const Pose2& pose) 
   };
   std::vector<LocalField::Source> sources;
   const Eigen::Vector2d aim = path.point(ahead);
-  for (double y = -config.lateral_doubt; y <= config.lateral_doubt; y += 0.1) {
+  for (double y = -config.lateral_error; y <= config.lateral_error; y += 0.1) {
     const Eigen::Vector2d at = to_base(aim + y * side);
     const double tight = std::max(0.0, 1.0 - field.clearance(at) / config.wanted_clearance);
     sources.push_back({at, config.lateral_weight * (std::abs(y) + 0.3 * y * y) + tight * tight});
@@ -183,7 +183,7 @@ Command PathFollower::State::held(const Command& wanted, double speed, double dt
 }
 
 void PathFollower::State::note_progress(Stamp now, const Eigen::Vector2d& position) {
-  path.advance(position, config.corner_tolerance, config.lateral_doubt + 1.0);
+  path.advance(position, config.corner_tolerance, config.lateral_error + 1.0);
   const double corner = path.next_corner();
   const double away = (path.point(corner) - position).norm();
   if (corner != nearest_corner || away < nearest - 0.15) {
@@ -193,7 +193,7 @@ void PathFollower::State::note_progress(Stamp now, const Eigen::Vector2d& positi
   }
   const bool end = corner >= path.length();
   if (end && (away <= config.goal_tolerance ||
-              (path.length() - path.along() < 0.3 && away <= config.lateral_doubt))) {
+              (path.length() - path.along() < 0.3 && away <= config.lateral_error))) {
     finished = true;
     return;
   }

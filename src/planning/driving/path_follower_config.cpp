@@ -27,7 +27,7 @@ Status PathFollowerConfig::validate() const {
   }
   for (const auto& [name, value] : {std::pair<const char*, double>{"reaction_time", reaction_time},
                                     {"margin", margin},
-                                    {"lateral_doubt", lateral_doubt},
+                                    {"lateral_error", lateral_error},
                                     {"lateral_weight", lateral_weight}}) {
     if (!(std::isfinite(value) && value >= 0.0))
       return failure(std::string(name) + ": must be finite and >= 0");

@@ -27,7 +27,7 @@ Appointments::Appointments(const FleetPlan& plan, std::size_t self) : self_(self
   std::ranges::sort(stops_, {}, &Stop::after);
 }
 
-void Appointments::look(std::span<const std::size_t> mine, const std::optional<std::size_t>& current) {
+void Appointments::update(std::span<const std::size_t> mine, const std::optional<std::size_t>& current) {
   if (!as_planned_) return;
   const std::vector<Visit>& visits = planned_[self_];
   const std::size_t driven = visits.size() - std::min(visits.size(), mine.size());

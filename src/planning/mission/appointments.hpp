@@ -33,7 +33,7 @@ class Appointments {
 
   /// `mine`: rows that this robot still has, with the one under way. Drops all stops if they are not what the
   /// plan has left for it, and else those that lie behind.
-  void look(std::span<const std::size_t> mine, const std::optional<std::size_t>& current);
+  void update(std::span<const std::size_t> mine, const std::optional<std::size_t>& current);
   /// The next stop, if there is one.
   const Stop* next() const { return stops_.empty() ? nullptr : &stops_.front(); }
   /// The next stop comes before any other row.

@@ -138,7 +138,7 @@ void ExecutiveState::share_work(const MissionInput& input) {
 }
 
 void ExecutiveState::update_appointments() {
-  appointments.look(claims.all(), claims.current());
+  appointments.update(claims.all(), claims.current());
   if (!appointments.next() && goal == Goal::kStop) stop();
 }
 

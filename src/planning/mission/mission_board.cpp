@@ -129,7 +129,7 @@ bool MissionBoard::idle(std::size_t robot, Stamp now) const {
          report->current == MissionReport::kNoRow;
 }
 
-bool MissionBoard::outclaimed(std::size_t row, bool ours_under_way, Stamp now) const {
+bool MissionBoard::lost_claim(std::size_t row, bool ours_under_way, Stamp now) const {
   for (std::size_t robot = 0; robot < robots(); ++robot) {
     if (robot == self_ || !peers_[robot].last || !available(robot, now) || !claims(robot, row)) continue;
     const bool theirs_under_way = under_way(robot, row);
@@ -237,13 +237,13 @@ std::vector<std::size_t> MissionBoard::to_give_away(const std::vector<std::size_
       divide_rows(plan_->mission, plan_->costs, rows, std::span(workers).first(1), {}, config);
   const Division shared = divide_rows(plan_->mission, plan_->costs, rows, workers, {}, config);
   if (alone.makespan - shared.makespan < gain) return {};
-  std::vector<std::size_t> given;
+  std::vector<std::size_t> rejected;
   const auto& kept = shared.routes.front().visits;
   for (const std::size_t row : rows) {
     const RowId id = plan_->mission.rows[row].id;
-    if (std::ranges::find(kept, id, &RowVisit::row) == kept.end()) given.push_back(row);
+    if (std::ranges::find(kept, id, &RowVisit::row) == kept.end()) rejected.push_back(row);
   }
-  return given;
+  return rejected;
 }
 
 }  // namespace fleetmap::planning

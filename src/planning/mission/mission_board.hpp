@@ -47,7 +47,7 @@ class MissionBoard {
   const MissionReport* report_of(std::size_t robot) const;
 
   /// Another available robot's claim goes before ours.
-  bool outclaimed(std::size_t row, bool ours_under_way, Stamp now) const;
+  bool lost_claim(std::size_t row, bool ours_under_way, Stamp now) const;
   /// Two of those who are left gave it up, or the only one who is.
   bool abandoned(std::size_t row, Stamp now) const;
   /// No robot, this one included, can drive rows.

@@ -22,9 +22,9 @@ void RowClaims::begin() {
 
 bool RowClaims::drop_lost(const MissionBoard& board, const RowSet& given_up, Stamp now) {
   std::erase_if(queue_, [&](std::size_t row) {
-    return board.done().has(row) || board.outclaimed(row, false, now) || given_up.has(row);
+    return board.done().has(row) || board.lost_claim(row, false, now) || given_up.has(row);
   });
-  if (!current_ || !board.outclaimed(*current_, true, now)) return false;
+  if (!current_ || !board.lost_claim(*current_, true, now)) return false;
   current_.reset();
   return true;
 }

@@ -111,17 +111,17 @@ TEST_F(AppointmentsTest, AStopIsDueBetweenItsRows) {
   Appointments appointments(*plan_, kSelf);
   for (std::size_t driven = 0; driven <= kAfter; ++driven) {
     const auto mine = rows_from(kSelf, driven);
-    appointments.look(mine, std::nullopt);
+    appointments.update(mine, std::nullopt);
     EXPECT_EQ(appointments.due(mine), driven == kAfter) << driven;
     EXPECT_EQ(appointments.next_visit(mine).row, row_of(kSelf, driven));
     EXPECT_EQ(appointments.next_visit(mine).reversed, plan_->division.routes[kSelf].visits[driven].reversed);
     if (driven == kAfter) break;
-    appointments.look(mine, row_of(kSelf, driven));
+    appointments.update(mine, row_of(kSelf, driven));
     EXPECT_FALSE(appointments.due(mine)) << "it drives a row";
   }
   EXPECT_EQ(appointments.next()->after, kAfter);
   // It has gone on.
-  appointments.look(rows_from(kSelf, kAfter), row_of(kSelf, kAfter));
+  appointments.update(rows_from(kSelf, kAfter), row_of(kSelf, kAfter));
   EXPECT_EQ(appointments.next()->after, 4u);
   EXPECT_EQ(appointments.count_dropped(), 1u);
   EXPECT_TRUE(appointments.keeps_order());
@@ -130,7 +130,7 @@ TEST_F(AppointmentsTest, AStopIsDueBetweenItsRows) {
 TEST_F(AppointmentsTest, WhoTakesGivesOrReordersRowsKeepsNone) {
   const auto drops_all = [&](const std::vector<std::size_t>& mine, std::optional<std::size_t> current = {}) {
     Appointments appointments(*plan_, kSelf);
-    appointments.look(mine, current);
+    appointments.update(mine, current);
     EXPECT_EQ(appointments.keeps_order(), appointments.next() != nullptr);
     return appointments.next() == nullptr && appointments.count_dropped() == 2;
   };

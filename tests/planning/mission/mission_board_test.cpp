@@ -97,14 +97,14 @@ TEST_F(MissionBoardTest, OfTwoClaimsTheOneUnderWayAndThenTheLowerNameGoesFirst) 
     board_.hear(report, at(stamp));
   };
   claim(2, false, 1.0);  // a higher name
-  EXPECT_FALSE(board_.outclaimed(row, false, at(1.0)));
+  EXPECT_FALSE(board_.lost_claim(row, false, at(1.0)));
   claim(2, true, 2.0);
-  EXPECT_TRUE(board_.outclaimed(row, false, at(2.0)));
-  EXPECT_FALSE(board_.outclaimed(row, true, at(2.0)));
+  EXPECT_TRUE(board_.lost_claim(row, false, at(2.0)));
+  EXPECT_FALSE(board_.lost_claim(row, true, at(2.0)));
   claim(2, false, 3.0);
   claim(0, false, 3.0);  // a lower name
-  EXPECT_TRUE(board_.outclaimed(row, false, at(3.0)));
-  EXPECT_FALSE(board_.outclaimed(row, true, at(3.0)));
+  EXPECT_TRUE(board_.lost_claim(row, false, at(3.0)));
+  EXPECT_FALSE(board_.lost_claim(row, true, at(3.0)));
 }
 
 TEST_F(MissionBoardTest, ARowThatTwoGaveUpIsAbandoned) {

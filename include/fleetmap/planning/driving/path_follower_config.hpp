@@ -15,7 +15,7 @@ struct PathFollowerConfig {
   double margin = 0.1;            ///< m, kept besides from every obstacle
   double wanted_clearance = 1.6;  ///< m, from base_link to obstacles where there is room
   double horizon = 5.5;           ///< m, looked ahead
-  double lateral_doubt = 3.0;     ///< m, that the path may lie beside the free lane (error of the position)
+  double lateral_error = 3.0;     ///< m, that the path may lie beside the free lane (error of the position)
   double lateral_weight = 0.25;   ///< m of detour that a metre beside the path is worth
   double corner_tolerance = 0.8;  ///< m, at which a corner of the path is reached
   double goal_tolerance = 0.5;    ///< m, at which the end of the path is reached

@@ -1,4 +1,4 @@
-#include "fleetmap/eval/places_seen.hpp"
+#include "fleetmap/eval/observed_places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ using ::testing::IsEmpty;
 
 cloud::PointCloud cloud(std::vector<Eigen::Vector3f> points) { return {std::move(points), {}}; }
 
-TEST(PlacesSeen, CubesAreHalfOpenAlsoBelowZero) {
-  PlacesSeen seen(0.5, 1);
+TEST(ObservedPlaces, CubesAreHalfOpenAlsoBelowZero) {
+  ObservedPlaces seen(0.5, 1);
   seen.add(0, cloud({{0.0f, 0.0f, 0.0f}, {0.49f, 0.49f, 0.49f}}));
   EXPECT_EQ(seen.count(1), 1u);
   seen.add(0, cloud({{-0.01f, 0.0f, 0.0f}}));
@@ -23,14 +23,14 @@ TEST(PlacesSeen, CubesAreHalfOpenAlsoBelowZero) {
   EXPECT_EQ(seen.count(1), 3u);
 }
 
-TEST(PlacesSeen, TheAxesAreKeptApart) {
-  PlacesSeen seen(1.0, 1);
+TEST(ObservedPlaces, TheAxesAreKeptApart) {
+  ObservedPlaces seen(1.0, 1);
   seen.add(0, cloud({{3, 5, 7}, {5, 3, 7}, {7, 5, 3}, {-3, 5, 7}, {3, 5, -7}, {2, 5, 7}, {3, 4, 7}}));
   EXPECT_EQ(seen.count(1), 7u);
 }
 
-TEST(PlacesSeen, PointsOfARobotAddUpOverItsClouds) {
-  PlacesSeen seen(1.0, 3);
+TEST(ObservedPlaces, PointsOfARobotAddUpOverItsClouds) {
+  ObservedPlaces seen(1.0, 3);
   const cloud::PointCloud here = cloud({{0.5f, 0.5f, 0.5f}});
   seen.add(4, here);
   seen.add(4, here);
@@ -45,8 +45,8 @@ TEST(PlacesSeen, PointsOfARobotAddUpOverItsClouds) {
   EXPECT_EQ(seen.count(2), 1u);
 }
 
-TEST(PlacesSeen, PointsAreChosenInTheirOrder) {
-  PlacesSeen seen(1.0, 1);
+TEST(ObservedPlaces, PointsAreChosenInTheirOrder) {
+  ObservedPlaces seen(1.0, 1);
   seen.add(0, cloud({{0.5f, 0, 0}, {3.5f, 0, 0}}));
   seen.add(1, cloud({{0.5f, 0, 0}}));
   cloud::PointCloud queries = cloud({{3.1f, 0, 0}, {0.9f, 0, 0}, {9, 9, 9}, {0.1f, 0, 0}});
@@ -57,15 +57,15 @@ TEST(PlacesSeen, PointsAreChosenInTheirOrder) {
   EXPECT_THAT(seen.within(queries, 2).intensities, ElementsAre(2, 4));
 }
 
-TEST(PlacesSeen, WhatIsNotFiniteOrTooFarIsLeftOut) {
-  PlacesSeen seen(1.0, 1);
+TEST(ObservedPlaces, WhatIsNotFiniteOrTooFarIsLeftOut) {
+  ObservedPlaces seen(1.0, 1);
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const cloud::PointCloud bad = cloud({{nan, 0, 0}, {0, inf, 0}, {0, 0, -2e6f}, {1e6f, 0, 0}});
   seen.add(0, bad);
   EXPECT_EQ(seen.count(1), 0u);
   seen.add(0, cloud({{0, 0, 0}}));
   EXPECT_THAT(seen.indices_within(bad, 0), IsEmpty());
-  const PlacesSeen moved = std::move(seen);
+  const ObservedPlaces moved = std::move(seen);
   EXPECT_EQ(moved.count(1), 1u);
 }
 

@@ -1,4 +1,4 @@
-#include "fleetmap/eval/places_seen.hpp"
+#include "fleetmap/eval/observed_places.hpp"
 
 #include <cmath>
 #include <unordered_map>
@@ -11,7 +11,7 @@ constexpr double kFarthest = 1e6;  ///< cubes from the origin, per axis: keys ho
 
 }  // namespace
 
-struct PlacesSeen::Cubes {
+struct ObservedPlaces::Cubes {
   struct Cube {
     std::vector<std::uint32_t> points;  ///< of each robot
     std::size_t robots = 0;             ///< that saw it
@@ -32,13 +32,13 @@ struct PlacesSeen::Cubes {
   }
 };
 
-PlacesSeen::PlacesSeen(double edge, std::uint32_t least)
+ObservedPlaces::ObservedPlaces(double edge, std::uint32_t least)
     : cubes_(std::make_unique<Cubes>(Cubes{edge, least, {}})) {}
-PlacesSeen::~PlacesSeen() = default;
-PlacesSeen::PlacesSeen(PlacesSeen&&) noexcept = default;
-PlacesSeen& PlacesSeen::operator=(PlacesSeen&&) noexcept = default;
+ObservedPlaces::~ObservedPlaces() = default;
+ObservedPlaces::ObservedPlaces(ObservedPlaces&&) noexcept = default;
+ObservedPlaces& ObservedPlaces::operator=(ObservedPlaces&&) noexcept = default;
 
-void PlacesSeen::add(std::size_t robot, const cloud::PointCloud& points) {
+void ObservedPlaces::add(std::size_t robot, const cloud::PointCloud& points) {
   std::uint64_t key = 0;
   for (const Eigen::Vector3f& point : points.points) {
     if (!cubes_->key_of(point, key)) continue;
@@ -48,14 +48,14 @@ void PlacesSeen::add(std::size_t robot, const cloud::PointCloud& points) {
   }
 }
 
-std::size_t PlacesSeen::count(std::size_t robots) const {
+std::size_t ObservedPlaces::count(std::size_t robots) const {
   std::size_t count = 0;
   for (const auto& [key, cube] : cubes_->cubes) count += cube.robots >= robots ? 1u : 0u;
   return count;
 }
 
-std::vector<std::size_t> PlacesSeen::indices_within(const cloud::PointCloud& points,
-                                                    std::size_t robots) const {
+std::vector<std::size_t> ObservedPlaces::indices_within(const cloud::PointCloud& points,
+                                                        std::size_t robots) const {
   std::vector<std::size_t> indices;
   std::uint64_t key = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -66,7 +66,7 @@ std::vector<std::size_t> PlacesSeen::indices_within(const cloud::PointCloud& poi
   return indices;
 }
 
-cloud::PointCloud PlacesSeen::within(const cloud::PointCloud& points, std::size_t robots) const {
+cloud::PointCloud ObservedPlaces::within(const cloud::PointCloud& points, std::size_t robots) const {
   return cloud::select(points, indices_within(points, robots));
 }
 

@@ -10,13 +10,13 @@
 namespace fleetmap::eval {
 
 /// Which robots saw which places: cubes of a grid in the frame of the points.
-class PlacesSeen {
+class ObservedPlaces {
  public:
   /// A robot has seen a cube of `edge` m once `least` of its points lie in it.
-  PlacesSeen(double edge, std::uint32_t least);
-  ~PlacesSeen();
-  PlacesSeen(PlacesSeen&&) noexcept;
-  PlacesSeen& operator=(PlacesSeen&&) noexcept;
+  ObservedPlaces(double edge, std::uint32_t least);
+  ~ObservedPlaces();
+  ObservedPlaces(ObservedPlaces&&) noexcept;
+  ObservedPlaces& operator=(ObservedPlaces&&) noexcept;
 
   /// Robots by number, from 0. Points that are not finite or absurdly far away are left out.
   void add(std::size_t robot, const cloud::PointCloud& points);

@@ -19,7 +19,7 @@
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/registration_method.hpp"
 #include "fleetmap/registration/spherize.hpp"
-#include "registration/encounter_worlds.hpp"
+#include "registration/pair_worlds.hpp"
 
 namespace {
 
@@ -106,17 +106,17 @@ std::vector<Place> places_of(const std::string& set) {
 
 constexpr int kClusters = 5, kNodesPerCluster = 7;
 
-/// Nodes in clusters: a lane and a spot on it, and others within a few lanes and 15 m along.
+/// Nodes in clusters: a lane and a station on it, and others within a few lanes and 15 m along.
 std::vector<MappedNode> nodes_of(const Place& place) {
   const Site site = place.make();
   std::mt19937_64 random(place.seed * 7919 + 13);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  struct Spot {
+  struct Station {
     std::size_t lane;
     double along, aside;
     bool backwards;
   };
-  std::vector<Spot> spots;
+  std::vector<Station> stations;
   for (int cluster = 0; cluster < kClusters; ++cluster) {
     const auto lane0 = static_cast<int>(unit(random) * static_cast<double>(site.lanes.size()));
     const double along0 = unit(random);
@@ -126,16 +126,16 @@ std::vector<MappedNode> nodes_of(const Place& place) {
       const sim::Aisle& aisle = site.lanes[static_cast<std::size_t>(lane)];
       const double length = (aisle.to - aisle.from).norm();
       const double along = std::clamp(along0 * length + 24.0 * (unit(random) - 0.5), 0.5, length - 0.5);
-      spots.push_back(
+      stations.push_back(
           {static_cast<std::size_t>(lane), along, 0.5 * (unit(random) - 0.5), unit(random) < 0.5});
     }
   }
-  std::vector<MappedNode> nodes(spots.size());
+  std::vector<MappedNode> nodes(stations.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
-    for (std::size_t k = next++; k < spots.size(); k = next++) {
-      nodes[k] = map_node(site, site.lanes[spots[k].lane], spots[k].along, spots[k].aside, spots[k].backwards,
-                          place.how, place.seed * 1000 + static_cast<unsigned>(k));
+    for (std::size_t k = next++; k < stations.size(); k = next++) {
+      nodes[k] = map_node(site, site.lanes[stations[k].lane], stations[k].along, stations[k].aside,
+                          stations[k].backwards, place.how, place.seed * 1000 + static_cast<unsigned>(k));
     }
   };
   auto other = std::async(std::launch::async, work);
@@ -183,7 +183,7 @@ void make_clouds(const std::filesystem::path& dir, const std::string& set, const
 }
 
 struct Tally {
-  int encounters = 0, right = 0, wrong = 0, ambiguous_with = 0, ambiguous_without = 0, rejected = 0;
+  int pairs = 0, right = 0, wrong = 0, ambiguous_with = 0, ambiguous_without = 0, rejected = 0;
   std::vector<double> cpu_ms, translation_m, rotation_rad, nees;
   double squares[6] = {};
 };
@@ -206,7 +206,7 @@ bool is_right(const Pose& truth, const Pose& T) {
 }
 
 void count(const Pose& truth, const RegistrationResult& result, double cpu_ms, Tally& tally) {
-  ++tally.encounters;
+  ++tally.pairs;
   tally.cpu_ms.push_back(cpu_ms);
   const bool in_set = std::any_of(result.modes.begin(), result.modes.end(),
                                   [&](const Mode& mode) { return is_right(truth, mode.T_target_source); });
@@ -225,7 +225,7 @@ void count(const Pose& truth, const RegistrationResult& result, double cpu_ms, T
 void print(const std::string& name, const Tally& t) {
   std::printf(
       "%-18s %5d | %5d %5d | %5d %5d | %5d | %6.1f %6.1f | %6.1f %6.1f %6.1f | %5.2f %5.2f | %6.2f %6.2f |",
-      name.c_str(), t.encounters, t.right, t.wrong, t.ambiguous_with, t.ambiguous_without, t.rejected,
+      name.c_str(), t.pairs, t.right, t.wrong, t.ambiguous_with, t.ambiguous_without, t.rejected,
       quantile(t.cpu_ms, 0.5), quantile(t.cpu_ms, 0.99), 1e3 * quantile(t.translation_m, 0.5),
       1e3 * quantile(t.translation_m, 0.9), 1e3 * quantile(t.translation_m, 0.99),
       57.3 * quantile(t.rotation_rad, 0.5), 57.3 * quantile(t.rotation_rad, 0.9), mean(t.nees) / 6.0,

@@ -1,4 +1,4 @@
-#include "encounter_worlds.hpp"
+#include "pair_worlds.hpp"
 
 #include <Eigen/Geometry>
 #include <chrono>
