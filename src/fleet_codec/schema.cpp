@@ -5,14 +5,8 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::fleet_codec {
-namespace {
 
-/// More than any type of module fleetmap encodes to (a SubmapDigest of 1024 ranges is 16 kB, a cloud 25 kB).
-constexpr std::size_t kMaxFleetBytes = 32'768;
-
-}  // namespace
-
-Status check_fleet_type(ByteView cdr, const char* type) {
+Status check_fleet_type(ByteView cdr, const char* type, std::size_t max_bytes) {
   if (auto status = bus::check_encapsulation(cdr, type); !status) return status;
   const unsigned version = cdr[bus::kEncapsulationBytes];
   if (version != kSchemaVersion) {
@@ -20,7 +14,7 @@ Status check_fleet_type(ByteView cdr, const char* type) {
                    ", this program version " + std::to_string(kSchemaVersion) +
                    "; run the same release on all robots");
   }
-  if (cdr.size() > kMaxFleetBytes) {
+  if (cdr.size() > max_bytes) {
     return failure(std::string(type) + ": " + std::to_string(cdr.size()) +
                    " bytes are more than this type can have");
   }

@@ -9,7 +9,7 @@ namespace fleetmap::fleet_codec {
 namespace {
 
 std::string refusal(const Bytes& cdr) {
-  const Status status = check_fleet_type(cdr, "Some");
+  const Status status = check_fleet_type(cdr, "Some", 32\'768);
   return status ? "none" : status.error().message;
 }
 
@@ -42,7 +42,7 @@ TEST(FleetSchema, AnotherVersionIsNamedBesideThisOne) {
   EXPECT_EQ(refusal(message(100'000, 255)).find("Some: the sender speaks schema version 255"), 0u);
 }
 
-TEST(FleetSchema, NoTypeIsLongerThan32KiB) {
+TEST(FleetSchema, ALongerMessageThanItsTypeHasIsRefused) {
   EXPECT_EQ(refusal(message(32'768)), "none");
   EXPECT_EQ(refusal(message(32'769)), "Some: 32769 bytes are more than this type can have");
 }
@@ -55,6 +55,12 @@ TEST(FleetSchema, ATypeIsReadOnlyWhereAllThatHolds) {
   Bytes cut = bus::to_cdr(request);
   cut.pop_back();
   EXPECT_FALSE(fleet_type_from_cdr<msg::SubmapRequest>(cut, "Some"));
+  // Fast CDR would read it and leave the rest.
+  Bytes longer = bus::to_cdr(request);
+  longer.resize(bus::kEncapsulationBytes + msg::SubmapRequest::getMaxCdrSerializedSize() + 1);
+  const auto refused = fleet_type_from_cdr<msg::SubmapRequest>(longer, "Some");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("bytes are more than this type can have"), std::string::npos);
   request.schema(kSchemaVersion + 1);
   const auto other = fleet_type_from_cdr<msg::SubmapRequest>(bus::to_cdr(request), "Some");
   ASSERT_FALSE(other);
