@@ -9,7 +9,7 @@ namespace fleetmap::fleet_codec {
 namespace {
 
 std::string refusal(const Bytes& cdr) {
-  const Status status = check_fleet_type(cdr, "Some", 32\'768);
+  const Status status = check_fleet_type(cdr, "Some", 32'768);
   return status ? "none" : status.error().message;
 }
 
