@@ -61,7 +61,10 @@ Result<WholeFile> WholeFile::create(std::filesystem::path file) {
 
 Status WholeFile::append(ByteView bytes) { return write("ab", bytes); }
 Status WholeFile::append(std::string_view text) { return append(bytes_of(text)); }
-Status WholeFile::overwrite(ByteView first) { return write("r+b", first); }
+Status WholeFile::overwrite(ByteView first) {
+  if (in_place_) return failed(ESPIPE);  // its first bytes are gone already
+  return write("r+b", first);
+}
 Status WholeFile::overwrite(std::string_view first) { return overwrite(bytes_of(first)); }
 
 Status WholeFile::finish() {

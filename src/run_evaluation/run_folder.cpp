@@ -7,6 +7,7 @@
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/file_hash.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
@@ -19,11 +20,6 @@ namespace fleetmap::run_evaluation {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_there(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
 
 std::optional<output::Trajectory> trajectory_in(const fs::path& file, std::vector<std::string>& notes) {
   if (!is_there(file)) return std::nullopt;

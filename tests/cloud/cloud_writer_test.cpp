@@ -10,7 +10,7 @@
 
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/file_io.hpp"
-#include "support/no_room.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
@@ -99,7 +99,7 @@ TEST(CloudWriter, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   auto writer = CloudWriter::create(folder.path() / "map.pcd", true);
   ASSERT_TRUE(writer);
   {
-    const fleetmap::testing::NoRoom full;
+    const fleetmap::testing::FullDisk full(4'096);
     EXPECT_FALSE(writer->add(testing::street_scene(100'000, 4)));
   }
   EXPECT_FALSE(writer->finish());

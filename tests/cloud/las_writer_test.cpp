@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cloud/las_reader.hpp"
-#include "support/no_room.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
@@ -112,7 +112,7 @@ TEST_F(LasWriterTest, CannotFinishAFileThatLacksPointsThoughThereIsRoomAgain) {
   auto writer = LasWriter::create(file_, description_);
   ASSERT_TRUE(writer);
   {
-    const fleetmap::testing::NoRoom full;
+    const fleetmap::testing::FullDisk full(4'096);
     const Status added = writer->add(random_points(1'000));
     ASSERT_FALSE(added);
     EXPECT_THAT(added.error().message, AllOf(HasSubstr("map.las"), HasSubstr("File too large")));

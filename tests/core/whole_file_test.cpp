@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-#include "support/no_room.hpp"
+#include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap {
@@ -63,7 +63,7 @@ TEST_F(WholeFileTest, WhatLacksBytesIsNotFinishedThoughThereIsRoomAgain) {
   auto file = WholeFile::create(file_);
   ASSERT_TRUE(file && file->append("header"));
   {
-    const testing::NoRoom full;
+    const testing::FullDisk full(4'096);
     const Status written = file->append(std::string(100'000, 'x'));
     ASSERT_FALSE(written);
     EXPECT_THAT(written.error().message, HasSubstr(file_.string() + ": cannot be written: "));
@@ -92,6 +92,10 @@ TEST_F(WholeFileTest, APlaceThatCannotBeWrittenIsNamed) {
 TEST_F(WholeFileTest, WhatIsNoRegularFileIsWrittenAsItIs) {
   EXPECT_TRUE(write_whole_file("/dev/null", "x"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  auto stream = WholeFile::create("/dev/null");
+  ASSERT_TRUE(stream && stream->append("0 points"));
+  EXPECT_FALSE(stream->overwrite("5")) << "a reader would find both headers";
+  EXPECT_FALSE(stream->finish());
   EXPECT_THAT(write_whole_file("/dev/full", "x").error().message, HasSubstr("/dev/full: cannot be written"));
 }
 

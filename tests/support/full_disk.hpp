@@ -9,15 +9,20 @@ namespace fleetmap::testing {
 /// Files cannot grow beyond so many bytes while it lives: a full disk.
 class FullDisk {
  public:
-  explicit FullDisk(rlim_t bytes) {
-    std::signal(SIGXFSZ, SIG_IGN);
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
     getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit full{bytes, before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &full);
   }
-  ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before_); }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
 
  private:
+  void (*handler_)(int);
   rlimit before_{};
 };
 

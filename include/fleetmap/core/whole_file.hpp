@@ -22,7 +22,7 @@ class WholeFile {
   /// After an error the file cannot be finished.
   Status append(ByteView bytes);
   Status append(std::string_view text);
-  /// Over the first bytes: a header that counts what follows it.
+  /// Over the first bytes: a header that counts what follows it. Fails for what is no regular file.
   Status overwrite(ByteView first);
   Status overwrite(std::string_view first);
   Status finish();
