@@ -40,7 +40,7 @@ TEST(RecentSurroundings, AreAllSubmapsTogetherAsSeenFromTheNode) {
   EXPECT_EQ(of(recent, at(10, 0)), of(joined({pole(1, 1), pole(-9, 6)})));
   EXPECT_EQ(of(recent, at(0, 0, std::numbers::pi / 2)), of(joined({pole(1, -11), pole(6, -1)})))
       << "ahead is north";
-  EXPECT_EQ(of(recent, at(0, 0)).seen(), 2);
+  EXPECT_EQ(of(recent, at(0, 0)).observed(), 2);
   EXPECT_EQ(of(recent, at(0, 0)).occupied(), 2);
 }
 
@@ -56,8 +56,8 @@ TEST(RecentSurroundings, EndThirtyMetresBehind) {
 TEST(RecentSurroundings, AreOfTheLastTwelveSubmaps) {
   RecentSurroundings recent;
   for (int k = 0; k < 13; ++k) recent.add(pole(1.0f + 2.5f * static_cast<float>(k), 1.0f), {0, 0, 0});
-  EXPECT_EQ(of(recent, at(0, 0)).seen(), 12);
-  EXPECT_EQ(of(recent, at(30, 0)).seen(), 12);
+  EXPECT_EQ(of(recent, at(0, 0)).observed(), 12);
+  EXPECT_EQ(of(recent, at(30, 0)).observed(), 12);
   recent.clear();
   EXPECT_EQ(of(recent, at(0, 0)), place::Descriptor());
 }
@@ -70,7 +70,7 @@ TEST(RecentSurroundings, DensePointsAreThinnedButAllCellsStay) {
   }
   recent.add(dense, {0, 0, 0});
   EXPECT_EQ(of(recent, at(0, 0)), of(dense));
-  EXPECT_EQ(of(recent, at(0, 0)).seen(), 8) << "4 x 2 cells of 2.5 m";
+  EXPECT_EQ(of(recent, at(0, 0)).observed(), 8) << "4 x 2 cells of 2.5 m";
 }
 
 }  // namespace
