@@ -15,9 +15,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargest = 64U << 20U;  ///< bytes of a file that is read whole
 constexpr std::size_t kMaxFiles = 10'000;
 
-std::string hash_of(const std::string& text) {
-  return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
-}
+std::string hash_of(const std::string& text) { return to_hex(content_hash(bytes_of(text))); }
 
 /// Everything a fleet's file leads to, as text.
 class Inputs {

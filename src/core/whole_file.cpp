@@ -8,13 +8,6 @@
 #include <utility>
 
 namespace fleetmap {
-namespace {
-
-ByteView bytes_of(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
-}  // namespace
 
 WholeFile::WholeFile(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code none;

@@ -165,7 +165,7 @@ Result<std::string> input_hash(const Case& one) {
   std::string text = *inputs + "\nagents " + std::to_string(one.agents);
   for (const std::string& mode : one.modes) text += " modes." + mode;
   if (one.overlap) text += " overlap";
-  return to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
+  return to_hex(content_hash(bytes_of(text)));
 }
 
 Status check_cases(const std::vector<Case>& cases) {

@@ -155,9 +155,7 @@ Result<QosFile> load_qos_file(const std::filesystem::path& directory, Link link)
   auto* profiles = profiles_element(document);
   if (!profiles) return failure(file + ": has no <profiles> element; add one");
 
-  result.prefix = to_hex(content_hash({reinterpret_cast<const std::uint8_t*>(text->data()), text->size()}))
-                      .substr(0, 12) +
-                  "/";
+  result.prefix = to_hex(content_hash(bytes_of(*text))).substr(0, 12) + "/";
   Names names;
   if (auto status = prefix_names(*profiles, result.prefix, file, names); !status) {
     return tl::unexpected(status.error());

@@ -27,7 +27,7 @@ std::uint32_t key_of(const rtps::EntityId_t& id) {
 
 std::uint32_t key_of(const Topic& topic) {
   const std::string text = topic.name + '|' + topic.type;
-  const ContentHash hash = content_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  const ContentHash hash = content_hash(bytes_of(text));
   const std::uint32_t key = static_cast<std::uint32_t>(hash[0]) << 16 |
                             static_cast<std::uint32_t>(hash[1]) << 8 | static_cast<std::uint32_t>(hash[2]);
   return key >= kHelloWriters ? key ^ 0x800000u : key;
