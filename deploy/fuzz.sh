@@ -15,7 +15,6 @@ targets=("$@")
 if [ "${#targets[@]}" -eq 0 ]; then
   mapfile -t targets < <(sed -n 's/^fuzz_target(\([a-z_0-9]*\) .*/\1/p' tests/fuzz/CMakeLists.txt)
 fi
-command -v clang++ >/dev/null || { echo "install clang first: apt install clang libclang-rt-14-dev" >&2; exit 1; }
 
 log=$(mktemp)
 # Readers that take a path get their bytes in a file, which should cost no disk.

@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(
-  build-essential cmake ninja-build ccache clang-format clang-tidy default-jre-headless
+  build-essential clang libclang-rt-14-dev cmake ninja-build ccache clang-format clang-tidy default-jre-headless
   fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
   libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev libsleef-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev

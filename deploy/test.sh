@@ -16,7 +16,7 @@ for preset in "${presets[@]}"; do
   log=$(mktemp)
   cmake --preset "$configuration" >"$log" 2>&1 || { cat "$log"; exit 1; }
   rm -f "$log"
-  # GCC 12's ThreadSanitizer cannot run where the kernel places memory more randomly than it expects.
+  # Debian 12's ThreadSanitizer cannot run where the kernel places memory more randomly than it expects.
   fixed_addresses=()
   [ "$preset" != tsan ] || ! setarch -R true 2>/dev/null || fixed_addresses=(setarch -R)
   "${fixed_addresses[@]}" cmake --build --preset "$preset"  # which also runs test programs, to list their tests

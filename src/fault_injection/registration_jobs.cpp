@@ -9,10 +9,10 @@ void RegistrationJobs::drop(const AgentId& robot) {
 }
 
 std::vector<RegistrationJob> RegistrationJobs::take_due(Stamp now) {
-  const auto later =
-      std::ranges::stable_partition(jobs_, [now](const RegistrationJob& job) { return job.due <= now; });
-  const std::vector<RegistrationJob> due(jobs_.begin(), later.begin());
-  jobs_.erase(jobs_.begin(), later.begin());
+  const auto later = std::stable_partition(jobs_.begin(), jobs_.end(),
+                                           [now](const RegistrationJob& job) { return job.due <= now; });
+  const std::vector<RegistrationJob> due(jobs_.begin(), later);
+  jobs_.erase(jobs_.begin(), later);
   return due;
 }
 

@@ -15,7 +15,7 @@ constexpr float kMinRange = 0.5f;  // m
 /// Points that lie evenly between the rings scatter by 0.29 of their spacing, those of a device by
 /// hundredths.
 constexpr double kMaxScatter = 0.2;
-constexpr double kMaxBeyond = 0.2;    // share of the points above and below all rings
+constexpr double kMaxBeyond = 0.1;    // share of the points above and below all rings
 constexpr double kAgainst = 0.8;      // share of the pairs of points
 constexpr double kAgainstAll = 0.98;  // the same, where no rotation tells more
 constexpr std::size_t kPairs = 2000;  // of points, whose times are compared

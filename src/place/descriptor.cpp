@@ -55,7 +55,7 @@ double similarity_of(const Counts& c) {
   return std::clamp(correlation * n / (n + kHalfTrustedOverlap), 0.0, 1.0);
 }
 
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)  // whose code may not run as early as resolvers do
+#if defined(__x86_64__) && !defined(FLEETMAP_THREAD_SANITIZER)
 #define FLEETMAP_COUNTS_BITS __attribute__((target_clones("popcnt", "default")))
 #else
 #define FLEETMAP_COUNTS_BITS

@@ -61,7 +61,8 @@ TEST_F(RadioGuardTest, ASealedMessageHasNoRtpsHeaderAndGetsItBack) {
   EXPECT_EQ(sealed.size(), data_of(r2_).size() + kSealBytes);
   const Bytes greeting = r2_.seal(greeting_of(r2_));
   const Bytes magic{'R', 'T', 'P', 'S'};
-  for (const Bytes& datagram : {sealed, greeting}) EXPECT_TRUE(std::ranges::search(datagram, magic).empty());
+  for (const Bytes& datagram : {sealed, greeting})
+    EXPECT_EQ(std::search(datagram.begin(), datagram.end(), magic.begin(), magic.end()), datagram.end());
   const auto opened = r1_.open(greeting, kFrom);
   ASSERT_TRUE(opened);
   EXPECT_EQ(without_header(*opened), without_header(greeting_of(r2_)));

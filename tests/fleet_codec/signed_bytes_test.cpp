@@ -101,7 +101,7 @@ TEST(SignedBytes, SignedItemsThatDecodeToAnotherContentAreRefused) {
     node.up_in_base = {0.0, 0.0, 1.0};
     Bytes damaged = encode(node);
     const Bytes up{0, 0, 0, 0, 0xff, 0x7f};
-    const auto at = std::ranges::search(damaged, up).begin();
+    const auto at = std::search(damaged.begin(), damaged.end(), up.begin(), up.end());
     ASSERT_NE(at, damaged.end());
     *(at + 4) ^= 0x40;
     EXPECT_FALSE(decode<graph::Node>(damaged));

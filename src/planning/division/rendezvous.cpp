@@ -7,7 +7,6 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kSameDistance = 0.5;  // m
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 struct Choice {

@@ -37,7 +37,7 @@ bool passes(const Polyline& route, const Eigen::Vector2d& p) {
 
 TEST(FleetPlan, RobotsAreInTheOrderOfTheirNames) {
   auto fleet = testing::fleet(3);
-  std::ranges::rotate(fleet, fleet.begin() + 1);
+  std::rotate(fleet.begin(), fleet.begin() + 1, fleet.end());
   const FleetPlan plan = plan_of(fleet);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(plan.fleet[k].id, testing::name(static_cast<int>(k)));
