@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the source tree that the program was built in, else of the package.
+/// The script of the source tree that the program was built in, else that of the package.
 std::string field_script() {
   std::error_code error;
   return fs::exists(FLEETMAP_FIELD_SCRIPT, error) ? FLEETMAP_FIELD_SCRIPT : FLEETMAP_INSTALLED_FIELD_SCRIPT;

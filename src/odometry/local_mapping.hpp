@@ -29,7 +29,7 @@ class LocalMapping {
 
   LocalMap& map() { return map_; }
   LocalMapSize size() const { return map_.size(); }
-  /// How often the map was full, so that its farthest windows were removed.
+  /// Counts each time that the map was full, so that its farthest windows were removed.
   std::uint64_t overflows() const { return overflows_; }
 
  private:

@@ -22,7 +22,7 @@ namespace {
 
 using namespace fleetmap;
 
-/// How scans are spoilt. Numbers of scans are those of an undisturbed drive.
+/// Kinds of spoilt scans. Numbers of scans are those of an undisturbed drive.
 struct Disturbance {
   const char* name;
   int scans_between_jumps = 0;  ///< then the robot is at another place of its drive

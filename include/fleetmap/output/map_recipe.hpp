@@ -10,7 +10,7 @@
 
 namespace fleetmap::output {
 
-/// How a map was made: what `fleetmap map export` needs to make the same one again.
+/// Settings with which a map was made: `fleetmap map export` makes the same one again by them.
 struct MapRecipe {
   GeoPoint origin;
   graph::PlacementConfig placement;
@@ -28,7 +28,7 @@ Status keep_recipe(store::Store& store, const RecipeConfig& config);
 /// By the last keep_recipe(); where no origin was configured, with that of what the store holds now. Empty if
 /// there was none, or there is no origin yet.
 std::optional<MapRecipe> map_recipe(const store::Store& store);
-/// How to show a store of which maybe no map was made: by map_recipe(), else by the defaults. The origin is
+/// Settings to show a store of which maybe no map was made: map_recipe(), else the defaults. The origin is
 /// `origin`, else that of map_recipe(), else site_origin() of the store; empty if there is none of them.
 std::optional<MapRecipe> recipe_or_default(const store::Store& store,
                                            const std::optional<GeoPoint>& origin = std::nullopt);
