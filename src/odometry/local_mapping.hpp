@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "features.hpp"
 #include "fleetmap/geometry/se3.hpp"
-#include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/local_map.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
+#include "motion_prior.hpp"
 
 namespace fleetmap::odometry {
 

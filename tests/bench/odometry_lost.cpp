@@ -13,7 +13,7 @@
 #include "fleetmap/config/sensor_file.hpp"
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "sim/lane_odometry.hpp"
 #include "support/process.hpp"

@@ -1,4 +1,4 @@
-#include "fleetmap/output/crs_wkt.hpp"
+#include "crs_wkt.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

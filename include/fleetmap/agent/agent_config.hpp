@@ -22,7 +22,7 @@
 
 namespace fleetmap::agent {
 
-struct NavigatorConfig;  // navigator.hpp
+struct NavigatorConfig;  // navigator_config.hpp
 
 /// Everything that can be set of one robot, by component.
 struct AgentConfig {

@@ -5,6 +5,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/recipe_config.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -17,11 +18,6 @@ struct MapRecipe {
   store::MergeConfig merge;
 };
 
-struct RecipeConfig {
-  std::optional<GeoPoint> site_origin;  ///< of ENU; absent: site_origin() of the store
-  graph::PlacementConfig placement;
-  store::MergeConfig map;
-};
 /// Stores how the agent's maps are made, so that what is made of the store later, whatever became of the
 /// agent, is the same.
 Status keep_recipe(store::Store& store, const RecipeConfig& config);
