@@ -6,14 +6,14 @@
 #include <cmath>
 #include <utility>
 
-#include "fleetmap/agent/event_log.hpp"
-#include "fleetmap/agent/live_placement.hpp"
+#include "event_log.hpp"
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/map_files.hpp"
+#include "live_placement.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -26,8 +26,8 @@ constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// number.
 constexpr Duration kSessionPause = std::chrono::minutes(1);
 
-loop_closure::LoopClosing::Config loop_closing_config(const AgentConfig& config) {
-  loop_closure::LoopClosing::Config loops{
+loop_closure::LoopClosingConfig loop_closing_config(const AgentConfig& config) {
+  loop_closure::LoopClosingConfig loops{
       config.id,       config.loop_closure,
       config.own_path, config.placement.method == graph::PlacementMethod::graph,
       config.spherize, config.registration};

@@ -9,7 +9,7 @@
 namespace fleetmap::agent {
 namespace {
 
-/// How long a start waits for the first global pose before it makes nodes without.
+/// A start waits so long for the first global pose before it makes nodes without one.
 constexpr Duration kGpsPatience = std::chrono::seconds(10);
 
 }  // namespace

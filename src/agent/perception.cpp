@@ -9,7 +9,8 @@
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "fleetmap/sensor/ground_plane.hpp"
 
@@ -27,12 +28,6 @@ void keep(std::vector<T>& samples, const T& sample) {
 }
 
 }  // namespace
-
-SensorTopics::SensorTopics()
-    : points(ros_codec::topics::points().name),
-      imu(ros_codec::topics::imu().name),
-      fix(ros_codec::topics::fix().name),
-      wheel(ros_codec::topics::wheel_odometry().name) {}
 
 Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceived on_perceived,
                        std::function<void()> on_scan)

@@ -108,6 +108,24 @@ void print_map(const std::filesystem::path& directory, const output::Results& re
             << results.map.hash << '\n';
 }
 
+/// Writes the map and the report of an agent whose work has ended; the exit code.
+int write_outcome(const config::RobotConfig& config, agent::Agent& agent, const bus::DdsBus& bus) {
+  const auto results = output::write_results(agent.store(), agent.config().results());
+  if (!results) spdlog::warn("{}", results.error().message);
+  const Status written = write_report(config.agent.directory, agent, results ? &*results : nullptr,
+                                      radio_access(config.dds, bus), bus.stalls());
+  if (!written) return report(written.error(), kFailed);
+  if (results) print_map(config.agent.directory, *results);
+  if (const std::string lost = lost_ways(agent.perception().odometry_counters()); !lost.empty())
+    std::cout << lost << '\n';
+  if (results && results->missing_submaps > 0) {
+    spdlog::warn(
+        "{} submaps are missing: their robots were out of reach; run the agent again near one that has them",
+        results->missing_submaps);
+  }
+  return results ? kDone : kFailed;
+}
+
 int run(const AgentOptions& options) {
   const auto overrides = parse_overrides(options.set);
   if (!overrides) return report(overrides.error(), kUsage);
@@ -145,20 +163,7 @@ int run(const AgentOptions& options) {
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  const auto results = output::write_results((*agent)->store(), (*agent)->config().results());
-  if (!results) spdlog::warn("{}", results.error().message);
-  const Status written = write_report(config->agent.directory, **agent, results ? &*results : nullptr,
-                                      radio_access(config->dds, **bus), (*bus)->stalls());
-  if (!written) return report(written.error(), kFailed);
-  if (results) print_map(config->agent.directory, *results);
-  if (const std::string lost = lost_ways((*agent)->perception().odometry_counters()); !lost.empty())
-    std::cout << lost << '\n';
-  if (results && results->missing_submaps > 0) {
-    spdlog::warn(
-        "{} submaps are missing: their robots were out of reach; run the agent again near one that has them",
-        results->missing_submaps);
-  }
-  return results ? kDone : kFailed;
+  return write_outcome(*config, **agent, **bus);
 }
 
 }  // namespace

@@ -11,7 +11,8 @@
 
 #include "commands.hpp"
 #include "fleetmap/config/robot_file.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "live_bus.hpp"
 #include "machine_check.hpp"
 #include "options.hpp"

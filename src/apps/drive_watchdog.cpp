@@ -6,7 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::apps {

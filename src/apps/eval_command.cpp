@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/run_evaluation/evaluation.hpp"
 #include "fleetmap/run_evaluation/evaluation_summary.hpp"
 #include "options.hpp"
@@ -35,8 +36,7 @@ int run(EvalOptions& options) {
   if (options.inputs.modes.contains("all")) options.inputs.modes = run_evaluation::mode_names();
   options.inputs.modes.erase("none");
   options.inputs.overlap = !options.no_overlap;
-  std::error_code error;
-  if (std::filesystem::is_directory(options.directory, error)) {
+  if (is_folder(options.directory)) {
     if (const Status writable = check_writable(options.directory); !writable)
       return report(writable.error(), kFailed);
   }

@@ -3,6 +3,8 @@
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -24,7 +26,7 @@ bool ends_within_a_line(const std::filesystem::path& path) {
 
 Result<LinkLog::File> LinkLog::open_file(const std::filesystem::path& path, const char* header) {
   std::error_code none;
-  const bool begins = !std::filesystem::exists(path, none) || std::filesystem::file_size(path, none) == 0;
+  const bool begins = !is_there(path) || std::filesystem::file_size(path, none) == 0;
   const bool cut = !begins && ends_within_a_line(path);
   File file{path, std::ofstream(path, std::ios::app)};
   if (begins) file.out << header << '\n';

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {

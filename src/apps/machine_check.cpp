@@ -2,6 +2,8 @@
 
 #include <fstream>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr std::uint64_t kFreeBytes = 2'000'000'000;  // a day of a fleet: 20,000
 std::filesystem::path existing(std::filesystem::path folder) {
   std::error_code error;
   folder = std::filesystem::absolute(folder, error);
-  while (!std::filesystem::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  while (!is_there(folder) && folder.has_relative_path()) folder = folder.parent_path();
   return folder;
 }
 

@@ -8,7 +8,7 @@
 
 namespace fleetmap::apps {
 
-/// What of a robot's computer a mission depends on.
+/// State of a robot's computer on which a mission depends.
 struct MachineState {
   std::optional<std::uint64_t> receive_buffer;  ///< net.core.rmem_max, bytes
   std::optional<std::uint64_t> free_bytes;      ///< where the store lies
@@ -17,7 +17,7 @@ struct MachineState {
 
 /// `directory` need not exist yet.
 MachineState machine_state(const std::filesystem::path& directory);
-/// What would spoil a mission, each with its remedy.
+/// Findings that would spoil a mission, each with its remedy.
 std::vector<std::string> machine_findings(const MachineState& state);
 
 }  // namespace fleetmap::apps

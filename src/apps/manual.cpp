@@ -69,8 +69,8 @@ std::string names_of(const CLI::Option& option) {
   return names;
 }
 
-/// What may follow the words typed before: the commands, the options, and by option the values that it takes;
-/// a space for one that takes any.
+/// The words that may follow those typed before: the commands, the options, and by option the values that it
+/// takes; a space for one that takes any.
 struct Words {
   std::map<std::string, std::string> commands, options, values;
 };

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -79,8 +81,7 @@ CLI::Validator some_path() {
 }
 
 Status check_writable(const std::filesystem::path& directory) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(directory, error)) return failure(directory.string() + ": is no folder");
+  if (!is_folder(directory)) return failure(directory.string() + ": is no folder");
   if (::access(directory.c_str(), W_OK | X_OK) != 0)
     return failure(directory.string() +
                    ": cannot be written to; check its permissions or give another folder");

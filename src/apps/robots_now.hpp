@@ -13,7 +13,7 @@
 
 namespace fleetmap::apps {
 
-/// What one robot has heard of its fleet, and its own state.
+/// The fleet as one robot has heard of it, and its own state.
 struct FleetNow {
   AgentId self;
   std::vector<AgentId> fleet;
@@ -29,7 +29,7 @@ struct FleetNow {
   std::vector<std::string> problems;            ///< of this robot
 };
 
-/// What a robot does by its last report, in words. `rows`: names of the mission's rows.
+/// Activity of a robot by its last report, in words. `rows`: names of the mission's rows.
 std::string activity_of(const messages::MissionReport& report, const std::vector<planning::RowId>& rows);
 
 /// Every robot of the fleet, by name.

@@ -90,6 +90,18 @@ Result<std::vector<output::Trajectory>> write_truths(const TwinFeed* twin, const
   return truths;
 }
 
+/// Writes the report, prints the summary and returns the exit code.
+int report_outcome(const FleetOutcome& outcome, const RunProfile& profile, const std::string& out) {
+  if (const Status written = write_report(out, outcome, profile); !written)
+    return report(written.error(), kFailed);
+  print_summary(std::cout, outcome, out);
+  std::cout << summary_of(profile) << '\n';
+  const bool whole = std::ranges::all_of(outcome.agents, [](const auto& entry) {
+    return (entry.results || !entry.agent) && entry.problem.empty();
+  });
+  return whole ? kDone : kFailed;
+}
+
 int run(const RunOptions& options) {
   if (options.config.empty() == options.recordings.empty()) {
     return report({"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"},
@@ -135,14 +147,7 @@ int run(const RunOptions& options) {
     outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, *truths);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const RunProfile profile = profile_of(*outcome, cpu_before, process_cpu_seconds(), wall.count());
-  if (const Status written = write_report(options.out, *outcome, profile); !written)
-    return report(written.error(), kFailed);
-  print_summary(std::cout, *outcome, options.out);
-  std::cout << summary_of(profile) << '\n';
-  const bool whole = std::ranges::all_of(outcome->agents, [](const auto& entry) {
-    return (entry.results || !entry.agent) && entry.problem.empty();
-  });
-  return whole ? kDone : kFailed;
+  return report_outcome(*outcome, profile, options.out);
 }
 
 }  // namespace

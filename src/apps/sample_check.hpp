@@ -11,7 +11,7 @@
 
 namespace fleetmap::apps {
 
-/// What perception does to live samples before it uses them, done to those of a recording.
+/// Checks samples of a recording as perception checks live ones before it uses them.
 class SampleCheck {
  public:
   explicit SampleCheck(const recording::LogClock& log_clock, const Pose& T_base_lidar = Pose::Identity())
@@ -20,7 +20,7 @@ class SampleCheck {
   /// Corrects the sample. False if it must not be used: its clock is undecided or its values are unsound.
   /// `recorded` as Reader::recorded() has it.
   bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
-  /// What was found since the last call, about clocks and values.
+  /// Findings about clocks and values since the last call.
   std::vector<std::string> take_warnings();
   const sensor::SensorHealth& health() const { return health_; }
 

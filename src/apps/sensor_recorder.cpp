@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/core/paths.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -12,9 +13,7 @@ namespace {
 
 std::filesystem::path free_folder(const std::filesystem::path& directory) {
   std::filesystem::path folder = directory;
-  std::error_code error;
-  for (int k = 1; std::filesystem::exists(folder, error); ++k)
-    folder = directory.string() + "-" + std::to_string(k);
+  for (int k = 1; is_there(folder); ++k) folder = directory.string() + "-" + std::to_string(k);
   return folder;
 }
 

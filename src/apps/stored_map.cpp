@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 
@@ -13,10 +14,8 @@ namespace fleetmap::apps {
 
 // A file that SQLite would call damaged, or a disk error, is most often another one than was meant.
 Status check_store(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    return failure(file.string() + ": is a folder; give the store.db of a robot in it");
-  if (!std::filesystem::exists(file, error)) return failure(file.string() + ": no such file");
+  if (is_folder(file)) return failure(file.string() + ": is a folder; give the store.db of a robot in it");
+  if (!is_there(file)) return failure(file.string() + ": no such file");
   constexpr std::string_view kStart = "SQLite format 3";
   std::string start(kStart.size(), ' ');
   std::ifstream in(file, std::ios::binary);

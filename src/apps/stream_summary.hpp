@@ -10,7 +10,7 @@
 
 namespace fleetmap::apps {
 
-/// How many samples of each sensor came, how often, and the longest gap between two, by their stamps.
+/// Number and rate of the samples of each sensor, and the longest gap between two, by their stamps.
 class StreamSummary {
  public:
   void add(const recording::Sample& sample);

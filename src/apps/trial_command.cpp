@@ -12,10 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the source tree that the program was built in, else of the package.
+/// The script of the source tree that the program was built in, else that of the package.
 std::string field_script() {
-  std::error_code error;
-  return fs::exists(FLEETMAP_FIELD_SCRIPT, error) ? FLEETMAP_FIELD_SCRIPT : FLEETMAP_INSTALLED_FIELD_SCRIPT;
+  return is_there(FLEETMAP_FIELD_SCRIPT) ? FLEETMAP_FIELD_SCRIPT : FLEETMAP_INSTALLED_FIELD_SCRIPT;
 }
 
 struct TrialOptions {
@@ -25,8 +24,7 @@ struct TrialOptions {
 };
 
 int run(TrialOptions options) {
-  std::error_code error;
-  if (!fs::exists(options.script, error)) {
+  if (!is_there(options.script)) {
     return report(
         {options.script + ": does not exist; give deploy/netns/field.sh of the source tree as --field"},
         kUsage);

@@ -7,11 +7,12 @@
 
 #include "fleetmap/agent/navigator.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/planning/mission/mission_complete.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"
 #include "twin_truth.hpp"
@@ -46,8 +47,7 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     // Sessions are numbered, so that the same run gives the same items; numbers that the store already has
     // are skipped.
     config.draw_session = [session = std::uint16_t{0}]() mutable { return session++; };
-    std::error_code error;
-    if (std::filesystem::exists(config.directory / "store.db", error)) {
+    if (is_there(config.directory / "store.db")) {
       return failure(config.directory.string() +
                      ": holds an earlier run, or what is left of one that was cut off; a run starts anew, "
                      "give another --out or delete it");

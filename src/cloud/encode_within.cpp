@@ -60,6 +60,12 @@ double step_after(const std::optional<Trial>& before, const Trial& miss, double 
 
 double log_bytes(const FittedCloud& fitted) { return std::log(static_cast<double>(fitted.bytes.size())); }
 
+/// Finer voxels are not tried, or would gain next to nothing.
+bool is_good_enough(const FittedCloud& fitted, const FitConfig& config, double target_log_bytes) {
+  return fitted.voxel_m == config.min_voxel_m ||
+         log_bytes(fitted) >= target_log_bytes + std::log(kGoodEnough);
+}
+
 /// Adds the cloud that every receiver decodes.
 Result<FittedCloud> with_decoded(FittedCloud fitted, int encodings) {
   auto decoded = decode(fitted.bytes);
@@ -98,9 +104,7 @@ Result<FittedCloud> encode_within(const PointCloud& cloud, const FitConfig& conf
 
   // The next voxel after a first miss: bytes fall with its square on surfaces.
   double log_voxel = too_big.log_voxel + 0.5 * (too_big.log_bytes - target);
-  while (encodings < config.max_encodings &&
-         !(best &&
-           (best->voxel_m == config.min_voxel_m || log_bytes(*best) >= target + std::log(kGoodEnough)))) {
+  while (encodings < config.max_encodings && !(best && is_good_enough(*best, config, target))) {
     const bool last_chance = !best && encodings + 1 == config.max_encodings;
     log_voxel = last_chance ? fits.log_voxel : std::min(log_voxel, fits.log_voxel);
     tried = encode_at(cloud, std::exp(log_voxel), config);

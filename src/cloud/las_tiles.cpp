@@ -3,6 +3,8 @@
 #include <string>
 #include <system_error>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::cloud {
 namespace {
 
@@ -42,7 +44,7 @@ Result<LasTiles> LasTiles::create(const std::filesystem::path& folder, std::uint
   if (edge == 0) return failure(folder.string() + ": tiles must be at least 1 m wide");
   LasTiles tiles(plain(folder), edge, std::move(description));
   std::error_code error;
-  if (std::filesystem::exists(tiles.folder_, error) && !std::filesystem::is_empty(tiles.folder_, error))
+  if (is_there(tiles.folder_) && !std::filesystem::is_empty(tiles.folder_, error))
     return failure(tiles.folder_.string() + ": is there already and not empty; give a new folder");
   const bool made = std::filesystem::create_directory(tiles.part(), error);
   if (error) return failure(tiles.part().string() + ": cannot be made: " + error.message());

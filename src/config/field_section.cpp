@@ -57,9 +57,7 @@ FieldConfig read_field(Section& top) {
        {std::pair{"trace", &field.trace}, std::pair{"qos", &field.qos}, std::pair{"robot", &field.robot},
         std::pair{"recordings", &field.recordings}, std::pair{"truth", &field.truth}}) {
     section.read_path(key, *path);
-    std::error_code none;
-    if (!path->empty() && !std::filesystem::exists(*path, none))
-      section.problem(key, path->string() + " does not exist");
+    if (!path->empty() && !is_there(*path)) section.problem(key, path->string() + " does not exist");
   }
   section.read("trace_from", field.trace_from);
   section.read("wifi_from", field.wifi_from);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {
@@ -49,7 +50,7 @@ class Inputs {
     const fs::path path = (folder / value).lexically_normal();
     if (fs::is_regular_file(path, error)) return add_file(path);
     // "." or a bare word may happen to be a folder; a recording is written with its path.
-    if (value.find('/') == std::string::npos || !fs::is_directory(path, error)) return;
+    if (value.find('/') == std::string::npos || !is_folder(path)) return;
     std::vector<fs::path> files;
     for (fs::recursive_directory_iterator entry(path, error), end; !error && entry != end;
          entry.increment(error)) {

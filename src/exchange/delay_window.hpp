@@ -21,7 +21,7 @@ class BaseDelay {
   std::optional<Stamp> begun_;
 };
 
-/// How many bytes may be under way: LEDBAT (RFC 6817) with slow start, driven by the receiver.
+/// Number of bytes that may be under way: LEDBAT (RFC 6817) with slow start, driven by the receiver.
 /// The bottleneck may be far from the own interface (a channel that others use, a mesh), so its rate shows
 /// only in what arrives: the window grows while requests are answered without queueing and shrinks as the
 /// queue grows, before the queue overflows.

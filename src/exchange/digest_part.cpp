@@ -16,7 +16,7 @@ struct Gap {
   std::optional<NodeId> from, to;
 };
 
-/// Where a part begins again with the first range there are two gaps: behind the last name and before the
+/// A part that begins again with the first range has two gaps: behind the last name and before the
 /// first.
 std::vector<Gap> gaps_of(const std::vector<SeqRange>& part) {
   std::vector<Gap> gaps;

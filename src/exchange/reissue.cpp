@@ -40,7 +40,7 @@ const Node* neighbour(const store::Store& store, const Node& node) {
   return before;
 }
 
-/// How `named`, which is a copy of `node`, lies to `other` by the odometry.
+/// Ties `named`, which is a copy of `node`, to `other` by the odometry.
 Alignment odometry_tie(const Node& other, const Node& node, const Node& named) {
   constexpr double kVariance = 1e-4;  // m^2, rad^2; of a step of the odometry, and no solver divides by zero
   Alignment tie;

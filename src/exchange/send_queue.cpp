@@ -198,9 +198,9 @@ void SendQueue::note_sent(std::size_t priority, double bytes) {
   const auto waits = [&](std::size_t p) { return !waiting_[p].empty(); };
   const auto after = [](double lead, double more) { return std::max(lead + more, 0.0); };
   if (priority == kCloud) {
-    // What a fragment is larger than the lead is owed to the items, which would else have a third instead of
-    // nearly half where a second's share is hardly more than a fragment. Where it is less, clouds would fall
-    // below half.
+    // The bytes by which a fragment exceeds the lead are owed to the items, which would else have a third
+    // instead of nearly half where a second's share is hardly more than a fragment. Where it is less, clouds
+    // would fall below half.
     const double share = kItemsPerCloud * bytes;
     const double owed = bytes <= pace_.rate() ? share : 0.0;
     items_lead_ = waits(kCloud) ? std::max(std::max(items_lead_, 0.0) - share, -owed) : 0.0;

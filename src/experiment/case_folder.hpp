@@ -9,7 +9,7 @@
 
 namespace fleetmap::experiment {
 
-/// How an earlier start ended the case: done or failed. Empty when it did not end, had other inputs than
+/// Result of an earlier start of the case: done or failed. Empty when it did not end, had other inputs than
 /// those of `hash`, or was run by a build that `config` does not take.
 std::optional<CaseRecord> recorded(const RunnerConfig& config, const Case& one, const std::string& hash,
                                    LostPictures pictures = LostPictures::kRunAgain);

@@ -9,7 +9,7 @@
 
 namespace fleetmap::experiment {
 
-/// How a child process ended.
+/// End of a child process.
 struct ChildExit {
   int code = 0;  ///< exit code, or 128 + the signal that ended it
   bool signalled = false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/experiment/progress_line.hpp"
 #include "report_page.hpp"
@@ -103,8 +104,7 @@ Result<ExperimentResult> run_experiment(const config::ExperimentConfig& config, 
 
 Result<ExperimentResult> report_experiment(const config::ExperimentConfig& config, const RunnerConfig& runner,
                                            std::ostream& out) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(runner.directory / "cases", error))
+  if (!is_folder(runner.directory / "cases"))
     return failure(runner.directory.string() + ": holds no cases; run some first, or correct --out");
   return reported(config, collect_cases(all_cases(config), runner), runner.directory, out);
 }

@@ -30,7 +30,7 @@ Result<FileLock> lock_directory(const fs::path& directory, FileLock::Kind kind) 
   return std::move(**lock);
 }
 
-/// How an earlier start ended the group: done by any of its cases, else failed.
+/// Result of an earlier start of the group: done by any of its cases, else failed.
 std::optional<CaseRecord> recorded(const RunnerConfig& config, const std::vector<Case>& cases,
                                    const CaseGroup& group, LostPictures pictures = LostPictures::kRunAgain) {
   std::optional<CaseRecord> failed;

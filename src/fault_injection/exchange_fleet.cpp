@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::fault_injection {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr const char* kLog = ".db-wal";
 /// Empty for a missing file.
 void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to) {
   std::filesystem::remove(to);
-  if (std::filesystem::exists(from)) std::filesystem::copy_file(from, to);
+  if (is_there(from)) std::filesystem::copy_file(from, to);
 }
 
 }  // namespace

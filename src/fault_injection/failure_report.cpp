@@ -4,7 +4,7 @@
 #include <sstream>
 #include <utility>
 
-#include "fleetmap/fault_injection/shrink.hpp"
+#include "shrink.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {

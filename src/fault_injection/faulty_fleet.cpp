@@ -79,16 +79,12 @@ void FaultyFleet::begin(const Fault& fault, std::size_t number) {
       member.clock_offset = from_seconds(fault.value);
       return stop_robot(name);
     case FaultKind::kLostStore:
-      stop_robot(name);
-      member.disk_intact = false;
-      return lose_store(name);
     case FaultKind::kOldStore:
-      stop_robot(name);
-      member.disk_intact = false;
-      return put_back_store(name, backup_name(number));
     case FaultKind::kDamagedStore:
       stop_robot(name);
       member.disk_intact = false;
+      if (fault.kind == FaultKind::kLostStore) return lose_store(name);
+      if (fault.kind == FaultKind::kOldStore) return put_back_store(name, backup_name(number));
       return damage_store(name, fault.value);
     case FaultKind::kFullDisk:
       return member.disk->set_full(true);

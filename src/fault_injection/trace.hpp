@@ -23,7 +23,7 @@ class Trace {
   std::vector<std::string> lines_;
 };
 
-/// What a trace shows of a message that an attacker sent.
+/// The line of a trace for a message that an attacker sent.
 std::string trace_line(const messages::Message& message);
 /// The line that a trace shows for an event of a robot's exchange, if any.
 std::optional<std::string> trace_line(const exchange::Event& event);

@@ -1,9 +1,11 @@
+#include "fleetmap/fleet_codec/alignment.hpp"
+
 #include <algorithm>
 #include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
-#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/bounds.hpp"
 #include "fleetmap_long_range.h"
 #include "rounding.hpp"
 #include "schema.hpp"

@@ -1,7 +1,7 @@
-#include "fleetmap/geometry/global_pose.hpp"
+#include "fleetmap/fleet_codec/global_pose.hpp"
 
 #include "fields.hpp"
-#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/bounds.hpp"
 #include "fleetmap_onboard.h"
 #include "schema.hpp"
 #include "type_names.hpp"

@@ -1,7 +1,9 @@
+#include "fleetmap/fleet_codec/long_range.hpp"
+
 #include <algorithm>
 
 #include "fields.hpp"
-#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/bounds.hpp"
 #include "fleetmap_long_range.h"
 #include "schema.hpp"
 #include "type_names.hpp"

@@ -1,10 +1,12 @@
+#include "fleetmap/fleet_codec/node.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "covariance_root.hpp"
 #include "fields.hpp"
-#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/bounds.hpp"
 #include "fleetmap_long_range.h"
 #include "rounding.hpp"
 #include "schema.hpp"

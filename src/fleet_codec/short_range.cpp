@@ -1,5 +1,7 @@
+#include "fleetmap/fleet_codec/short_range.hpp"
+
 #include "fields.hpp"
-#include "fleetmap/fleet_codec/messages.hpp"
+#include "fleetmap/fleet_codec/bounds.hpp"
 #include "fleetmap_short_range.h"
 #include "schema.hpp"
 #include "type_names.hpp"

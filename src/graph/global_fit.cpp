@@ -12,7 +12,7 @@ namespace {
 constexpr int kMaxIterations = 20;
 constexpr double kConverged = 1e-10;
 
-/// How many nodes of one agent share one independent GPS error.
+/// Number of nodes of each agent that share one independent GPS error.
 std::map<AgentId, double> nodes_per_independent_fix(std::span<const Node> nodes, double correlation_time) {
   struct Span {
     Stamp first, last;

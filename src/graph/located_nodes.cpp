@@ -19,7 +19,7 @@ constexpr std::size_t kMaxLinks = 400;  // of one frame that are compared with e
 
 using Frames = std::map<FrameId, std::vector<const Node*>>;
 
-/// How one mode of an alignment lays two frames to each other.
+/// The transform of two frames by one mode of an alignment.
 struct Link {
   std::size_t alignment = 0;
   FrameId from, to;

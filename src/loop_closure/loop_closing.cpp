@@ -12,7 +12,7 @@
 
 namespace fleetmap::loop_closure {
 
-LoopClosing::LoopClosing(const Config& config, bus::Bus& bus, store::Store& store, Outputs outputs)
+LoopClosing::LoopClosing(const LoopClosingConfig& config, bus::Bus& bus, store::Store& store, Outputs outputs)
     : config_(config),
       bus_(bus),
       store_(store),

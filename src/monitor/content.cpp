@@ -1,7 +1,7 @@
 #include "content.hpp"
 
 #include "fleetmap/monitor/request_check.hpp"
-#include "fleetmap/monitor/state_json.hpp"
+#include "state_json.hpp"
 
 namespace fleetmap::monitor {
 namespace {

@@ -10,9 +10,9 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
 #include "fleetmap/monitor/live_status.hpp"
-#include "fleetmap/monitor/point_levels.hpp"
 #include "fleetmap/monitor/server.hpp"
 #include "fleetmap/store/map_merge.hpp"
+#include "point_levels.hpp"
 
 namespace fleetmap::monitor {
 

@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/pair_answer.hpp"
+#include "pair_answer.hpp"
 
 #include <algorithm>
 #include <array>

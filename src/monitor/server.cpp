@@ -37,19 +37,6 @@ void ServerState::run() {
   }
 }
 
-Status ServerConfig::validate() const {
-  error_code error;
-  net::ip::make_address(address, error);
-  if (error) return failure(address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
-  if (token.empty() && !is_loopback(address))
-    return failure(address + " is seen by others: a token is needed");
-  if (!token.empty() && token.size() < kMinTokenLength)
-    return failure("the token is shorter than " + std::to_string(kMinTokenLength) + " characters");
-  if (max_viewers == 0 || max_connections == 0)
-    return failure("max_viewers and max_connections must be positive");
-  return {};
-}
-
 Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 Server::~Server() {

@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/state_json.hpp"
+#include "state_json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <set>
 
 #include "fleetmap/graph/located_nodes.hpp"
-#include "fleetmap/monitor/pair_answer.hpp"
+#include "pair_answer.hpp"
 
 namespace fleetmap::monitor {
 namespace {

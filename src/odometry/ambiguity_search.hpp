@@ -3,8 +3,8 @@
 #include "feature_selection.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/local_map.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "motion_prior.hpp"
+#include "scan_matching.hpp"
 
 namespace fleetmap::odometry {
 

@@ -3,11 +3,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "fleetmap/odometry/features.hpp"
+#include "features.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/loam_counters.hpp"
-#include "fleetmap/odometry/sweep.hpp"
 #include "fleetmap/odometry/thinning.hpp"
+#include "sweep.hpp"
 
 namespace fleetmap::odometry {
 

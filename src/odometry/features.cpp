@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/features.hpp"
+#include "features.hpp"
 
 #include <algorithm>
 #include <cmath>

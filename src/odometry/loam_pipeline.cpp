@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "ambiguity_search.hpp"
+#include "deskew.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/odometry/deskew.hpp"
 
 namespace fleetmap::odometry {
 namespace {

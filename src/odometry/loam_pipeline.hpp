@@ -6,14 +6,14 @@
 
 #include "feature_selection.hpp"
 #include "fleetmap/odometry/loam.hpp"
-#include "fleetmap/odometry/model_check.hpp"
-#include "fleetmap/odometry/pose_uncertainty.hpp"
-#include "fleetmap/odometry/scan_matching.hpp"
-#include "fleetmap/odometry/sweep.hpp"
 #include "frozen_scan_check.hpp"
 #include "local_mapping.hpp"
 #include "loss_check.hpp"
+#include "model_check.hpp"
 #include "motion_sensors.hpp"
+#include "pose_uncertainty.hpp"
+#include "scan_matching.hpp"
+#include "sweep.hpp"
 
 namespace fleetmap::odometry {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "fleetmap/odometry/deskew.hpp"
+#include "deskew.hpp"
 
 namespace fleetmap::odometry {
 namespace {

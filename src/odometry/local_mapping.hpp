@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "features.hpp"
 #include "fleetmap/geometry/se3.hpp"
-#include "fleetmap/odometry/features.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/local_map.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
+#include "motion_prior.hpp"
 
 namespace fleetmap::odometry {
 
@@ -29,7 +29,7 @@ class LocalMapping {
 
   LocalMap& map() { return map_; }
   LocalMapSize size() const { return map_.size(); }
-  /// How often the map was full, so that its farthest windows were removed.
+  /// Counts each time that the map was full, so that its farthest windows were removed.
   std::uint64_t overflows() const { return overflows_; }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fleetmap/odometry/loam_config.hpp"
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "scan_matching.hpp"
 
 namespace fleetmap::odometry {
 

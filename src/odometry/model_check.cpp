@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/model_check.hpp"
+#include "model_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
-#include "fleetmap/odometry/rate_history.hpp"
 #include "fleetmap/sensor/samples.hpp"
+#include "motion_prior.hpp"
+#include "rate_history.hpp"
 
 namespace fleetmap::odometry {
 

@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "scan_matching.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

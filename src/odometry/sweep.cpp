@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/sweep.hpp"
+#include "sweep.hpp"
 
 #include <algorithm>
 #include <array>

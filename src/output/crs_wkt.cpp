@@ -1,4 +1,4 @@
-#include "fleetmap/output/crs_wkt.hpp"
+#include "crs_wkt.hpp"
 
 #include <array>
 #include <iomanip>

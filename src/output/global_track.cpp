@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::output {
 namespace {
 
@@ -34,7 +36,7 @@ bool parse(const std::string& line, GlobalPose& G) {
 
 Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& file) {
   std::error_code error;
-  const bool fresh = !std::filesystem::exists(file, error) || std::filesystem::file_size(file, error) == 0;
+  const bool fresh = !is_there(file) || std::filesystem::file_size(file, error) == 0;
   Result<LineFile> lines = LineFile::open(file, std::ios::app);
   if (!lines) return tl::unexpected(lines.error());
   // A line that a kill cut off stays a line of its own, and the empty one behind it says why.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "fleetmap/output/crs_wkt.hpp"
+#include "crs_wkt.hpp"
 
 namespace fleetmap::output {
 namespace {

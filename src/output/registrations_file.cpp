@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::output {
 namespace {
 
@@ -70,8 +72,7 @@ class Columns {
 }  // namespace
 
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
-  std::error_code error;
-  const bool fresh = !std::filesystem::exists(file, error);
+  const bool fresh = !is_there(file);
   std::ofstream out(file, std::ios::app);
   if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';

@@ -6,15 +6,15 @@
 #include <map>
 #include <utility>
 
+#include "corrected_pose.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
-#include "fleetmap/output/corrected_pose.hpp"
 #include "fleetmap/output/global_track.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
-#include "fleetmap/output/tables.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/sessions.hpp"
+#include "tables.hpp"
 
 namespace fleetmap::output {
 namespace {

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::output {
 
 std::vector<std::filesystem::path> robot_folders(const std::filesystem::path& directory, const char* file) {
   std::vector<std::filesystem::path> folders;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-    if (std::filesystem::exists(entry.path() / file, error)) folders.push_back(entry.path());
+    if (is_there(entry.path() / file)) folders.push_back(entry.path());
   }
   std::ranges::sort(folders);
   return folders;

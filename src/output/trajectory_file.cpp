@@ -10,6 +10,8 @@
 #include <optional>
 #include <sstream>
 
+#include "fleetmap/core/paths.hpp"
+
 namespace fleetmap::output {
 
 namespace {
@@ -123,9 +125,9 @@ Result<TrajectoryFile> TrajectoryFile::begin_session(const std::filesystem::path
                                                      std::size_t index) {
   const std::filesystem::path file = odometry_file(directory, index);
   std::error_code error;
-  for (int k = 1; std::filesystem::exists(file, error); ++k) {
+  for (int k = 1; is_there(file); ++k) {
     const std::filesystem::path aside = file.string() + ".before-" + std::to_string(k);
-    if (std::filesystem::exists(aside, error)) continue;
+    if (is_there(aside)) continue;
     std::filesystem::rename(file, aside, error);
     if (error) return failure(file.string() + ": cannot be moved aside: " + error.message());
     spdlog::warn("{}: is of a store that was lost or replaced; it is {} now", file.string(), aside.string());

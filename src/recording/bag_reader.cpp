@@ -98,7 +98,7 @@ class BagReader : public PacketReader {
       }
       auto file = open_bag_file(files_[next_file_++]);
       if (!file) return tl::unexpected(file.error());
-      // What names a topic may lie behind a message of it.
+      // The record that names a topic may lie behind a message of it.
       if (const auto topics = (*file)->topics(); !topics) return tl::unexpected(topics.error());
       file_ = std::move(*file);
     }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 
 namespace fleetmap::recording {
 

@@ -60,7 +60,7 @@ std::optional<Chunk> read_chunk(ByteView content);
 /// The earliest time (ns) in a message or chunk, from the first kTimesBytes of its content; 0 if there are
 /// fewer.
 std::uint64_t start_of(Opcode opcode, ByteView content);
-/// Where the summary begins, or 0 for none.
+/// Offset of the summary, or 0 for none.
 std::optional<std::uint64_t> read_footer(ByteView content);
 
 /// Unpacks the records of a chunk. Errors for an unknown compression, for damage, and for more than

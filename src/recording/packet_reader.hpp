@@ -20,7 +20,7 @@ class PacketReader : public CheckedReader {
     std::optional<Stamp> recorded;  ///< the packet that completed it
   };
 
-  /// What is no packet is counted and named. `arrival` resolves the packet's hour.
+  /// Counts and names datagrams that are no packet. `arrival` resolves the packet's hour.
   void add_packet(ByteView packet, Stamp arrival, Stamp recorded);
   void finish_packets();
   /// The next complete scan that passes the checks.

@@ -17,7 +17,7 @@ constexpr std::size_t kIpv4HeaderBytes = 20, kUdpHeaderBytes = 8;
 constexpr std::uint8_t kUdp = 17;
 constexpr std::uint16_t kFragment = 0x3fff;  // more fragments follow, or this is not the first
 
-/// Of the protocols, which are big-endian.
+/// The protocols are big-endian.
 std::uint16_t u16(ByteView bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the packets of a device come from and go to.
+/// Source and destination of the packets of a device.
 struct Stream {
   std::uint32_t source = 0;
   std::uint16_t port = 0;

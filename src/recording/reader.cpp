@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bag_reader.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "kitti_reader.hpp"
 #include "pcap_reader.hpp"
 
@@ -11,8 +12,7 @@ namespace fleetmap::recording {
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config,
                                      ScanContent content) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) return failure(path.string() + ": there is no such recording");
+  if (!is_there(path)) return failure(path.string() + ": there is no such recording");
   if (looks_like_bag(path)) return open_bag(path, config, content);
   if (looks_like_capture(path)) return open_capture(path, content);
   if (has_kitti_layout(path)) return open_kitti(path, config.kitti);

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 
 namespace fleetmap::recording {
 

@@ -8,7 +8,7 @@
 
 namespace fleetmap::registration {
 
-/// How well clouds fit at one pose, patch by patch: those of the source, then those of the target.
+/// Fit of two clouds at one pose, patch by patch: those of the source, then those of the target.
 struct Fit {
   std::vector<float> misfit;            ///< mean over the points of each patch, [0, 1]
   std::vector<std::uint16_t> observed;  ///< points of the patch that lie where the other saw something

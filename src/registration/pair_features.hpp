@@ -4,7 +4,7 @@
 
 namespace fleetmap::registration {
 
-/// How two oriented points lie to each other, in the Darboux frame of the one whose normal is nearer to the
+/// Relation of two oriented points, in the Darboux frame of the one whose normal is nearer to the
 /// line between them (Rusu, Blodow and Beetz, ICRA 2009, Eq. 1).
 struct PairFeatures {
   float theta = 0.0f;     ///< rad, atan2(w . n_t, u . n_t)

@@ -1,3 +1,5 @@
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,7 +10,6 @@
 #include <stdexcept>
 
 #include "fleetmap/bus/cdr.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
 #include "ros_time.hpp"
 #include "sensor_msgs.h"
 #include "type_names.hpp"

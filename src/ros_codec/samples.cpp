@@ -1,9 +1,10 @@
+#include "fleetmap/ros_codec/samples.hpp"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "fleetmap/bus/cdr.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
 #include "nav_msgs.h"
 #include "ros_time.hpp"
 #include "sensor_msgs.h"

@@ -4,6 +4,7 @@
 
 #include "evaluation_page.hpp"
 #include "fleet_evaluation.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
@@ -104,8 +105,7 @@ json links_json(const json& report, double mapped_area) {
 Result<std::optional<cloud::PointCloud>> truth_of(const fs::path& directory, const EvaluationInputs& inputs) {
   if (inputs.truth) return inputs.truth;
   fs::path file = inputs.truth_file;
-  std::error_code error;
-  if (file.empty() && fs::exists(directory / "truth.ply", error)) file = directory / "truth.ply";
+  if (file.empty() && is_there(directory / "truth.ply")) file = directory / "truth.ply";
   if (file.empty()) return std::nullopt;
   auto truth = truth_cloud(file, inputs.points_per_m2);
   if (!truth) return tl::unexpected(truth.error());
@@ -162,9 +162,23 @@ void note_missing_truth(RunFolder& run, bool have_truth) {
   }
 }
 
-}  // namespace
-
-namespace {
+/// Writes pictures, evaluation.json, the evaluation into report.json where there is one, and with `page`
+/// evaluation.html.
+Status write_evaluation(const fs::path& directory, RunFolder& run, const json& evaluation,
+                        const std::vector<MapPicture>& pictures, bool page) {
+  for (const MapPicture& picture : pictures) {
+    if (Status written = write_picture(directory, picture); !written) return written;
+  }
+  if (Status written = write_whole_file(directory / "evaluation.json", evaluation.dump(2) + '\n'); !written)
+    return written;
+  if (run.report.is_object()) {
+    run.report["evaluation"] = evaluation;
+    if (Status written = write_whole_file(directory / "report.json", run.report.dump(2) + '\n'); !written)
+      return written;
+  }
+  if (!page) return {};
+  return evaluation_page(run, evaluation, pictures).write(directory / "evaluation.html");
+}
 
 Result<json> evaluated(const fs::path& directory, const EvaluationInputs& inputs) {
   if (const Status valid = inputs.map.validate(); !valid) return tl::unexpected(valid.error());
@@ -197,25 +211,9 @@ Result<json> evaluated(const fs::path& directory, const EvaluationInputs& inputs
   const double area = evaluation.contains("map") ? evaluation["map"].value("mapped_area", 0.0) : 0.0;
   if (json links = links_json(run->report, area); !links.is_null()) evaluation["links"] = links;
   evaluation["notes"] = run->notes;
-
-  for (const MapPicture& picture : maps.pictures) {
-    if (const Status written = write_picture(directory, picture); !written)
-      return tl::unexpected(written.error());
-  }
-  if (const Status written = write_whole_file(directory / "evaluation.json", evaluation.dump(2) + '\n');
+  if (const Status written = write_evaluation(directory, *run, evaluation, maps.pictures, inputs.page);
       !written)
     return tl::unexpected(written.error());
-  if (run->report.is_object()) {
-    run->report["evaluation"] = evaluation;
-    if (const Status written = write_whole_file(directory / "report.json", run->report.dump(2) + '\n');
-        !written)
-      return tl::unexpected(written.error());
-  }
-  if (inputs.page) {
-    const auto page = evaluation_page(*run, evaluation, maps.pictures);
-    if (const Status written = page.write(directory / "evaluation.html"); !written)
-      return tl::unexpected(written.error());
-  }
   return evaluation;
 }
 

@@ -85,7 +85,7 @@ std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const 
   return trajectory;
 }
 
-/// How many alignments each status has, and how many of them were wrong.
+/// Number of alignments of each status, and of the wrong ones among them.
 json statuses_json(const graph::Placement& placement, const std::vector<graph::Alignment>& alignments,
                    const eval::TruePoses& nodes) {
   std::set<std::pair<NodeId, NodeId>> wrong;

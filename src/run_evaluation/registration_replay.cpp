@@ -5,6 +5,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/loop_closure/registered_alignment.hpp"
 #include "fleetmap/loop_closure/submap_drift.hpp"
@@ -20,8 +21,7 @@ using registration::PreparedCloud;
 /// The registrations that one agent logged; empty, with a note, where the log is missing or damaged.
 std::vector<store::LoggedRegistration> logged_by(const AgentFolder& agent, std::vector<std::string>& notes) {
   const std::filesystem::path file = agent.directory / store::kRegistrationLogFile;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) {
+  if (!is_there(file)) {
     notes.push_back(file.string() + ": is missing; registrations of " + agent.id.str() +
                     " cannot be repeated by another method");
     return {};

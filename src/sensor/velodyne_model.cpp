@@ -27,7 +27,7 @@ constexpr std::array kAzimuthOffsetsVlp32c{1.4,  -4.2, 1.4,  -1.4, 1.4,  -1.4, 4
                                            -1.4, 4.2,  -1.4, 4.2,  -1.4, 1.4,  -4.2, 1.4,  -4.2, 4.2,  -1.4,
                                            1.4,  -1.4, 1.4,  -1.4, 1.4,  -4.2, 4.2,  -1.4, 1.4,  -1.4};
 
-/// How the lasers of a sequence fire: so many at once, with so many seconds in between.
+/// Timing of a firing sequence: so many lasers fire at once, so many seconds before the next ones.
 struct Firing {
   double sequence_period = 0.0;
   std::size_t at_once = 1;

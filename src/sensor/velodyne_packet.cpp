@@ -97,7 +97,7 @@ tl::expected<VelodynePacket, VelodyneRefusal> read_velodyne_packet(ByteView byte
     if (azimuth >= kFullTurn)
       return refused(VelodyneFault::kBlock, "block " + std::to_string(k) + " has an azimuth of " +
                                                 std::to_string(azimuth) + "/100 deg");
-    // Of dual returns the last one comes first.
+    // The last one of dual returns comes first.
     if (mode != kDual || k % 2 == 0)
       packet.blocks.push_back({.azimuth = azimuth, .returns = block.subspan(kReturnsAt)});
   }

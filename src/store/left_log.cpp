@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <system_error>
 
 #include "database.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -56,8 +55,7 @@ bool write_synced(sqlite3_vfs& system, const fs::path& file, ByteView bytes) {
 }
 
 bool remove_synced(sqlite3_vfs& system, const fs::path& file) {
-  std::error_code none;
-  return !fs::exists(file, none) || system.xDelete(&system, absolute_path(file).c_str(), 1) == SQLITE_OK;
+  return !is_there(file) || system.xDelete(&system, absolute_path(file).c_str(), 1) == SQLITE_OK;
 }
 
 /// With its hash behind it.

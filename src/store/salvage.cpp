@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "database.hpp"
+#include "fleetmap/core/paths.hpp"
 #include "item_codec.hpp"
 #include "page_scan.hpp"
 #include "row_hash.hpp"
@@ -233,10 +234,9 @@ void remove_store(const fs::path& file) {
 }
 
 fs::path free_name(const fs::path& file) {
-  std::error_code none;
   for (int k = 1;; ++k) {
     fs::path name = file.string() + ".damaged-" + std::to_string(k);
-    if (!fs::exists(name, none) && !fs::exists(beside(name, kLog), none)) return name;
+    if (!is_there(name) && !is_there(beside(name, kLog))) return name;
   }
 }
 
@@ -245,7 +245,7 @@ Result<fs::path> swap_files(const fs::path& file) {
   fs::path aside = free_name(file);
   std::error_code none;
   for (const char* end : {"", kLog, "-journal"}) {
-    if (!fs::exists(beside(file, end), none)) continue;
+    if (!is_there(beside(file, end))) continue;
     if (auto status = move_file(beside(file, end), beside(aside, end)); !status)
       return tl::unexpected(status.error());
   }
@@ -320,8 +320,7 @@ Result<std::string> salvage(const fs::path& file, const AgentId& self, const Sto
 }
 
 Status finish_salvage(const fs::path& file) {
-  std::error_code none;
-  if (!fs::exists(beside(file, kBuilt), none)) return {};
+  if (!is_there(beside(file, kBuilt))) return {};
   const auto aside = swap_files(file);
   return aside ? Status{} : tl::unexpected(aside.error());
 }

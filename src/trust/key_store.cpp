@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "fleetmap/core/paths.hpp"
 #include "key_files.hpp"
 #include "openssl.hpp"
 
@@ -41,8 +42,7 @@ fs::path issued_file(const fs::path& folder, const Certificate& certificate) {
 }  // namespace
 
 Result<KeyStore> KeyStore::init(const fs::path& folder, Stamp now) {
-  std::error_code error;
-  if (fs::exists(folder / kAuthorityKey, error))
+  if (is_there(folder / kAuthorityKey))
     return wrong(folder, "holds the keys of a fleet already; give another folder, or add robots to it");
   if (const Status made = make_folder(folder / kIssued, fs::perms::owner_all); !made)
     return tl::unexpected(made.error());
@@ -60,8 +60,7 @@ Result<KeyStore> KeyStore::init(const fs::path& folder, Stamp now) {
 }
 
 Result<KeyStore> KeyStore::open(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder / kAuthorityKey, error))
+  if (!is_there(folder / kAuthorityKey))
     return wrong(folder,
                  "holds no fleet's keys; make them with `fleetmap keys init --dir " + folder.string() + "`");
   const auto text = read_file(folder / kAuthorityKey, Secrecy::kSecret);
@@ -122,9 +121,8 @@ Status KeyStore::save(Stamp now) const {
   const std::string list = to_pem(sign_revocations(authority_, key_, revocations_, now), kRevocationsPem);
   std::vector<fs::path> folders{folder_};
   for (const Member& member : members_) {
-    std::error_code error;
     const fs::path folder = folder_ / member.certificate.name.str();
-    if (!member.revoked && fs::is_directory(folder, error)) folders.push_back(folder);
+    if (!member.revoked && is_folder(folder)) folders.push_back(folder);
   }
   for (const fs::path& folder : folders) {
     if (Status written = write_file(folder / file::kFleetKeys, keys, Secrecy::kSecret); !written)

@@ -10,7 +10,7 @@
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/messages/messages.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/scene.hpp"
 

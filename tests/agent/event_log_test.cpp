@@ -1,4 +1,4 @@
-#include "fleetmap/agent/event_log.hpp"
+#include "event_log.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

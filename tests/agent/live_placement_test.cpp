@@ -1,4 +1,4 @@
-#include "fleetmap/agent/live_placement.hpp"
+#include "live_placement.hpp"
 
 #include <gtest/gtest.h>
 

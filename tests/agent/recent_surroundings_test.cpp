@@ -20,7 +20,7 @@ cloud::PointCloud joined(std::initializer_list<cloud::PointCloud> clouds) {
   return all;
 }
 Pose at(double x, double y, double yaw = 0.0) { return make_pose(rotation_from_rpy(0, 0, yaw), {x, y, 0}); }
-/// What is seen from `T_odom_base`.
+/// The descriptor of the surroundings as seen from `T_odom_base`.
 place::Descriptor of(const RecentSurroundings& recent, const Pose& T_odom_base) {
   return recent.describe(T_odom_base, Eigen::Vector3d::UnitZ());
 }

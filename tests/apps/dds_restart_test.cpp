@@ -45,7 +45,7 @@ class DdsRestart : public ::testing::Test {
     return std::make_unique<testing::Process>(std::vector<std::string>{
         std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "agent", "-c", file.string()});
   }
-  /// How often `by` said that it heard `robot` on the radio.
+  /// Counts the lines of `by` that it heard `robot` on the radio.
   static std::size_t heard(const testing::Process& by, int robot) {
     return count(by.output(), "long_range: heard " + name(robot) + " ");
   }

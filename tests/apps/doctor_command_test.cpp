@@ -7,7 +7,8 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"

@@ -12,7 +12,7 @@
 #include "apps/small_twin.hpp"
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "support/process.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
 #include "support/measured.hpp"

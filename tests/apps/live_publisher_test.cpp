@@ -1,4 +1,4 @@
-// What agents without sensors show of each other on the page of one of them, and the orders that it takes.
+// Agents without sensors show each other on the page of one of them, which takes orders.
 #include <gtest/gtest.h>
 
 #include <algorithm>

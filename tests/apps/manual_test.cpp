@@ -30,7 +30,7 @@ class Manual : public ::testing::Test {
     program_.add_subcommand("secret", "for developers")->group("");
   }
 
-  /// What bash offers for the last of the words.
+  /// The completions that bash offers for the last of the words.
   std::vector<std::string> complete(const std::string& words) const {
     const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     const auto file = std::filesystem::path(::testing::TempDir()) / ("fleetmap_completion_" + test + ".bash");

@@ -1,4 +1,4 @@
-// How commands that read a recording fail.
+// Failures of commands that read a recording.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

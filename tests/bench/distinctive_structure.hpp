@@ -11,7 +11,7 @@
 
 namespace fleetmap::registration::testing {
 
-/// How much alike a scene is to itself elsewhere, from two clouds and the truth, without any registration:
+/// Similarity of a scene to itself elsewhere, from two clouds and the truth, without any registration:
 /// what stands more than 0.5 m above the ground of `source` is laid on `target` as it truly lies and shifted
 /// horizontally by up to `most_m`, and counted where `target` has something too, of what lies within reach of
 /// it. The ratio of the best shift of 1.5 m and more to none: 1, and nothing tells the two places apart;

@@ -13,7 +13,7 @@
 #include "fleetmap/config/sensor_file.hpp"
 #include "fleetmap/config/world_file.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "sim/lane_odometry.hpp"
 #include "support/process.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 using namespace fleetmap;
 
-/// How scans are spoilt. Numbers of scans are those of an undisturbed drive.
+/// Kinds of spoilt scans. Numbers of scans are those of an undisturbed drive.
 struct Disturbance {
   const char* name;
   int scans_between_jumps = 0;  ///< then the robot is at another place of its drive

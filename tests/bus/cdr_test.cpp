@@ -12,7 +12,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// What fastddsgen makes of struct { unsigned long number; string text; }.
+/// The type that fastddsgen makes of struct { unsigned long number; string text; }.
 struct Note {
   std::uint32_t number = 0;
   std::string text;

@@ -22,7 +22,7 @@ class IntroducedRobot : public LoneRadio {
     for (const char* name : {"fleetmap/status", "fleetmap/hold/r2", "fleetmap/hold/r3"})
       robot_->advertise(topic(name));
   }
-  /// Of r2, which introduces `robots`.
+  /// The Hello of r2 introduces `robots`.
   void send_hello_of_r2(std::vector<Introduction> robots) {
     Hello hello = hello_of("r2", 2);
     hello.introduces = std::move(robots);
@@ -85,7 +85,7 @@ TEST_F(IntroducedRobot, IsHeardOnceItSpeaks) {
   EXPECT_EQ(log_.count("heard r3"), 1);
 }
 
-/// What it sends may be meant for the start of r1 before this one, so a Hello of its own is still asked for.
+/// Its data may be meant for the start of r1 before this one, so a Hello of its own is still asked for.
 TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
   Place r3(static_cast<std::uint16_t>(own_ + 6));
   introduce_and_wait({introduction("r3", 3)});

@@ -9,7 +9,7 @@
 namespace fleetmap::bus::testing {
 namespace {
 
-/// How many datagrams arrive at a multicast group on the loopback.
+/// Counts the datagrams that arrive at a multicast group on the loopback.
 class GroupListener {
  public:
   GroupListener(const char* group, std::uint16_t port)

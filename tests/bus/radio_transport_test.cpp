@@ -1,4 +1,4 @@
-// What leaves on a radio, with keys and without, as the wire sees it.
+// Datagrams on a radio, with keys and without, as the wire sees them.
 #include <random>
 
 #include "bus/dds/participant_qos.hpp"

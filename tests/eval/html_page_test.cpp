@@ -12,7 +12,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What stands between the title and the end of the body.
+/// The text between the title and the end of the body.
 std::string body(const HtmlPage& page) {
   const std::string html = page.str();
   const std::size_t begin = html.find("</h1>\n") + 6;

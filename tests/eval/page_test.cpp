@@ -13,7 +13,7 @@ namespace {
 
 const std::string kNasty = "a<b & \"c\" 'd' </svg>\x01";
 
-/// How many elements of that name a well-formed document has; -1 when it is not well formed.
+/// Number of elements of that name in a well-formed document; -1 when it is not well formed.
 int elements(const std::string& xml, const std::string& name) {
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.c_str(), xml.size()) != tinyxml2::XML_SUCCESS) return -1;

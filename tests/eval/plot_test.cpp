@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-/// What is drawn within the axes: each element with its attributes and its tooltip.
+/// The drawing within the axes: each element with its attributes and its tooltip.
 struct Drawn {
   std::string name;
   std::map<std::string, std::string> attributes;

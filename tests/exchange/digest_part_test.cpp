@@ -24,7 +24,7 @@ std::vector<SeqRange> held_by_three(std::uint32_t each) {
   return ranges;
 }
 
-/// What is offered after `digests` digests of `held`, which have room for `limit` ranges.
+/// The offer after `digests` digests of `held`, which have room for `limit` ranges.
 SeqSet after_digests(SeqSet offered, const std::vector<SeqRange>& held, std::size_t limit,
                      std::size_t digests) {
   std::size_t next = 0;

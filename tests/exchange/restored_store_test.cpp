@@ -15,7 +15,7 @@ using testing::SimFleet;
 
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
-/// How often this robot was told that its store lacks what others have of it.
+/// Counts the reports to this robot that its store lacks what others have of it.
 int warnings_of_lost_items(const SimFleet::Robot& robot) {
   return static_cast<int>(std::ranges::count_if(
       robot.events, [](const Event& event) { return std::holds_alternative<OwnItemsElsewhere>(event); }));

@@ -22,7 +22,7 @@ class FieldEngineTest : public ::testing::Test {
     folder_.write("bags/r1/x", "");
     one_.agents = 2;
     fs::create_directories(directory());
-    // Of what the robots leave.
+    // The evaluation of what the robots leave.
     folder_.write("left/field.json", R"({"all_know_s": 0.5, "equal": 1})");
     for (const char* robot : {"left/r1", "left/r2"}) {
       folder_.write(std::string(robot) + "/node_times.csv", "time_ns,node\n1000000000,r1#7/0\n");

@@ -29,7 +29,7 @@ Fault fault(FaultKind kind, std::vector<std::size_t> robots, double value = 0.0)
   return fault;
 }
 
-/// How many packets arrive never, once and twice.
+/// Counts the packets that arrive never, once and twice.
 std::array<int, 3> copies(LinkFaults& faults, std::size_t from, std::size_t to, Reach reach = kRadio) {
   std::array<int, 3> counts{};
   for (int k = 0; k < kMany; ++k) ++counts.at(faults.arrivals(from, to, reach).size());

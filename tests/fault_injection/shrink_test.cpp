@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/shrink.hpp"
+#include "shrink.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 AgentId agent(std::size_t robot) { return AgentId::parse("r" + std::to_string(robot + 1)).value(); }
 NodeId id(std::size_t robot, std::uint32_t seq) { return {agent(robot), first_seq(7) + seq}; }
 
-/// What a robot makes in a session of `time`, looked for every 100 ms.
+/// The nodes that a robot makes in a session of `time`, polled every 100 ms.
 std::vector<SyntheticSurvey::Made> survey(SyntheticSurvey& survey, std::size_t robot, Duration time) {
   std::vector<SyntheticSurvey::Made> all;
   survey.begin_frame(robot, {});

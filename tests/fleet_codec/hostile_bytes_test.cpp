@@ -45,7 +45,7 @@ TEST(HostileBytes, EveryTruncationIsRefused) {
   }
 }
 
-/// Whatever is accepted after damage is a message that could have been sent: its encoding decodes to itself.
+/// A message that is accepted after damage is one that could have been sent: its encoding decodes to itself.
 TEST(HostileBytes, DamagedMessagesAreRefusedOrSound) {
   RandomMessages random(12);
   std::size_t accepted = 0, refused = 0;

@@ -27,7 +27,7 @@ class WireBytes {
   WireBytes& u32(std::uint32_t value) { return number(value); }
   WireBytes& f32(float value) { return number(value); }
   WireBytes& f64(double value) { return number(value); }
-  /// Of an agent, padded with zeros to 8 octets.
+  /// The name of an agent, padded with zeros to 8 octets.
   WireBytes& name(std::string_view text) {
     for (std::size_t k = 0; k < 8; ++k) octet(k < text.size() ? static_cast<std::uint8_t>(text[k]) : 0);
     return *this;

@@ -1,4 +1,4 @@
-// What a Foxglove client writes to the monitor: its texts, and the subprotocols that it offers.
+// Input of the monitor from a Foxglove client: its texts, and the subprotocols that it offers.
 #include "checks.hpp"
 #include "monitor/foxglove/subscriptions.hpp"
 

@@ -2,7 +2,8 @@
 #include <array>
 
 #include "checks.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 
 namespace fleetmap::fuzz {
 namespace {

@@ -25,7 +25,7 @@ TEST(GlobalPose, AtTheOriginIsItsRotation) {
   EXPECT_LT((T.linear() - R).norm(), 1e-12);
 }
 
-/// What lies before the robot is there in every frame: it goes from base_link to the axes at the robot, to
+/// A point before the robot is there in every frame: it goes from base_link to the axes at the robot, to
 /// the Earth, to the site.
 TEST(GlobalPose, TakesPointsOfTheRobotToWhereTheyAreOnEarth) {
   const LocalFrame site(geo_point_from_degrees(60.0, 20.0, 30.0));

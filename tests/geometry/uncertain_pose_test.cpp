@@ -17,7 +17,7 @@ UncertainPose some_pose(unsigned seed) {
           1e-4 * root * root.transpose()};
 }
 
-/// How the right tangent of `pose_of(0)` moves with the tangent of what it is made of, by differences.
+/// Jacobian of the right tangent of `pose_of(0)` by the tangent of what it is made of, by differences.
 template <class PoseOf>
 Matrix6d jacobian_of(const PoseOf& pose_of) {
   constexpr double kStep = 1e-6;

@@ -14,8 +14,8 @@ namespace {
 using registration::Verdict;
 using registration::testing::error_between;
 
-LoopClosing::Config config() {
-  LoopClosing::Config config;
+LoopClosingConfig config() {
+  LoopClosingConfig config;
   config.self = kA;
   config.spherize.radius_m = 20.0f;
   config.own_path.min_path = 45.0;
@@ -84,7 +84,7 @@ class LoopClosingWithAPeer : public LoopClosingTest {
   }
   /// The cloud around the peer's node, as the peer makes it.
   Bytes their_cloud() {
-    LoopClosing::Config of_peer = config();
+    LoopClosingConfig of_peer = config();
     of_peer.self = kB;
     LoopClosing closing(of_peer, peer_.bus(), peer_.store(), {});
     std::optional<Bytes> cloud;

@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/point_levels.hpp"
+#include "point_levels.hpp"
 
 #include <gtest/gtest.h>
 

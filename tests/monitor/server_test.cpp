@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fleetmap/monitor/point_levels.hpp"
 #include "monitor/browser.hpp"
 #include "monitor/views.hpp"
+#include "point_levels.hpp"
 #include "support/eventually.hpp"
 
 namespace fleetmap::monitor {

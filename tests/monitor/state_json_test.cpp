@@ -1,4 +1,4 @@
-#include "fleetmap/monitor/state_json.hpp"
+#include "state_json.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

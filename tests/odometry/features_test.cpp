@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/features.hpp"
+#include "features.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "fleetmap/odometry/deskew.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
-#include "fleetmap/odometry/rate_history.hpp"
+#include "deskew.hpp"
+#include "motion_prior.hpp"
+#include "rate_history.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::odometry {

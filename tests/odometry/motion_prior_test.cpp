@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/motion_prior.hpp"
+#include "motion_prior.hpp"
 
 #include <gtest/gtest.h>
 

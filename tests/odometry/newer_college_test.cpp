@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
-#include "fleetmap/odometry/deskew.hpp"
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "deskew.hpp"
+#include "scan_matching.hpp"
 #include "support/shared_data.hpp"
 
 namespace fleetmap::odometry {

@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/pose_uncertainty.hpp"
+#include "pose_uncertainty.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/rate_history.hpp"
+#include "rate_history.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "scan_matching.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where the robot is, inside a hall around the map's origin.
+/// Pose of the robot, inside a hall around the map's origin.
 const Pose kTruth = make_pose(rotation_from_rpy(0.02, -0.03, 0.4), Vector3d(0.7, -0.4, 0.1));
 
 /// Points on the walls y = -4 and 4, floor and ceiling, and on the walls x = -6 and 6 of a closed hall.

@@ -29,7 +29,7 @@ struct PoorDrive {
 PoorDrive drive_in(SyntheticWorld world);
 PoorDrive drive_on(GroundShape ground);
 
-/// What LOAM states for it, and what it errs by.
+/// The uncertainty that LOAM states for a drive, and its true error.
 struct StatedDrive {
   int scans = 0, refused = 0;
   int degenerate = 0;      ///< scans with degenerate directions

@@ -1,4 +1,4 @@
-#include "fleetmap/output/corrected_pose.hpp"
+#include "corrected_pose.hpp"
 
 #include <gtest/gtest.h>
 

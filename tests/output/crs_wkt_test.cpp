@@ -1,4 +1,4 @@
-#include "fleetmap/output/crs_wkt.hpp"
+#include "crs_wkt.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(CrsWkt, OfALocalFrameNamesItsOriginOrThatThereIsNone) {
   EXPECT_THAT(nowhere, Not(HasSubstr("EAST")));
 }
 
-/// What GDAL's gdalsrsinfo (gdal-bin) reads in a text; empty where it is not installed.
+/// Reading of a text by GDAL's gdalsrsinfo (gdal-bin); empty where it is not installed.
 std::string gdal_reads(const std::string& wkt) {
   constexpr const char* kProgram = "/usr/bin/gdalsrsinfo";
   if (access(kProgram, X_OK) != 0) return {};

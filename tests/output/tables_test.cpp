@@ -1,4 +1,4 @@
-#include "fleetmap/output/tables.hpp"
+#include "tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,8 @@
 
 #include "fleetmap/recording/bag_writer.hpp"
 #include "fleetmap/recording/reader.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 
 namespace fleetmap::recording::testing {

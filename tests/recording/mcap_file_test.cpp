@@ -22,7 +22,8 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What an independent writer put into each file of the folder: scans at 10 Hz, an IMU at 50 Hz, 0.4 s.
+/// Expects the contents that an independent writer put into each file of the folder: scans at 10 Hz, an IMU
+/// at 50 Hz, 0.4 s.
 void expect_drive(const fs::path& file, std::size_t scans = 4, std::size_t imus = 20) {
   auto reader = open(file);
   ASSERT_TRUE(reader) << reader.error().message;

@@ -3,7 +3,8 @@
 
 #include "bag_samples.hpp"
 #include "fleetmap/recording/play_times.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -132,7 +132,7 @@ TEST(Comparison, TheNoiseIsTheDistanceOfACloudFromItself) {
   EXPECT_NEAR(squares, 0.03 * 0.03 - 0.01 * 0.01, 8e-5);
 }
 
-/// Of differences 0.4 and 0.2: (0.6)^2 / (2 * (0.16 + 0.04)).
+/// The differences are 0.4 and 0.2: (0.6)^2 / (2 * (0.16 + 0.04)).
 TEST(Evidence, IsHalfTheSquareOfTheNormalisedSum) {
   const Fit a = fit_of({0.1f, 0.2f}, {10, 3}), b = fit_of({0.5f, 0.4f}, {3, 10});
   EXPECT_NEAR(evidence(a, b, std::nullopt), 0.9, 1e-6);

@@ -86,7 +86,7 @@ TEST(DriftModel, PatchesBehindOneBendMoveTogether) {
   EXPECT_LT((twice - 4.0 * one).norm(), 1e-12);
 }
 
-/// Where levelling turns the cloud, all turns with it.
+/// Levelling that turns the cloud turns all with it.
 TEST(DriftModel, IsAboutTheLevelledCloud) {
   const MapDrift drift = stops_at({{0.0, kNone}, {40.0, kShift + kTurn}, {80.0, kTurn}});
   const Matrix3d R = rotation_from_rpy(0.0, 0.0, 0.5 * std::numbers::pi);

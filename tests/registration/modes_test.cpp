@@ -70,7 +70,7 @@ void expect_ordered(const std::vector<FoundMode>& modes) {
   EXPECT_NEAR(sum, 1.0, 1e-9);
 }
 
-/// Where all is the same every 4 m, each shift by so much fits.
+/// The scene repeats every 4 m, so each shift by so much fits.
 TEST(Modes, EveryPoseThatFitsIsFound) {
   const PreparedCloud target = prepared(row({0, 0, 1}, 1)), source = prepared(row({1, 0, 1}, 2));
   const auto modes = modes_of(target, source, prior_at(level_pose(1, 0, 0, 0), 2.5));

@@ -28,7 +28,7 @@ Site farm_site(const std::string& name, const sim::SolarFarmConfig& config);
 /// Rolling ground with trees (a trunk, a crown of leaves) and boulders at random.
 Site wild_site(const std::string& name, unsigned seed, double half_m = 90.0);
 
-/// How a robot comes by the map around a node.
+/// Conditions under which a robot gathers the map around a node.
 struct Gathering {
   double reach_m = 40.0;        ///< m of lane before and behind the node
   double scan_spacing_m = 1.0;  ///< m

@@ -1,3 +1,5 @@
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "fleetmap/bus/cdr.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
 #include "sensor_msgs.h"
 
 namespace fleetmap::ros_codec {

@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 
 namespace fleetmap::ros_codec {

@@ -1,7 +1,7 @@
+#include "fleetmap/ros_codec/samples.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "fleetmap/ros_codec/sensors.hpp"
 
 namespace fleetmap::ros_codec {
 namespace {

@@ -15,8 +15,8 @@ constexpr double kHeight = 0.6;  // m, of the LiDAR above base_link, which lies 
 
 using Surface = std::function<double(double x, double y)>;
 
-/// What 16 lasers between -15 and 15 deg see of ground of some height (m) and of what stands on it: a wall at
-/// x = 6 m, and a panel that leans by 30 deg from 0.8 m up, behind y = 3 m.
+/// Returns of 16 lasers between -15 and 15 deg from ground of some height (m) and from what stands on it: a
+/// wall at x = 6 m, and a panel that leans by 30 deg from 0.8 m up, behind y = 3 m.
 Scan scan_of(const Surface& ground, double noise, bool panel = true) {
   std::mt19937 random(3);
   std::normal_distribution<double> error(0.0, noise);

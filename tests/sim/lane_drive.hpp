@@ -12,7 +12,7 @@
 
 namespace fleetmap::testing {
 
-/// How a robot drives, and what its LiDAR gives.
+/// Conditions of a drive and of its LiDAR.
 struct DriveCondition {
   const char* name;
   double speed = 1.0;           ///< m/s

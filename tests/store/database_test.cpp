@@ -139,7 +139,7 @@ TEST_F(FilledDatabase, AfterASyncThatFailedTheNextOneWritesTheLogAgain) {
   EXPECT_EQ(Database::open(file_, false)->integer("SELECT sum(k) FROM t").value(), 3);
 }
 
-/// What a disk keeps of a sync that failed differs.
+/// Disks differ in what they keep of a sync that failed.
 TEST(DatabaseSync, WhatAFailedSyncLostIsWrittenAgain) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
     const testing::ScratchFolder folder;

@@ -2,18 +2,19 @@
 // allows.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "source_tree.hpp"
+
 namespace fleetmap {
 namespace {
 
-namespace fs = std::filesystem;
+using structure::Include;
+using structure::library_of;
 
 const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"core", {}},
@@ -76,42 +77,15 @@ std::set<std::string> allowed(const std::string& library) {
   return all;
 }
 
-struct Include {
-  std::string file;  ///< relative to the top
-  int line = 0;
-  std::string target;  ///< with its quotes or brackets
-};
-
-std::vector<Include> includes_of(const fs::path& file, const fs::path& top) {
-  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"][^>"]+[>"]))");
-  std::vector<Include> found;
-  std::ifstream in(file);
-  std::string text;
-  for (int line = 1; std::getline(in, text); ++line) {
-    std::smatch match;
-    if (std::regex_search(text, match, kInclude))
-      found.push_back({fs::relative(file, top).string(), line, match[1]});
-  }
-  return found;
-}
-
 std::vector<Include> all_includes() {
-  const fs::path top = FLEETMAP_SOURCE_DIR;
   std::vector<Include> found;
   for (const char* root : {"include/fleetmap", "src"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(top / root)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".hpp" && extension != ".cpp" && extension != ".h") continue;
-      const auto more = includes_of(entry.path(), top);
+    for (const std::string& file : structure::cpp_files_below(root)) {
+      const auto more = structure::includes_of(file);
       found.insert(found.end(), more.begin(), more.end());
     }
   }
   return found;
-}
-
-std::string library_of(const std::string& file) {
-  const std::string prefix = file.starts_with("include/") ? "include/fleetmap/" : "src/";
-  return file.substr(prefix.size(), file.find('/', prefix.size()) - prefix.size());
 }
 
 TEST(IncludeArrows, EveryLibraryHasARow) {

@@ -6,7 +6,8 @@
 #include <random>
 
 #include "fleetmap/recording/bag_writer.hpp"
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/point_cloud2.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "synthetic_lidar.hpp"
 

@@ -31,7 +31,7 @@ struct GeneratedFleet {
 Result<GeneratedFleet> write_generated_fleet(const std::filesystem::path& out,
                                              const std::set<std::string>& without_gps = {});
 
-/// How far the alignments of two robots' nodes that `store` holds lie off the truth, the worst of each: m
+/// Errors of the alignments of two robots' nodes that `store` holds, the worst of each: m
 /// along the axes of the first node, and rad. None when it holds none.
 struct AlignmentErrors {
   int count = 0;

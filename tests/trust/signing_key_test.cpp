@@ -67,7 +67,7 @@ TEST(SigningKey, ItsFileKeepsTheKey) {
 TEST(SigningKey, AnythingElseIsRefused) {
   const std::string x25519 =
       pem_of(kPrivate, "MC4CAQAwBQYDK2VuBCIEIEzNCJso/5banbbDRuwRTg9bijGfNaumJNqM9u1PuKb7");
-  // Of passphrase "secret", for which nobody may be asked.
+  // Its passphrase is "secret", for which nobody may be asked.
   const std::string encrypted = pem_of("ENCRYPTED PRIVATE KEY",
                                        "MIGbMFcGCSqGSIb3DQEFDTBKMCkGCSqGSIb3DQEFDDAcBAi2Qzm7vKYStwICCAAw\n"
                                        "DAYIKoZIhvcNAgkFADAdBglghkgBZQMEASoEEAEL1o/zkMJ4NqL4//g8f/sEQDKY\n"

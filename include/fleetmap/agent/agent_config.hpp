@@ -22,7 +22,7 @@
 
 namespace fleetmap::agent {
 
-struct NavigatorConfig;  // navigator.hpp
+struct NavigatorConfig;  // navigator_config.hpp
 
 /// Everything that can be set of one robot, by component.
 struct AgentConfig {
@@ -45,7 +45,7 @@ struct AgentConfig {
   store::Sessions::Draw draw_session = store::random_session;
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
 
-  /// How the maps are made, and the rest that results depend on.
+  /// The rules by which maps are made, and the rest that results depend on.
   output::RecipeConfig recipe() const { return {site_origin, placement, map}; }
   output::ResultsConfig results() const { return {id, directory, recipe()}; }
   /// Names the component, the field and the rule that it breaks.

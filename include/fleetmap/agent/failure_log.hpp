@@ -24,7 +24,7 @@ class FailureLog {
     return true;
   }
 
-  /// How many failures there were since it worked, once after failures of which one was reported.
+  /// Number of failures since it worked, once after failures of which one was reported.
   std::uint64_t on_success() {
     if (!std::exchange(failing_, false) || !reported_) return 0;
     return std::exchange(since_it_worked_, 0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fleetmap/agent/drive_guard.hpp"
+#include "fleetmap/agent/navigator_config.hpp"
 #include "fleetmap/agent/obstacles.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/bus/bus.hpp"
@@ -18,15 +19,6 @@
 #include "fleetmap/planning/mission/row_coverage.hpp"
 
 namespace fleetmap::agent {
-
-struct NavigatorConfig {
-  /// The whole fleet's plan: the same on every robot.
-  std::shared_ptr<const planning::FleetPlan> plan;
-  planning::PathFollowerConfig follower;
-  ObstacleConfig obstacles;
-  DriveGuardConfig guard;
-  Duration report_period = std::chrono::seconds(5);
-};
 
 /// Drives one robot through its part of the mission: poses and scans in, cmd_vel out. Reports its progress to
 /// the others and takes over rows that they cannot drive. Navigates by the EKF's pose, or by that of

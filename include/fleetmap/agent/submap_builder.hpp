@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "fleetmap/agent/submap_config.hpp"
 #include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/cloud/voxel_grid.hpp"
 #include "fleetmap/core/bytes.hpp"
@@ -10,15 +11,6 @@
 #include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap::agent {
-
-struct SubmapConfig {
-  double voxel = 0.1;                  ///< m, points are thinned to one a cube of this edge
-  double resolution = 0.02;            ///< m, rounding of the encoded points
-  double scan_spacing = 0.2;           ///< m of motion between scans that enter a submap
-  double scan_angle = 0.1;             ///< rad of turn between scans that enter a submap
-  std::uint32_t max_bytes = 4u << 20;  ///< of one encoded submap; thinned more coarsely until it fits
-  Status validate() const;
-};
 
 /// Gathers the points seen since the last node and freezes them into that node's submap.
 class SubmapBuilder {

@@ -17,7 +17,7 @@ namespace fleetmap::cloud {
 inline constexpr double kLasStep = 0.001;
 inline constexpr std::size_t kLasRecordSize = 30;  ///< bytes of a point
 
-/// What a file's header states besides the sums over its points.
+/// Contents of a file's header besides the sums over its points.
 struct LasDescription {
   std::string wkt;                         ///< coordinate reference system, OGC 01-009
   std::string text;                        ///< the same for people: text area description

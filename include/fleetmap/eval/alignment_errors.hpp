@@ -13,7 +13,7 @@
 #include "fleetmap/graph/node.hpp"
 #include "fleetmap/graph/placement.hpp"
 
-/// How right alignments, odometry and placement are, from where the nodes truly were. Only relative poses
+/// Errors of alignments, odometry and placement against the true poses of the nodes. Only relative poses
 /// count, so the frame of the truth does not matter.
 namespace fleetmap::eval {
 

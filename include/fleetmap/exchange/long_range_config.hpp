@@ -22,7 +22,7 @@ struct LongRangeConfig {
   std::size_t max_backfill = 512;   ///< messages
   std::size_t max_fragments = 512;  ///< messages
   Status validate() const;
-  /// How often a message to all crosses the medium.
+  /// Number of times that a message to all crosses the medium.
   std::size_t copies(std::size_t fleet_size) const {
     return multicast || fleet_size < 2 ? 1 : fleet_size - 1;
   }

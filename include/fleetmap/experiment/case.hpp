@@ -30,7 +30,7 @@ struct Case {
   bool overlap = false;              ///< the map where two robots were
 };
 
-/// How many values lie in each bin; bins follow each other from 0.
+/// Counts of values by bin; bins follow each other from 0.
 struct Histogram {
   double bin_width = 1.0;
   std::vector<double> shares;

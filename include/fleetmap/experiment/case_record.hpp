@@ -7,7 +7,7 @@
 
 namespace fleetmap::experiment {
 
-/// How a case ended: `result` unless it failed, then `reason`.
+/// End of a case: `result` unless it failed, then `reason`.
 struct CaseRecord {
   Case of;
   std::string folder;   ///< below cases/; that of another case if both have the same inputs
@@ -28,7 +28,7 @@ nlohmann::json to_json(const CaseRecord& record);
 Status write_record(const std::filesystem::path& directory, const CaseRecord& record);
 /// Whether a case whose pictures were lost counts: its numbers are whole.
 enum class LostPictures : std::uint8_t { kRunAgain, kLeftOut };
-/// How an earlier start ended the case, done or failed; empty if it did not come to its end, had other
+/// Record of an earlier start of the case, done or failed; empty if it did not come to its end, had other
 /// inputs, lost its pictures (unless they are left out) or was run by another build than `program` (empty:
 /// any will do).
 std::optional<CaseRecord> read_record(const std::filesystem::path& directory, const Case& one,

@@ -26,7 +26,7 @@ struct Residual {
 /// resolution's own, resolution / sqrt(12). NaN with one seed.
 Residual residual_of(const Curve& curve);
 
-/// How a curve lies to the shape it is expected to have.
+/// Comparison of a curve with the shape that it is expected to have.
 struct Trend {
   std::vector<double> means;
   double change = 0.0;     ///< last mean less the first

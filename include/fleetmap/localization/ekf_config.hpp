@@ -9,7 +9,7 @@
 
 namespace fleetmap::localization {
 
-/// How the sensors sit on the robot.
+/// Mounts of the sensors on the robot.
 struct Mounting {
   Pose T_base_imu = Pose::Identity();
   Eigen::Vector3d p_base_antenna = Eigen::Vector3d::Zero();  ///< m, GPS antenna (lever arm)

@@ -49,7 +49,7 @@ struct EkfCounters {
 
 using Sample = std::variant<sensor::Imu, sensor::Wheel, sensor::Fix>;
 
-/// How much of the robot's pose the filter estimates.
+/// Part of the robot's pose that the filter estimates.
 enum class Phase {
   kWaiting,   ///< no position yet
   kCoarse,    ///< position of the last fix, level, heading unknown

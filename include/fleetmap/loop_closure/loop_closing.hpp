@@ -9,6 +9,7 @@
 
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/loop_closure/candidate_scheduler.hpp"
+#include "fleetmap/loop_closure/loop_closing_config.hpp"
 #include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "fleetmap/loop_closure/own_path_config.hpp"
 #include "fleetmap/loop_closure/registration_record.hpp"
@@ -28,14 +29,6 @@ class SessionCandidates;
 /// alignments
 class LoopClosing {
  public:
-  struct Config {
-    AgentId self;
-    LoopClosureConfig candidates;  ///< with peers and earlier sessions
-    OwnPathConfig own_path;
-    bool closes_own_path = true;
-    registration::SpherizeConfig spherize;
-    registration::RegistrationConfig registration;
-  };
   /// Receivers of the results, called on the bus's callback thread.
   struct Outputs {
     /// Every registration that ended, before anything else is done with it.
@@ -47,7 +40,7 @@ class LoopClosing {
   };
 
   /// `bus` and `store` outlive this, and this outlives the jobs of the bus.
-  LoopClosing(const Config& config, bus::Bus& bus, store::Store& store, Outputs outputs);
+  LoopClosing(const LoopClosingConfig& config, bus::Bus& bus, store::Store& store, Outputs outputs);
   ~LoopClosing();
   LoopClosing(const LoopClosing&) = delete;
   LoopClosing& operator=(const LoopClosing&) = delete;
@@ -78,7 +71,7 @@ class LoopClosing {
   void start(const ReceivedCloud& received);
   void conclude(const Registration& registration);
 
-  Config config_;
+  LoopClosingConfig config_;
   bus::Bus& bus_;
   store::Store& store_;
   Outputs outputs_;

@@ -6,7 +6,7 @@
 
 namespace fleetmap::loop_closure {
 
-/// How uncertain the inner shape of the spherized cloud around `node` is: its stops are those of
+/// Uncertainty of the inner shape of the spherized cloud around `node`: its stops are those of
 /// pass_around(), with the odometry's own covariances between them. Works for other robots' nodes as well;
 /// where some are not held, odometry is taken to err over the gap as registration::MapDrift::straight() has
 /// it.

@@ -86,7 +86,7 @@ struct Loan {
   bool operator==(const Loan&) const = default;
 };
 
-/// How `from` is doing, for people, for planning and for dividing the radio's budget.
+/// State of `from`, for people, for planning and for dividing the radio's budget.
 struct AgentStatus {
   AgentId from;
   Stamp stamp;

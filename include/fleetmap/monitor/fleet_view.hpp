@@ -14,7 +14,7 @@
 
 namespace fleetmap::monitor {
 
-/// How much of what `maker` made one robot holds.
+/// Share of the items that `maker` made which one robot holds.
 struct Holding {
   AgentId holder, maker;
   std::size_t nodes = 0, submaps = 0, alignments = 0;

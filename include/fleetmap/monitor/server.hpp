@@ -12,24 +12,10 @@
 #include "fleetmap/monitor/fleet_view.hpp"
 #include "fleetmap/monitor/live_status.hpp"
 #include "fleetmap/monitor/request_check.hpp"
+#include "fleetmap/monitor/server_config.hpp"
 #include "fleetmap/store/map_merge.hpp"
 
 namespace fleetmap::monitor {
-
-struct ServerConfig {
-  std::string address = "127.0.0.1";
-  std::uint16_t port = 0;                             ///< 0: any that is free
-  std::string token;                                  ///< needed where `address` is not of this machine alone
-  std::size_t max_viewers = 8;                        ///< pages and Foxglove clients at once
-  std::size_t max_connections = 64;                   ///< of all kinds; more are closed at once
-  std::chrono::milliseconds request_timeout{10'000};  ///< to send a request
-  std::chrono::milliseconds answer_timeout{30'000};   ///< to take its answer
-  std::chrono::milliseconds idle_timeout{30'000};     ///< of a viewer that answers no ping
-  std::size_t cached_bytes = 64u << 20;               ///< of submaps that were decoded
-  std::size_t foxglove_points = 300'000;              ///< of the map that Foxglove clients get, at most
-  std::chrono::milliseconds foxglove_map_period{5'000};  ///< from one of these maps to the next
-  Status validate() const;
-};
 
 /// One file of the page, gzip-compressed.
 struct PageFile {

@@ -9,7 +9,7 @@
 
 namespace fleetmap::odometry {
 
-/// How the ring of a point is found when the scan has no ring field.
+/// Source of the ring of a point when the scan has no ring field.
 enum class RingSource {
   kElevation,   ///< nearest vertical angle of the table (points in firing order or in any order)
   kPointOrder,  ///< points come ring by ring from the topmost one, each a full turn (KITTI files)

@@ -8,17 +8,12 @@
 #include <string>
 
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/output/las_map_config.hpp"
 #include "fleetmap/output/map_crs.hpp"
 #include "fleetmap/store/store.hpp"
 #include "fleetmap/store/tiled_merge.hpp"
 
 namespace fleetmap::output {
-
-struct LasMapConfig {
-  std::filesystem::path out;          ///< a file; with `tile` a folder
-  std::optional<std::uint32_t> tile;  ///< m, edge of the square that one file holds
-  std::string software;               ///< that writes it, with its version
-};
 
 struct WrittenLas {
   store::MapOutline outline;

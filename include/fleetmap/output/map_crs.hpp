@@ -31,7 +31,7 @@ struct CrsChoice {
 /// by metres and nothing shows it; programs of surveyors, which have both, do it from the file.
 Result<CrsChoice> parse_crs(std::string_view text);
 
-/// Where the frame of a map is.
+/// Place of the frame of a map.
 struct MapPlace {
   GeoPoint origin;             ///< of ENU
   bool georeferenced = false;  ///< otherwise `origin` says nothing
@@ -47,11 +47,11 @@ class MapCrs {
   /// "EPSG:32630", or "enu".
   std::string name() const;
   std::string wkt() const;
-  /// What the coordinates and the heights are, in sentences.
+  /// Describes the coordinates and the heights, in sentences.
   std::string text() const;
   /// Whole kilometres below the origin, m: coordinates less this are small numbers.
   Eigen::Vector3i offset() const;
-  /// Of lengths at the origin in this system over those on the ellipsoid.
+  /// Ratio of lengths at the origin in this system to those on the ellipsoid.
   double scale() const { return scale_; }
 
   /// Easting, northing and height (m) of points in the map's frame; NaN where there are none. Fails where the

@@ -33,8 +33,8 @@ Result<WrittenMap> write_merged(store::Store& store, const std::map<NodeId, Pose
                                 std::span<const std::filesystem::path> files,
                                 const std::vector<std::string>& comments = {});
 
-/// Of all that a map is a function of: submaps, their poses, how they are merged. Equal on agents that hold
-/// the same set.
+/// Hash of all that a map is a function of: submaps, their poses, how they are merged. Equal on agents that
+/// hold the same set.
 ContentHash map_hash(const store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                      const store::MergeConfig& config);
 

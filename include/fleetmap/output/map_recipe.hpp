@@ -5,30 +5,26 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/output/recipe_config.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::output {
 
-/// How a map was made: what `fleetmap map export` needs to make the same one again.
+/// Settings with which a map was made: `fleetmap map export` makes the same one again by them.
 struct MapRecipe {
   GeoPoint origin;
   graph::PlacementConfig placement;
   store::MergeConfig merge;
 };
 
-struct RecipeConfig {
-  std::optional<GeoPoint> site_origin;  ///< of ENU; absent: site_origin() of the store
-  graph::PlacementConfig placement;
-  store::MergeConfig map;
-};
 /// Stores how the agent's maps are made, so that what is made of the store later, whatever became of the
 /// agent, is the same.
 Status keep_recipe(store::Store& store, const RecipeConfig& config);
 /// By the last keep_recipe(); where no origin was configured, with that of what the store holds now. Empty if
 /// there was none, or there is no origin yet.
 std::optional<MapRecipe> map_recipe(const store::Store& store);
-/// How to show a store of which maybe no map was made: by map_recipe(), else by the defaults. The origin is
+/// Settings to show a store of which maybe no map was made: map_recipe(), else the defaults. The origin is
 /// `origin`, else that of map_recipe(), else site_origin() of the store; empty if there is none of them.
 std::optional<MapRecipe> recipe_or_default(const store::Store& store,
                                            const std::optional<GeoPoint>& origin = std::nullopt);

@@ -22,7 +22,7 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 std::vector<graph::Node> nodes_of(const store::Store& store);
 std::vector<graph::Alignment> alignments_of(const store::Store& store);
 
-/// Of the newest of these nodes; empty if none is held.
+/// Stamp of the newest of these nodes; empty if none is held.
 std::optional<Stamp> newest_stamp(const store::Store& store, const std::map<NodeId, Pose>& T_map_node);
 
 /// Computes the pose of every node of the store.

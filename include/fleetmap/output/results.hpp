@@ -13,17 +13,11 @@
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/map_recipe.hpp"
+#include "fleetmap/output/results_config.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::output {
-
-/// Inputs of an agent's results, beside its store.
-struct ResultsConfig {
-  AgentId agent;
-  std::filesystem::path directory;  ///< holds the agent's trajectories, and gets the results
-  RecipeConfig recipe;
-};
 
 struct Results {
   GeoPoint origin;

@@ -6,8 +6,8 @@
 
 namespace fleetmap::registration {
 
-/// How ICP detects that a point and a surfel lie on opposite sides of an object, which its thickness
-/// separates.
+/// Test by which ICP detects that a point and a surfel lie on opposite sides of an object, which its
+/// thickness separates.
 enum class Sides {
   of_normals,  ///< planes whose normals, turned to the sensors, face apart
   of_sensors,  ///< planes and posts between the two sensors: the point's was behind what the target's saw

@@ -29,7 +29,7 @@ class SensorHealth {
   /// many scans it is base_link's z, on slopes as well; else the LiDAR's mount is wrong.
   void check_ground(const Eigen::Vector3d& normal);
 
-  /// What was found since the last call, each with its remedy.
+  /// Findings since the last call, each with its remedy.
   std::vector<std::string> take_warnings();
   /// All that was found, in order.
   const std::vector<std::string>& findings() const { return findings_; }

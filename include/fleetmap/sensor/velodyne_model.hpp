@@ -7,7 +7,7 @@
 
 namespace fleetmap::sensor {
 
-/// What the manual of a Velodyne LiDAR states of its lasers. A laser's index is its place in a data block.
+/// The lasers of a Velodyne LiDAR, by its manual. A laser's index is its place in a data block.
 struct VelodyneModel {
   static constexpr std::size_t kMaxLasers = 32;
   struct Laser {

@@ -21,8 +21,8 @@ constexpr double kNewcomerShares = 5.0;
 /// Later than this after its first answer, or if others came as well, it leaves them more.
 constexpr auto kNewcomerFor = std::chrono::seconds(10);
 constexpr double kLaterShares = 2.0;
-/// Of a pair's two Hellos a radio that loses one in five loses one in a third of the tries: with twelve, one
-/// of 200,000 pairs is still apart, with seven one of 1,300.
+/// A radio that loses one datagram in five loses one of a pair's two Hellos in a third of the tries: with
+/// twelve, one of 200,000 pairs is still apart, with seven one of 1,300.
 constexpr int kQuickHellos = 7, kNewcomerHellos = 12;
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "executor.hpp"
+#include "hello_pacing_config.hpp"
 
 namespace fleetmap::bus {
 
@@ -13,14 +14,9 @@ Executor::Clock::duration to_duration(double seconds);
 class HelloPacing {
  public:
   using Clock = Executor::Clock;
-  struct Config {
-    double fleet_bits_per_second = 0.0;  ///< of all traffic of all robots
-    bool keys = false;                   ///< Hellos are sealed and signed, which takes three instead of two
-    bool observes = false;               ///< joins a fleet that may be using the radio
-  };
   static constexpr double kNewcomerPause = 0.6;  ///< s between Hellos to a fleet that is connected
 
-  explicit HelloPacing(const Config& config) : config_(config) {}
+  explicit HelloPacing(const HelloPacingConfig& config) : config_(config) {}
 
   /// The time over which the first Hellos of a fleet that starts at once are spread.
   Clock::duration spread(double others) const;
@@ -52,7 +48,7 @@ class HelloPacing {
   double hello_bits() const;
   double hello_time(double others, double sought, double rate) const;
 
-  Config config_;
+  HelloPacingConfig config_;
   bool joined_late_ = false;  ///< an answer came from a robot that joined before
   Clock::time_point first_answer_{};
   Clock::time_point newcomer_{};  ///< last Hello of a robot that has no peer here

@@ -17,7 +17,7 @@ namespace fleetmap::bus {
 /// that starts lists whom its sender knows, so that all know all after a few Hellos of each, where a Hello to
 /// each other robot would fill a radio for ten seconds.
 ///
-/// What is passed on grows old, so that a robot that is gone is soon introduced by nobody.
+/// Introductions age as they are passed on, so that soon nobody introduces a robot that is gone.
 class Introductions {
  public:
   using Prefix = std::array<std::uint8_t, 12>;

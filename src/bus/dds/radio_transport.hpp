@@ -8,7 +8,7 @@
 
 namespace fleetmap::bus {
 
-/// What the participant sends leaves without what Fast DDS's statistics append to it. With a guard it is
+/// Strips what Fast DDS's statistics append from all that the participant sends. With a guard it is
 /// sealed, the participant's prefix is the guard's session, and no byte of a stranger reaches Fast DDS. Null
 /// without keys.
 void prepare_transports(eprosima::fastrtps::rtps::RTPSParticipantAttributes& attributes,

@@ -10,7 +10,7 @@ namespace fleetmap::bus {
 /// "RTPS", version, vendor, prefix of the sending participant (RTPS 2.2, 9.4.4).
 inline constexpr std::size_t kRtpsHeaderBytes = 20;
 
-/// What Fast DDS with its statistics, as Debian builds it, appends to each message: a submessage of 4 and 56,
+/// Fast DDS with its statistics, as Debian builds it, appends this to each message: a submessage of 4 and 56,
 /// which its UDP transport fills in. Nobody reads it here.
 inline constexpr std::size_t kStatisticsBytes = 60;
 ByteView without_statistics(ByteView rtps_message);

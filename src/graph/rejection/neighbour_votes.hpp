@@ -9,8 +9,8 @@
 
 namespace fleetmap::graph {
 
-/// How many of the two alignments before and the two after a candidate, along the track, are consistent with
-/// it.
+/// Counts which of the two alignments before and the two after a candidate, along the track, are consistent
+/// with it.
 struct Votes {
   int consistent = 0, contradicting = 0;
 };

@@ -22,7 +22,7 @@ constexpr double kRotationToFactor = 0.002;  // rad
 constexpr double kShrinks = 0.5;
 /// After a step of a larger rotation the residuals are those of the starting values: no Huber weights yet.
 constexpr double kRotationOfStart = 0.02;  // rad
-/// How log(R) changes with a small turn before R's right side: log(R exp(d)) = log(R) + J d.
+/// Right Jacobian of the logarithm, inverse of that of exp: log(R exp(d)) = log(R) + J d for small d.
 Eigen::Matrix3d so3_log_jacobian(const Eigen::Vector3d& log) {
   const double angle = log.norm();
   const double second =

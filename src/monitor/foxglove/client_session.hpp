@@ -44,7 +44,7 @@ class ClientSession : public Client, public std::enable_shared_from_this<ClientS
   std::deque<std::string> texts_;  ///< that wait
   std::size_t advertised_ = 0;     ///< channels
   bool open_ = false, writing_ = false;
-  // What is being written.
+  // These are being written, so they must stay.
   std::string text_;
   std::array<std::uint8_t, 13> header_{};
   std::shared_ptr<const Bytes> message_;

@@ -7,7 +7,7 @@
 
 namespace fleetmap::monitor::foxglove {
 
-Feed::Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const Config& config)
+Feed::Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const FeedConfig& config)
     : io_(io),
       clients_(clients),
       config_(config),

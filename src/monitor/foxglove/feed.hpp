@@ -8,6 +8,7 @@
 #include <string>
 
 #include "content.hpp"
+#include "feed_config.hpp"
 #include "fleet_channels.hpp"
 #include "http_types.hpp"
 #include "thinned_map.hpp"
@@ -31,11 +32,7 @@ class Client {
 /// which the thread serves others, and with a pause of `map_period` after each.
 class Feed {
  public:
-  struct Config {
-    std::size_t map_points = 300'000;
-    std::chrono::milliseconds map_period{5'000};
-  };
-  Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const Config& config);
+  Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const FeedConfig& config);
 
   void show(std::shared_ptr<const FleetView> view);
   void show(std::shared_ptr<const LiveStatus> status);
@@ -54,7 +51,7 @@ class Feed {
 
   net::io_context& io_;
   const std::set<Client*>& clients_;
-  Config config_;
+  FeedConfig config_;
   std::string session_;
   FleetChannels channels_;
   ThinnedMap map_;

@@ -46,7 +46,7 @@ std::string advertise(std::span<const Channel> channels);
 enum class StatusLevel { info, warning, error };
 std::string status(StatusLevel level, std::string_view message);
 
-/// What a channel's message begins with; its CDR follows.
+/// The header of a channel's message; its CDR follows.
 std::array<std::uint8_t, 13> message_header(std::uint32_t subscription, Stamp received);
 
 }  // namespace fleetmap::monitor::foxglove

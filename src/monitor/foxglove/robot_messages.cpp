@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::uint32_t kCovarianceUnknown = 0, kCovarianceKnown = 3;  // foxglove::PositionCovarianceType
 
-/// Of the node's position along east, north and up at `point`; m^2.
+/// Covariance of the node's position along east, north and up at `point`; m^2.
 Eigen::Matrix3d position_covariance(const LastNode& last, const LocalFrame& frame, const GeoPoint& point) {
   const Eigen::Matrix3d R_local_node = frame.R_enu_local(point).transpose() * last.T_enu_node.linear();
   return R_local_node * last.covariance->topLeftCorner<3, 3>() * R_local_node.transpose();

@@ -8,7 +8,7 @@
 
 namespace fleetmap::monitor::foxglove {
 
-/// What one client has subscribed to: at most one subscription a channel.
+/// Subscriptions of one client: at most one a channel.
 ///
 /// A channel's newest message is due once after each revision. A message that was not sent before the next
 /// one came is never sent, so nothing queues up for a slow client.

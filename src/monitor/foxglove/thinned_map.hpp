@@ -8,7 +8,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
-#include "fleetmap/monitor/point_levels.hpp"
+#include "point_levels.hpp"
 
 namespace fleetmap::monitor::foxglove {
 

@@ -182,7 +182,7 @@ class Planner {
     const double length = length_of(*way);
     std::vector<std::array<Eigen::Vector2d, 2>> places;
     for (const double share : {0.0, 0.5, 1.0}) {
-      // How far the two go toward each other: first so far that it is enough for sure, then as little as is.
+      // The two go toward each other: first so far that it is enough for sure, then as little as is.
       double enough = length;
       double too_little = std::max(0.0, (from[0] - from[1]).norm() - reach);
       const auto at = [&](double go) {

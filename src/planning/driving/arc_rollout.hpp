@@ -1,6 +1,7 @@
 #pragma once
 
 #include "driving/local_field.hpp"
+#include "driving/rollout_config.hpp"
 
 namespace fleetmap::planning {
 
@@ -10,13 +11,6 @@ struct Arc {
   double score = LocalField::kUnreachable;  ///< m of easy driving along it and from its end; less is better
   double free = 0.0;                        ///< m, until the robot would touch something
   double clearance = 0.0;                   ///< m, least over the first metre
-};
-
-struct RolloutConfig {
-  double length = 0.0;            ///< m, rolled out
-  double touch = 0.0;             ///< m, clearance below which the robot touches something
-  double wanted_clearance = 0.0;  ///< m, where there is room
-  double last_curvature = 0.0;    ///< 1/m, of the arc driven now: changing it has a price
 };
 
 /// m between the points of an arc that are checked.

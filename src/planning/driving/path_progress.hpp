@@ -7,8 +7,8 @@
 
 namespace fleetmap::planning {
 
-/// How far along its path a robot is. It never jumps past a corner that is not reached yet, so a path may run
-/// back beside itself.
+/// Position of a robot along its path. It never jumps past a corner that is not reached yet, so a path may
+/// run back beside itself.
 class PathProgress {
  public:
   PathProgress() = default;

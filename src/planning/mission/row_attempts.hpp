@@ -38,7 +38,7 @@ class RowAttempts {
   const RowSet& given_up() const { return given_up_; }
   /// Why this robot gave the row up; empty if it did not.
   const std::string& reason(std::size_t row) const { return reasons_[row]; }
-  /// How often any row was given up.
+  /// Counts each time that any row was given up.
   std::uint64_t times_given_up() const { return times_given_up_; }
 
  private:

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "fleetmap/odometry/loam_config.hpp"
-#include "fleetmap/odometry/scan_matching.hpp"
+#include "scan_matching.hpp"
 
 namespace fleetmap::odometry {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fleetmap/odometry/loam_config.hpp"
-#include "fleetmap/odometry/sweep.hpp"
+#include "sweep.hpp"
 
 namespace fleetmap::odometry {
 

@@ -9,7 +9,7 @@
 
 namespace fleetmap::monitor {
 
-/// How two robots' maps belong together, or why they do not.
+/// Tells whether two robots' maps are tied together, and why not.
 enum class PairState {
   joined,             ///< by alignments of the two
   joined_by_others,   ///< by alignments with other robots

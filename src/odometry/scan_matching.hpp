@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "fleetmap/odometry/deskew.hpp"
-#include "fleetmap/odometry/features.hpp"
+#include "deskew.hpp"
+#include "features.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
 #include "fleetmap/odometry/local_map.hpp"
-#include "fleetmap/odometry/motion_prior.hpp"
+#include "motion_prior.hpp"
 
 namespace fleetmap::odometry {
 

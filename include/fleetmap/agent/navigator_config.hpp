@@ -1,0 +1,23 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include "fleetmap/agent/drive_guard_config.hpp"
+#include "fleetmap/agent/obstacle_config.hpp"
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/planning/driving/path_follower_config.hpp"
+#include "fleetmap/planning/mission/fleet_plan.hpp"
+
+namespace fleetmap::agent {
+
+struct NavigatorConfig {
+  /// The whole fleet's plan: the same on every robot.
+  std::shared_ptr<const planning::FleetPlan> plan;
+  planning::PathFollowerConfig follower;
+  ObstacleConfig obstacles;
+  DriveGuardConfig guard;
+  Duration report_period = std::chrono::seconds(5);
+};
+
+}  // namespace fleetmap::agent

@@ -1,0 +1,87 @@
+// Files, functions and lines stay so short that they are read at once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "function_scan.hpp"
+#include "source_tree.hpp"
+
+namespace fleetmap::structure {
+namespace {
+
+constexpr std::size_t kMaxFileLines = 350;
+constexpr int kMaxFunctionLines = 50;
+constexpr std::ptrdiff_t kMaxLineCharacters = 120;
+
+/// Tests and benchmarks with a function that is still longer. The list only shrinks.
+const std::set<std::string> kLongFunctions = {
+    "tests/apps/generated_fleet_test.cpp",
+    "tests/apps/kitti_fleet_test.cpp",
+    "tests/apps/twin_fleet_test.cpp",
+    "tests/bench/radio_bench.cpp",
+    "tests/bench/registration_pairs.cpp",
+    "tests/exchange/submap_receiver_test.cpp",
+    "tests/localization/synthetic_drive.cpp",
+    "tests/registration/pair_worlds.cpp",
+    "tests/sim/ekf_drive.cpp",
+    "tests/sim/twin_odometry_test.cpp",
+};
+
+std::vector<std::string> cpp_files() {
+  std::vector<std::string> files;
+  for (const char* root : {"include", "src", "tests"}) {
+    const auto more = cpp_files_below(root);
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
+
+/// Counts the bytes that begin a character in UTF-8.
+std::ptrdiff_t characters(const std::string& line) {
+  return std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+}
+
+void expect_short_lines(const std::string& file) {
+  int number = 0;
+  for (const std::string& line : lines_of(file)) {
+    ++number;
+    EXPECT_LE(characters(line), kMaxLineCharacters) << file << ":" << number;
+  }
+}
+
+TEST(Limits, FilesHaveAtMost350Lines) {
+  const auto files = cpp_files();
+  ASSERT_GT(files.size(), 1000u) << "the scan found hardly any file: is FLEETMAP_SOURCE_DIR right?";
+  for (const std::string& file : files) EXPECT_LE(lines_of(file).size(), kMaxFileLines) << file;
+}
+
+TEST(Limits, FunctionsHaveAtMost50Lines) {
+  std::size_t functions = 0;
+  for (const std::string& file : cpp_files()) {
+    for (const FunctionLines& function : functions_in(text_of(file))) {
+      ++functions;
+      if (kLongFunctions.contains(file)) continue;
+      EXPECT_LE(function.lines, kMaxFunctionLines) << file << ":" << function.line << ": " << function.header;
+    }
+  }
+  EXPECT_GT(functions, 5000u) << "the scan found hardly any function";
+}
+
+TEST(Limits, LinesOfSourcesHaveAtMost120Characters) {
+  for (const std::string& file : cpp_files()) expect_short_lines(file);
+}
+
+TEST(Limits, LinesOfDocumentsHaveAtMost120Characters) {
+  expect_short_lines("README.md");
+  for (const char* folder : {"docs/method", "docs/results"}) {
+    const auto pages = files_below(folder, ".md");
+    EXPECT_GT(pages.size(), 3u) << folder;
+    for (const std::string& page : pages) expect_short_lines(page);
+  }
+}
+
+}  // namespace
+}  // namespace fleetmap::structure
