@@ -59,8 +59,8 @@ TEST(GpsdFixes, TheAltitudeAboveTheEllipsoidIsTaken) {
 TEST(GpsdFixes, WithoutAnAltitudeOrAModeThereIsNoFix) {
   GpsdFixes fixes;
   for (const char* rest :
-       {"\"mode\":1", "\"mode\":2,\"lat\":1,\"lon\":2", "\"mode\":3,\"lat\":1,\"lon\":\"2\",\"alt\":3",
-        "\"mode\":3,\"lat\":91,\"lon\":2,\"alt\":3"}) {
+       {"\"mode\":1", "\"mode\":2,\"lat\":1,\"lon\":2", "\"mode\":2,\"lat\":1,\"lon\":2,\"alt\":3",
+        "\"mode\":3,\"lat\":1,\"lon\":\"2\",\"alt\":3", "\"mode\":3,\"lat\":91,\"lon\":2,\"alt\":3"}) {
     const auto found = fixes
                            .add(bytes_of("{\"class\":\"TPV\",\"time\":\"2026-11-25T10:00:00Z\"," +
                                          std::string(rest) + "}\n"))
