@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fleetmap/agent/device_config.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/bounded_queue.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
@@ -32,6 +33,7 @@ struct PerceptionConfig {
   /// UDP port at which the program receives a Velodyne LiDAR's packets, to publish its scans on topics.points
   /// itself; 0: a driver publishes them. Perception hears the topic either way.
   std::uint16_t velodyne_port = 0;
+  DeviceConfig devices;
   bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
