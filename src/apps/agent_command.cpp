@@ -19,6 +19,7 @@
 #include "fleetmap/trust/credentials.hpp"
 #include "link_log.hpp"
 #include "live_bus.hpp"
+#include "live_devices.hpp"
 #include "live_monitor.hpp"
 #include "live_publisher.hpp"
 #include "mission_setup.hpp"
@@ -147,6 +148,7 @@ int run(const AgentOptions& options) {
   if (!recorder) return report(recorder.error(), kFailed);
   const auto lidar = publish_velodyne(config->agent.perception, **bus);
   if (!lidar) return report(lidar.error(), kFailed);
+  const auto devices = publish_devices(config->agent.perception, **bus);
   const auto page = page_of_robot(*page_config, config->agent.directory);
   if (!page) return report(page.error(), kFailed);
   spdlog::info("{}: ready, store {}", config->agent.id.str(),

@@ -14,6 +14,7 @@
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "live_bus.hpp"
+#include "live_devices.hpp"
 #include "machine_check.hpp"
 #include "options.hpp"
 #include "sample_check.hpp"
@@ -88,6 +89,11 @@ int examine(const DoctorOptions& options) {
   // Its agent receives there if it runs, and publishes the scans.
   const auto lidar = publish_velodyne(robot->agent.perception, **bus);
   if (!lidar) spdlog::info("{}", lidar.error().message);
+  // Of these only gpsd would serve both, so that its fixes came twice.
+  agent::PerceptionConfig perception = robot->agent.perception;
+  if (perception.devices.gpsd) spdlog::info("gps.gpsd: heard where the agent runs");
+  perception.devices.gpsd.reset();
+  const auto devices = publish_devices(perception, **bus);
   std::cout << "listening for " << options.seconds << " s; drive a turn, so that units of turn rates show\n";
   (*bus)->run_until([] { return stop_on_signals().load(); }, from_seconds(options.seconds));
   listener.streams().print(std::cout);

@@ -1,11 +1,21 @@
 #include "sensor_sections.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace fleetmap::config {
 namespace {
+
+std::uint16_t read_port(Section& section, const std::string& key, const char* usual) {
+  std::uint32_t port = 0;
+  section.read(key, port);
+  if (port < 1 || port > 65535) section.problem(key, std::string("expected a UDP port, usually ") + usual);
+  return static_cast<std::uint16_t>(port);
+}
 
 void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   Section lidar = top.section("lidar");
@@ -22,12 +32,7 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   lidar.read("range_noise", perception.odometry.range_noise);
   lidar.read("scan_period", perception.lidar.scan_period);
   lidar.read_degrees("elevations_deg", perception.lidar.vertical_angles);
-  if (lidar.has("velodyne_port")) {
-    std::uint32_t port = 0;
-    lidar.read("velodyne_port", port);
-    if (port < 1 || port > 65535) lidar.problem("velodyne_port", "expected a UDP port, usually 2368");
-    perception.velodyne_port = static_cast<std::uint16_t>(port);
-  }
+  if (lidar.has("velodyne_port")) perception.velodyne_port = read_port(lidar, "velodyne_port", "2368");
   lidar.finish();
 }
 
@@ -91,8 +96,62 @@ void read_imu(Section& top, agent::PerceptionConfig& perception) {
   imu.finish();
 }
 
-void read_gps(Section& top, localization::EkfConfig& ekf) {
+/// The serial port whose path is at `path_key`; empty where it is not given.
+std::optional<agent::SerialPort> read_serial(Section& section, const std::string& path_key,
+                                             const std::string& baud_key, std::uint32_t usual_baud) {
+  agent::SerialPort serial{.path = {}, .baud = usual_baud};
+  section.read_path(path_key, serial.path);
+  section.read(baud_key, serial.baud);
+  if (std::ranges::find(agent::kBaudRates, serial.baud) == agent::kBaudRates.end()) {
+    std::string known;
+    for (const std::uint32_t baud : agent::kBaudRates)
+      known += (known.empty() ? "" : ", ") + std::to_string(baud);
+    section.problem(baud_key, "expected one of " + known);
+  }
+  if (section.has(baud_key) && !section.has(path_key))
+    section.problem(baud_key, "is of no use without " + path_key);
+  if (!section.has(path_key)) return std::nullopt;
+  if (serial.path.empty()) section.problem(path_key, "expected a device, e.g. /dev/ttyUSB0");
+  return serial;
+}
+
+std::optional<agent::TcpServer> read_gpsd(Section& gps) {
+  if (!gps.has("gpsd")) return std::nullopt;
+  std::string text;
+  gps.read("gpsd", text);
+  agent::TcpServer server{.host = text.substr(0, text.rfind(':')), .port = 2947};
+  if (const auto colon = text.rfind(':'); colon != std::string::npos) {
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data() + colon + 1, end, server.port);
+    if (read.ec != std::errc{} || read.ptr != end) server.port = 0;
+  }
+  if (server.host.empty() || server.port == 0)
+    gps.problem("gpsd", "expected HOST or HOST:PORT, e.g. localhost");
+  return server;
+}
+
+void read_mavlink(Section& top, agent::DeviceConfig& devices) {
+  Section mavlink = top.section("mavlink");
+  if (const auto serial = read_serial(mavlink, "device", "baud", 57600)) devices.mavlink = *serial;
+  if (mavlink.has("udp_port")) {
+    if (devices.mavlink) mavlink.problem("udp_port", "mavlink.device is given as well; expected one of them");
+    devices.mavlink = agent::UdpPort{read_port(mavlink, "udp_port", "14550")};
+  }
+  mavlink.read("gps", devices.mavlink_gps);
+  mavlink.read("imu", devices.mavlink_imu);
+  if (devices.mavlink && !devices.mavlink_gps && !devices.mavlink_imu)
+    mavlink.problem("imu", "neither gps nor imu of the autopilot is used; expected one of them to be true");
+  mavlink.finish();
+}
+
+void read_gps(Section& top, localization::EkfConfig& ekf, agent::DeviceConfig& devices) {
   Section gps = top.section("gps");
+  devices.nmea = read_serial(gps, "nmea_device", "nmea_baud", 9600);
+  devices.gpsd = read_gpsd(gps);
+  if (devices.nmea && devices.gpsd) gps.problem("gpsd", "nmea_device is given as well; expected one of them");
+  if ((devices.nmea || devices.gpsd) && devices.mavlink && devices.mavlink_gps)
+    gps.problem(devices.nmea ? "nmea_device" : "gpsd",
+                "the autopilot's GPS is used as well; set mavlink.gps: false, or leave this one out");
   gps.read("translation", ekf.mounting.p_base_antenna);
   gps.read("correlation_time", ekf.gps.correlation_time);
   gps.read("correlated_share", ekf.gps.correlated_share);
@@ -121,7 +180,8 @@ void read_perception(Section& top, agent::PerceptionConfig& perception) {
   read_topics(top, perception.topics);
   read_lidar(top, perception);
   read_imu(top, perception);
-  read_gps(top, perception.localization);
+  read_mavlink(top, perception.devices);
+  read_gps(top, perception.localization, perception.devices);
   read_wheel(top, perception.localization);
   read_odometry(top, perception);
   top.check(perception.lidar.validate());

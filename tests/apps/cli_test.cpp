@@ -148,7 +148,8 @@ TEST_F(CommandLine, BadConfigurationExitsWith78AndNamesFileAndLine) {
 }
 
 TEST_F(CommandLine, ShippedConfigurationsAreValid) {
-  for (const char* file : {"/config/agents/r1.yaml", "/config/fleets/kitti_0005.yaml"}) {
+  for (const char* file :
+       {"/config/agents/r1.yaml", "/config/robots/jackal_vlp16.yaml", "/config/fleets/kitti_0005.yaml"}) {
     run({"check-config", std::string(FLEETMAP_SOURCE_DIR) + file});
     EXPECT_EQ(exit_code_, 0) << output_;
   }

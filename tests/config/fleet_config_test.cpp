@@ -146,6 +146,47 @@ TEST_F(FleetConfigTest, ThePortOfAVelodyneLidar) {
                 HasSubstr("lidar.velodyne_port: expected"));
 }
 
+TEST_F(FleetConfigTest, SensorsWithoutADriver) {
+  const auto devices = [this](const std::string& text) {
+    const auto robot = load_robot(write(kRobot + text), {});
+    EXPECT_TRUE(robot) << robot.error().message;
+    return robot ? robot->agent.perception.devices : agent::DeviceConfig();
+  };
+  EXPECT_FALSE(devices("").mavlink || devices("").nmea || devices("").gpsd);
+  const auto serial =
+      devices("mavlink: {device: /dev/ttyACM0, baud: 921600, gps: false}\ngps: {gpsd: base.local:2948}\n");
+  EXPECT_EQ(to_string(serial.mavlink.value()), "/dev/ttyACM0");
+  EXPECT_EQ(std::get<agent::SerialPort>(*serial.mavlink).baud, 921600u);
+  EXPECT_FALSE(serial.mavlink_gps);
+  EXPECT_TRUE(serial.mavlink_imu);
+  EXPECT_EQ(to_string(serial.gpsd.value()), "base.local:2948");
+  EXPECT_EQ(to_string(devices("mavlink: {udp_port: 14550}\n").mavlink.value()), "UDP port 14550");
+  EXPECT_EQ(to_string(devices("gps: {gpsd: localhost}\n").gpsd.value()), "localhost:2947");
+  const auto nmea = devices("gps: {nmea_device: /dev/ttyUSB0}\n").nmea.value();
+  EXPECT_EQ(nmea.path, "/dev/ttyUSB0");
+  EXPECT_EQ(nmea.baud, 9600u);
+}
+
+TEST_F(FleetConfigTest, SensorsWithoutADriverThatContradictEachOther) {
+  const auto error = [this](const std::string& text) { return robot_error(kRobot + text); };
+  EXPECT_THAT(error("mavlink: {device: /dev/ttyACM0, baud: 12345}\n"),
+              HasSubstr("config.yaml:4: mavlink.baud: expected"));
+  EXPECT_THAT(error("gps:\n  nmea_baud: 9600\n"), HasSubstr("config.yaml:5: gps.nmea_baud: is of no use"));
+  EXPECT_THAT(error("mavlink:\n  udp_port: 70000\n"), HasSubstr("config.yaml:5: mavlink.udp_port: expected"));
+  EXPECT_THAT(error("mavlink: {device: /dev/ttyACM0, udp_port: 14550}\n"),
+              HasSubstr("mavlink.udp_port: mavlink.device"));
+  EXPECT_THAT(error("mavlink: {udp_port: 14550, gps: false, imu: false}\n"),
+              HasSubstr("mavlink.imu: neither"));
+  EXPECT_THAT(error("gps: {nmea_device: /dev/ttyUSB0, gpsd: localhost}\n"),
+              HasSubstr("gps.gpsd: nmea_device"));
+  EXPECT_THAT(error("mavlink: {udp_port: 14550}\ngps: {gpsd: localhost}\n"),
+              HasSubstr("config.yaml:5: gps.gpsd: the autopilot's GPS is used as well"));
+  for (const char* server :
+       {"\":2947\"", "\"localhost:\"", "\"localhost:0\"", "\"localhost:70000\"", "\"localhost:x\""})
+    EXPECT_THAT(error(std::string("gps: {gpsd: ") + server + "}\n"), HasSubstr("gps.gpsd: expected HOST"))
+        << server;
+}
+
 TEST_F(FleetConfigTest, OverrideWinsAndIsNamedInProblems) {
   const auto robot = load_robot(
       write(kRobot + "nodes: {spacing: 5}\n"),

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numbers>
 #include <utility>
 
 #include "fleetmap/core/bytes.hpp"
@@ -22,6 +24,8 @@ class VelodyneDevice {
   std::uint8_t mode = 0x37;     ///< strongest return
   double turns_per_second = 10.0;
   unsigned range = 2500;  ///< of every return, in the device's units
+  /// In its place: the range (m) at an azimuth (rad, clockwise from ahead) and an elevation (rad).
+  std::function<double(double, double)> range_at{};
   /// Degrees of its field of view; blocks beyond are left out.
   double view_begin = 0.0, view_end = 360.0;
 
@@ -55,6 +59,12 @@ class VelodyneDevice {
 
  private:
   double azimuth_now() const { return std::fmod(azimuth_ + 360.0 * turns_per_second * after_ + 1e-9, 360.0); }
+  unsigned units_at(std::size_t firing) const {
+    const sensor::VelodyneModel& model = *sensor::velodyne_model(product);
+    const auto& laser = model.lasers[firing % model.lasers_in_sequence];
+    const double azimuth = azimuth_now() * std::numbers::pi / 180.0 + laser.azimuth_offset;
+    return static_cast<unsigned>(std::lround(range_at(azimuth, laser.elevation) / model.distance_unit));
+  }
   void find_block_in_view() {
     while (azimuth_now() < view_begin || azimuth_now() > view_end) after_ += block_period();
   }
@@ -62,7 +72,8 @@ class VelodyneDevice {
     put_u16(bytes, at, 0xeeff);
     put_u16(bytes, at + 2, static_cast<unsigned>(std::lround(azimuth_now() * 100.0)) % 36000);
     for (std::size_t k = 0; k < 32; ++k) {
-      put_u16(bytes, at + 4 + 3 * k, second_return ? range / 2 : range);
+      const unsigned units = range_at ? units_at(k) : range;
+      put_u16(bytes, at + 4 + 3 * k, second_return ? units / 2 : units);
       bytes[at + 6 + 3 * k] = static_cast<std::uint8_t>(k);
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "fleetmap/agent/device_config.hpp"
 #include "fleetmap/localization/ekf_config.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
@@ -24,6 +25,7 @@ struct PerceptionConfig {
   /// UDP port at which the program receives a Velodyne LiDAR's packets, to publish its scans on topics.points
   /// itself; 0: a driver publishes them. Perception hears the topic either way.
   std::uint16_t velodyne_port = 0;
+  DeviceConfig devices;
   bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/sensor/lag_envelope.hpp"
+
+namespace fleetmap::sensor {
+
+/// Maps the times of a device that counts from when it was switched on to this computer's clock: by round
+/// trips (as NTP does, of the last ones the shortest), or where the device does not answer by the least lag
+/// of what it sends, which leaves the time that a message is under way.
+class DeviceClock {
+ public:
+  /// True when the device's clock made a step, as when it was switched on again: what was learnt is
+  /// forgotten.
+  bool add(Duration device, Stamp arrival);
+  /// The device stamped with `device` its answer to what was sent at `sent`.
+  void add_round_trip(Stamp sent, Duration device, Stamp received);
+  /// Empty before the first time of the device.
+  std::optional<Stamp> to_system(Duration device) const;
+  /// By how much to_system() may be wrong, if round trips tell: half of the shortest one.
+  std::optional<Duration> uncertainty() const;
+
+ private:
+  struct RoundTrip {
+    Stamp received;
+    Duration lag{}, length{};
+  };
+  const RoundTrip* shortest() const;
+
+  LagEnvelope envelope_;
+  std::deque<RoundTrip> round_trips_;
+};
+
+}  // namespace fleetmap::sensor
