@@ -9,9 +9,11 @@
 
 namespace fleetmap::agent {
 
-RegistrationRecorder::RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory)
+RegistrationRecorder::RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory,
+                                           const store::RegistrationLogConfig& config)
     : self_(self), directory_(directory) {
-  Result<store::RegistrationLog> log = store::RegistrationLog::open(directory / store::kRegistrationLogFile);
+  Result<store::RegistrationLog> log =
+      store::RegistrationLog::open(directory / store::kRegistrationLogFile, config);
   if (log) {
     log_.emplace(std::move(*log));
   } else {

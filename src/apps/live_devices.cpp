@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "fleetmap/ros_codec/sensors.hpp"
+#include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/sensor/gpsd_fixes.hpp"
 #include "fleetmap/sensor/mavlink_sensors.hpp"
 #include "fleetmap/sensor/nmea_fixes.hpp"

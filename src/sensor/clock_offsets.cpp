@@ -56,14 +56,19 @@ void ClockOffsets::add(Source source, Stamp stamp, Stamp arrival) {
   const Duration since = std::max(Duration::zero(), arrival - last_arrival_.value_or(arrival));
   last_arrival_ = arrival;
   if (own.drift.add(arrival, to_seconds(arrival - stamp))) {
-    if (!own.behind_at_first) own.behind_at_first = behind(source);
+    if (!own.behind_at_first && !alone()) own.behind_at_first = behind(source);
     find_drifts();
   }
+  if (alone() && own.known) return report_offset(source, own.lag(), arrival);
   const auto right = right_lag();
   if (!right) return;
   for (std::size_t k = 0; k < kSources; ++k) {
     if (tracks_[k].known) judge(static_cast<Source>(k), *right, since, arrival);
   }
+}
+
+bool ClockOffsets::alone() const {
+  return std::ranges::count_if(tracks_, [](const Track& track) { return track.begun.has_value(); }) == 1;
 }
 
 std::size_t ClockOffsets::sharing(double lag) const {
@@ -105,7 +110,7 @@ std::optional<double> ClockOffsets::right_lag() const {
 }
 
 std::optional<double> ClockOffsets::behind(Source source) const {
-  const auto right = right_lag();
+  const auto right = alone() ? std::optional(0.0) : right_lag();
   if (!right || !track(source).known) return std::nullopt;
   return track(source).lag() - *right;
 }
@@ -190,19 +195,29 @@ void ClockOffsets::report_offset(Source source, double offset, Stamp arrival) {
   if (arrival - *own.unreported_since < (own.is_off || !is_off ? kReportAfter : kProving)) return;
   own.unreported_since.reset();
   own.reported = is_off ? offset : 0.0;
+  news_.push_back(offset_report(source, offset, is_off));
+}
+
+std::string ClockOffsets::offset_report(Source source, double offset, bool is_off) const {
+  const Track& own = track(source);
+  const std::string reference = alone() ? "the computer's clock" : "those of the other sensors";
   std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << to_string(source);
+  text << std::fixed << std::setprecision(2) << to_string(source) << ": stamps ";
   if (!is_off) {
-    text << ": stamps agree with those of the other sensors again";
-  } else {
-    const double exact = own.is_off ? nearest_of_time_scales(offset) : offset;
-    text << ": stamps are " << std::abs(exact) << " s " << (offset > 0.0 ? "behind" : "ahead of")
-         << " those of the other sensors" << reason_of(offset, own.last_stamp) << "; "
-         << (own.is_off ? "they are corrected by that: set the sensor's clock (PTP, GPS or the driver's "
-                          "system time)"
-                        : "if that is no slow driver, set the sensor's clock");
+    text << "agree with " << reference << " again";
+    return text.str();
   }
-  news_.push_back(text.str());
+  const double exact = own.is_off || alone() ? nearest_of_time_scales(offset) : offset;
+  text << "are " << std::abs(exact) << " s " << (offset > 0.0 ? "behind " : "ahead of ") << reference
+       << reason_of(offset, own.last_stamp) << "; ";
+  if (alone()) {
+    text << "they are used as they are, since no other sensor is there: set the clock that is wrong";
+  } else if (own.is_off) {
+    text << "they are corrected by that: set the sensor's clock (PTP, GPS or the driver's system time)";
+  } else {
+    text << "if that is no slow driver, set the sensor's clock";
+  }
+  return text.str();
 }
 
 void ClockOffsets::report_drift(Source source, double slow) {
@@ -217,9 +232,7 @@ bool ClockOffsets::unclear(Source source) const {
   const Track& own = track(source);
   if (!own.begun) return false;
   if (own.known && right_lag()) return own.leap_begun.has_value();
-  const bool alone =
-      std::ranges::count_if(tracks_, [](const Track& other) { return other.begun.has_value(); }) == 1;
-  if (alone) return std::abs(own.lag()) > kWrong && *last_arrival_ - *own.begun < kAlone;
+  if (alone()) return std::abs(own.lag()) > kWrong && *last_arrival_ - *own.begun < kAlone;
   return std::ranges::any_of(
       tracks_, [&](const Track& other) { return other.begun && std::abs(other.lag() - own.lag()) > kWrong; });
 }

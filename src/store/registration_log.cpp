@@ -63,6 +63,7 @@ Bytes bytes_of(const Statement& row, int column) {
 
 struct RegistrationLog::State {
   std::filesystem::path file;
+  RegistrationLogConfig config;
   Database db;
 
   /// The cloud's name in the file, which holds it afterwards.
@@ -74,6 +75,37 @@ struct RegistrationLog::State {
       return tl::unexpected(kept.error());
     return name;
   }
+
+  /// Bytes of the file that hold something; SQLite writes new rows into the others first.
+  Result<std::uint64_t> bytes_in_use() const {
+    std::array<std::uint64_t, 3> values{};
+    constexpr std::array kPragmas{"PRAGMA page_size", "PRAGMA page_count", "PRAGMA freelist_count"};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto value = db.integer(kPragmas[k]);
+      if (!value) return tl::unexpected(value.error());
+      values[k] = static_cast<std::uint64_t>(*value);
+    }
+    return values[0] * (values[1] - values[2]);
+  }
+
+  /// Drops the oldest until `room` (B) is free below the bound. To search all for the clouds that nobody uses
+  /// any more takes long, so an eighth of the bound is freed at once.
+  Status make_room(std::size_t room) {
+    for (std::uint64_t most = config.max_bytes;; most = config.max_bytes / 8 * 7) {
+      const auto used = bytes_in_use();
+      if (!used) return tl::unexpected(used.error());
+      const auto left = db.integer("SELECT COUNT(*) FROM registration");
+      if (!left) return tl::unexpected(left.error());
+      if (*used + room <= most || *left == 0) return {};
+      const std::string oldest = std::to_string(*left / 32 + 1);
+      const Status dropped = db.execute(
+          ("DELETE FROM registration WHERE id IN (SELECT id FROM registration ORDER BY id LIMIT " + oldest +
+           "); DELETE FROM cloud WHERE hash NOT IN (SELECT target_cloud FROM registration UNION "
+           "SELECT source_cloud FROM registration)")
+              .c_str());
+      if (!dropped) return dropped;
+    }
+  }
 };
 
 RegistrationLog::RegistrationLog(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -81,22 +113,27 @@ RegistrationLog::RegistrationLog(RegistrationLog&&) noexcept = default;
 RegistrationLog& RegistrationLog::operator=(RegistrationLog&&) noexcept = default;
 RegistrationLog::~RegistrationLog() = default;
 
-Result<RegistrationLog> RegistrationLog::open(const std::filesystem::path& file) {
+Result<RegistrationLog> RegistrationLog::open(const std::filesystem::path& file,
+                                              const RegistrationLogConfig& config) {
+  if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   auto db = Database::open(file, false);
   if (!db) return tl::unexpected(db.error());
   if (const Status made = db->execute(kTables); !made) return tl::unexpected(made.error());
-  return RegistrationLog(std::make_unique<State>(State{file, std::move(*db)}));
+  return RegistrationLog(std::make_unique<State>(State{file, config, std::move(*db)}));
 }
 
 Result<RegistrationLog> RegistrationLog::open_read_only(const std::filesystem::path& file) {
   auto db = Database::open(file, true);
   if (!db) return tl::unexpected(db.error());
-  return RegistrationLog(std::make_unique<State>(State{file, std::move(*db)}));
+  return RegistrationLog(std::make_unique<State>(State{file, {}, std::move(*db)}));
 }
 
 Status RegistrationLog::add(const LoggedRegistration& registration) {
   auto transaction = Transaction::begin(state_->db);
   if (!transaction) return tl::unexpected(transaction.error());
+  constexpr std::size_t kPages = 16 * 1024;  // of rows, indices and the ends of clouds
+  const std::size_t room = registration.target_cloud.size() + registration.source_cloud.size() + kPages;
+  if (const Status made = state_->make_room(room); !made) return made;
   const auto target = state_->keep(registration.target_cloud);
   if (!target) return tl::unexpected(target.error());
   const auto source = state_->keep(registration.source_cloud);

@@ -55,6 +55,23 @@ TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
   EXPECT_EQ(kept->front().source, accepted().source.id);
 }
 
+TEST(RegistrationRecorder, DropsTheOldestCloudsWhereTheFileIsBounded) {
+  const testing::TemporaryFolder folder;
+  RegistrationRecorder recorder(kSelf, folder.path(), {.max_bytes = 1'000'000});
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    loop_closure::Registration one = accepted();
+    one.input.source.seq = k;
+    one.input.source_cloud = Bytes(25'000, static_cast<std::uint8_t>(k));
+    recorder.add(one);
+  }
+  const auto file = folder.path() / store::kRegistrationLogFile;
+  EXPECT_LE(std::filesystem::file_size(file), 1'000'000u);
+  const auto kept = store::RegistrationLog::open_read_only(file).value().read().value();
+  ASSERT_GT(kept.size(), 20u);
+  EXPECT_EQ(kept.back().source.seq, 99u);
+  EXPECT_EQ(kept.front().source.seq, 100u - kept.size());
+}
+
 TEST(RegistrationRecorder, GoesOnWithoutCloudsWhereTheirFileIsNone) {
   const testing::TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / store::kRegistrationLogFile);

@@ -207,12 +207,38 @@ TEST(ClockOffsets, OfTwoSensorsTheOneNearerToTheComputersClockIsRight) {
   robot.run(5.0);
   EXPECT_EQ(robot.corrected(kLidar), 18.0);
   EXPECT_EQ(robot.offsets.correction(Source::kImu), Duration::zero());
-  Robot alone(3);
-  for (const std::size_t k : {kImu, kGps, std::size_t{3}}) alone.there[k] = false;
-  alone.off[kLidar] = -18.0;
-  alone.run(10.0);
-  EXPECT_TRUE(alone.news.empty()) << "nothing to compare with";
-  EXPECT_EQ(alone.offsets.behind(Source::kLidar), std::nullopt);
+}
+
+/// Nothing shows whether its clock or the computer's is wrong.
+TEST(ClockOffsets, ASensorThatIsAloneIsComparedWithTheComputersAndUsedAsItIs) {
+  const std::map<double, const char*> said{
+      {0.0, nullptr},
+      {18.0, "18.00 s ahead of the computer's clock .*GPS time and UTC.*used as they are"},
+      {37.0, "37.00 s ahead of the computer's clock .*TAI and UTC.*used as they are"},
+      {-3600.0, "3600.00 s behind the computer's clock .*time zone.*used as they are"},
+      {-2.5, "2.[56][0-9] s behind the computer's clock; .*used as they are"},
+      {7.0 - kNow, "169999999[23].[0-9]+ s behind the computer's clock .*sensor's start.*used as they are"}};
+  for (const auto& [off, text] : said) {
+    Robot robot(3);
+    for (const std::size_t k : {kImu, kGps, std::size_t{3}}) robot.there[k] = false;
+    robot.off[kLidar] = off;
+    robot.run(60.0);
+    EXPECT_EQ(robot.offsets.correction(Source::kLidar), Duration::zero());
+    EXPECT_LE(robot.unclear[kLidar], 5) << "scans, for which others may come";
+    EXPECT_NEAR(robot.offsets.behind(Source::kLidar).value(), -off, 0.2);
+    ASSERT_EQ(robot.news.size(), text == nullptr ? 0u : 1u) << ::testing::PrintToString(robot.news);
+    if (text != nullptr) EXPECT_THAT(robot.news[0], ::testing::ContainsRegex(text));
+  }
+}
+
+TEST(ClockOffsets, ASensorThatWasAloneIsCorrectedOnceOthersCome) {
+  Robot robot(3);
+  for (const std::size_t k : {kImu, kGps, std::size_t{3}}) robot.there[k] = false;
+  robot.off[kLidar] = 18.0;
+  robot.run(60.0);
+  for (const std::size_t k : {kImu, kGps, std::size_t{3}}) robot.there[k] = true;
+  robot.run(20.0);
+  EXPECT_EQ(robot.corrected(kLidar), -18.0);
 }
 
 TEST(ClockOffsets, FollowsAStepBothWaysWithinSomeSamples) {

@@ -71,6 +71,33 @@ TEST(RegistrationLog, ACloudIsKeptOnceForAllItsPartners) {
   EXPECT_LT(std::filesystem::file_size(file), 100'000u);
 }
 
+/// Clouds that later registrations still use stay.
+TEST(RegistrationLog, TheOldestMakeRoomAndTheFileGrowsNoMore) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationLogFile;
+  constexpr std::uint32_t kAll = 400;
+  constexpr std::uint64_t kBound = 1'000'000;
+  {
+    auto log = RegistrationLog::open(file, {.max_bytes = kBound});
+    ASSERT_TRUE(log) << log.error().message;
+    for (std::uint32_t k = 0; k < kAll; ++k) {
+      LoggedRegistration one = registration(k, 0);
+      one.source_cloud = Bytes(20'000 + k, 3);
+      ASSERT_TRUE(log->add(one));
+      ASSERT_LE(std::filesystem::file_size(file), kBound) << k;
+    }
+  }
+  const auto all = RegistrationLog::open_read_only(file).value().read();
+  ASSERT_TRUE(all) << all.error().message;
+  ASSERT_GE(all->size(), kBound / 20'000 * 2 / 3) << "no more is dropped than must be";
+  for (std::size_t k = 0; k < all->size(); ++k) {
+    const auto source = kAll - static_cast<std::uint32_t>(all->size() - k);
+    EXPECT_EQ((*all)[k].source.seq, source) << "the last ones, in order";
+    EXPECT_EQ((*all)[k].source_cloud.size(), 20'000 + source);
+    EXPECT_EQ((*all)[k].target_cloud.size(), 25'000u);
+  }
+}
+
 TEST(RegistrationLog, WhatIsNoLogIsRefusedWithItsName) {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "no.db";

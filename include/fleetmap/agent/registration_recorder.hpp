@@ -14,7 +14,8 @@ namespace fleetmap::agent {
 class RegistrationRecorder {
  public:
   /// Goes on with the files in `directory`. Clouds are not kept where their file cannot be opened or written.
-  RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory);
+  RegistrationRecorder(const AgentId& self, const std::filesystem::path& directory,
+                       const store::RegistrationLogConfig& config = {});
   /// A registration has ended.
   void add(const loop_closure::Registration& registration);
 

@@ -24,6 +24,8 @@ const char* to_string(Source source);
 /// Stamps that are more than kWrong off are corrected: exactly, where the difference is one that time scales
 /// have, else to about 0.1 s, which drivers take to hand a sample on. What is off by less may be a slow
 /// driver and is only reported. A clock that drifts against the right one is reported in ppm, and followed.
+/// The stamps of a sensor that is the only one are compared with the arrivals, reported and used as they are:
+/// nothing shows which of the two clocks is wrong, and no other stamp contradicts them.
 class ClockOffsets {
  public:
   static constexpr double kReportedOffset = 0.5;  ///< s
@@ -37,8 +39,8 @@ class ClockOffsets {
   bool unclear(Source source) const;
   /// The correction to add to the stamps of `source`; zero unless they are wrong.
   Duration correction(Source source) const;
-  /// The delay (s) of the stamps of `source` behind those of the reference clock; empty until it is
-  /// determined.
+  /// The delay (s) of the stamps of `source` behind those of the reference clock, behind the arrivals while
+  /// it is the only sensor; empty until it is determined.
   std::optional<double> behind(Source source) const;
   /// By how much the clock of `source` is too slow (1e-6), once it is found to drift.
   std::optional<double> slow_ppm(Source source) const;
@@ -69,6 +71,8 @@ class ClockOffsets {
     }
   };
   const Track& track(Source source) const { return tracks_[static_cast<std::size_t>(source)]; }
+  /// Only one sensor was heard.
+  bool alone() const;
   std::size_t sharing(double lag) const;
   /// It may be that the samples are only late.
   bool may_be_late(const Track& track) const;
@@ -77,6 +81,7 @@ class ClockOffsets {
   void find_drifts();
   void judge(Source source, double right, Duration since, Stamp arrival);
   void report_offset(Source source, double offset, Stamp arrival);
+  std::string offset_report(Source source, double offset, bool is_off) const;
   void report_drift(Source source, double slow);
 
   std::array<Track, kSources> tracks_;

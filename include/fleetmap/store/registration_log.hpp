@@ -11,6 +11,7 @@
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/store/registration_log_config.hpp"
 
 namespace fleetmap::store {
 
@@ -36,18 +37,20 @@ struct LoggedRegistration {
 /// Name of the log in an agent's directory.
 inline constexpr const char* kRegistrationLogFile = "registrations.db";
 
-/// Every registration that an agent ran, with both clouds, in one SQLite file beside the store: the same
+/// The last registrations that an agent ran, with both clouds, in one SQLite file beside the store: the same
 /// loop candidates can be registered again by another method. A cloud that several registrations use is kept
-/// once. One thread at a time.
+/// once. The file stays within its bound, and one that is larger grows no more. One thread at a time.
 class RegistrationLog {
  public:
   /// Opens the file to append to, and makes it where it is missing.
-  static Result<RegistrationLog> open(const std::filesystem::path& file);
+  static Result<RegistrationLog> open(const std::filesystem::path& file,
+                                      const RegistrationLogConfig& config = {});
   static Result<RegistrationLog> open_read_only(const std::filesystem::path& file);
   RegistrationLog(RegistrationLog&&) noexcept;
   RegistrationLog& operator=(RegistrationLog&&) noexcept;
   ~RegistrationLog();
 
+  /// The oldest are dropped where the file would exceed its bound.
   Status add(const LoggedRegistration& registration);
   /// All of them in the order in which they were added. Fails on a row that is damaged.
   Result<std::vector<LoggedRegistration>> read() const;
