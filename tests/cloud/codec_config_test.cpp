@@ -1,0 +1,22 @@
+#include "fleetmap/cloud/codec_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/field_bounds.hpp"
+
+namespace fleetmap::cloud {
+namespace {
+
+using testing::expect_accepted;
+using testing::expect_refused;
+using testing::kInfinity;
+using testing::kNaN;
+
+TEST(CodecConfig, TheResolutionIsAtLeastAMicrometre) {
+  expect_accepted(CodecConfig{}, &CodecConfig::resolution_m, {1e-6, 1.0});
+  expect_refused(CodecConfig{}, &CodecConfig::resolution_m,
+                 {9e-7, 0.0, -0.01, kNaN<double>, kInfinity<double>}, "resolution_m");
+}
+
+}  // namespace
+}  // namespace fleetmap::cloud

@@ -1,0 +1,49 @@
+#include "fleetmap/exchange/cloud_transfer_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "fleetmap/messages/messages.hpp"
+#include "support/field_bounds.hpp"
+
+namespace fleetmap::exchange {
+namespace {
+
+using testing::expect_accepted;
+using testing::expect_refused;
+using testing::kInfinity;
+using testing::kNaN;
+
+using Config = CloudTransferConfig;
+
+TEST(CloudTransferConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+
+TEST(CloudTransferConfig, FragmentsCanCarryTheLargestCloud) {
+  // A request can name as many pieces as are missing.
+  const auto most =
+      static_cast<std::uint32_t>(messages::CloudRequest::kMaxMissing * messages::CloudFragment::kMaxPayload);
+  expect_accepted(Config{}, &Config::max_cloud_bytes, {1u, most});
+  expect_refused(Config{}, &Config::max_cloud_bytes, {0u, most + 1, UINT32_MAX}, "max_cloud_bytes");
+}
+
+TEST(CloudTransferConfig, CountsAreAtLeastOne) {
+  expect_accepted(Config{}, &Config::max_kept, {1});
+  expect_refused(Config{}, &Config::max_kept, {0}, "max_kept");
+  expect_accepted(Config{}, &Config::max_receiving, {1});
+  expect_refused(Config{}, &Config::max_receiving, {0}, "max_receiving");
+  expect_accepted(Config{}, &Config::max_tries, {1});
+  expect_refused(Config{}, &Config::max_tries, {0, -1}, "max_tries");
+}
+
+TEST(CloudTransferConfig, TimeoutsArePositiveAndDoNotShrink) {
+  for (Duration Config::*timeout : {&Config::first_timeout, &Config::gap_timeout, &Config::max_timeout}) {
+    expect_accepted(Config{}, timeout, {Duration{1}});
+    expect_refused(Config{}, timeout, {Duration::zero(), Duration{-1}}, "timeouts");
+  }
+  expect_accepted(Config{}, &Config::backoff, {1.0, 10.0});
+  expect_refused(Config{}, &Config::backoff, {0.99, 10.01, kNaN<double>, kInfinity<double>}, "backoff");
+}
+
+}  // namespace
+}  // namespace fleetmap::exchange

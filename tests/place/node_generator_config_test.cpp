@@ -1,0 +1,23 @@
+#include "fleetmap/place/node_generator_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/field_bounds.hpp"
+
+namespace fleetmap::place {
+namespace {
+
+using testing::expect_accepted;
+using testing::expect_refused;
+using testing::kInfinity;
+using testing::kNaN;
+
+TEST(NodeGeneratorConfig, TheSpacingIsAPositiveLength) {
+  const NodeGeneratorConfig config;
+  expect_accepted(config, &NodeGeneratorConfig::spacing, {0.01, 5.0, 1e4});
+  expect_refused(config, &NodeGeneratorConfig::spacing, {0.0, -5.0, kNaN<double>, kInfinity<double>},
+                 "spacing");
+}
+
+}  // namespace
+}  // namespace fleetmap::place
