@@ -163,14 +163,10 @@ void Agent::stop() {
 }
 
 void Agent::on_perceived(Perceived&& perceived) {
-  if (perception_->odometry_counters().map_restarts > map_restarts_) {
-    // Until it can begin, nothing may enter the frame of the session before.
-    if (!begin_session("odometry lost its way and began anew")) return;
-  } else if (perception_->odometry_counters().clock_resets > clock_resets_) {
-    if (!begin_session("the LiDAR's stamps jumped back")) return;
-  } else if (numbers_run_out()) {
-    begin_session("no number is left for another item of this session");
-  }
+  if (!frame_.admits(perception_->odometry_counters(),
+                     [this](const char* why) { return begin_session(why); }))
+    return;
+  if (numbers_run_out()) begin_session("no number is left for another item of this session");
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.push_back(perceived.cpu_seconds);
   odometry_seconds_ += perceived.cpu_seconds;
@@ -202,8 +198,7 @@ bool Agent::begin_session(const char* why) {
     handle(exchange::StoreFailed{session.error()});
     return false;
   }
-  map_restarts_ = perception_->odometry_counters().map_restarts;
-  clock_resets_ = perception_->odometry_counters().clock_resets;
+  frame_.begun(perception_->odometry_counters());
   session_begun_ = bus_.now();
   session_ = *session;
   exchange_->begin_session(session_);

@@ -1,5 +1,7 @@
 #include "live_placement.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -30,6 +32,7 @@ struct LivePlacement::Job {
   std::vector<graph::Node> nodes;
   std::vector<graph::Alignment> alignments;
   std::vector<graph::Alignment> used;
+  std::map<AgentId, graph::Contradiction> contradicting;
   std::optional<Solution> solution;
   double cpu_seconds = 0.0;
 };
@@ -61,6 +64,7 @@ void LivePlacement::refresh(std::uint16_t session) {
     under_way_ = false;
     cpu_seconds_ += job->cpu_seconds;
     solution_ = job->solution;
+    name(job->contradicting);
     on_used_(job->used);
   });
   if (taken) {
@@ -76,6 +80,7 @@ void LivePlacement::solve(Job& job) {
   const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
   graph::Placement placement =
       graph::compute_placement(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
+  job.contradicting = graph::contradict_the_fleet(placement, job.nodes, LocalFrame(job.origin));
   job.used = std::move(placement.used);
   const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
   for (const graph::Node& node : job.nodes) {
@@ -90,6 +95,14 @@ void LivePlacement::solve(Job& job) {
     }
     job.solution = solution;
     return;
+  }
+}
+
+void LivePlacement::name(const std::map<AgentId, graph::Contradiction>& contradicting) {
+  for (const auto& [agent, contradiction] : contradicting) {
+    if (!named_.insert(agent).second) continue;
+    spdlog::warn("{}: {} contradicts the fleet: {}; look at its sensors and its program", config_.id.str(),
+                 agent.str(), to_string(contradiction));
   }
 }
 

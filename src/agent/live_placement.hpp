@@ -1,13 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/bus/bus.hpp"
+#include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::agent {
@@ -38,6 +41,8 @@ class LivePlacement {
     Matrix6d covariance = Matrix6d::Zero();  ///< of the newest own node, axes of ENU: [m, rad]
   };
   struct Job;
+  /// Logs each agent that contradicts the fleet once.
+  void name(const std::map<AgentId, graph::Contradiction>& contradicting);
   static void solve(Job& job);
   bool due() const;
 
@@ -50,6 +55,7 @@ class LivePlacement {
   Stamp paused_until_;
   double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;
+  std::set<AgentId> named_;  ///< that contradict the fleet
 };
 
 }  // namespace fleetmap::agent

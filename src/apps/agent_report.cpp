@@ -104,6 +104,20 @@ json bus_drops_json(const std::vector<bus::TopicStats>& stats) {
   return drops;
 }
 
+json contradicting_json(const output::Results& results) {
+  json named = json::object();
+  for (const auto& [agent, contradiction] : results.contradicting) {
+    json with = json::array();
+    for (const AgentId& other : contradiction.with) with.push_back(other.str());
+    named[agent.str()] = {{"rejected_alignments", contradiction.alignments},
+                          {"with", with},
+                          {"contradicting_steps", contradiction.steps},
+                          {"impossible_items", contradiction.impossible},
+                          {"left_out", results.placement.contradicting == agent}};
+  }
+  return named;
+}
+
 }  // namespace
 
 json origin_json(const GeoPoint& origin) {
@@ -143,6 +157,7 @@ void add_holdings(json& report, const store::Store& store, const output::Results
                             {"quarantined", credit.quarantined}};
   }
   if (!credits.empty()) report["alignments_computed_by"] = credits;
+  if (!results->contradicting.empty()) report["contradict_the_fleet"] = contradicting_json(*results);
 }
 
 json agent_report(const agent::Agent& agent, const output::Results* results) {

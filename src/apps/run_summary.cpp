@@ -43,6 +43,15 @@ void print_quarantine(std::ostream& out, const FleetOutcome& outcome) {
   }
 }
 
+void print_contradictions(std::ostream& out, const FleetOutcome& outcome) {
+  for (const auto& entry : outcome.agents) {
+    if (!entry.results) continue;
+    for (const auto& [agent, contradiction] : entry.results->contradicting)
+      out << agent.str() << " contradicts the fleet: " << to_string(contradiction) << '\n';
+    break;
+  }
+}
+
 void print_agreement(std::ostream& out, const FleetOutcome& outcome) {
   std::set<std::string> maps;  // of those who are there at the end
   for (const auto& entry : outcome.agents) {
@@ -72,6 +81,7 @@ void print_mission(std::ostream& out, const Completion& completion) {
 void print_summary(std::ostream& out, const FleetOutcome& outcome, const std::filesystem::path& folder) {
   print_maps(out, outcome, folder);
   print_quarantine(out, outcome);
+  print_contradictions(out, outcome);
   print_agreement(out, outcome);
   if (outcome.completion) print_mission(out, *outcome.completion);
   out << "report: " << (folder / "report.html").string() << '\n';

@@ -170,6 +170,14 @@ std::optional<Attacker::Injected> Attacker::forged() {
   }
 }
 
+std::optional<Attacker::Injected> Attacker::forged_claim() {
+  const auto reach = draws_.chance(0.5) ? messages::Reach::kLongRange : messages::Reach::kShortRange;
+  if (draws_.chance(0.5)) return to_anyone(forged_digest(), reach);
+  auto chunk = forged_chunk();
+  if (!chunk) return {};
+  return to_anyone(std::move(*chunk), reach);
+}
+
 messages::Message Attacker::lie(messages::Message message, const AgentId& liar) {
   if (auto* digest = std::get_if<messages::Digest>(&message)) {
     digest->nodes = digest->alignments = everything(fleet_);

@@ -28,6 +28,8 @@ class Attacker {
   /// In the name of a robot of the fleet: items with numbers of its, digests, chunks that nobody requested,
   /// damaged packets.
   std::optional<Injected> forged();
+  /// A forged digest or an unrequested chunk, in the name of any robot.
+  std::optional<Injected> forged_claim();
   /// The packet that the lying robot `liar` sends instead.
   messages::Message lie(messages::Message message, const AgentId& liar);
 

@@ -56,7 +56,7 @@ Status ExchangeFleet::start(const AgentId& name, const store::StoreConfig& store
                             const DrawSession& draw_session) {
   Robot robot;
   robot.clock_offset = clock_offset;
-  auto opened = store::Store::open(file(name, kDatabase), name, store);
+  auto opened = open_store(name, store);
   if (!opened) return tl::unexpected(opened.error());
   robot.store = std::make_unique<store::Store>(std::move(*opened));
   const auto session = draw_session(*robot.store);

@@ -10,12 +10,27 @@ namespace fleetmap::fault_injection {
 namespace {
 
 constexpr std::array<const char*, kFaultKinds> kNames{
-    "loss",      "delay",     "duplication", "one_way",  "partition", "crash", "lost_store",
-    "old_store", "full_disk", "clock_step",  "stranger", "forged",    "liar",  "damaged_store"};
+    "loss",       "delay",         "duplication", "one_way",     "partition", "crash",
+    "lost_store", "old_store",     "full_disk",   "clock_step",  "stranger",  "forged",
+    "liar",       "damaged_store", "compromised", "many_starts", "new_origin"};
 
 }  // namespace
 
 const char* to_string(FaultKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
+
+bool stops_robot(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kCrash:
+    case FaultKind::kClockStep:
+    case FaultKind::kLostStore:
+    case FaultKind::kOldStore:
+    case FaultKind::kDamagedStore:
+    case FaultKind::kManyStarts:
+      return true;
+    default:
+      return false;
+  }
+}
 
 Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names) {
   return parse_names<FaultKind>(names, kNames);

@@ -97,6 +97,7 @@ FaultyFileSystem::~FaultyFileSystem() { sqlite3_vfs_unregister(&state_->vfs); }
 
 const std::string& FaultyFileSystem::name() const { return state_->name; }
 void FaultyFileSystem::set_full(bool full) { state_->refusal = full ? SQLITE_FULL : SQLITE_OK; }
+bool FaultyFileSystem::is_full() const { return state_->refusal == SQLITE_FULL; }
 void FaultyFileSystem::set_read_only(bool read_only) {
   // SQLite's result for EROFS on a file that it opened for writing.
   state_->refusal = read_only ? SQLITE_IOERR_WRITE : SQLITE_OK;

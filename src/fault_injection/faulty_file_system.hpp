@@ -18,6 +18,7 @@ class FaultyFileSystem {
   const std::string& name() const;
   /// Every write fails as on a full disk until it is set back.
   void set_full(bool full);
+  bool is_full() const;
   /// Every write fails as after a remount, which the system does when the disk has errors.
   void set_read_only(bool read_only);
 

@@ -9,9 +9,9 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr std::array<const char*, kInvariants> kNames{"converges",    "completes", "same_map",
-                                                      "nothing_lost", "budget",    "bounded",
-                                                      "alive",        "own_items", "starts"};
+constexpr std::array<const char*, kInvariants> kNames{"converges", "completes", "same_map", "nothing_lost",
+                                                      "budget",    "bounded",   "alive",    "own_items",
+                                                      "starts",    "truth",     "rows",     "named"};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/exchange/reissue.hpp"
 
 namespace fleetmap::fault_injection {
@@ -177,6 +178,12 @@ void Monitor::check_downloads(const AgentId& name, const store::Store& store, St
       note(Invariant::kBounded, name, now, "chunk of " + to_string(id) + " on the disk was not requested");
     }
   }
+}
+
+void Monitor::on_decoded(const AgentId& robot, ByteView encoded, const cloud::PointCloud& cloud, Stamp now) {
+  if (cloud.size() > cloud::max_points_in(encoded.size()))
+    note(Invariant::kBounded, robot, now,
+         std::to_string(cloud.size()) + " points of " + std::to_string(encoded.size()) + " B");
 }
 
 void Monitor::check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now) {

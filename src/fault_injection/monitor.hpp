@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
 #include "fleetmap/fault_injection/fleet_run.hpp"
 
@@ -30,6 +31,8 @@ class Monitor {
   void on_forged(const messages::Message& message);
   void on_stopped(const AgentId& robot) { sent_.erase(robot); }
   void on_conflict(const AgentId& robot, const exchange::ItemConflict& conflict, Stamp now);
+  /// A robot decoded a cloud that came from another.
+  void on_decoded(const AgentId& robot, ByteView encoded, const cloud::PointCloud& cloud, Stamp now);
   /// From time to time.
   void check(const std::map<AgentId, ExchangeFleet::Robot>& robots, Stamp now);
   /// From time to time: every chunk of an unfinished download was requested by this robot.

@@ -9,6 +9,7 @@ namespace fleetmap::fault_injection {
 namespace {
 
 constexpr std::uint64_t kScenarioStream = 1;
+constexpr double kRare = 0.15;  ///< share of faults that cost much CPU
 
 /// `count` of the robots, in random order.
 std::vector<std::size_t> pick(Draws& draws, std::size_t robots, std::size_t count) {
@@ -49,6 +50,8 @@ double draw_value(Draws& draws, FaultKind kind) {
       return draws.between(2.0, 90.0);
     case FaultKind::kDamagedStore:
       return draws.uniform();
+    case FaultKind::kManyStarts:
+      return static_cast<double>(draws.chance(kRare) ? 300 + draws.below(100) : 2 + draws.below(20));
     case FaultKind::kClockStep:
       return draws.between(-7200.0, 7200.0);
     case FaultKind::kStranger:
@@ -57,6 +60,14 @@ double draw_value(Draws& draws, FaultKind kind) {
     default:
       return 0.0;
   }
+}
+
+/// The invariants hold for one compromised member: all such faults concern the robot of the first.
+void one_compromised(Scenario& scenario) {
+  const auto is_one = [](const Fault& fault) { return fault.kind == FaultKind::kCompromised; };
+  const auto first = std::ranges::find_if(scenario.faults, is_one);
+  for (Fault& fault : scenario.faults)
+    if (is_one(fault)) fault.robots = first->robots;
 }
 
 }  // namespace
@@ -83,6 +94,7 @@ Scenario make_scenario(std::uint64_t seed, const ScenarioConfig& config) {
     scenario.faults.push_back(fault);
   }
   std::ranges::stable_sort(scenario.faults, {}, &Fault::begin);
+  one_compromised(scenario);
   return scenario;
 }
 

@@ -118,6 +118,11 @@ void SyntheticSurvey::on_stored(std::size_t robot, const NodeId& id, Duration ti
   truth_[id] = T_enu;
 }
 
+const Pose* SyntheticSurvey::T_enu_node(const NodeId& id) const {
+  const auto found = truth_.find(id);
+  return found == truth_.end() ? nullptr : &found->second;
+}
+
 Bytes SyntheticSurvey::cloud_around(const NodeId& id) {
   Draws draws(number_of(id), 0);
   Bytes cloud(1500 + draws.below(4000));

@@ -40,6 +40,8 @@ class SyntheticSurvey {
 
   /// The encoded cloud around a node, as its robot sends it.
   static Bytes cloud_around(const NodeId& id);
+  /// T_enu_base of a node that was stored; null for others.
+  const Pose* T_enu_node(const NodeId& id) const;
   /// The alignment by the pair's first robot; empty when it is rejected.
   std::optional<graph::Alignment> registration(const exchange::NodePair& pair, std::uint32_t seq);
   static Result<cloud::PointCloud> decode_submap(ByteView encoded);

@@ -61,7 +61,10 @@ std::vector<AlignmentOutcome> outcomes(const Input& input, const Solution& solut
     result.push_back({a->i, a->j, a->computed_by, a->seq, initial_status(*a, input.items.nodes), 0});
   const Rejection& rejection = solution.rejection;
   for (const std::size_t k : solution.present) {
-    if (rejection.quarantined.contains(input.computed_by[k])) result[k].status = AlignmentStatus::quarantined;
+    const Alignment& a = *input.items.alignments[k];
+    if (rejection.quarantined.contains(input.computed_by[k]) || a.i.agent == rejection.contradicting ||
+        a.j.agent == rejection.contradicting)
+      result[k].status = AlignmentStatus::quarantined;
   }
   for (const auto& [alignment, status] : rejection.rejected) result[alignment].status = status;
   for (const auto& [alignment, candidate] : rejection.accepted) {
@@ -175,6 +178,7 @@ Placement place_by_fleet_graph(std::span<const Node> nodes, std::span<const Alig
     if (!agents.empty()) solve(input, solvable, solution);
   }
   placement.outcomes = outcomes(input, solution);
+  placement.contradicting = solution.rejection.contradicting;
   placement.credits = credits(placement.outcomes, solution.rejection);
   placement.used = used_alignments(input, solution.rejection);
   add_poses(solution.graph, solution.rejection.estimate, placement);

@@ -86,6 +86,8 @@ Result<Results> write_results(store::Store& store, const ResultsConfig& config,
   if (const Status kept = keep_recipe(store, config.recipe); !kept) return tl::unexpected(kept.error());
   results.placement = place(store, *origin, config.recipe.placement);
   results.not_georeferenced = graph::not_georeferenced(nodes_of(store), results.placement.components);
+  results.contradicting =
+      graph::contradict_the_fleet(results.placement, nodes_of(store), LocalFrame(results.origin));
   MapParts parts = map_parts(nodes_of(store), results.placement);
   results.apart = std::move(parts.apart);
   auto map = write_map(store, parts.main.T_map_node, config.recipe.map, config.directory, others);

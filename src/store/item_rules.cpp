@@ -41,7 +41,8 @@ bool is_valid(const graph::Node& node, const StoreConfig& config) {
 
 bool is_valid(const graph::Alignment& a) {
   return !a.computed_by.empty() && !a.i.agent.empty() && !a.j.agent.empty() && a.i != a.j &&
-         a.seq < kEndOfSeqs && a.i.seq < kEndOfSeqs && a.j.seq < kEndOfSeqs && !a.modes.empty() &&
+         (a.computed_by == a.i.agent || a.computed_by == a.j.agent) && a.seq < kEndOfSeqs &&
+         a.i.seq < kEndOfSeqs && a.j.seq < kEndOfSeqs && !a.modes.empty() &&
          a.modes.size() <= graph::Alignment::kMaxModes &&
          std::ranges::all_of(a.modes, [](const graph::AlignmentMode& mode) { return valid(mode); });
 }

@@ -49,6 +49,16 @@ TEST(Attacker, ForgesItemsDigestsAndChunksInTheNamesOfTheFleet) {
   EXPECT_TRUE(next && last && largest && invented);
 }
 
+TEST(Attacker, ClaimsOfAMemberAreDigestsAndChunks) {
+  Attacker attacker = listening();
+  std::set<std::size_t> kinds;
+  for (int k = 0; k < 200; ++k)
+    if (const auto claim = attacker.forged_claim()) kinds.insert(claim->message->index());
+  EXPECT_EQ(kinds, (std::set{messages::Message(messages::Digest{}).index(),
+                             messages::Message(messages::SubmapDigest{}).index(),
+                             messages::Message(messages::SubmapChunk{}).index()}));
+}
+
 TEST(Attacker, ALiarOffersWhatNobodyMade) {
   Attacker attacker = listening();
   const auto lie = attacker.lie(messages::Digest{agent("r1"), {{agent("r1"), 0, 3}}, {}}, agent("r1"));

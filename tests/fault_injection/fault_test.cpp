@@ -42,6 +42,13 @@ TEST(FaultKinds, OfLinksAreTheFirstFive) {
     EXPECT_FALSE(impairs_links(kind));
 }
 
+TEST(FaultKinds, SomeKeepTheirRobotFromRunning) {
+  for (const FaultKind kind : {FaultKind::kCrash, FaultKind::kManyStarts, FaultKind::kOldStore})
+    EXPECT_TRUE(stops_robot(kind)) << to_string(kind);
+  for (const FaultKind kind : {FaultKind::kCompromised, FaultKind::kFullDisk, FaultKind::kNewOrigin})
+    EXPECT_FALSE(stops_robot(kind)) << to_string(kind);
+}
+
 TEST(Fault, IsALineOfAReport) {
   Fault fault{.kind = FaultKind::kPartition,
               .begin = milliseconds(12'500),

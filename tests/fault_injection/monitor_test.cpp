@@ -88,6 +88,18 @@ TEST_F(MonitorTest, AChunkOnTheDiskThatWasNeverRequestedIsAViolation) {
   EXPECT_EQ(violations()[0].invariant, Invariant::kBounded);
 }
 
+TEST_F(MonitorTest, FewBytesThatDecodeToManyPointsAreAViolation) {
+  cloud::PointCloud cloud;
+  const Bytes encoded(9000);
+  cloud.points.resize(72'000);
+  monitor_.on_decoded(agent("r1"), encoded, cloud, kNow);
+  EXPECT_THAT(violations(), IsEmpty());
+  cloud.points.resize(72'001);
+  monitor_.on_decoded(agent("r1"), encoded, cloud, kNow);
+  ASSERT_EQ(violations().size(), 1u);
+  EXPECT_EQ(violations()[0].invariant, Invariant::kBounded);
+}
+
 TEST_F(MonitorTest, AForgedNameMayLoseItsSubmapThoughItWasAnnounced) {
   const graph::Node node = made(3);
   ASSERT_TRUE(store_.put_node(node));

@@ -77,6 +77,9 @@ TEST(SyntheticSurvey, AFrameBeginsAtOnceAndAtItsOwnOrigin) {
   EXPECT_TRUE(fleet.node(0, id(0, 90), seconds(31))) << "until it is stored";
   fleet.on_stored(0, id(0, 90), seconds(31));
   EXPECT_FALSE(fleet.node(0, id(0, 91), seconds(32)));
+  ASSERT_NE(fleet.T_enu_node(id(0, 90)), nullptr);
+  EXPECT_EQ(fleet.T_enu_node(id(0, 90))->matrix(), fleet.T_enu_base(0, seconds(31)).matrix());
+  EXPECT_EQ(fleet.T_enu_node(id(0, 91)), nullptr) << "not made";
 }
 
 TEST(SyntheticSurvey, RegistrationsAreTrueButForTheirNoise) {

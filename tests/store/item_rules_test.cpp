@@ -61,6 +61,7 @@ TEST(ItemRules, refuses_alignments_with_a_bad_mode) {
     return store.put_alignment(alignment).value() == Put::kInvalid;
   };
   EXPECT_TRUE(refused([](auto& a) { a.modes.clear(); }));
+  EXPECT_TRUE(refused([](auto& a) { a.computed_by = agent("r3"); })) << "of nodes of two others";
   EXPECT_TRUE(refused([](auto& a) { a.modes.resize(graph::Alignment::kMaxModes + 1); }));
   EXPECT_TRUE(refused([](auto& a) { a.modes.back().covariance(1, 1) = -1.0; }));
   EXPECT_TRUE(refused([](auto& a) { a.modes.back().covariance(0, 1) += 1e-9; }));

@@ -11,6 +11,7 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/agent/fleet_link.hpp"
 #include "fleetmap/agent/node_factory.hpp"
+#include "fleetmap/agent/odometry_frame.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/registration_recorder.hpp"
 #include "fleetmap/agent/store_failures.hpp"
@@ -148,8 +149,7 @@ class Agent {
   NodeFactory nodes_;
   loop_closure::LoopClosing loop_closing_;
   std::optional<exchange::Exchange> exchange_;
-  std::uint64_t map_restarts_ = 0;  ///< of the odometry, seen so far
-  std::uint64_t clock_resets_ = 0;  ///< likewise
+  OdometryFrame frame_;
   std::vector<double> scan_seconds_;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;

@@ -60,6 +60,9 @@ class ExchangeFleet {
  protected:
   using DrawSession = std::function<Result<std::uint16_t>(store::Store&)>;
 
+  Result<store::Store> open_store(const AgentId& name, const store::StoreConfig& config) const {
+    return store::Store::open(file(name, ".db"), name, config);
+  }
   /// Opens the file that the robot left, or makes it, and begins a session.
   Status start(const AgentId& name, const store::StoreConfig& store, Duration clock_offset,
                const DrawSession& draw_session);

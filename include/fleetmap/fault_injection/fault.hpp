@@ -27,13 +27,20 @@ enum class FaultKind : std::uint8_t {
   kForged,        ///< `value` packets a second in the names of robots of the fleet
   kLiar,          ///< the robot lies in its digests, status and pieces of clouds and submaps
   kDamagedStore,  ///< killed, and started again with a page of its database damaged, at share `value` of it
+  kCompromised,   ///< a member with valid keys whose nodes, alignments, clouds, digests, chunks and
+                  ///< mission reports are false
+  kManyStarts,    ///< the robot starts `value` times, and is killed at once each time
+  kNewOrigin,     ///< the robot's odometry begins anew
 };
 
-inline constexpr std::size_t kFaultKinds = 14;
+inline constexpr std::size_t kFaultKinds = 17;
 
 const char* to_string(FaultKind kind);
 /// Faults of links name the link that they impair: radio, short range or both.
 constexpr bool impairs_links(FaultKind kind) { return kind <= FaultKind::kPartition; }
+
+/// Faults that keep their robot from running.
+bool stops_robot(FaultKind kind);
 
 /// Parses names separated by commas, or "all".
 Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names);

@@ -18,6 +18,8 @@ struct Outcome {
   std::vector<Violation> violations;  ///< the first of each invariant and robot
   Duration converged_after{};         ///< the last fault
   double max_bytes_per_second = 0.0;  ///< of all robots on the radio
+  double largest_error = 0.0;         ///< m, of an honest robot's node at the end
+  double torn = 0.0;  ///< m, by which a compromised robot displaced honest nodes against each other
   std::size_t nodes = 0, alignments = 0;
   std::uint64_t packets = 0;
   std::uint64_t fingerprint = 0;  ///< of every packet: equal runs have equal ones

@@ -22,9 +22,12 @@ enum class Invariant : std::uint8_t {
   kAlive,        ///< every robot that runs sends something at least every so often
   kOwnItems,     ///< no robot refuses an item that its maker made
   kStarts,       ///< a robot whose disk works starts
+  kTruth,  ///< honest robots' nodes are placed where GPS errors allow, whatever a compromised robot adds
+  kRows,   ///< no honest robot counts a row as driven that nobody drove, unless packets are forged
+  kNamed,  ///< a robot whose items contradict the fleet is named, and no honest one
 };
 
-inline constexpr std::size_t kInvariants = 9;
+inline constexpr std::size_t kInvariants = 12;
 
 const char* to_string(Invariant invariant);
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "fleetmap/core/ids.hpp"
@@ -52,6 +53,7 @@ struct Placement {
 
   // Only of method `graph`.
   std::vector<AlignmentOutcome> outcomes;  ///< every alignment, by (computed_by, seq)
+  std::optional<AgentId> contradicting;  ///< agent that contradicts all others: no alignment with it is used
   std::map<AgentId, AgentCredit> credits;  ///< of those who computed any
   std::map<NodeId, Matrix6d> covariance;   ///< of T_enu_node, right tangent: [m, rad]
 };

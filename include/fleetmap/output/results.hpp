@@ -10,6 +10,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
+#include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/map_recipe.hpp"
@@ -27,6 +28,7 @@ struct Results {
   std::size_t missing_submaps = 0;  ///< of nodes that are held
   /// Odometry frames of which nobody knows where on Earth they are: no G in all that is tied to them.
   std::vector<graph::FrameId> not_georeferenced;
+  std::map<AgentId, graph::Contradiction> contradicting;  ///< agents that contradict the fleet
 };
 
 /// Writes map.ply, map.pcd, one more file for each part of the fleet that nobody can lay onto that map,

@@ -1,8 +1,11 @@
 #include "rejection/loop_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
+
+#include "rejection/joint_hypotheses.hpp"
 
 namespace fleetmap::graph {
 namespace {
@@ -13,6 +16,12 @@ constexpr double kMinShareAccepted = 0.8;
 /// Bounds the log odds of a hypothesis against another one, because many members may fail for one common
 /// reason.
 constexpr double kMaxSupport = 24.0;
+
+/// Members of each of `hypotheses` that are tested together, so that their cost is bounded.
+std::size_t members_in_joint(std::size_t hypotheses) {
+  return std::clamp<std::size_t>(3 * kMaxJointCandidates / std::max<std::size_t>(hypotheses, 1), 1,
+                                 kMaxJointCandidates);
+}
 
 bool is_accepted(const RejectionProblem& problem, const JoinedFrames& joined, std::size_t candidate) {
   const auto it = joined.accepted.find(problem.candidates[candidate].alignment);
@@ -41,10 +50,24 @@ std::vector<Hypothesis> accepted_hypotheses(const RejectionProblem& problem, con
   return accepted;
 }
 
-/// The hypotheses around a loop that does not close, at least one of which is false. Empty if all loops
-/// close.
+/// Accepted hypotheses that join several frames, each of which agrees with the prior and which together do
+/// not. A frame of uncertain position between two others can displace these against their GPS. Empty if there
+/// are none.
+std::vector<Hypothesis> inconsistent_chain(const RejectionProblem& problem,
+                                           std::span<const Hypothesis> joining, const SolvedGraph& prior) {
+  if (joining.size() < 2) return {};
+  const JointHypotheses joint(problem.candidates, joining, prior, members_in_joint(joining.size()));
+  const Indices sound = joint.select([&](std::size_t k) { return joint.are_consistent(std::array{k}); });
+  std::vector<Hypothesis> chain;
+  if (joint.are_consistent(sound)) return chain;
+  for (const std::size_t k : sound) chain.push_back(joining[k]);
+  return chain;
+}
+
+/// The hypotheses around a loop that does not close, or of a chain that contradicts the prior, at least one
+/// of which is false. Empty if there are none.
 std::vector<Hypothesis> inconsistent_loop(const RejectionProblem& problem, const PriorEvidence& evidence,
-                                          const LoopCheck& check) {
+                                          const LoopCheck& check, const SolvedGraph& prior) {
   const std::vector<Hypothesis> joining = accepted_hypotheses(problem, check.joined);
   for (const auto& [frames, sets] : evidence.sets) {
     const std::optional<Hypothesis> best = clear_best(sets, check.exclusions.candidates);
@@ -55,7 +78,7 @@ std::vector<Hypothesis> inconsistent_loop(const RejectionProblem& problem, const
     loop.push_back(*best);
     if (loop.size() > 2) return loop;
   }
-  return {};
+  return inconsistent_chain(problem, joining, prior);
 }
 
 /// Members of a hypothesis, with the candidates that were not linearised but belong to it.
@@ -118,21 +141,11 @@ std::vector<Hypothesis> path_between(std::span<const Hypothesis> joining, const 
 
 std::vector<Hypothesis> outlier_candidates(std::span<const Candidate> all, std::span<const Hypothesis> loop,
                                            const SolvedGraph& prior) {
-  std::vector<LinearisedCandidate> candidates;
-  std::vector<Indices> members;  // of each hypothesis, in `candidates`
-  for (const Hypothesis& hypothesis : loop) {
-    members.emplace_back();
-    for (const std::size_t c : evenly_spaced(hypothesis.members, kMaxJointCandidates)) {
-      members.back().push_back(candidates.size());
-      candidates.push_back(linearise(all, c, prior));
-    }
-  }
-  const CrossCovariances cross = cross_covariances(candidates);
+  const JointHypotheses joint(all, loop, prior, members_in_joint(loop.size()));
   std::vector<double> likelihood;  // log, that all others are right
   for (std::size_t k = 0; k < loop.size(); ++k) {
-    std::vector<Indices> others = members;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    double& l = likelihood.emplace_back(-0.5 * squared_distance_to_prior(others, candidates, cross));
+    const Indices others = joint.select([k](std::size_t other) { return other != k; });
+    double& l = likelihood.emplace_back(-0.5 * joint.distance(others));
     for (std::size_t other = 0; other < loop.size(); ++other)
       if (other != k) l += std::min(loop[other].support, kMaxSupport);
   }
@@ -147,7 +160,7 @@ LoopCheck check_loops(const RejectionProblem& problem, const PriorEvidence& evid
                       const SolvedGraph& prior, JoinedFrames joined, GraphSolver& solver) {
   LoopCheck check{{}, std::move(joined)};
   for (int trials = 0; trials < kMaxTrials;) {
-    const std::vector<Hypothesis> loop = inconsistent_loop(problem, evidence, check);
+    const std::vector<Hypothesis> loop = inconsistent_loop(problem, evidence, check, prior);
     if (loop.empty()) break;
     TrialExclusions next = with_outliers(check.exclusions, problem, evidence, prior, loop);
     const bool excludes_accepted = std::ranges::any_of(

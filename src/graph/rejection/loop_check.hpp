@@ -14,10 +14,10 @@ struct LoopCheck {
 };
 
 /// Searches for loops of hypotheses that do not close, for example a false one between two robots that both
-/// met a third. In each loop it excludes the hypothesis without which the others are closest to the prior,
-/// and joins the frames again, six times at most. If several hypotheses may be the false one, all are
-/// undecided and join nothing. This is the consistency of cycles, as in RRR (Latif et al., IJRR 2013),
-/// between hypotheses instead of single loop closures.
+/// met a third, and for chains of them that contradict GPS. In each loop it excludes the hypothesis without
+/// which the others are closest to the prior, and joins the frames again, six times at most. If several
+/// hypotheses may be the false one, all are undecided and join nothing. This is the consistency of cycles, as
+/// in RRR (Latif et al., IJRR 2013), between hypotheses instead of single loop closures.
 LoopCheck check_loops(const RejectionProblem& problem, const PriorEvidence& evidence,
                       const SolvedGraph& prior, JoinedFrames joined, GraphSolver& solver);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "rejection/agent_check.hpp"
 #include "rejection/alignment_statuses.hpp"
 #include "rejection/loop_check.hpp"
 #include "rejection/neighbour_votes.hpp"
@@ -31,8 +32,9 @@ std::map<AgentId, std::size_t> by_agent(const std::map<std::size_t, std::size_t>
   return counts;
 }
 
-/// Steps 1 to 5.
-Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidates, const Estimate& initial) {
+/// Steps 1 to 5, or 1 to 3 if `checks_agents` and an agent contradicts the others.
+Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidates, const Estimate& initial,
+                      bool checks_agents) {
   Rejection result;
   result.candidates = std::move(candidates);
   result.estimate = initial;
@@ -50,6 +52,8 @@ Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidat
   std::set<std::size_t> rejected = rejected_by_neighbours(problem.candidates, gating, prior);
   const PriorEvidence evidence =
       prior_evidence(problem.candidates, std::move(gating), std::move(rejected), prior);
+  if (checks_agents) result.contradicting = contradicting_agent(problem, evidence, prior);
+  if (result.contradicting) return result;
   std::optional<GraphSolver> solver = solver_with_candidates(problem, evidence.gating);
   const LoopCheck nothing_joined{{}, {.solved = true, .estimate = prior_estimate}};
   LoopCheck check = nothing_joined;
@@ -72,14 +76,29 @@ Rejection reject_once(const ReducedGraph& graph, std::vector<Candidate> candidat
   return result;
 }
 
+std::vector<Candidate> without_agent(const ReducedGraph& graph, std::vector<Candidate> candidates,
+                                     const AgentId& agent) {
+  std::erase_if(candidates, [&](const Candidate& c) {
+    return graph.frames[c.frames.first].id.agent == agent || graph.frames[c.frames.second].id.agent == agent;
+  });
+  return candidates;
+}
+
 }  // namespace
 
 Rejection reject_outliers(const ReducedGraph& graph, std::vector<Candidate> candidates,
                           std::span<const AgentId> computed_by, const Estimate& initial) {
   std::map<AgentId, std::size_t> sets;
   std::set<AgentId> quarantined;
+  std::optional<AgentId> contradicting;
   for (int round = 0;; ++round) {
-    Rejection result = reject_once(graph, candidates, initial);
+    Rejection result = reject_once(graph, candidates, initial, !contradicting);
+    if (result.contradicting) {
+      contradicting = std::move(result.contradicting);
+      candidates = without_agent(graph, std::move(candidates), *contradicting);
+      result = reject_once(graph, candidates, initial, false);
+    }
+    result.contradicting = contradicting;
     const auto of_round =
         outlier_sets(graph, result.candidates, result.rejected, computed_by, result.estimate);
     const std::set<AgentId> found = to_quarantine(of_round, by_agent(result.accepted, computed_by));

@@ -19,6 +19,7 @@ struct Rejection {
   std::map<std::size_t, AlignmentStatus> rejected;  ///< alignments that are not accepted
   std::map<AgentId, std::size_t> outlier_sets;      ///< see rejection/quarantine.hpp
   std::set<AgentId> quarantined;
+  std::optional<AgentId> contradicting;  ///< see rejection/agent_check.hpp
   Estimate estimate;
   /// Factored at `estimate`, for covariances; none if the equations cannot be solved.
   std::optional<GraphSolver> solver;
@@ -28,6 +29,7 @@ struct Rejection {
 /// 1. gating by the prior (prior_gating),
 /// 2. votes of neighbours (neighbour_votes),
 /// 3. pairwise consistent sets of each pair of frames (pairwise_consistency, prior_evidence),
+///    after which an agent that contradicts all others is left out (agent_check),
 /// 4. joining of frames by the best sets (frame_joining),
 /// 5. check of the loops that they form (loop_check),
 /// 6. quarantine of agents with many outlier sets, after which 1 to 5 are repeated without them (quarantine).

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+
+#include "rejection/prior_evidence.hpp"
+
+namespace fleetmap::graph {
+
+/// The one agent without whose hypotheses the best ones of all frame pairs agree with each other, GPS and
+/// odometry, if with them they do not. None if a single false hypothesis explains the contradiction, if
+/// several agents may be the cause, or if most of the agent's hypotheses agree with the others: an honest
+/// robot's false registrations differ in cause, those of a compromised one are all its own.
+std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, const PriorEvidence& evidence,
+                                           const SolvedGraph& prior);
+
+}  // namespace fleetmap::graph
