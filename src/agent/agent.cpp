@@ -69,7 +69,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store
       sessions_(std::move(sessions)),
       session_(session),
       tracks_(std::move(tracks)),
-      registrations_(config.id, config.directory),
+      registrations_(config.id, config.directory, config.registration_log),
       nodes_(config.id, config.submap, config.nodes),
       loop_closing_(
           loop_closing_config(config), bus, store_,

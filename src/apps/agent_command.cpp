@@ -156,7 +156,7 @@ int run(const AgentOptions& options) {
   std::optional<DriveWatchdog> watchdog;
   if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
   std::optional<LivePublisher> live;
-  if (*page) live.emplace(**agent, **bus, (*page)->server());
+  if (*page) live.emplace(**agent, **bus, (*page)->server(), config->dds.keys != nullptr);
   run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
                  options.exit_after_idle, stop_on_signals());
   if (*recorder) {

@@ -10,7 +10,6 @@
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/las_map.hpp"
 #include "fleetmap/output/map_parts.hpp"
-#include "fleetmap/output/placed_store.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
@@ -65,7 +64,7 @@ bool wants_las(const std::string& out, const LasOptions& options) {
 
 Status export_las(StoredMap& map, const std::string& store, const std::string& out,
                   const LasOptions& options) {
-  const output::MapParts parts = output::map_parts(output::nodes_of(map.store), map.placement);
+  const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
   const auto crs = crs_of(options, {map.recipe.origin, parts.main.georeferenced}, store);
   if (!crs) return tl::unexpected(crs.error());
   const output::LasMapConfig config{out, options.tile_m, std::string("fleetmap ") + kVersion};

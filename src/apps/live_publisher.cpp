@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fleetmap/agent/navigator.hpp"
+#include "report.hpp"
 #include "robots_now.hpp"
 
 namespace fleetmap::apps {
@@ -76,8 +77,8 @@ void add_missing_submaps(const store::Store& store, double rate, monitor::RadioN
 
 }  // namespace
 
-LivePublisher::LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server)
-    : agent_(agent), bus_(bus), server_(server) {
+LivePublisher::LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server, bool keys)
+    : agent_(agent), bus_(bus), server_(server), keys_(keys) {
   const std::vector<AgentId> fleet = agent.config().exchange.fleet;
   server_.set_operator([&agent, &bus, fleet](const monitor::HoldRequest& request) -> Status {
     if (request.robot && std::ranges::find(fleet, *request.robot) == fleet.end())
@@ -110,6 +111,7 @@ monitor::RadioNow LivePublisher::radio(const std::vector<bus::HeardTraffic>& hea
                                stats.long_range.wire_bytes + bus_.discovery_bytes(bus::Link::kLongRange),
                                agent_.config().exchange.long_range.overhead_bytes};
   monitor::RadioNow radio = rates_.add(counters, heard, bus_.now());
+  radio.who_may_join = who_may_join(keys_);
   radio.share = queue.share_bytes_per_second();
   radio.fleet_budget = agent_.config().exchange.long_range.fleet_bytes_per_second;
   radio.backlog_bytes = queue.backlog_bytes();

@@ -16,8 +16,8 @@ namespace fleetmap::apps {
 /// callback thread.
 class LivePublisher {
  public:
-  /// All outlive this.
-  LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server);
+  /// All outlive this. `keys`: the robot has those of its fleet.
+  LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server, bool keys);
   ~LivePublisher();
   LivePublisher(const LivePublisher&) = delete;
   LivePublisher& operator=(const LivePublisher&) = delete;
@@ -32,6 +32,7 @@ class LivePublisher {
   agent::Agent& agent_;
   bus::DdsBus& bus_;
   monitor::Server& server_;
+  bool keys_;
   RadioRates rates_;
   std::array<std::uint64_t, sensor::kSources> samples_{};  ///< at the last call
   std::optional<Stamp> published_;

@@ -19,7 +19,6 @@
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/map_recipe.hpp"
-#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/output/track_files.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
@@ -37,17 +36,25 @@ struct MapOptions {
   std::string out;
   std::optional<double> voxel;
   std::vector<double> origin_deg;
+  std::vector<std::string> without;
   bool json = false;
   LasOptions las;
 };
 
-std::optional<GeoPoint> configured_origin(const MapOptions& options) {
-  if (options.origin_deg.empty()) return std::nullopt;
-  return geo_point_from_degrees(options.origin_deg[0], options.origin_deg[1], options.origin_deg[2]);
+Result<StoredMap> open(const MapOptions& options) {
+  MapChoice choice;
+  if (const auto& deg = options.origin_deg; !deg.empty())
+    choice.origin = geo_point_from_degrees(deg[0], deg[1], deg[2]);
+  choice.voxel_m = options.voxel;
+  auto without = robots_named(options.without);
+  if (!without) return tl::unexpected(without.error());
+  choice.without = std::move(*without);
+  return open_map(options.store, choice);
 }
 
 /// A summary that scripts compare: it needs no placement, so that an empty store has one, too.
 int info_json(const MapOptions& options) {
+  if (!options.without.empty()) return report({"--json lists by robot, so it takes no --without"}, kUsage);
   if (const Status meant = check_store(options.store); !meant) return report(meant.error(), kFailed);
   const auto store = store::Store::open_read_only(options.store);
   if (!store) return report(store.error(), kFailed);
@@ -57,13 +64,14 @@ int info_json(const MapOptions& options) {
 
 int info(const MapOptions& options) {
   if (options.json) return info_json(options);
-  const auto map = open_map(options.store, configured_origin(options), options.voxel);
+  const auto map = open(options);
   if (!map) return report(map.error(), kFailed);
   constexpr double kDegree = std::numbers::pi / 180.0;
+  const auto submaps = std::ranges::count_if(
+      map->items.nodes, [&](const graph::Node& node) { return map->store.has_submap(node.id); });
   std::cout << "store of " << map->store.self().str() << '\n'
-            << "nodes " << map->store.nodes().size() << ", submaps held " << map->store.submap_set().size()
-            << ", alignments " << map->store.alignments().size() << " (" << map->placement.used.size()
-            << " used)\n"
+            << "nodes " << map->items.nodes.size() << ", submaps held " << submaps << ", alignments "
+            << map->items.alignments.size() << " (" << map->placement.used.size() << " used)\n"
             << std::setprecision(10) << "origin " << map->recipe.origin.latitude / kDegree << ", "
             << map->recipe.origin.longitude / kDegree << " deg, " << map->recipe.origin.altitude << " m\n";
   for (const auto& component : map->placement.components) {
@@ -78,7 +86,7 @@ int export_map(const MapOptions& options) {
   const bool las = wants_las(options.out, options.las);
   if (options.las.any() && !las)
     return report({options.out + ": --crs and --geoid are of LAS; end it with .las"}, kUsage);
-  auto map = open_map(options.store, configured_origin(options), options.voxel);
+  auto map = open(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
   if (las) {
@@ -86,7 +94,7 @@ int export_map(const MapOptions& options) {
     return written ? kDone : report(written.error(), kFailed);
   }
   const std::array files{std::filesystem::path(options.out)};
-  const output::MapPart main = output::map_parts(output::nodes_of(map->store), map->placement).main;
+  const output::MapPart main = output::map_parts(map->items.nodes, map->placement).main;
   const auto written = output::write_merged(map->store, main.T_map_node, map->recipe.merge, files,
                                             output::map_comments(map->store, main, map->recipe.origin));
   if (!written) return report(written.error(), kFailed);
@@ -97,9 +105,9 @@ int export_map(const MapOptions& options) {
 }
 
 int export_tracks(const MapOptions& options) {
-  const auto map = open_map(options.store, configured_origin(options), std::nullopt);
+  const auto map = open(options);
   if (!map) return report(map.error(), kFailed);
-  const auto nodes = output::nodes_of(map->store);
+  const std::vector<graph::Node>& nodes = map->items.nodes;
   const auto main = output::map_parts(nodes, map->placement).main;
   if (!main.georeferenced) {
     return report(
@@ -116,9 +124,9 @@ int export_tracks(const MapOptions& options) {
 }
 
 int export_graph(const MapOptions& options) {
-  const auto map = open_map(options.store, configured_origin(options), std::nullopt);
+  const auto map = open(options);
   if (!map) return report(map.error(), kFailed);
-  const output::GraphText text = output::to_g2o(output::nodes_of(map->store), map->placement);
+  const output::GraphText text = output::to_g2o(map->items.nodes, map->placement);
   const std::string names = options.out + ".csv";
   if (const Status written = write_whole_file(options.out, text.graph); !written)
     return report(written.error(), kFailed);
@@ -130,7 +138,7 @@ int export_graph(const MapOptions& options) {
 }
 
 int draw_map(const MapOptions& options) {
-  auto map = open_map(options.store, configured_origin(options), options.voxel);
+  auto map = open(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
   const auto pictures = pictures_of(*map);
@@ -200,6 +208,11 @@ void add_map(CLI::App& app, int& exit_code) {
                     "least node's")
         ->delimiter(',')
         ->expected(3);
+    sub->add_option("--without", options->without,
+                    "robots, comma-separated, whose nodes and alignments are left out: the map is placed and "
+                    "made of the rest")
+        ->delimiter(',')
+        ->allow_extra_args(false);
   }
   info_command->add_flag("--json", options->json,
                          "nodes, alignments and submaps held, by robot, and the hash of the set");

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "fleetmap/output/robot_folders.hpp"
@@ -10,6 +11,7 @@
 #include "monitor_access.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "stored_map.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -18,6 +20,7 @@ namespace fs = std::filesystem;
 
 struct MonitorOptions {
   std::string store, run, robot;
+  std::vector<std::string> without;
   MonitorAccess access;
 };
 
@@ -35,8 +38,10 @@ int show(const MonitorOptions& options) {
   if (one != options.run.empty()) return report({"give either --store FILE or --run DIR"}, kUsage);
   const auto config = server_config(options.access);
   if (!config) return report(config.error(), kUsage);
+  const auto without = robots_named(options.without);
+  if (!without) return report(without.error(), kUsage);
   const LiveMonitor::Read read = [&] {
-    return one ? open_one(options.store) : open_run(options.run, options.robot);
+    return one ? open_one(options.store, *without) : open_run(options.run, options.robot, *without);
   };
   const LiveMonitor::Folders folders = [&] {
     return one ? std::vector{fs::path(options.store).parent_path()}
@@ -61,6 +66,11 @@ void add_monitor(CLI::App& app, int& exit_code) {
   command->add_option("--run", options->run, "folder that `run` or the agents write to")->check(some_path());
   command->add_option("--robot", options->robot,
                       "of --run: whose map is shown; else of the one that holds most");
+  command
+      ->add_option("--without", options->without,
+                   "robots, comma-separated, whose nodes and alignments are left out of the map")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--port", options->access.port, "TCP port, 0 for any that is free")
       ->check(whole_number(0, 65535));
   add_access_options(*command, options->access, "");

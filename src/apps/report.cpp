@@ -192,12 +192,13 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
   return html(report, map_svg(out, outcome)).write(out / "report.html");
 }
 
+const char* who_may_join(bool keys) { return keys ? "members of the fleet" : "anyone"; }
+
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
                     const output::Results* results, const RadioAccess& access,
                     const std::vector<bus::StallCounters>& stalls) {
   json report = agent_report(agent, results);
-  report["radio_access"] = {{"who_may_join", access.keys ? "members of the fleet" : "anyone"},
-                            {"refused", access.refused}};
+  report["radio_access"] = {{"who_may_join", who_may_join(access.keys)}, {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
   report["stalls"] = stalls_json(stalls);
   return write_whole_file(directory / "report.json", report.dump(2) + "\n");

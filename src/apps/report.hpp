@@ -22,7 +22,9 @@ struct RadioAccess {
   bool keys = false;                 ///< else anyone
   std::vector<std::string> refused;  ///< robots with which no exchange was possible, and why
 };
-/// The same of one agent alone; `stalls` of its bus's threads.
+/// The words for it in report.json and on the monitor's page.
+const char* who_may_join(bool keys);
+/// report.json of one agent alone; `stalls` of its bus's threads.
 Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
                     const output::Results* results, const RadioAccess& access,
                     const std::vector<bus::StallCounters>& stalls);

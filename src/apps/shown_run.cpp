@@ -49,13 +49,16 @@ Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
 }
 
 /// Places what the store holds as the robot's own last map did.
-Status place_held(const store::Store& store, const fs::path& file, monitor::FleetView& view) {
+Status place_held(const store::Store& store, const fs::path& file, std::span<const AgentId> without,
+                  monitor::FleetView& view) {
   const auto recipe = output::recipe_or_default(store);
   if (!recipe) return failure(file.string() + ": holds no node, so there is nothing to show");
   view.self = store.self();
   view.origin = recipe->origin;
-  view.nodes = output::nodes_of(store);
-  view.alignments = output::alignments_of(store);
+  auto items = output::items_without(store, without);
+  if (!items) return tl::unexpected(items.error());
+  view.nodes = std::move(items->nodes);
+  view.alignments = std::move(items->alignments);
   std::map<AgentId, NodeId> last;
   for (const graph::Node& node : view.nodes) {
     view.has_submap.push_back(store.has_submap(node.id));
@@ -63,25 +66,27 @@ Status place_held(const store::Store& store, const fs::path& file, monitor::Flee
   }
   std::vector<NodeId> covariance_of;
   for (const auto& [robot, id] : last) covariance_of.push_back(id);
-  view.placement = output::place(store, recipe->origin, recipe->placement, covariance_of);
+  view.placement = graph::compute_placement(view.nodes, view.alignments, LocalFrame(recipe->origin),
+                                            recipe->placement, covariance_of);
   return {};
 }
 
 }  // namespace
 
-Result<ShownRun> open_one(const fs::path& file) {
+Result<ShownRun> open_one(const fs::path& file, std::span<const AgentId> without) {
   auto store = open_store(file);
   if (!store) return tl::unexpected(store.error());
   ShownRun run{std::move(*store), {}};
   run.view.title = file.string();
-  if (const Status placed = place_held(*run.store, file, run.view); !placed)
+  if (const Status placed = place_held(*run.store, file, without, run.view); !placed)
     return tl::unexpected(placed.error());
   add_holdings(*run.store, run.view.holdings);
   add_attempts(file.parent_path(), run.store->self(), run.view);
   return run;
 }
 
-Result<ShownRun> open_run(const fs::path& directory, const std::string& robot) {
+Result<ShownRun> open_run(const fs::path& directory, const std::string& robot,
+                          std::span<const AgentId> without) {
   ShownRun run;
   fs::path shown;
   for (const fs::path& folder : output::robot_folders(directory, "store.db")) {
@@ -102,7 +107,7 @@ Result<ShownRun> open_run(const fs::path& directory, const std::string& robot) {
     return failure(directory.string() + ": holds no " +
                    (robot.empty() ? "robot's store.db" : "store of " + robot) + "; give the --out of a run");
   run.view.title = fs::weakly_canonical(directory).filename().string();
-  if (const Status placed = place_held(*run.store, shown, run.view); !placed)
+  if (const Status placed = place_held(*run.store, shown, without, run.view); !placed)
     return tl::unexpected(placed.error());
   return run;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "fleetmap/core/result.hpp"
@@ -17,10 +18,13 @@ struct ShownRun {
   monitor::FleetView view;
 };
 
-/// One robot's store. Fails if it holds no node yet.
-Result<ShownRun> open_one(const std::filesystem::path& file);
+/// One robot's store, but for the items of robots `without`. Fails if it holds no node yet, or nothing of one
+/// of these.
+Result<ShownRun> open_one(const std::filesystem::path& file, std::span<const AgentId> without = {});
 
 /// All robots below `directory`, on the map of one: of `robot`, or of the one that holds most if it is empty.
-Result<ShownRun> open_run(const std::filesystem::path& directory, const std::string& robot);
+/// Fails as open_one().
+Result<ShownRun> open_run(const std::filesystem::path& directory, const std::string& robot,
+                          std::span<const AgentId> without = {});
 
 }  // namespace fleetmap::apps

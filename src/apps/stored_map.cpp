@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "fleetmap/core/paths.hpp"
-#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 
 namespace fleetmap::apps {
@@ -25,23 +24,35 @@ Status check_store(const std::filesystem::path& file) {
   return {};
 }
 
-Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& configured,
-                           std::optional<double> voxel_m) {
+Result<std::vector<AgentId>> robots_named(const std::vector<std::string>& names) {
+  std::vector<AgentId> robots;
+  for (const std::string& name : names) {
+    const auto robot = AgentId::parse(name);
+    if (!robot) return tl::unexpected(robot.error());
+    robots.push_back(*robot);
+  }
+  return robots;
+}
+
+Result<StoredMap> open_map(const std::filesystem::path& file, const MapChoice& choice) {
   if (const Status meant = check_store(file); !meant) return tl::unexpected(meant.error());
   auto store = store::Store::open_read_only(file);
   if (!store) return tl::unexpected(store.error());
-  auto recipe = output::recipe_or_default(*store, configured);
+  auto recipe = output::recipe_or_default(*store, choice.origin);
   if (!recipe || store->nodes().empty())
     return failure(file.string() + ": holds no node, so there is no map");
   if (!is_valid(recipe->origin))
     return failure("--origin is not on Earth; expected latitude_deg,longitude_deg,altitude_m");
-  if (voxel_m) recipe->merge.voxel_m = *voxel_m;
-  auto placement = output::place(*store, recipe->origin, recipe->placement);
-  return StoredMap{std::move(*store), *recipe, std::move(placement)};
+  if (choice.voxel_m) recipe->merge.voxel_m = *choice.voxel_m;
+  auto items = output::items_without(*store, choice.without);
+  if (!items) return tl::unexpected(items.error());
+  auto placement = graph::compute_placement(items->nodes, items->alignments, LocalFrame(recipe->origin),
+                                            recipe->placement);
+  return StoredMap{std::move(*store), *recipe, std::move(*items), std::move(placement)};
 }
 
 std::map<NodeId, Pose> shown_poses(const StoredMap& map) {
-  return output::map_parts(output::nodes_of(map.store), map.placement).main.T_map_node;
+  return output::map_parts(map.items.nodes, map.placement).main.T_map_node;
 }
 
 void name_unreadable(const store::MapOutline& outline) {

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "fleetmap/store/store.hpp"
@@ -17,16 +19,24 @@ namespace fleetmap::apps {
 struct StoredMap {
   store::Store store;
   output::MapRecipe recipe;
-  graph::Placement placement;
+  output::MapItems items;
+  graph::Placement placement;  ///< of these items
 };
+
+/// Choices of who looks at a store.
+struct MapChoice {
+  std::optional<GeoPoint> origin;  ///< of ENU; else that of the agent's last map, or the least node's
+  std::optional<double> voxel_m;   ///< else as in the agent's last map
+  std::vector<AgentId> without;    ///< robots whose nodes and alignments are left out
+};
+/// Fails with the name that is none.
+Result<std::vector<AgentId>> robots_named(const std::vector<std::string>& names);
 
 /// Fails, with the remedy, unless the file is a store.
 Status check_store(const std::filesystem::path& file);
 
-/// Places the nodes of a store. `configured`: the origin of ENU, else that of the agent's last map, or the
-/// least node's; `voxel_m`: else as in the agent's last map.
-Result<StoredMap> open_map(const std::filesystem::path& file, const std::optional<GeoPoint>& configured,
-                           std::optional<double> voxel_m);
+/// Places the nodes of a store. Fails for a robot to be left out of which it holds nothing.
+Result<StoredMap> open_map(const std::filesystem::path& file, const MapChoice& choice);
 
 /// Poses of the nodes that map.ply contains.
 std::map<NodeId, Pose> shown_poses(const StoredMap& map);

@@ -38,7 +38,8 @@ void read_paper_registration(Section& section, registration::PaperConfig& paper)
   section.finish();
 }
 
-void read_method(Section& top, registration::RegistrationConfig& registration) {
+void read_method(Section& top, registration::RegistrationConfig& registration,
+                 store::RegistrationLogConfig& record) {
   Section section = top.section("registration");
   section.read("voxel", registration.voxel_m);
   section.read("surfel", registration.surfel_m);
@@ -50,6 +51,10 @@ void read_method(Section& top, registration::RegistrationConfig& registration) {
   section.read("min_inlier_fraction", registration.min_inlier_fraction);
   section.read("min_agreement", registration.min_agreement);
   section.read("min_weight", registration.min_weight);
+  double record_mb = static_cast<double>(record.max_bytes) * 1e-6;
+  section.read("record_mb", record_mb);
+  if (record_mb < 1.0 || record_mb > 1e6) section.problem("record_mb", "expected 1 to 1000000 MB");
+  record.max_bytes = static_cast<std::uint64_t>(std::clamp(record_mb, 1.0, 1e6) * 1e6);
   std::string method = registration::to_string(registration.method);
   section.read("method", method);
   if (const auto known = registration::registration_method(method)) {
@@ -79,7 +84,7 @@ void read_placement(Section& top, agent::AgentConfig& agent) {
 
 void read_registration(Section& top, agent::AgentConfig& agent) {
   read_spherize(top, agent.spherize);
-  read_method(top, agent.registration);
+  read_method(top, agent.registration, agent.registration_log);
   read_placement(top, agent);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -21,12 +22,16 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Row = std::map<std::string, std::string>;  // by column
 
-/// A line that is cut off (a killed writer) is left out.
-Result<std::vector<Row>> read_csv(const fs::path& file) {
+/// A line that is cut off (a killed writer) is left out. Fails without one of the columns `needed`.
+Result<std::vector<Row>> read_csv(const fs::path& file, std::initializer_list<const char*> needed) {
   std::ifstream in(file);
   std::string line;
   if (!in || !std::getline(in, line)) return failure(file.string() + ": cannot be read");
   const std::vector<std::string> columns = eval::cells_of(line);
+  for (const char* column : needed) {
+    if (std::ranges::find(columns, column) == columns.end())
+      return failure(file.string() + ": its first line names no column '" + column + "'");
+  }
   std::vector<Row> rows;
   while (std::getline(in, line)) {
     const std::vector<std::string> cells = eval::cells_of(line);
@@ -43,7 +48,10 @@ std::optional<double> number(const Row& row, const std::string& column) {
   double value = 0.0;
   const char* last = cell->second.data() + cell->second.size();
   const auto [end, error] = std::from_chars(cell->second.data(), last, value);
-  if (error != std::errc() || end != last || cell->second.empty()) return std::nullopt;
+  // Times are counted in whole seconds further on.
+  constexpr double kMost = 1e18;
+  if (error != std::errc() || end != last || cell->second.empty() || !(std::abs(value) < kMost))
+    return std::nullopt;
   return value;
 }
 
@@ -56,7 +64,7 @@ double quantile(std::vector<double> values, double share) {
 
 /// When a robot came to hold each node, s. After a restart it tells again of what it held.
 Result<std::map<std::string, double>> node_times(const fs::path& robot) {
-  const auto rows = read_csv(robot / "node_times.csv");
+  const auto rows = read_csv(robot / "node_times.csv", {"node", "time_ns"});
   if (!rows) return tl::unexpected(rows.error());
   std::map<std::string, double> times;
   for (const Row& row : *rows) {
@@ -103,7 +111,7 @@ Status add_latencies(const std::vector<fs::path>& robots, std::map<std::string, 
 Result<std::size_t> full_seconds(const std::vector<fs::path>& robots) {
   std::set<std::int64_t> seconds;
   for (const fs::path& robot : robots) {
-    const auto rows = read_csv(robot / "link_trace.csv");
+    const auto rows = read_csv(robot / "link_trace.csv", {"time_s", "link", "kbit_s"});
     if (!rows) return tl::unexpected(rows.error());
     for (const Row& row : *rows) {
       const auto time = number(row, "time_s");
@@ -114,13 +122,23 @@ Result<std::size_t> full_seconds(const std::vector<fs::path>& robots) {
   return seconds.size();
 }
 
+bool is_topic(const json& row) {
+  const auto has = [&row](const char* key, auto is) { return row.contains(key) && (row[key].*is)(); };
+  return row.is_object() && has("link", &json::is_string) && has("kind", &json::is_string) &&
+         has("received_bytes", &json::is_number);
+}
+
 Status add_kinds(const std::vector<fs::path>& robots, std::map<std::string, double>& measures) {
   for (const fs::path& robot : robots) {
     const auto report = read_json(robot / "report.json");
     if (!report) return tl::unexpected(report.error());
-    for (const json& row : report->value("topics", json::array())) {
-      const std::string name = row.value("link", "") + "." + row.value("kind", "") + "_kb";
-      measures["field." + name] += 1e-3 * row.value("received_bytes", 0.0);
+    const fs::path file = robot / "report.json";
+    const auto topics = report->find("topics");
+    if (topics == report->end() || !topics->is_array()) return failure(file.string() + ": lists no topics");
+    for (const json& row : *topics) {
+      if (!is_topic(row)) return failure(file.string() + ": a topic lacks link, kind or received_bytes");
+      const std::string name = row["link"].get<std::string>() + "." + row["kind"].get<std::string>() + "_kb";
+      measures["field." + name] += 1e-3 * row["received_bytes"].get<double>();
     }
   }
   return {};

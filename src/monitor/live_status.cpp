@@ -57,7 +57,8 @@ json radio_json(const RadioNow& radio) {
                      {"loss", rounded(one.loss, 1e4)},
                      {"delay_s", optional_json(one.delay_s, 1e4)}});
   }
-  return {{"sent", rounded(radio.sent, 10.0)},
+  return {{"who_may_join", radio.who_may_join},
+          {"sent", rounded(radio.sent, 10.0)},
           {"received", rounded(radio.received, 10.0)},
           {"share", rounded(radio.share, 10.0)},
           {"fleet_budget", rounded(radio.fleet_budget, 10.0)},

@@ -21,7 +21,8 @@ bool parse(const std::string& line, GlobalPose& G) {
   const int fields =
       std::sscanf(line.c_str(), "%lld.%9lld,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &seconds,
                   &nanoseconds, &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7], &v[8], &v[9], &v[10]);
-  if (fields != 13) return false;
+  constexpr long long kMostSeconds = 9'000'000'000;  // in 64 bits of nanoseconds
+  if (fields != 13 || seconds > kMostSeconds || seconds < -kMostSeconds) return false;
   G.stamp = stamp_from_ns(seconds * 1'000'000'000 + nanoseconds);
   G.position = geo_point_from_degrees(v[0], v[1], v[2]);
   G.q_enu_base = Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized();
@@ -29,7 +30,7 @@ bool parse(const std::string& line, GlobalPose& G) {
   for (int k = 0; k < 3; ++k)
     G.covariance(k, k) = v[7 + static_cast<std::size_t>(k)] * v[7 + static_cast<std::size_t>(k)];
   G.covariance(5, 5) = v[10] * kDegree * v[10] * kDegree;
-  return is_valid(G.position) && G.q_enu_base.coeffs().allFinite();
+  return is_valid(G.position) && G.q_enu_base.coeffs().allFinite() && G.covariance.allFinite();
 }
 
 }  // namespace

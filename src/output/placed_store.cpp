@@ -1,5 +1,9 @@
 #include "fleetmap/output/placed_store.hpp"
 
+#include <algorithm>
+#include <set>
+#include <string>
+
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 
@@ -24,6 +28,32 @@ std::vector<graph::Alignment> alignments_of(const store::Store& store) {
   std::vector<graph::Alignment> alignments;
   for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
   return alignments;
+}
+
+Result<MapItems> items_without(const store::Store& store, std::span<const AgentId> robots) {
+  std::set<AgentId> makers;
+  for (const auto& [id, node] : store.nodes()) makers.insert(id.agent);
+  for (const auto& [id, alignment] : store.alignments()) makers.insert(id.computed_by);
+  for (const AgentId& robot : robots) {
+    if (makers.contains(robot)) continue;
+    std::string known;
+    for (const AgentId& maker : makers) known += (known.empty() ? "" : ", ") + maker.str();
+    return failure(store.path().string() + ": holds nothing of '" + robot.str() + "', but of " + known);
+  }
+  const auto left_out = [&](const AgentId& robot) {
+    return std::ranges::find(robots, robot) != robots.end();
+  };
+  MapItems items;
+  for (const auto& [id, node] : store.nodes()) {
+    if (!left_out(id.agent)) items.nodes.push_back(node);
+  }
+  for (const auto& [id, one] : store.alignments()) {
+    if (!left_out(one.computed_by) && !left_out(one.i.agent) && !left_out(one.j.agent))
+      items.alignments.push_back(one);
+  }
+  if (items.nodes.empty() && !robots.empty())
+    return failure(store.path().string() + ": without these robots no node is left, so there is no map");
+  return items;
 }
 
 std::optional<Stamp> newest_stamp(const store::Store& store, const std::map<NodeId, Pose>& T_map_node) {

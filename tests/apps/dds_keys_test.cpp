@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "bus/dds_domains.hpp"
+#include "monitor/browser.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -50,7 +52,19 @@ class FleetWithKeys : public ::testing::Test {
   }
   void start(int robot, bool with_keys) {
     agents_.push_back(std::make_unique<testing::Process>(
-        std::vector<std::string>{program(), "agent", "-c", file(robot, with_keys)}));
+        std::vector<std::string>{program(), "agent", "-c", file(robot, with_keys), "--monitor", "0"}));
+  }
+  /// `radio.who_may_join` on the agent's page; empty until it has published.
+  std::string who_may_join_of_page(std::size_t agent) const {
+    const std::uint16_t port = testing::announced_port(agents_.at(agent)->output());
+    if (port == 0) return {};
+    testing::Browser browser(port);
+    browser.get("/live.json");
+    const std::string answer = browser.answer();
+    const auto all =
+        nlohmann::json::parse(answer.substr(std::min(answer.find('{'), answer.size())), nullptr, false);
+    const auto who = nlohmann::json::json_pointer("/live/radio/who_may_join");
+    return all.is_object() && all.contains(who) ? all[who].get<std::string>() : std::string();
   }
   bool says(std::size_t agent, const std::string& what) const {
     return testing::eventually([&] { return agents_.at(agent)->output().find(what) != std::string::npos; },
@@ -76,6 +90,11 @@ TEST_F(FleetWithKeys, MembersKnowEachOtherAndNameWhoIsNone) {
   EXPECT_TRUE(says(0, "keys of r1 (robot), valid until"));
   for (const auto& agent : agents_) EXPECT_THAT(agent->output(), Not(HasSubstr("heard r3")));
   EXPECT_THAT(agents_[2]->output(), Not(HasSubstr("heard r")));
+  for (std::size_t agent = 0; agent < agents_.size(); ++agent) {
+    const char* who = agent < 2 ? "members of the fleet" : "anyone";
+    EXPECT_TRUE(testing::eventually([&] { return who_may_join_of_page(agent) == who; }, kPatience)) << agent;
+    EXPECT_EQ(agents_[agent]->output().find("anyone on the radios") == std::string::npos, agent < 2);
+  }
   for (const auto& agent : agents_) agent->signal(SIGTERM);
   for (const auto& agent : agents_) agent->wait();
   EXPECT_THAT(report_of("r1"), HasSubstr("\"who_may_join\": \"members of the fleet\""));

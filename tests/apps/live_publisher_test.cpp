@@ -82,6 +82,7 @@ TEST_F(LivePublisher, ShowsTheOtherRobotOnceItIsHeardAndPassesOnOrders) {
   EXPECT_EQ(now["self"], "r1");
   EXPECT_GT(now["radio"]["share"].get<double>(), 0.0);
   EXPECT_EQ(now["radio"]["missing_submaps"], 0);
+  EXPECT_EQ(now["radio"]["who_may_join"], "anyone");
   // Robots in contact use the Wi-Fi.
   const auto is_heard = [&] {
     const json radio = live(port)["radio"];

@@ -124,6 +124,9 @@ TEST_F(FleetConfigTest, ModePaperSelectsMethodPlacementAndSearchOfWhichEachCanBe
 }
 
 TEST_F(FleetConfigTest, UnknownMethodsAreRefusedWhereTheyStand) {
+  EXPECT_EQ(robot("registration: {record_mb: 20}\n").registration_log.max_bytes, 20'000'000u);
+  EXPECT_THAT(robot_error(kRobot + "registration: {record_mb: 0}\n"),
+              HasSubstr("config.yaml:4: registration.record_mb"));
   EXPECT_THAT(robot_error(kRobot + "registration: {method: fpfh}\n"),
               HasSubstr("config.yaml:4: registration.method: expected 'paper' or 'correlation'"));
   EXPECT_THAT(robot_error(kRobot + "placement: {method: fleet}\n"),

@@ -70,6 +70,31 @@ TEST_F(FieldMeasures, AMissingFileIsNamed) {
   EXPECT_THAT(measured.error().message, HasSubstr("report.json"));
 }
 
+TEST_F(FieldMeasures, FilesThatLackAColumnOrATopicsNumberAreNamed) {
+  const auto why = [&] {
+    const auto measured = field_measures(folder_.path());
+    return measured ? std::string("accepted") : measured.error().message;
+  };
+  folder_.write("r2/report.json", R"({"topics": [{"link": "long_range", "received_bytes": "many"}]})");
+  EXPECT_THAT(why(), HasSubstr("r2/report.json: a topic lacks"));
+  folder_.write("r2/report.json", "[1, 2]");
+  EXPECT_THAT(why(), HasSubstr("r2/report.json: lists no topics"));
+  SetUp();
+  folder_.write("r2/link_trace.csv", "time_s,from,to\n1.0,r1,r2\n");
+  EXPECT_THAT(why(), HasSubstr("link_trace.csv: its first line names no column 'link'"));
+  SetUp();
+  folder_.write("r2/node_times.csv", "node\nr1#7/0\n");
+  EXPECT_THAT(why(), HasSubstr("node_times.csv: its first line names no column 'time_ns'"));
+}
+
+/// They are no times; as seconds of the day they would be undefined.
+TEST_F(FieldMeasures, TimesThatAreNoneAreLeftOut) {
+  folder_.write("r2/link_trace.csv",
+                "time_s,link,kbit_s\n9.8,short_range,4000.0\n10.8,short_range,4000.0\nnan,short_range,1\n"
+                "inf,short_range,1\n1e300,short_range,1\n");
+  EXPECT_THAT(measures()["field.wifi_goodput_kbit_s"], DoubleNear(4000.0, 1e-9));
+}
+
 TEST_F(FieldMeasures, AFolderWithoutRobotsIsRefused) {
   for (const char* robot : {"r1", "r2"}) std::filesystem::remove_all(folder_.path() / robot);
   EXPECT_FALSE(field_measures(folder_.path()));

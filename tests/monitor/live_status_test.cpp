@@ -49,6 +49,7 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
 TEST(LiveStatus, radio_and_sensors_are_written) {
   LiveStatus status;
   status.sensors = {{"lidar", 100, 9.96, -0.25, std::nullopt}};
+  status.radio.who_may_join = "anyone";
   status.radio.sent = 310.04;
   status.radio.share = 1812.5;
   status.radio.queues = {{"cloud", 3, 1}};
@@ -60,6 +61,7 @@ TEST(LiveStatus, radio_and_sensors_are_written) {
   EXPECT_EQ(live["sensors"], json::parse(R"([{"name": "lidar", "samples": 100, "per_second": 10.0,
                                               "clock_behind_s": -0.25, "clock_slow_ppm": null}])"));
   const json& radio = live["radio"];
+  EXPECT_EQ(radio["who_may_join"], "anyone");
   EXPECT_EQ(radio["sent"], 310.0);
   EXPECT_EQ(radio["share"], 1812.5);
   EXPECT_TRUE(radio["backlog_s"].is_null());

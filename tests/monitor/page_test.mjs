@@ -234,6 +234,7 @@ async function fleetAndRadio(page, name) {
   await shot(page, `${name}_fleet`);
   await page.locator('#tab-radio').click();
   await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may.*all robots together may send 18\.1 kB\/s/);
+  await textIs(page, '#radio [data-of=access]', /Anyone on the radios may join.* has no keys/);
   await textIs(page, '#radio [data-of=kinds]', /status.*radio/);
   await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
   await page.locator('#radio canvas').first().waitFor();

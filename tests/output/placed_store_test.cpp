@@ -5,6 +5,7 @@
 
 #include "fleetmap/cloud/codec.hpp"
 #include "store/items.hpp"
+#include "support/bent_store.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -90,6 +91,34 @@ TEST_F(PlacedStore, TheMapIsOfThePartThatLiesOnEarth) {
   for (const auto& point : map.cloud.points) east.push_back(point.x());
   EXPECT_THAT(east, ::testing::UnorderedElementsAre(::testing::FloatNear(102.0f, 0.1f),
                                                     ::testing::FloatNear(112.0f, 0.1f)));
+}
+
+TEST_F(PlacedStore, WithoutAMemberThatLiesTheOthersLieWhereTheyWere) {
+  testing::add_bent_fleet(store_);
+  const NodeId first{testing::bent_robot(1), 5}, second{testing::bent_robot(2), 5};
+  const auto apart = [&](const graph::Placement& placement) {
+    return placement.T_enu_node.at(second).translation().y() -
+           placement.T_enu_node.at(first).translation().y();
+  };
+  EXPECT_GT(apart(place(store_, testing::kBentSite, {})), 10.0 + 0.8 * testing::kBend);
+  const std::vector<AgentId> liar{testing::bent_robot(3)};
+  const auto items = items_without(store_, liar);
+  ASSERT_TRUE(items) << items.error().message;
+  EXPECT_EQ(items->nodes.size(), 2u * testing::kNodesEach);
+  EXPECT_THAT(items->alignments, IsEmpty());
+  EXPECT_NEAR(
+      apart(graph::compute_placement(items->nodes, items->alignments, LocalFrame(testing::kBentSite), {})),
+      10.0, 0.05);
+}
+
+TEST_F(PlacedStore, ARobotOfWhichNothingIsHeldCannotBeLeftOut) {
+  put_node("r1", 0, 100.0);
+  put_node("r3", 0, 110.0);
+  const std::vector<AgentId> unknown{agent("r9")}, all{agent("r1"), agent("r3")};
+  EXPECT_THAT(items_without(store_, unknown).error().message,
+              ::testing::HasSubstr("nothing of 'r9', but of r1, r3"));
+  EXPECT_THAT(items_without(store_, all).error().message, ::testing::HasSubstr("no node is left"));
+  EXPECT_EQ(items_without(store_, {})->nodes.size(), 2u);
 }
 
 }  // namespace

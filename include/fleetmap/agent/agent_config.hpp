@@ -17,6 +17,7 @@
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/spherize.hpp"
 #include "fleetmap/store/map_merge.hpp"
+#include "fleetmap/store/registration_log_config.hpp"
 #include "fleetmap/store/sessions.hpp"
 #include "fleetmap/store/store.hpp"
 
@@ -41,6 +42,7 @@ struct AgentConfig {
                                       ///< filled in by the agent
   graph::PlacementConfig placement;
   store::StoreConfig store;
+  store::RegistrationLogConfig registration_log;
   store::MergeConfig map;
   store::Sessions::Draw draw_session = store::random_session;
   std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives

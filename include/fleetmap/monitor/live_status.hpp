@@ -61,6 +61,7 @@ struct QueueNow {
 };
 
 struct RadioNow {
+  std::string who_may_join;                    ///< as report.json states it
   double sent = 0.0, received = 0.0;           ///< B/s on the wire of the long range, in the last second
   double share = 0.0;                          ///< B/s that this robot may send
   double fleet_budget = 0.0;                   ///< B/s of all robots on this radio

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/compute_placement.hpp"
 #include "fleetmap/store/map_merge.hpp"
@@ -21,6 +22,15 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 /// Everything held, by name.
 std::vector<graph::Node> nodes_of(const store::Store& store);
 std::vector<graph::Alignment> alignments_of(const store::Store& store);
+
+/// What a map is made of.
+struct MapItems {
+  std::vector<graph::Node> nodes;
+  std::vector<graph::Alignment> alignments;
+};
+/// Everything held, by name, but for the nodes of `robots`, and the alignments that they computed or that end
+/// at one of their nodes. Fails for a robot of which nothing is held, and if no node is left.
+Result<MapItems> items_without(const store::Store& store, std::span<const AgentId> robots);
 
 /// Stamp of the newest of these nodes; empty if none is held.
 std::optional<Stamp> newest_stamp(const store::Store& store, const std::map<NodeId, Pose>& T_map_node);

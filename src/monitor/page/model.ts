@@ -142,6 +142,7 @@ export interface Sensor {
 }
 
 export interface Radio {
+  who_may_join: string;
   sent: number;
   received: number;
   share: number;

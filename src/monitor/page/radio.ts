@@ -7,6 +7,7 @@ const kSeconds = 300;
 /** Traffic of the radio against the budget, by kind and by robot, and what waits. */
 export class RadioPanel {
   private headline = el('p', {class: 'headline', 'data-of': 'budget'});
+  private access = el('p', {class: 'facts', 'data-of': 'access'});
   private maps = el('p', {class: 'facts', 'data-of': 'maps'});
   private chart = el('div', {class: 'chart'});
   private tables = el('div');
@@ -15,7 +16,7 @@ export class RadioPanel {
   private points: [number[], number[], number[], number[]] = [[], [], [], []];
 
   constructor(private root: HTMLElement) {
-    root.append(this.headline, this.maps, el('h2', {}, 'Bytes per second on the radio'), this.chart, this.tables);
+    root.append(this.headline, this.access, this.maps, el('h2', {}, 'Bytes per second on the radio'), this.chart, this.tables);
     new ResizeObserver(() => this.resize()).observe(root);
   }
 
@@ -26,6 +27,7 @@ export class RadioPanel {
     while (this.points[0].length > kSeconds) for (const values of this.points) values.shift();
     const share = radio.share > 0 ? Math.round((100 * radio.sent) / radio.share) : 0;
     this.headline.textContent = `Sends ${bytes(radio.sent)}/s of ${bytes(radio.share)}/s that it may (${share} %); all robots together may send ${bytes(radio.fleet_budget)}/s. ${queueText(radio)}`;
+    this.access.textContent = accessText(live);
     this.maps.textContent = mapsText(radio);
     this.tables.replaceChildren(...this.kinds(radio), ...this.peers(radio), ...this.queues(radio));
     if (!this.root.hidden) this.draw();
@@ -80,6 +82,10 @@ export class RadioPanel {
 function queueText(radio: Radio): string {
   if (radio.backlog_bytes === 0) return 'Nothing waits.';
   return `${bytes(radio.backlog_bytes)} wait${radio.backlog_s === null ? '' : `, sent in ${ago(radio.backlog_s)}`}.`;
+}
+
+function accessText({self, radio}: Live): string {
+  return radio.who_may_join === 'anyone' ? `Anyone on the radios may join, read all and send anything: ${self} has no keys.` : `Only ${radio.who_may_join} may join.`;
 }
 
 function mapsText(radio: Radio): string {
