@@ -108,7 +108,9 @@ TEST_P(LiveClocks, AreNamedWithTheirOffsetAndUsed) {
   const sensor::ClockOffsets& offsets = wrong.agent().perception().clock_offsets();
   for (std::size_t other = 0; other < sensor::kSources; ++other) {
     const auto of = static_cast<Source>(other);
-    if (other != k) EXPECT_EQ(offsets.correction(of), Duration::zero()) << sensor::to_string(of);
+    if (other != k) {
+      EXPECT_EQ(offsets.correction(of), Duration::zero()) << sensor::to_string(of);
+    }
     // Until it is known which clock is wrong, the samples of none are used.
     const double unclear = (other == k ? 12.0 : 2.0) * right.published(of) / clock.seconds + 3.0;
     EXPECT_GE(static_cast<double>(used(wrong.agent(), of)) + unclear,

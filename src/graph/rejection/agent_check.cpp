@@ -46,7 +46,7 @@ BestHypotheses best_hypotheses(const RejectionProblem& problem, const PriorEvide
 
 /// Peers of the agent by hypotheses that agree with those of all others, accepted in order of evidence.
 std::size_t agreeing_peers(const AgentId& agent, const BestHypotheses& best, const JointHypotheses& joint) {
-  Indices kept = joint.select([&](std::size_t k) { return !best.concerns(k, agent); });
+  Indices kept = joint.select([&](std::size_t k) { return !best.concerns(k, entry.first); });
   std::set<AgentId> peers;
   for (std::size_t k = 0; k < joint.size(); ++k) {
     if (!best.concerns(k, agent)) continue;
@@ -76,8 +76,9 @@ std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, cons
     peers[b].insert(a);
   }
   std::optional<AgentId> found;
-  for (const auto& [agent, others] : peers) {
-    const auto without = joint.select([&](std::size_t k) { return !best.concerns(k, agent); });
+  for (const auto& entry : peers) {
+    const auto& [agent, others] = entry;
+    const auto without = joint.select([&](std::size_t k) { return !best.concerns(k, entry.first); });
     if (others.size() < kMinPeers || !joint.are_consistent(without)) continue;
     if (found) return {};
     found = agent;
