@@ -46,7 +46,7 @@ BestHypotheses best_hypotheses(const RejectionProblem& problem, const PriorEvide
 
 /// Peers of the agent by hypotheses that agree with those of all others, accepted in order of evidence.
 std::size_t agreeing_peers(const AgentId& agent, const BestHypotheses& best, const JointHypotheses& joint) {
-  Indices kept = joint.select([&](std::size_t k) { return !best.concerns(k, entry.first); });
+  Indices kept = joint.select([&](std::size_t k) { return !best.concerns(k, agent); });
   std::set<AgentId> peers;
   for (std::size_t k = 0; k < joint.size(); ++k) {
     if (!best.concerns(k, agent)) continue;
