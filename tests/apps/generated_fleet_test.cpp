@@ -27,6 +27,27 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// The recording of the run gives the same odometry as its input.
+void expect_same_odometry_of_recorded(const std::filesystem::path& folder) {
+  for (const char* bags : {"bags", "recorded"}) {
+    testing::Process odometry({kFleetmap, "odometry", (folder / bags / "r1").string(), "--out",
+                               (folder / bags / "r1.tum").string()});
+    ASSERT_EQ(odometry.wait(), 0) << odometry.output();
+  }
+  EXPECT_FALSE(text_of(folder / "bags/r1.tum").empty());
+  EXPECT_TRUE(text_of(folder / "bags/r1.tum") == text_of(folder / "recorded/r1.tum"));
+}
+
+/// The graph corrects a rotation by the positions of several alignments, so each is compared alone, too.
+void expect_true_alignments(const std::filesystem::path& file, const testing::GeneratedFleet& fleet) {
+  const auto store = store::Store::open_read_only(file);
+  ASSERT_TRUE(store) << store.error().message;
+  const auto alignments = testing::errors_of_alignments(*store, fleet);
+  EXPECT_GE(alignments.count, 1);
+  testing::expect_at_most(alignments.translation, 0.0021, "worst alignment, m", 1);
+  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.0165, "worst alignment, deg", 1);
+}
+
 TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const testing::TemporaryFolder folder;
   const auto fleet = testing::write_generated_fleet(folder.path() / "bags");
@@ -63,14 +84,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     true_poses.insert(true_poses.end(), robot.T_enu_base.begin(), robot.T_enu_base.end());
     trajectories.push_back(T);
   }
-  // The recording of the run gives the same odometry as its input.
-  for (const char* bags : {"bags", "recorded"}) {
-    testing::Process odometry({kFleetmap, "odometry", (folder.path() / bags / "r1").string(), "--out",
-                               (folder.path() / bags / "r1.tum").string()});
-    ASSERT_EQ(odometry.wait(), 0) << odometry.output();
-  }
-  EXPECT_FALSE(text_of(folder.path() / "bags/r1.tum").empty());
-  EXPECT_TRUE(text_of(folder.path() / "bags/r1.tum") == text_of(folder.path() / "recorded/r1.tum"));
+  expect_same_odometry_of_recorded(folder.path());
 
   // The start of r2 relative to that of r1 is compared with the truth.
   const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();
@@ -80,13 +94,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   testing::expect_at_most(so3_log(error.linear()).norm() * 180.0 / std::numbers::pi, 0.19,
                           "r2 as seen from r1, deg", 1);
   testing::expect_at_most(testing::aligned_rmse(placed_poses, true_poses), 0.0018, "joint ATE, m", 1);
-  // The graph corrects a rotation by the positions of several alignments, so each is looked at alone too.
-  const auto store = store::Store::open_read_only(out / "r1" / "store.db");
-  ASSERT_TRUE(store) << store.error().message;
-  const auto alignments = testing::errors_of_alignments(*store, *fleet);
-  EXPECT_GE(alignments.count, 1);
-  testing::expect_at_most(alignments.translation, 0.0021, "worst alignment, m", 1);
-  testing::expect_at_most(alignments.rotation * 180.0 / std::numbers::pi, 0.0165, "worst alignment, deg", 1);
+  expect_true_alignments(out / "r1" / "store.db", *fleet);
 }
 
 /// Writes a recording of a robot that is carried elsewhere between two scans: nothing that it sees then fits

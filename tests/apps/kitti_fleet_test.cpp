@@ -84,17 +84,12 @@ TEST_F(KittiFleet, OdometryStaysNearTheConsensusOfOthers) {
   testing::expect_at_most(testing::aligned_rmse(poses, consensus_), 0.040, "odometry RMSE in m", 1);
 }
 
-void KittiFleet::two_halves_become_one_map(unsigned seed) {
-  const std::filesystem::path out = folder_.path() / ("out_" + std::to_string(seed));
-  run({"run", "-c", fleet_with_gps_errors(seed).string(), "--out", out.string(), "--set",
-       "recording.path=" + drive_->string()});
-  std::ifstream file(out / "report.json");
-  const auto report = nlohmann::json::parse(file);
+namespace {
+
+void expect_equal_and_complete_maps(const nlohmann::json& report) {
   EXPECT_TRUE(report["settled"].get<bool>());
   const auto& r1 = report["agents"]["r1"];
   const auto& r2 = report["agents"]["r2"];
-
-  // Equal and complete maps.
   EXPECT_EQ(r1["map_hash"], r2["map_hash"]);
   EXPECT_EQ(r1["nodes"], r2["nodes"]);
   EXPECT_EQ(r1["missing_submaps"], 0);
@@ -112,6 +107,17 @@ void KittiFleet::two_halves_become_one_map(unsigned seed) {
     EXPECT_GT(agent["largest_cloud_bytes"].get<std::size_t>(), 10'000u) << "the budget is used";
     EXPECT_LE(agent["largest_cloud_bytes"].get<std::size_t>(), 25'000u);
   }
+}
+
+}  // namespace
+
+void KittiFleet::two_halves_become_one_map(unsigned seed) {
+  const std::filesystem::path out = folder_.path() / ("out_" + std::to_string(seed));
+  run({"run", "-c", fleet_with_gps_errors(seed).string(), "--out", out.string(), "--set",
+       "recording.path=" + drive_->string()});
+  std::ifstream file(out / "report.json");
+  const auto report = nlohmann::json::parse(file);
+  expect_equal_and_complete_maps(report);
 
   // r2's odometry frame in that of r1: frames 60 and 0 of the drive.
   const std::vector<Pose> t1 = poses_of(out / "r1/trajectory.tum");

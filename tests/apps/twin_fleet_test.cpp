@@ -97,41 +97,52 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
   }
 }
 
-TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
-  const testing::SmallTwin twin;
-  const auto two = twin.run("two", {"--threads", "2"});
-  ASSERT_EQ(two.exit_code, 0) << two.output;
-  ASSERT_TRUE(two.report.is_object());
-  EXPECT_TRUE(two.report["settled"].get<bool>());
-  const auto& completion = two.report["completion"];
+void expect_complete_mission(const nlohmann::json& report) {
+  EXPECT_TRUE(report["settled"].get<bool>());
+  const auto& completion = report["completion"];
   ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
   EXPECT_LT(completion["completed_s"].get<double>(), 200.0);
   EXPECT_LE(completion["mission_s"].get<double>(), completion["completed_s"].get<double>());
   EXPECT_GT(completion["lane_share"].get<double>(), 0.93) << "the drawing is off, the lanes are driven";
   EXPECT_EQ(completion["abandoned"], 0);
-  EXPECT_TRUE(fs::exists(two.out / "truth.ply"));
+}
 
+void expect_whole_profile(const nlohmann::json& report) {
   double sum = 0.0;
-  const auto& shares = two.report["profile"]["shares"];
+  const auto& shares = report["profile"]["shares"];
   for (const auto& [part, share] : shares.items()) sum += share.get<double>();
   EXPECT_NEAR(sum, 1.0, 1e-9) << shares.dump();
   for (const char* part : {"rays", "odometry", "registration", "spherization", "placement", "results"})
     EXPECT_GT(shares[part].get<double>(), 0.001) << part;
   EXPECT_LT(shares["rest"].get<double>(), 0.5);
+}
 
+/// All robots hold the same whole map and touched nothing.
+void expect_equal_maps(const testing::SmallTwin& twin, const testing::SmallTwin::Run& run) {
   const auto world = config::make_world(twin.path("world.yaml"));
   ASSERT_TRUE(world);
-  const std::string map_hash = two.report["agents"]["r1"]["map_hash"];
-  EXPECT_EQ(two.report["agents"].size(), 3u);
-  for (const auto& [id, agent] : two.report["agents"].items()) {
+  const std::string map_hash = run.report["agents"]["r1"]["map_hash"];
+  EXPECT_EQ(run.report["agents"].size(), 3u);
+  for (const auto& [id, agent] : run.report["agents"].items()) {
     EXPECT_EQ(agent["map_hash"], map_hash) << id;
     EXPECT_EQ(agent["missing_submaps"], 0) << id;
     EXPECT_EQ(agent["aligned_groups"].size(), 1u) << id;
     EXPECT_GT(agent["map_points"].get<std::size_t>(), 50'000u) << id;
-    const auto truth = output::read_tum(two.out / id / "truth.tum");
+    const auto truth = output::read_tum(run.out / id / "truth.tum");
     ASSERT_TRUE(truth) << id;
     EXPECT_LT(share_touching(*truth, **world, 0.3), 0.02) << id;
   }
+}
+
+TEST(TwinFleet, AMissionEndsWithEqualMapsAndTheSameSeedWithTheSameBytes) {
+  const testing::SmallTwin twin;
+  const auto two = twin.run("two", {"--threads", "2"});
+  ASSERT_EQ(two.exit_code, 0) << two.output;
+  ASSERT_TRUE(two.report.is_object());
+  EXPECT_TRUE(fs::exists(two.out / "truth.ply"));
+  expect_complete_mission(two.report);
+  expect_whole_profile(two.report);
+  expect_equal_maps(twin, two);
 
   const nlohmann::json evaluation = evaluated(two.out);
   expect_true_map(evaluation, two.out, 1);

@@ -49,16 +49,46 @@ Bytes bytes_of(const SimFleet& fleet) {
   return bytes;
 }
 
+std::size_t group_of(const Case& wanted, const AgentId& name) {
+  return robot_number(name) / (wanted.robots / wanted.groups);
+}
+
+/// All robots make their nodes; the stamps of these.
+std::map<NodeId, Stamp> make_nodes(SimFleet& fleet, const std::vector<std::string>& names) {
+  std::map<NodeId, Stamp> made;
+  for (int k = 0; k < kNodes; ++k) {
+    for (std::size_t robot = 0; robot < names.size(); ++robot) {
+      const double place = kTrackStep * static_cast<double>(robot) + kSpacing * k;
+      made[fleet.add_node(names[robot], place).id] = fleet.now();
+    }
+    fleet.run_for(kNodePeriod);
+  }
+  return made;
+}
+
+/// Share of the nodes that the robots of their group hold, of those made at least kWindow ago.
+double share_held(const SimFleet& fleet, const Case& wanted, const std::map<NodeId, Stamp>& made) {
+  double held = 0.0, all = 0.0;
+  for (const auto& [id, at] : made) {
+    if (fleet.now() - at < kWindow) continue;
+    for (const auto& [name, robot] : fleet.robots()) {
+      if (group_of(wanted, name) != group_of(wanted, id.agent)) continue;
+      all += 1.0;
+      held += robot.store->node(id) != nullptr ? 1.0 : 0.0;
+    }
+  }
+  return held / all;
+}
+
 void measure(const Case& wanted) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= wanted.robots; ++k) names.push_back("r" + std::to_string(k));
   const std::size_t group_size = wanted.robots / wanted.groups;
-  const auto group = [&](const AgentId& name) { return robot_number(name) / group_size; };
   SimFleet fleet(names, {}, 3,
                  [&](exchange::ExchangeConfig& config) { config.long_range.multicast = wanted.multicast; });
   bool met = false;  // r1 then drives across, and whom it meets passes on what it brings
   fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {
-    if (reach == Reach::kLongRange) return group(from) == group(to);
+    if (reach == Reach::kLongRange) return group_of(wanted, from) == group_of(wanted, to);
     return met && (robot_number(from) == 0 || robot_number(to) == 0);
   };
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -67,24 +97,9 @@ void measure(const Case& wanted) {
     }
     fleet.start(names[k]);
   }
-  std::map<NodeId, Stamp> made;
   const Stamp begun = fleet.now();
-  for (int k = 0; k < kNodes; ++k) {
-    for (std::size_t robot = 0; robot < names.size(); ++robot) {
-      const double place = kTrackStep * static_cast<double>(robot) + kSpacing * k;
-      made[fleet.add_node(names[robot], place).id] = fleet.now();
-    }
-    fleet.run_for(kNodePeriod);
-  }
-  double held = 0.0, all = 0.0;
-  for (const auto& [id, at] : made) {
-    if (fleet.now() - at < kWindow) continue;
-    for (const auto& [name, robot] : fleet.robots()) {
-      if (group(name) != group(id.agent)) continue;
-      all += 1.0;
-      held += robot.store->node(id) != nullptr ? 1.0 : 0.0;
-    }
-  }
+  const std::map<NodeId, Stamp> made = make_nodes(fleet, names);
+  const double held = share_held(fleet, wanted, made);
   const Bytes bytes = bytes_of(fleet);
   const double radio =
       bytes.all * 8.0 / 1000.0 / to_seconds(fleet.now() - begun) / static_cast<double>(wanted.groups);
@@ -100,7 +115,7 @@ void measure(const Case& wanted) {
   });
   const bool equal = fleet.equal_sets(nodes);
   std::printf("| %zu | %zu%s | %.0f %% | %.0f | %.0f / %.0f | %zu | %s%.0f s |\n", wanted.robots,
-              wanted.groups, wanted.multicast ? ", multicast" : "", 100.0 * held / all, radio,
+              wanted.groups, wanted.multicast ? ", multicast" : "", 100.0 * held, radio,
               100.0 * bytes.nodes / bytes.all, 100.0 * bytes.clouds / bytes.all, clouds,
               equal ? "" : "not in ", to_seconds(fleet.now() - end));
   std::fflush(stdout);

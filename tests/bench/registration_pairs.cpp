@@ -241,77 +241,98 @@ std::string named(double sigma) {
                         : "sigma " + std::to_string(sigma).substr(0, 4);
 }
 
+/// The prior of a pair at the given sigma; nothing if the pair is not tried at it. A negative sigma gives the
+/// prior of another place, 0 none.
+struct PriorOfPair {
+  bool tried = false;
+  std::optional<Prior> prior;
+};
+
+PriorOfPair prior_of_pair(const MappedNode& a, const MappedNode& b, double sigma, std::size_t i,
+                          std::size_t j, unsigned seed) {
+  const double apart = (a.T_enu_node.inverse() * b.T_enu_node).translation().norm();
+  if (sigma < 0.0) {
+    if (apart < 95.0 || (i + j) % 5 != 0) return {};
+    Pose elsewhere = b.T_enu_node;
+    elsewhere.translation() = a.T_enu_node.translation() + Eigen::Vector3d(4.0, 7.0, 0.2);
+    return {true, drawn_prior(a.T_enu_node, elsewhere, -sigma, 0.05, 0.02, seed)};
+  }
+  if (apart > 25.0) return {};
+  if (sigma == 0.0) return {true, std::nullopt};
+  return {true, drawn_prior(a.T_enu_node, b.T_enu_node, sigma, 0.05, 0.02, seed)};
+}
+
+void print_details(const Pose& truth, const RegistrationResult& result, std::size_t i, std::size_t j) {
+  std::printf("  %zu %zu apart %.1f %s right %d excess %.3f modes %zu score %.4f %s\n", i, j,
+              truth.translation().norm(), to_string(result.verdict),
+              static_cast<int>(is_right(truth, result.T_target_source)), result.excess, result.modes.size(),
+              result.modes.empty() ? 0.0 : result.modes[0].score, result.reason.c_str());
+  for (std::size_t m = 0; m < std::min<std::size_t>(3, result.modes.size()); ++m) {
+    const Pose d = truth.inverse() * result.modes[m].T_target_source;
+    const Vector6d e = se3_log(d), sd = result.modes[m].covariance.diagonal().cwiseSqrt();
+    std::printf(
+        "      mode %zu weight %.4f score %.3f inl %.3f ovl %.3f rmse %.3f  error %.3f %.3f %.3f "
+        "mrad %.2f %.2f %.2f sd %.3f %.3f %.3f mrad %.2f %.2f %.2f\n",
+        m, result.modes[m].weight, result.modes[m].score, result.modes[m].inlier_fraction,
+        result.modes[m].overlap, result.modes[m].rmse, e[0], e[1], e[2], 1e3 * e[3], 1e3 * e[4], 1e3 * e[5],
+        sd[0], sd[1], sd[2], 1e3 * sd[3], 1e3 * sd[4], 1e3 * sd[5]);
+  }
+}
+
+/// Tallies over all sites: by sigma, and by the similarity of the two clouds elsewhere (at 10 m).
+struct Totals {
+  std::map<std::string, Tally> by_sigma, by_similarity;
+};
+
+void count_alike(const MappedNode& a, const MappedNode& b, const Pose& truth,
+                 const RegistrationResult& result, double cpu_ms, Totals& totals) {
+  const double alike = SelfSimilarity(a.map, b.map, truth).up_to(20.0);
+  const int tenth = std::min(static_cast<int>(10.0 * alike), 10);
+  count(truth, result, cpu_ms, totals.by_similarity["alike " + std::to_string(0.1 * tenth).substr(0, 3)]);
+}
+
+Tally register_pairs(const Place& place, const std::vector<MappedNode>& nodes,
+                     const RegistrationConfig& config, double sigma, Totals& totals) {
+  const MapDrift drift = MapDrift::straight(place.how.drift_m, place.how.drift_rad, place.how.reach_m);
+  Tally tally;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+      const unsigned seed = place.seed * 100000 + static_cast<unsigned>(i * 300 + j);
+      const PriorOfPair pair = prior_of_pair(nodes[i], nodes[j], sigma, i, j, seed);
+      if (!pair.tried) continue;
+      const Pose truth = nodes[i].T_enu_node.inverse() * nodes[j].T_enu_node;
+      const double start = thread_cpu_seconds();
+      const auto result = register_clouds(nodes[i].map, nodes[j].map, config, pair.prior, {drift, drift});
+      const double cpu_ms = 1e3 * (thread_cpu_seconds() - start);
+      count(truth, result, cpu_ms, tally);
+      count(truth, result, cpu_ms, totals.by_sigma["all, " + named(sigma)]);
+      if (sigma == 10.0) count_alike(nodes[i], nodes[j], truth, result, cpu_ms, totals);
+      if (std::getenv("DETAILS") != nullptr) print_details(truth, result, i, j);
+    }
+  }
+  return tally;
+}
+
 void register_all(const std::filesystem::path& dir, const std::string& set, const std::string& tag) {
   RegistrationConfig config;
   if (const char* name = std::getenv("METHOD")) config.method = registration_method(name).value();
-  const bool details = std::getenv("DETAILS") != nullptr;
   std::printf(
       "site, sigma            n | right wrong | amb+  amb-  | rej.  | CPU 50/99 ms  | error 50/90/99 mm     "
       "| deg 50/90   | NEES/6 mean, median | rms xyz mm, mrad\n");
-  std::map<std::string, Tally> totals;
-  std::map<std::string, Tally> by_similarity;  // at 10 m
+  Totals totals;
   const char* only_site = std::getenv("SITE");
   const char* only_sigma = std::getenv("SIGMA");
   for (const Place& place : places_of(set)) {
     if (only_site != nullptr && place.name != only_site) continue;
     const std::vector<MappedNode> nodes = read_nodes(dir / (place.name + tag + ".clouds"));
-    const MapDrift drift = MapDrift::straight(place.how.drift_m, place.how.drift_rad, place.how.reach_m);
-    for (const double sigma :
-         {1.5, 5.0, 10.0, -5.0, 0.0}) {  // negative: the prior is of another place; 0: none
+    for (const double sigma : {1.5, 5.0, 10.0, -5.0, 0.0}) {
       if (only_sigma != nullptr && std::abs(std::stod(only_sigma) - sigma) > 0.1) continue;
-      Tally tally;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-          const Pose truth = nodes[i].T_enu_node.inverse() * nodes[j].T_enu_node;
-          const double apart = truth.translation().norm();
-          const unsigned seed = place.seed * 100000 + static_cast<unsigned>(i * 300 + j);
-          std::optional<Prior> prior;
-          if (sigma == 0.0) {
-            if (apart > 25.0) continue;
-          } else if (sigma > 0.0) {
-            if (apart > 25.0) continue;
-            prior = drawn_prior(nodes[i].T_enu_node, nodes[j].T_enu_node, sigma, 0.05, 0.02, seed);
-          } else {
-            if (apart < 95.0 || (i + j) % 5 != 0) continue;
-            Pose elsewhere = nodes[j].T_enu_node;
-            elsewhere.translation() = nodes[i].T_enu_node.translation() + Eigen::Vector3d(4.0, 7.0, 0.2);
-            prior = drawn_prior(nodes[i].T_enu_node, elsewhere, -sigma, 0.05, 0.02, seed);
-          }
-          const double start = thread_cpu_seconds();
-          const auto result = register_clouds(nodes[i].map, nodes[j].map, config, prior, {drift, drift});
-          const double cpu_ms = 1e3 * (thread_cpu_seconds() - start);
-          count(truth, result, cpu_ms, tally);
-          count(truth, result, cpu_ms, totals["all, " + named(sigma)]);
-          if (sigma == 10.0) {
-            const double alike = SelfSimilarity(nodes[i].map, nodes[j].map, truth).up_to(20.0);
-            const int tenth = std::min(static_cast<int>(10.0 * alike), 10);
-            const std::string bin = "alike " + std::to_string(0.1 * tenth).substr(0, 3);
-            count(truth, result, cpu_ms, by_similarity[bin]);
-          }
-          if (details) {
-            std::printf("  %zu %zu apart %.1f %s right %d excess %.3f modes %zu score %.4f %s\n", i, j, apart,
-                        to_string(result.verdict), static_cast<int>(is_right(truth, result.T_target_source)),
-                        result.excess, result.modes.size(),
-                        result.modes.empty() ? 0.0 : result.modes[0].score, result.reason.c_str());
-            for (std::size_t m = 0; m < std::min<std::size_t>(3, result.modes.size()); ++m) {
-              const Pose d = truth.inverse() * result.modes[m].T_target_source;
-              const Vector6d e = se3_log(d), sd = result.modes[m].covariance.diagonal().cwiseSqrt();
-              std::printf(
-                  "      mode %zu weight %.4f score %.3f inl %.3f ovl %.3f rmse %.3f  error %.3f %.3f %.3f "
-                  "mrad %.2f %.2f %.2f sd %.3f %.3f %.3f mrad %.2f %.2f %.2f\n",
-                  m, result.modes[m].weight, result.modes[m].score, result.modes[m].inlier_fraction,
-                  result.modes[m].overlap, result.modes[m].rmse, e[0], e[1], e[2], 1e3 * e[3], 1e3 * e[4],
-                  1e3 * e[5], sd[0], sd[1], sd[2], 1e3 * sd[3], 1e3 * sd[4], 1e3 * sd[5]);
-            }
-          }
-        }
-      }
-      print(place.name + " " + named(sigma), tally);
+      print(place.name + " " + named(sigma), register_pairs(place, nodes, config, sigma, totals));
       std::fflush(stdout);
     }
   }
-  for (const auto& [name, tally] : totals) print(name, tally);
-  for (const auto& [name, tally] : by_similarity) print(name, tally);
+  for (const auto& [name, tally] : totals.by_sigma) print(name, tally);
+  for (const auto& [name, tally] : totals.by_similarity) print(name, tally);
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(SubmapReceiver, completes_what_it_holds_when_the_full_disk_has_room_again) 
   EXPECT_EQ(store.submap(id).value(), submap);
 }
 
-TEST(SubmapReceiver, refuses_and_counts_hostile_chunks_and_requests) {
+TEST(SubmapReceiver, refuses_and_counts_hostile_chunks) {
   const testing::ScratchFolder folder;
   const AgentId self = agent("r1"), peer = agent("r2");
   auto store = store::Store::open(folder / "store.db", self).value();
@@ -190,6 +190,16 @@ TEST(SubmapReceiver, refuses_and_counts_hostile_chunks_and_requests) {
   offer({self, 1}, 0, 20'000, piece);
   EXPECT_EQ(receiver.stats().hostile, 7u);
   EXPECT_EQ(store.missing_chunks(id).size(), 3u);
+}
+
+TEST(SubmapSender, refuses_and_counts_hostile_requests) {
+  const testing::ScratchFolder folder;
+  const AgentId self = agent("r1"), peer = agent("r2");
+  auto store = store::Store::open(folder / "store.db", self).value();
+  const Bytes submap = testing::random_bytes(20'000, 1);
+  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
+  ASSERT_TRUE(store.put_node_with_submap(testing::make_node(self, 0, submap), submap));
+  const Stamp now = stamp_from_ns(1'000'000'000);
   SubmapSender sender(self, {});
   const NodeId own{self, 0};
   const auto ask = [&](const NodeId& node, std::uint32_t offset, std::uint32_t length) {
@@ -201,7 +211,7 @@ TEST(SubmapReceiver, refuses_and_counts_hostile_chunks_and_requests) {
     request.length = length;
     sender.on_request(request, store);
   };
-  ask(id, 0, 8192);
+  ask({peer, 0}, 0, 8192);
   ask(own, 20'000, 8192);
   ask(own, 3, 8192);
   ask(own, 4'294'959'104u, 8192);

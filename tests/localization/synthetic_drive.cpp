@@ -45,18 +45,74 @@ Eigen::Vector3d Drive::specific_force(double t) const {
 
 std::size_t Drive::index(double t) { return static_cast<std::size_t>(std::lround(t / kStep)); }
 
+namespace {
+
+/// Draws the samples of one drive, in the order of their stamps.
+class Measurement {
+ public:
+  Measurement(const Sensors& sensors, const Drive& drive)
+      : sensors_(sensors),
+        drive_(drive),
+        random_(sensors.seed),
+        gyro_bias_(vector(sensors.gyro_bias_sigma)),
+        accel_bias_(vector(sensors.accel_bias_sigma)),
+        gps_error_(vector(sensors.gps_sigma)) {}
+
+  sensor::Imu imu(double t) {
+    const Eigen::Matrix3d R_imu_base = sensors_.mounting.T_base_imu.linear().transpose();
+    const Eigen::Vector3d arm = sensors_.mounting.T_base_imu.translation();
+    const Eigen::Vector3d w = drive_.angular_velocity(t);
+    const Eigen::Vector3d f = drive_.specific_force(t) + w.cross(w.cross(arm));
+    const double root_rate = std::sqrt(sensors_.imu_rate);
+    sensor::Imu s{at_time(t),
+                  R_imu_base * w + gyro_bias_ + vector(sensors_.gyro_noise * root_rate),
+                  R_imu_base * f + accel_bias_ + vector(sensors_.accel_noise * root_rate),
+                  {},
+                  {}};
+    s.orientation_variance.setZero();
+    if (sensors_.imu_orientation) {
+      s.q_enu_imu = Eigen::Quaterniond(Eigen::Matrix3d(rotation_from_rpy(0, 0, sensors_.imu_yaw_error) *
+                                                       drive_.at(t).R * R_imu_base.transpose()));
+    }
+    return s;
+  }
+  sensor::Wheel wheel(double t) {
+    sensor::Wheel s{at_time(t), drive_.at(t).speed + sensors_.wheel_sigma * unit_(random_), {}};
+    if (sensors_.yaw_rate)
+      s.yaw_rate = drive_.angular_velocity(t).z() + sensors_.wheel_yaw_rate_sigma * unit_(random_);
+    return s;
+  }
+  sensor::Fix fix(double t) {
+    const Truth& truth = drive_.at(t);
+    const double sigma = sensors_.gps_sigma;
+    const double keep =
+        sensors_.gps_time > 0.0 ? std::exp(-1.0 / sensors_.gps_rate / sensors_.gps_time) : 0.0;
+    gps_error_ = keep * gps_error_ + vector(sigma * std::sqrt(1.0 - keep * keep));
+    sensor::Fix s;
+    s.stamp = at_time(t);
+    s.position = frame_.to_geo(truth.p + truth.R * sensors_.mounting.p_base_antenna + gps_error_);
+    s.covariance = Eigen::Matrix3d::Identity() * sigma * sigma;
+    if (sensors_.spoil_fix) sensors_.spoil_fix(t, s);
+    return s;
+  }
+
+ private:
+  Eigen::Vector3d vector(double sigma) {
+    return Eigen::Vector3d(unit_(random_), unit_(random_), unit_(random_)) * sigma;
+  }
+
+  const Sensors& sensors_;
+  const Drive& drive_;
+  std::mt19937 random_;
+  std::normal_distribution<double> unit_{0.0, 1.0};
+  LocalFrame frame_{kSite};
+  Eigen::Vector3d gyro_bias_, accel_bias_, gps_error_;
+};
+
+}  // namespace
+
 std::vector<Sample> Sensors::measure(const Drive& drive, double duration) const {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> unit(0.0, 1.0);
-  const auto vector = [&](double sigma) -> Eigen::Vector3d {
-    return Eigen::Vector3d(unit(random), unit(random), unit(random)) * sigma;
-  };
-  const Eigen::Vector3d gyro_bias = vector(gyro_bias_sigma);
-  const Eigen::Vector3d accel_bias = vector(accel_bias_sigma);
-  const Eigen::Matrix3d R_imu_base = mounting.T_base_imu.linear().transpose();
-  const Eigen::Vector3d arm = mounting.T_base_imu.translation();
-  const LocalFrame frame(kSite);
-  Eigen::Vector3d gps_error = vector(gps_sigma);
+  Measurement measurement(*this, drive);
   std::vector<Sample> samples;
   const auto times = static_cast<std::size_t>(duration * 1000.0);
   const auto due = [](std::size_t ms, double rate) {
@@ -64,36 +120,11 @@ std::vector<Sample> Sensors::measure(const Drive& drive, double duration) const 
   };
   for (std::size_t ms = 0; ms <= times; ++ms) {
     const double t = static_cast<double>(ms) / 1000.0;
-    const Truth& truth = drive.at(t);
-    if (imu && due(ms, imu_rate)) {
-      const Eigen::Vector3d w = drive.angular_velocity(t);
-      const Eigen::Vector3d f = drive.specific_force(t) + w.cross(w.cross(arm));
-      sensor::Imu s{at_time(t),
-                    R_imu_base * w + gyro_bias + vector(gyro_noise * std::sqrt(imu_rate)),
-                    R_imu_base * f + accel_bias + vector(accel_noise * std::sqrt(imu_rate)),
-                    {},
-                    {}};
-      s.orientation_variance.setZero();
-      if (imu_orientation) {
-        s.q_enu_imu = Eigen::Quaterniond(
-            Eigen::Matrix3d(rotation_from_rpy(0, 0, imu_yaw_error) * truth.R * R_imu_base.transpose()));
-      }
-      samples.push_back(s);
-    }
-    if (wheel && due(ms, wheel_rate)) {
-      sensor::Wheel s{at_time(t), truth.speed + wheel_sigma * unit(random), {}};
-      if (yaw_rate) s.yaw_rate = drive.angular_velocity(t).z() + wheel_yaw_rate_sigma * unit(random);
-      samples.push_back(s);
-    }
+    if (imu && due(ms, imu_rate)) samples.push_back(measurement.imu(t));
+    if (wheel && due(ms, wheel_rate)) samples.push_back(measurement.wheel(t));
     if (gps && due(ms, gps_rate)) {
-      const double keep = gps_time > 0.0 ? std::exp(-1.0 / gps_rate / gps_time) : 0.0;
-      gps_error = keep * gps_error + vector(gps_sigma * std::sqrt(1.0 - keep * keep));
-      sensor::Fix s;
-      s.stamp = at_time(t);
-      s.position = frame.to_geo(truth.p + truth.R * mounting.p_base_antenna + gps_error);
-      s.covariance = Eigen::Matrix3d::Identity() * gps_sigma * gps_sigma;
-      if (spoil_fix) spoil_fix(t, s);
-      if (!gps_out || !gps_out(t)) samples.push_back(s);
+      const sensor::Fix fix = measurement.fix(t);
+      if (!gps_out || !gps_out(t)) samples.push_back(fix);
     }
   }
   return samples;

@@ -17,6 +17,8 @@ namespace {
 
 using sim::Mesh;
 
+constexpr double kBaseHeight = 0.1;  // m
+
 Pose pose_on_ground(const Site& site, const Eigen::Vector2d& p, double yaw, double height) {
   const double e = 0.3;
   const Eigen::Vector3d normal =
@@ -28,6 +30,79 @@ Pose pose_on_ground(const Site& site, const Eigen::Vector2d& p, double yaw, doub
   return make_pose(tilt * rotation_from_rpy(0, 0, yaw),
                    Eigen::Vector3d(p.x(), p.y(), site.ground(p)) + height * normal);
 }
+
+/// The surface of a wood: ground, trees and boulders as single triangles.
+class WildMesh {
+ public:
+  WildMesh(std::shared_ptr<const sim::Terrain> terrain, double reach, unsigned seed)
+      : terrain_(std::move(terrain)), reach_(reach), random_(seed) {}
+
+  void add_ground() {
+    for (double x = -reach_; x < reach_; x += 1.0) {
+      for (double y = -reach_; y < reach_; y += 1.0) {
+        triangle(at(x, y), at(x + 1, y), at(x + 1, y + 1), sim::Material::kGround);
+        triangle(at(x, y), at(x + 1, y + 1), at(x, y + 1), sim::Material::kGround);
+      }
+    }
+  }
+  /// One in 150 m², of which some are boulders.
+  void add_trees() {
+    const int trees = static_cast<int>(4.0 * reach_ * reach_ / 150.0);
+    for (int k = 0; k < trees; ++k) {
+      const Eigen::Vector3d foot =
+          at(reach_ * (2 * unit() - 1), reach_ * (2 * unit() - 1)) - Eigen::Vector3d(0, 0, 0.2);
+      if (unit() < 0.15) {
+        prism(foot, 0.5 + 1.5 * unit(), 0.6 + 1.2 * unit(), sim::Material::kConcrete);
+        continue;
+      }
+      const double trunk = 2.0 + 2.0 * unit(), crown = 1.0 + 1.5 * unit();
+      prism(foot, 0.1 + 0.15 * unit(), trunk + 0.5, sim::Material::kVegetation);
+      add_leaves(foot + Eigen::Vector3d(0, 0, trunk + crown), crown);
+    }
+  }
+  const Mesh& mesh() const { return mesh_; }
+
+ private:
+  double unit() { return unit_(random_); }
+  Eigen::Vector3d at(double x, double y) const { return {x, y, terrain_->height(x, y)}; }
+
+  void triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                sim::Material material) {
+    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const auto& p : {a, b, c}) mesh_.vertices.push_back(p.cast<float>());
+    mesh_.triangles.push_back({first, first + 1, first + 2});
+    mesh_.materials.push_back(material);
+  }
+  void prism(const Eigen::Vector3d& foot, double radius, double height, sim::Material material) {
+    for (int k = 0; k < 6; ++k) {
+      const auto rim = [&](int i) {
+        const double angle = i * std::numbers::pi / 3.0;
+        return Eigen::Vector3d(foot + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
+      };
+      const Eigen::Vector3d up(0, 0, height);
+      triangle(rim(k), rim(k + 1), rim(k + 1) + up, material);
+      triangle(rim(k), rim(k + 1) + up, rim(k) + up, material);
+      triangle(foot + up, rim(k) + up, rim(k + 1) + up, material);
+    }
+  }
+  void add_leaves(const Eigen::Vector3d& middle, double crown) {
+    for (int leaf = 0; leaf < 150; ++leaf) {
+      Eigen::Vector3d d(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
+      if (d.norm() > 1.0) continue;
+      const Eigen::Vector3d p = middle + crown * d;
+      const auto edge = [&] {
+        return Eigen::Vector3d(0.3 * (2 * unit() - 1), 0.3 * (2 * unit() - 1), 0.3 * (2 * unit() - 1));
+      };
+      triangle(p, p + edge(), p + edge(), sim::Material::kVegetation);
+    }
+  }
+
+  std::shared_ptr<const sim::Terrain> terrain_;
+  double reach_;
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> unit_{0.0, 1.0};
+  Mesh mesh_;
+};
 
 }  // namespace
 
@@ -43,59 +118,11 @@ Site wild_site(const std::string& name, unsigned seed, double half_m) {
   shape.rolling_wavelength = 60.0;
   shape.rough_amplitude = 0.03;
   const auto terrain = std::make_shared<sim::Terrain>(shape, seed);
-  Mesh mesh;
-  const auto triangle = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
-                            sim::Material material) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (const auto& p : {a, b, c}) mesh.vertices.push_back(p.cast<float>());
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.materials.push_back(material);
-  };
-  const auto at = [&](double x, double y) { return Eigen::Vector3d(x, y, terrain->height(x, y)); };
-  const double reach = half_m + 60.0;
-  for (double x = -reach; x < reach; x += 1.0) {
-    for (double y = -reach; y < reach; y += 1.0) {
-      triangle(at(x, y), at(x + 1, y), at(x + 1, y + 1), sim::Material::kGround);
-      triangle(at(x, y), at(x + 1, y + 1), at(x, y + 1), sim::Material::kGround);
-    }
-  }
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const auto prism = [&](const Eigen::Vector3d& foot, double radius, double height, sim::Material material) {
-    for (int k = 0; k < 6; ++k) {
-      const auto rim = [&](int i) {
-        const double angle = i * std::numbers::pi / 3.0;
-        return Eigen::Vector3d(foot + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0));
-      };
-      const Eigen::Vector3d up(0, 0, height);
-      triangle(rim(k), rim(k + 1), rim(k + 1) + up, material);
-      triangle(rim(k), rim(k + 1) + up, rim(k) + up, material);
-      triangle(foot + up, rim(k) + up, rim(k + 1) + up, material);
-    }
-  };
-  const int trees = static_cast<int>(4.0 * reach * reach / 150.0);
-  for (int k = 0; k < trees; ++k) {
-    const Eigen::Vector3d foot =
-        at(reach * (2 * unit(random) - 1), reach * (2 * unit(random) - 1)) - Eigen::Vector3d(0, 0, 0.2);
-    if (unit(random) < 0.15) {
-      prism(foot, 0.5 + 1.5 * unit(random), 0.6 + 1.2 * unit(random), sim::Material::kConcrete);
-      continue;
-    }
-    const double trunk = 2.0 + 2.0 * unit(random), crown = 1.0 + 1.5 * unit(random);
-    prism(foot, 0.1 + 0.15 * unit(random), trunk + 0.5, sim::Material::kVegetation);
-    for (int leaf = 0; leaf < 150; ++leaf) {
-      Eigen::Vector3d d(2 * unit(random) - 1, 2 * unit(random) - 1, 2 * unit(random) - 1);
-      if (d.norm() > 1.0) continue;
-      const Eigen::Vector3d p = foot + Eigen::Vector3d(0, 0, trunk + crown) + crown * d;
-      const auto edge = [&] {
-        return Eigen::Vector3d(0.3 * (2 * unit(random) - 1), 0.3 * (2 * unit(random) - 1),
-                               0.3 * (2 * unit(random) - 1));
-      };
-      triangle(p, p + edge(), p + edge(), sim::Material::kVegetation);
-    }
-  }
+  WildMesh wood(terrain, half_m + 60.0, seed);
+  wood.add_ground();
+  wood.add_trees();
   Site site{name,
-            sim::Scene::create(mesh).value(),
+            sim::Scene::create(wood.mesh()).value(),
             [terrain](const Eigen::Vector2d& p) { return terrain->height(p.x(), p.y()); },
             {}};
   for (double y = -half_m; y <= half_m; y += 9.0) site.lanes.push_back({{-half_m, y}, {half_m, y}});
@@ -110,11 +137,10 @@ MappedNode map_node(const Site& site, const sim::Aisle& lane, double along, doub
   const Eigen::Vector2d left(-ahead.y(), ahead.x());
   const double length = (lane.to - lane.from).norm();
   const double yaw = std::atan2(ahead.y(), ahead.x()) + (backwards ? std::numbers::pi : 0.0);
-  const double base_height = 0.1;
   const auto pose_at = [&](double s) {
     const double wobble = aside + 0.15 * std::sin(0.4 * s + static_cast<double>(seed % 100));
     return pose_on_ground(site, lane.from + s * ahead + wobble * left,
-                          yaw + 0.06 * std::cos(0.4 * s + static_cast<double>(seed % 100)), base_height);
+                          yaw + 0.06 * std::cos(0.4 * s + static_cast<double>(seed % 100)), kBaseHeight);
   };
   sim::LidarSpec lidar = sim::vlp16_spec();
   lidar.range_noise = how.range_noise_m;

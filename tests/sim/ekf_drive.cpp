@@ -22,6 +22,36 @@ EkfDrive::EkfDrive() {
   robot.start_yaw = std::atan2(along.y(), along.x());
 }
 
+namespace {
+
+/// Adds the squares of the errors of G.
+void add_errors(const Pose& T_enu_base, const LocalFrame& site, const GlobalPose& G, EkfErrors& errors) {
+  const Pose estimate = pose_in(site, G);
+  const Eigen::Vector3d error = estimate.translation() - T_enu_base.translation();
+  const double yaw = so3_log(estimate.linear() * T_enu_base.linear().transpose()).z();
+  errors.horizontal += error.head<2>().squaredNorm();
+  errors.height += error.z() * error.z();
+  errors.heading += yaw * yaw;
+  errors.nees_horizontal +=
+      error.head<2>().dot(G.covariance.topLeftCorner<2, 2>().inverse() * error.head<2>()) / 2.0;
+  errors.nees_up += error.z() * error.z() / G.covariance(2, 2);
+  errors.nees_yaw += yaw * yaw / G.covariance(5, 5);
+  ++errors.poses;
+}
+
+/// Makes means and RMS of the sums.
+void average(EkfErrors& errors, int fixes) {
+  const auto over = [](double& sum, int count) { sum /= std::max(1, count); };
+  for (double* sum : {&errors.horizontal, &errors.height, &errors.heading, &errors.nees_horizontal,
+                      &errors.nees_up, &errors.nees_yaw})
+    over(*sum, errors.poses);
+  over(errors.fixes_horizontal, fixes);
+  for (double* square : {&errors.horizontal, &errors.height, &errors.heading, &errors.fixes_horizontal})
+    *square = std::sqrt(*square);
+}
+
+}  // namespace
+
 EkfErrors run(const EkfDrive& drive, std::uint64_t seed) {
   RobotTwinConfig robot = drive.robot;
   robot.seed = seed;
@@ -53,26 +83,9 @@ EkfErrors run(const EkfDrive& drive, std::uint64_t seed) {
       if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) ekf.add(*wheel);
     }
     const auto pose = ekf.pose();
-    if (k < 200 || !pose) continue;
-    const Pose estimate = pose_in(site, *pose);
-    const Eigen::Vector3d error = estimate.translation() - twin.T_enu_base().translation();
-    const double yaw = so3_log(estimate.linear() * twin.T_enu_base().linear().transpose()).z();
-    errors.horizontal += error.head<2>().squaredNorm();
-    errors.height += error.z() * error.z();
-    errors.heading += yaw * yaw;
-    errors.nees_horizontal +=
-        error.head<2>().dot(pose->covariance.topLeftCorner<2, 2>().inverse() * error.head<2>()) / 2.0;
-    errors.nees_up += error.z() * error.z() / pose->covariance(2, 2);
-    errors.nees_yaw += yaw * yaw / pose->covariance(5, 5);
-    ++errors.poses;
+    if (k >= 200 && pose) add_errors(twin.T_enu_base(), site, *pose, errors);
   }
-  const auto over = [](double& sum, int count) { sum /= std::max(1, count); };
-  for (double* sum : {&errors.horizontal, &errors.height, &errors.heading, &errors.nees_horizontal,
-                      &errors.nees_up, &errors.nees_yaw})
-    over(*sum, errors.poses);
-  over(errors.fixes_horizontal, fixes);
-  for (double* square : {&errors.horizontal, &errors.height, &errors.heading, &errors.fixes_horizontal})
-    *square = std::sqrt(*square);
+  average(errors, fixes);
   return errors;
 }
 

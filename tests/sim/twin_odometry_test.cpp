@@ -15,6 +15,25 @@ struct Drive {
   odometry::LoamCounters counters;
 };
 
+/// Compares poses of the same instants; the errors stay 0 if there are not as many of both.
+void compare(const std::vector<Pose>& truth, const std::vector<Pose>& estimate, Drive& result) {
+  if (estimate.size() != truth.size()) return;
+  const auto error_between = [&](std::size_t i, std::size_t j) -> Pose {
+    return (truth[i].inverse() * truth[j]).inverse() * (estimate[i].inverse() * estimate[j]);
+  };
+  const Pose error = error_between(0, truth.size() - 1);
+  result.error = error.translation().norm();
+  result.turn_error = so3_log(error.linear()).norm();
+  const std::size_t steps = truth.size() - 10;
+  for (std::size_t k = 0; k < steps; ++k) {
+    const Pose step = error_between(k, k + 10);
+    result.step += step.translation().squaredNorm() / static_cast<double>(steps);
+    result.step_turn += so3_log(step.linear()).squaredNorm() / static_cast<double>(steps);
+  }
+  result.step = std::sqrt(result.step);
+  result.step_turn = std::sqrt(result.step_turn);
+}
+
 /// The odometry alone along a lane of a farm: proves frames, rings and times of the twin's scans.
 Drive along_an_aisle(const LidarSpec& lidar, const char* model, unsigned seed, bool deskew = true) {
   SolarFarmConfig farm;
@@ -52,21 +71,7 @@ Drive along_an_aisle(const LidarSpec& lidar, const char* model, unsigned seed, b
   Drive result;
   result.length = twin.odometer();
   result.counters = loam.counters();
-  if (estimate.size() != truth.size()) return result;
-  const auto error_between = [&](std::size_t i, std::size_t j) -> Pose {
-    return (truth[i].inverse() * truth[j]).inverse() * (estimate[i].inverse() * estimate[j]);
-  };
-  const Pose error = error_between(0, truth.size() - 1);
-  result.error = error.translation().norm();
-  result.turn_error = so3_log(error.linear()).norm();
-  const std::size_t steps = truth.size() - 10;
-  for (std::size_t k = 0; k < steps; ++k) {
-    const Pose step = error_between(k, k + 10);
-    result.step += step.translation().squaredNorm() / static_cast<double>(steps);
-    result.step_turn += so3_log(step.linear()).squaredNorm() / static_cast<double>(steps);
-  }
-  result.step = std::sqrt(result.step);
-  result.step_turn = std::sqrt(result.step_turn);
+  compare(truth, estimate, result);
   EXPECT_FALSE(twin.touching());
   return result;
 }

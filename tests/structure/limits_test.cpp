@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,20 +14,6 @@ namespace {
 constexpr std::size_t kMaxFileLines = 350;
 constexpr int kMaxFunctionLines = 50;
 constexpr std::ptrdiff_t kMaxLineCharacters = 120;
-
-/// Tests and benchmarks with a function that is still longer. The list only shrinks.
-const std::set<std::string> kLongFunctions = {
-    "tests/apps/generated_fleet_test.cpp",
-    "tests/apps/kitti_fleet_test.cpp",
-    "tests/apps/twin_fleet_test.cpp",
-    "tests/bench/radio_bench.cpp",
-    "tests/bench/registration_pairs.cpp",
-    "tests/exchange/submap_receiver_test.cpp",
-    "tests/localization/synthetic_drive.cpp",
-    "tests/registration/pair_worlds.cpp",
-    "tests/sim/ekf_drive.cpp",
-    "tests/sim/twin_odometry_test.cpp",
-};
 
 std::vector<std::string> cpp_files() {
   std::vector<std::string> files;
@@ -63,7 +48,6 @@ TEST(Limits, FunctionsHaveAtMost50Lines) {
   for (const std::string& file : cpp_files()) {
     for (const FunctionLines& function : functions_in(text_of(file))) {
       ++functions;
-      if (kLongFunctions.contains(file)) continue;
       EXPECT_LE(function.lines, kMaxFunctionLines) << file << ":" << function.line << ": " << function.header;
     }
   }

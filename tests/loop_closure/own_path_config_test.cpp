@@ -1,0 +1,35 @@
+#include "fleetmap/loop_closure/own_path_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/field_bounds.hpp"
+
+namespace fleetmap::loop_closure {
+namespace {
+
+using testing::expect_accepted;
+using testing::expect_refused;
+using testing::kInfinity;
+using testing::kNaN;
+
+using Config = OwnPathConfig;
+
+TEST(OwnPathConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+
+TEST(OwnPathConfig, TheReachIsPositiveAndThePathTwiceAsLong) {
+  const Config config;
+  expect_accepted(config, &Config::reach, {1e-3, 0.5 * config.min_path});
+  expect_refused(config, &Config::reach, {0.0, -1.0, kNaN<double>, kInfinity<double>}, "loop_closures.reach");
+  expect_refused(config, &Config::reach, {0.5 * config.min_path + 0.1}, "loop_closures.min_path");
+  expect_refused(config, &Config::min_path, {2.0 * config.reach - 0.1, kNaN<double>, kInfinity<double>},
+                 "loop_closures.min_path");
+}
+
+TEST(OwnPathConfig, TheSpacingIsFiniteAndNotNegative) {
+  expect_accepted(Config{}, &Config::spacing, {0.0});
+  expect_refused(Config{}, &Config::spacing, {-0.1, kNaN<double>, kInfinity<double>},
+                 "loop_closures.spacing");
+}
+
+}  // namespace
+}  // namespace fleetmap::loop_closure
