@@ -22,11 +22,11 @@ class DeviceStream {
   DeviceStream& operator=(DeviceStream&&) = delete;
   ~DeviceStream();
 
-  /// How many bytes came within 0.1 s, 0 if none. An error: the device is gone.
+  /// The number of bytes that came within 0.1 s. An error means that the device is gone.
   Result<std::size_t> read(std::span<std::uint8_t> buffer);
   /// Over UDP to whoever sent last, or else nothing. What a full line does not take is lost.
   Status write(ByteView bytes);
-  /// Of a UDP port, also of one that the system chose.
+  /// The UDP port, also one that the system chose.
   std::uint16_t port() const;
 
  private:

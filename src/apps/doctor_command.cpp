@@ -89,7 +89,7 @@ int examine(const DoctorOptions& options) {
   // Its agent receives there if it runs, and publishes the scans.
   const auto lidar = publish_velodyne(robot->agent.perception, **bus);
   if (!lidar) spdlog::info("{}", lidar.error().message);
-  // Of these only gpsd would serve both, so that its fixes came twice.
+  // gpsd would serve the agent and this program, so that each fix came twice.
   agent::PerceptionConfig perception = robot->agent.perception;
   if (perception.devices.gpsd) spdlog::info("gps.gpsd: heard where the agent runs");
   perception.devices.gpsd.reset();

@@ -36,7 +36,7 @@ constexpr const char* kAboveSea =
     "fixes without an altitude above the ellipsoid; their height above the sea is used, so set all robots "
     "alike";
 
-/// Where samples go.
+/// The topics that samples go to.
 struct Topics {
   bus::Bus& bus;
   bus::Topic imu, fix;

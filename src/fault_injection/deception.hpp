@@ -15,7 +15,7 @@ class Deception {
   /// `config`: of the fleet's exchanges; outlives this.
   Deception(std::uint64_t seed, const exchange::ExchangeConfig& config);
 
-  /// Of one step of this length.
+  /// The messages of one step of this length.
   std::vector<Attacker::Injected> messages_of(CompromisedRobot& robot, const store::Store& store,
                                               const SyntheticSurvey& survey, Attacker& attacker,
                                               Duration step);

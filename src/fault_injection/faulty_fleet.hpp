@@ -31,7 +31,7 @@ class FaultyFleet : private SurveyingFleet {
   void apply(const FaultChange& change);
   void begin(const Fault& fault, std::size_t number);
   void end(const Fault& fault);
-  /// What begins with the fault while its robot is down, or in the robot itself.
+  /// Does to the robot or its disk that by which the fault begins.
   void harm(const Fault& fault, const AgentId& name, std::size_t number);
   void stop_robot(const AgentId& name);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMinRejected = 3;  ///< alignments of a pair of agents
 constexpr std::size_t kMinPeers = 2;
 constexpr std::size_t kMinSteps = 4;
-/// Of a step's difference between fixes and odometry. GPS in the field may jump by some metres.
+/// Bounds of a step's difference between fixes and odometry. GPS in the field may jump by some metres.
 constexpr double kStepSigmas = 6.0;
 constexpr double kStepFloorM = 5.0;
 constexpr double kMaxSpeed = 10.0;  ///< m/s

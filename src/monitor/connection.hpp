@@ -10,6 +10,8 @@ namespace fleetmap::monitor {
 /// Answers the requests of one HTTP connection, one after the other.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
+  static constexpr std::uint32_t kMaxHeaderBytes = 8192;  ///< of a request; longer ones are cut off
+
   Connection(ServerState& state, tcp::socket socket)
       : state_(state), counted_(std::make_shared<CountedConnection>(state)), stream_(std::move(socket)) {}
 
@@ -22,8 +24,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void open(const Request& request, const Response& response);
   void write(Response response);
   void close();
-
-  static constexpr std::uint32_t kMaxHeaderBytes = 8192;
 
   ServerState& state_;
   std::shared_ptr<CountedConnection> counted_;

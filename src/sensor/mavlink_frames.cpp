@@ -27,7 +27,7 @@ std::uint16_t checksum(ByteView bytes, std::uint8_t crc_extra) {
   return crc;
 }
 
-/// Where the parts of a frame are.
+/// The lengths of the parts of a frame.
 struct Layout {
   std::size_t header = 0, payload = 0, signature = 0;
   std::size_t covered() const { return header + payload; }  ///< by the checksum, but for the start

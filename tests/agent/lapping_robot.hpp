@@ -33,7 +33,7 @@ class LappingRobot {
   static constexpr double kLap = 40.0;  ///< s
   static constexpr Stamp kStart = stamp_from_ns(1'750'000'000'000'000'000);
 
-  /// What the agent published of one scan, against the truth at the stamp that it gave.
+  /// The error of the poses published with one scan, against the truth at the stamp that they bear.
   struct Error {
     double seconds = 0.0;   ///< since the start, by the published stamp
     double odometry = 0.0;  ///< m, of O since the first
@@ -44,7 +44,7 @@ class LappingRobot {
   void run_for(double seconds);
   agent::Agent& agent() { return *agent_; }
   bus::LocalNetwork& network() { return *network_; }
-  /// Of scans of which G was known.
+  /// The errors of the scans of which G was known.
   const std::vector<Error>& errors() const { return errors_; }
   void forget_errors() { errors_.clear(); }
   /// Samples of `source` that were published.

@@ -16,8 +16,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string row(const std::string& coordinates) {
   return R"({"type": "FeatureCollection", )"
-         R"("features": [{"type": "Feature", "properties": {"row": 0}, "geometry": {"type": "LineString", )" +
-         R"("coordinates": [)" + coordinates + "]}}]}";
+         R"("features": [{"type": "Feature", "properties": {"row": 0}, "geometry": {"type": "LineString", )"
+         R"("coordinates": [)" +
+         coordinates + "]}}]}";
 }
 
 TEST(DrawnSite, ADrawingOnEarthIsPlannedAboutItsFirstPosition) {

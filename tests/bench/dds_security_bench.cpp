@@ -54,7 +54,7 @@ class EmptyType final : public edds::TopicDataType {
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
-/// Of all endpoints of this robot.
+/// Counts the matches of all endpoints of this robot.
 class Matches final : public edds::DataWriterListener, public edds::DataReaderListener {
  public:
   explicit Matches(int wanted) : wanted_(wanted) {}

@@ -124,7 +124,9 @@ TEST_F(FleetConfigTest, ModePaperSelectsMethodPlacementAndSearchOfWhichEachCanBe
 }
 
 TEST_F(FleetConfigTest, UnknownMethodsAreRefusedWhereTheyStand) {
-  EXPECT_EQ(robot("registration: {record_mb: 20}\n").registration_log.max_bytes, 20'000'000u);
+  const auto robot = load_robot(write(kRobot + "registration: {record_mb: 20}\n"), {});
+  ASSERT_TRUE(robot) << robot.error().message;
+  EXPECT_EQ(robot->agent.registration_log.max_bytes, 20'000'000u);
   EXPECT_THAT(robot_error(kRobot + "registration: {record_mb: 0}\n"),
               HasSubstr("config.yaml:4: registration.record_mb"));
   EXPECT_THAT(robot_error(kRobot + "registration: {method: fpfh}\n"),

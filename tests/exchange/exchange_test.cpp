@@ -186,7 +186,8 @@ TEST_F(ExchangeTest, CompletionIsReportedWhenItBeginsAlone) {
   const messages::SubmapDigest digest{kPeer, {{kPeer, 0, 1}}, {kSelf}};
   exchange_.on_message(digest, kStart);
   EXPECT_FALSE(exchange_.complete());
-  EXPECT_TRUE(exchange_.complete({kPeer})) << "the robot is lost and nobody else has it";
+  EXPECT_FALSE(exchange_.complete({kPeer})) << "the third robot may have it";
+  EXPECT_TRUE(exchange_.complete({kPeer, kThird})) << "the robot is lost and nobody else has it";
 }
 
 TEST_F(ExchangeTest, ReportsWhetherEachRobotStandsByAnOrder) {

@@ -1,4 +1,4 @@
-// What an autopilot sends over a serial line or UDP.
+// Bytes that an autopilot sends over a serial line or UDP.
 #include <algorithm>
 
 #include "checks.hpp"

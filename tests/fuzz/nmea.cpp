@@ -1,4 +1,4 @@
-// What a GPS receiver sends over a serial line, and the reports of gpsd.
+// Sentences of a GPS receiver on a serial line, and the reports of gpsd.
 #include <algorithm>
 
 #include "checks.hpp"

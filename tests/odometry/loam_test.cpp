@@ -1,10 +1,11 @@
+#include "fleetmap/odometry/loam.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
 
-#include "fleetmap/odometry/loam.hpp"
 #include "support/synthetic_lidar.hpp"
 
 namespace fleetmap::odometry {

@@ -11,7 +11,7 @@ namespace {
 using fleetmap::testing::golden_mavlink;
 using ::testing::ElementsAreArray;
 
-/// Whose payload has each of the bytes that begin frames.
+/// A frame whose payload has each of the bytes that begin frames.
 Bytes frame(std::uint8_t sequence) {
   return mavlink_frame(kMavlinkTimesync, Bytes{0xfd, 0xfe, sequence, 4, 5, 0xfe, 7, 0xfd, 9}, sequence);
 }

@@ -13,32 +13,41 @@ using testing::kNaN;
 
 using Config = RobotTwinConfig;
 
-TEST(RobotTwinConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+Config valid() {
+  Config config;
+  config.lidar = vlp16_spec();
+  return config;
+}
+
+TEST(RobotTwinConfig, NeedsALidarAndHasTheRest) {
+  EXPECT_TRUE(valid().validate());
+  EXPECT_FALSE(Config{}.validate());
+}
 
 TEST(RobotTwinConfig, StartAndMountsAreFinite) {
   expect_refused(
-      Config{}, [](Config& c) { c.start.y() = kNaN<double>; }, "start");
+      valid(), [](Config& c) { c.start.y() = kNaN<double>; }, "start");
   expect_refused(
-      Config{}, [](Config& c) { c.start_yaw = kNaN<double>; }, "start");
+      valid(), [](Config& c) { c.start_yaw = kNaN<double>; }, "start");
   expect_refused(
-      Config{}, [](Config& c) { c.T_base_lidar.translation().x() = kNaN<double>; }, "mounts");
+      valid(), [](Config& c) { c.T_base_lidar.translation().x() = kNaN<double>; }, "mounts");
   expect_refused(
-      Config{}, [](Config& c) { c.T_base_imu.linear()(0, 0) = kNaN<double>; }, "mounts");
+      valid(), [](Config& c) { c.T_base_imu.linear()(0, 0) = kNaN<double>; }, "mounts");
   expect_refused(
-      Config{}, [](Config& c) { c.p_base_antenna.z() = kNaN<double>; }, "mounts");
+      valid(), [](Config& c) { c.p_base_antenna.z() = kNaN<double>; }, "mounts");
 }
 
 TEST(RobotTwinConfig, ItsPartsAreCheckedAndNamed) {
   expect_refused(
-      Config{}, [](Config& c) { c.lidar.max_range = -1.0; }, "lidar.");
+      valid(), [](Config& c) { c.lidar.max_range = -1.0; }, "lidar.");
   expect_refused(
-      Config{}, [](Config& c) { c.imu.rate = 0.0; }, "imu.rate");
+      valid(), [](Config& c) { c.imu.rate = 0.0; }, "imu.rate");
   expect_refused(
-      Config{}, [](Config& c) { c.gps.rate = 0.0; }, "gps.rate");
+      valid(), [](Config& c) { c.gps.rate = 0.0; }, "gps.rate");
   expect_refused(
-      Config{}, [](Config& c) { c.wheels.rate = 0.0; }, "wheels.rate");
+      valid(), [](Config& c) { c.wheels.rate = 0.0; }, "wheels.rate");
   expect_refused(
-      Config{}, [](Config& c) { c.vehicle.max_speed = 0.0; }, "vehicle.max_speed");
+      valid(), [](Config& c) { c.vehicle.max_speed = 0.0; }, "vehicle.max_speed");
 }
 
 }  // namespace

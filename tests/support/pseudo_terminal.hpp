@@ -32,7 +32,7 @@ class PseudoTerminal {
   bool send(ByteView bytes) const {
     return ::write(device_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
   }
-  /// What the program sent since the last call.
+  /// The bytes that the program sent since the last call.
   Bytes receive() const {
     Bytes bytes(4096);
     const ssize_t size = ::read(device_, bytes.data(), bytes.size());

@@ -16,7 +16,7 @@ struct SerialPort {
   std::filesystem::path path;
   std::uint32_t baud = 0;  ///< one of kBaudRates; USB devices take any
 };
-/// Of this machine, to which the device sends.
+/// A port of this machine, to which the device sends.
 struct UdpPort {
   std::uint16_t port = 0;
 };

@@ -11,7 +11,7 @@ namespace fleetmap {
 /// "2026-11-26T18:12:39.500Z" (RFC 3339), rounded down to milliseconds.
 std::string to_utc(Stamp stamp);
 
-/// Of a time written so, with any number of decimals or none, of the years 1970 to 2261. Empty for other
+/// Reads a time written so, with any number of decimals or none, of the years 1970 to 2261. Empty for other
 /// texts.
 std::optional<Stamp> from_utc(std::string_view text);
 

@@ -12,7 +12,7 @@
 
 namespace fleetmap::graph {
 
-/// What speaks against the items of one agent.
+/// The evidence against the items of one agent.
 struct Contradiction {
   std::size_t alignments = 0;  ///< rejected ones between it and the agents below
   std::set<AgentId> with;      ///< agents whose alignments with it are mostly rejected

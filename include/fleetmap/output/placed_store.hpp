@@ -23,7 +23,7 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 std::vector<graph::Node> nodes_of(const store::Store& store);
 std::vector<graph::Alignment> alignments_of(const store::Store& store);
 
-/// What a map is made of.
+/// The items that a map is made of.
 struct MapItems {
   std::vector<graph::Node> nodes;
   std::vector<graph::Alignment> alignments;

@@ -46,7 +46,7 @@ class MavlinkFrames {
   MavlinkCounters counters_;
 };
 
-/// Of a type that is decoded: a seed of its checksum that names the definition of its fields.
+/// The seed of the checksum of a type that is decoded, which stands for the definition of its fields.
 std::optional<std::uint8_t> mavlink_crc_extra(std::uint32_t id);
 
 /// A frame of v2 from this computer (system 1, component 191: onboard computer). `id` must be of a type that

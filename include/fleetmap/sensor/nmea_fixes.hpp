@@ -25,7 +25,7 @@ class NmeaFixes {
   void handle(const NmeaGga& gga, Stamp arrival, DeviceSamples& samples);
   void handle(const NmeaRmc& rmc, Stamp arrival, DeviceSamples& samples);
   void handle(const NmeaGst& gst, Stamp arrival, DeviceSamples& samples);
-  /// Of a time of the day.
+  /// The instant of a time of the day.
   Stamp utc(Duration time, Stamp arrival) const;
   void finish(DeviceSamples& samples);
 
