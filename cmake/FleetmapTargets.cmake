@@ -96,7 +96,7 @@ function(fleetmap_test name)
   target_link_libraries(test_${name} PRIVATE fleetmap_flags ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_options(test_${name} PRIVATE ${FLEETMAP_TEST_OPTIONS})
   target_precompile_headers(test_${name} REUSE_FROM fleetmap_precompiled_tests)
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 300
                        PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_REAL_TIME})
 endfunction()
 

@@ -27,10 +27,8 @@ build() {
 echo "== ${presets[0]}: build"
 build "${presets[0]}"
 # Many tests of the shipped program wait for each other. What they leave of the processors builds the rest.
-idle=(chrt --idle 0)
-"${idle[@]}" true 2>/dev/null || idle=(nice -n 19)
 log=$(mktemp)
-setsid "${idle[@]}" bash -c "set -euo pipefail; $(declare -f with_addresses_for build)
+setsid nice -n 15 bash -c "set -euo pipefail; $(declare -f with_addresses_for build)
   for preset; do echo \"== \$preset: build\"; build \"\$preset\"; done" build "${presets[@]:1}" >"$log" 2>&1 &
 others=$!
 trap 'kill -- "-$others" 2>/dev/null || true; rm -f "$log"' EXIT
