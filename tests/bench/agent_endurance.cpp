@@ -2,40 +2,26 @@
 // with scans of few points: memory, CPU and files for each thousand nodes, and how they grow over the second
 // half. One robot, without loop closures; bench_endurance has the exchange and the candidates of several.
 //   bench_agent_endurance [NODES [MINUTES]]    20000 nodes, or as many as this computes in 10 minutes
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "agent/lapping_robot.hpp"
+#include "bench/process_use.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "store/items.hpp"
 
 namespace {
 
 using namespace fleetmap;
+using bench::files_mb;
+using bench::resident_mb;
 using testing::LappingRobot;
 
 constexpr std::size_t kSlice = 1000;  // nodes
-
-double resident_mb() {
-  std::size_t pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-double files_mb(const std::filesystem::path& folder, const std::string& end) {
-  double bytes = 0.0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().string().ends_with(end)) bytes += static_cast<double>(entry.file_size());
-  }
-  return bytes / 1e6;
-}
 
 /// After a slice of nodes; CPU since the one before.
 struct Row {

@@ -1,19 +1,17 @@
 // Measures the cost of a robot's exchange, store and loop closing after 20,000 own nodes (24 hours at one
 // node every 4.3 s), in virtual time with light clouds: the table of docs/results/performance.md.
 //   bench_endurance [ROBOTS [NODES]]    3 robots, 20000 nodes each
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "bench/process_use.hpp"
 #include "draws.hpp"
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
@@ -26,6 +24,8 @@
 namespace {
 
 using namespace fleetmap;
+using bench::files_mb;
+using bench::resident_mb;
 using fault_injection::Draws;
 using fault_injection::Packet;
 using messages::Reach;
@@ -208,20 +208,6 @@ class Endurance : private fault_injection::ExchangeFleet {
   std::uint32_t made_ = 0;  ///< by each robot
   std::deque<Job> jobs_;
 };
-
-double resident_mb() {
-  std::size_t pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
-
-double files_mb(const std::filesystem::path& folder, const std::string& end) {
-  double bytes = 0.0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().string().ends_with(end)) bytes += static_cast<double>(entry.file_size());
-  }
-  return bytes / 1e6;
-}
 
 void measure(std::size_t robots, std::uint32_t nodes) {
   const testing::ScratchFolder folder;

@@ -12,19 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
-  agent::AgentConfig agent;
-  std::string problems;
-};
-
-Read read(const std::string& yaml) {
-  Read result;
-  result.problems = problems_of(yaml, [&](Section& top) { read_agent(top, result.agent); });
-  return result;
-}
+AgentReading read(const std::string& yaml) { return agent_of(yaml, read_agent); }
 
 TEST(AgentSections, ReadsNameFleetFolderAndOrigin) {
-  const Read r = read("id: r2\nfleet: [r1, r2]\ndirectory: out\nsite: {origin: [48.5, 9.25, 430]}\n");
+  const AgentReading r = read("id: r2\nfleet: [r1, r2]\ndirectory: out\nsite: {origin: [48.5, 9.25, 430]}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.agent.id.str(), "r2");
   ASSERT_EQ(r.agent.exchange.fleet.size(), 2u);
@@ -50,8 +41,8 @@ TEST(AgentSections, AnOriginIsALatitudeALongitudeAndAnAltitude) {
 }
 
 TEST(AgentSections, ModePaperIsThePapersSchemeThroughout) {
-  const Read fleet = read("id: r1\nmode: fleet\n"), none = read("id: r1\n"),
-             paper = read("id: r1\nmode: paper\n");
+  const AgentReading fleet = read("id: r1\nmode: fleet\n"), none = read("id: r1\n"),
+                     paper = read("id: r1\nmode: paper\n");
   EXPECT_EQ(fleet.problems + none.problems + paper.problems, "");
   EXPECT_EQ(none.agent.registration.method, registration::Method::correlation);
   EXPECT_EQ(fleet.agent.placement.method, graph::PlacementMethod::graph);
@@ -66,7 +57,7 @@ TEST(AgentSections, ModePaperIsThePapersSchemeThroughout) {
 }
 
 TEST(AgentSections, ASectionSetsEachPartOfThePapersSchemeAlone) {
-  const Read r =
+  const AgentReading r =
       read("id: r1\nmode: paper\nregistration: {method: correlation}\nspherize: {ground_voxel: 1.5}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.agent.registration.method, registration::Method::correlation);

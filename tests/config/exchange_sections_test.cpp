@@ -12,19 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
-  agent::AgentConfig agent;
-  std::string problems;
-};
-
-Read read(const std::string& yaml) {
-  Read result;
-  result.problems = problems_of(yaml, [&](Section& top) { read_exchange(top, result.agent); });
-  return result;
-}
+AgentReading read(const std::string& yaml) { return agent_of(yaml, read_exchange); }
 
 TEST(ExchangeSections, ReadsBothLinksInTheUnitsOfTheirKeys) {
-  const Read r = read(
+  const AgentReading r = read(
       "long_range: {budget_kbit_s: 80, robots: [r1, r3], burst_seconds: 0.5, status_period: 7,\n"
       "  digest_min_period: 2.5, digest_max_period: 40}\n"
       "short_range: {rate_mbit_s: 6, window_bytes: 65536, peer_timeout: 9}\n");
@@ -43,7 +34,7 @@ TEST(ExchangeSections, ReadsBothLinksInTheUnitsOfTheirKeys) {
 }
 
 TEST(ExchangeSections, WithoutKeysTheDefaultsStay) {
-  const Read r = read("{}");
+  const AgentReading r = read("{}");
   EXPECT_EQ(r.problems, "");
   const exchange::ExchangeConfig usual;
   EXPECT_DOUBLE_EQ(r.agent.exchange.long_range.fleet_bytes_per_second,

@@ -12,19 +12,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
-  agent::AgentConfig agent;
-  std::string problems;
-};
-
-Read read(const std::string& yaml) {
-  Read result;
-  result.problems = problems_of(yaml, [&](Section& top) { read_mapping(top, result.agent); });
-  return result;
-}
+AgentReading read(const std::string& yaml) { return agent_of(yaml, read_mapping); }
 
 TEST(MappingSections, ReadsNodesSubmapAndMap) {
-  const Read r = read(
+  const AgentReading r = read(
       "nodes: {spacing: 3}\n"
       "submap: {voxel: 0.2, resolution: 0.05, scan_spacing: 0.4, scan_angle_deg: 90, max_bytes: 20000}\n"
       "map: {voxel: 0.3, centroids: true}\n");

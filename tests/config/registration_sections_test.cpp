@@ -10,19 +10,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Read {
-  agent::AgentConfig agent;
-  std::string problems;
-};
-
-Read read(const std::string& yaml) {
-  Read result;
-  result.problems = problems_of(yaml, [&](Section& top) { read_registration(top, result.agent); });
-  return result;
-}
+AgentReading read(const std::string& yaml) { return agent_of(yaml, read_registration); }
 
 TEST(RegistrationSections, ReadsSpherizeAndBothMethods) {
-  const Read r = read(
+  const AgentReading r = read(
       "spherize: {radius: 30, voxel: 0.2, remove_ground: false, ground_voxel: 1, max_bytes: 9000}\n"
       "registration: {method: paper, voxel: 0.15, surfel: 0.5, prior_sigmas: 3, max_search: 20, min_overlap: "
       "0.5,\n"
@@ -68,7 +59,7 @@ TEST(RegistrationSections, ReadsSpherizeAndBothMethods) {
 }
 
 TEST(RegistrationSections, PlacementsWeighGByTheFiltersCorrelationTime) {
-  Read r;
+  AgentReading r;
   r.agent.perception.localization.gps.correlation_time = 33.0;
   problems_of("{}", [&](Section& top) { read_registration(top, r.agent); });
   EXPECT_EQ(r.agent.placement.paper.gps_correlation_time, 33.0);

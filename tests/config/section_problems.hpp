@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "fleetmap/agent/agent_config.hpp"
 #include "yaml_document.hpp"
 #include "yaml_section.hpp"
 
@@ -15,6 +16,19 @@ std::string problems_of(const std::string& yaml, Read read) {
   read(top);
   const Status status = document.status();
   return status ? "" : status.error().message;
+}
+
+/// An agent's configuration that was read from a section, and the problems that were noted.
+struct AgentReading {
+  agent::AgentConfig agent;
+  std::string problems;
+};
+
+template <class Read>
+AgentReading agent_of(const std::string& yaml, Read read) {
+  AgentReading reading;
+  reading.problems = problems_of(yaml, [&](Section& top) { read(top, reading.agent); });
+  return reading;
 }
 
 }  // namespace fleetmap::config
