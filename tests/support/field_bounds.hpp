@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 /// Checks of the bounds that a configuration's validate() sets to its fields.
 namespace fleetmap::testing {
@@ -43,6 +44,26 @@ void expect_accepted(Config config, T Config::*field, std::initializer_list<std:
     config.*field = value;
     const auto valid = config.validate();
     EXPECT_TRUE(valid) << ::testing::PrintToString(value) << ": " << valid.error().message;
+  }
+}
+
+/// Fields of a configuration, each with the name that errors give it.
+template <class Config>
+using NamedFields = std::initializer_list<std::pair<double Config::*, const char*>>;
+
+/// validate() refuses `config` where any of the fields is zero, negative or not finite.
+template <class Config>
+void expect_positive(const Config& config, NamedFields<std::type_identity_t<Config>> fields) {
+  for (const auto& [field, name] : fields)
+    expect_refused(config, field, {0.0, -1.0, kNaN<double>, kInfinity<double>}, name);
+}
+
+/// validate() accepts zero in each of the fields, and refuses what is negative or not finite.
+template <class Config>
+void expect_not_negative(const Config& config, NamedFields<std::type_identity_t<Config>> fields) {
+  for (const auto& [field, name] : fields) {
+    expect_accepted(config, field, {0.0});
+    expect_refused(config, field, {-0.1, kNaN<double>, kInfinity<double>}, name);
   }
 }
 
