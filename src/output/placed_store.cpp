@@ -43,14 +43,11 @@ Result<MapItems> items_without(const store::Store& store, std::span<const AgentI
   const auto left_out = [&](const AgentId& robot) {
     return std::ranges::find(robots, robot) != robots.end();
   };
-  MapItems items;
-  for (const auto& [id, node] : store.nodes()) {
-    if (!left_out(id.agent)) items.nodes.push_back(node);
-  }
-  for (const auto& [id, one] : store.alignments()) {
-    if (!left_out(one.computed_by) && !left_out(one.i.agent) && !left_out(one.j.agent))
-      items.alignments.push_back(one);
-  }
+  MapItems items{nodes_of(store), alignments_of(store)};
+  std::erase_if(items.nodes, [&](const graph::Node& node) { return left_out(node.id.agent); });
+  std::erase_if(items.alignments, [&](const graph::Alignment& one) {
+    return left_out(one.computed_by) || left_out(one.i.agent) || left_out(one.j.agent);
+  });
   if (items.nodes.empty() && !robots.empty())
     return failure(store.path().string() + ": without these robots no node is left, so there is no map");
   return items;
