@@ -28,6 +28,7 @@ struct FuzzOptions {
   std::uint64_t from = 1;
   std::optional<std::uint64_t> replay;
   std::vector<std::size_t> keep;
+  std::string stores;
   std::vector<std::size_t> robots;
   std::string faults = "all";
   std::string invariants = "all";
@@ -38,6 +39,11 @@ struct FuzzOptions {
 };
 
 int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig config) {
+  if (!options.stores.empty()) {
+    if (const Status writable = make_writable(options.stores); !writable)
+      return report(writable.error(), kFailed);
+    config.stores = options.stores;
+  }
   const Scenario selected = options.keep.empty() ? scenario : with_faults(scenario, options.keep);
   config.trace = true;
   const Outcome outcome = run(selected, config);
@@ -116,6 +122,10 @@ void add_fuzz_fleet(CLI::App& app, int& exit_code) {
       ->check(whole_number(0));
   command->add_option("--keep", options->keep, "with --replay: numbers of the faults that happen, e.g. 0,3")
       ->delimiter(',');
+  command
+      ->add_option("--stores", options->stores,
+                   "with --replay: folder for the robots' stores as they end, for `map` and `monitor`")
+      ->check(some_path());
   command->add_option("--robots", options->robots, "so many robots; two numbers: between them (3,10)")
       ->delimiter(',')
       ->check(whole_number(2, 20));

@@ -12,6 +12,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/core/whole_file.hpp"
+#include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/graph_file.hpp"
 #include "fleetmap/output/map_comments.hpp"
@@ -79,6 +80,11 @@ int info(const MapOptions& options) {
     for (const graph::FrameId& frame : component) std::cout << ' ' << graph::to_string(frame);
     std::cout << '\n';
   }
+  const auto contradicting =
+      graph::contradict_the_fleet(map->placement, map->items.nodes, LocalFrame(map->recipe.origin));
+  for (const auto& [agent, contradiction] : contradicting)
+    std::cout << agent.str() << " contradicts the fleet: " << to_string(contradiction) << "; --without "
+              << agent.str() << " shows the map without it\n";
   return kDone;
 }
 

@@ -24,6 +24,9 @@ constexpr Duration kMaxPeriod = std::chrono::seconds(15);
 /// Silence after which a robot's part goes to the others, at least and in status periods.
 constexpr Duration kPeerTimeout = std::chrono::seconds(60);
 constexpr double kPeerTimeoutPeriods = 3.0;
+/// Status periods after a robot's return in which all others are expected back: two of their statuses may be
+/// lost.
+constexpr double kReturnPeriods = 3.0;
 
 Duration times(Duration period, double factor) { return from_seconds(to_seconds(period) * factor); }
 
@@ -38,7 +41,14 @@ BudgetShares::BudgetShares(const AgentId& self, std::span<const AgentId> fleet, 
 }
 
 void BudgetShares::on_heard(const AgentId& peer, Stamp now) {
-  if (const auto known = peers_.find(peer); known != peers_.end()) known->second.heard = now;
+  const auto known = peers_.find(peer);
+  if (known == peers_.end()) return;
+  if (!is_present(known->second, now)) all_return_until_ = now + times(period_, kReturnPeriods);
+  known->second.heard = now;
+}
+
+bool BudgetShares::is_present(const Peer& peer, Stamp now) const {
+  return now - peer.heard < std::max(kPeerTimeout, times(period_, kPeerTimeoutPeriods));
 }
 
 void BudgetShares::on_status(const AgentStatus& status, Stamp now) {
@@ -58,12 +68,15 @@ void BudgetShares::on_status(const AgentStatus& status, Stamp now) {
 std::set<AgentId> BudgetShares::present(Stamp now) const {
   std::set<AgentId> present;
   for (const auto& [agent, peer] : peers_) {
-    if (now - peer.heard < std::max(kPeerTimeout, times(period_, kPeerTimeoutPeriods))) present.insert(agent);
+    if (is_present(peer, now)) present.insert(agent);
   }
   return present;
 }
 
-double BudgetShares::part(Stamp now) const { return budget_ / static_cast<double>(present(now).size() + 1); }
+double BudgetShares::part(Stamp now) const {
+  const std::size_t others = now < all_return_until_ ? peers_.size() : present(now).size();
+  return budget_ / static_cast<double>(others + 1);
+}
 
 bool BudgetShares::has_room(std::size_t backlog, Stamp now) const {
   const double small = kSmallBacklog * part(now);

@@ -23,6 +23,10 @@ using messages::Loan;
 /// so the rates of robots that hear each other never add up to more than the budget, whichever messages are
 /// lost. Only when robots return whose parts were lent to others may the sum be a tenth more, until the
 /// loans of larger parts have ended.
+///
+/// Parts of a fleet that do not hear each other divide the whole budget each. A robot that is heard again
+/// announces that a part returns: all robots count as present from then on until they had time to be heard,
+/// so the sum exceeds the budget only until one message of the other part has arrived.
 class BudgetShares {
  public:
   /// `status_period`: period of each robot's status messages.
@@ -61,6 +65,7 @@ class BudgetShares {
     Stamp until;  ///< borrowers may use them so long
   };
   double part(Stamp now) const;
+  bool is_present(const Peer& peer, Stamp now) const;
   /// B/s that each borrower may be using, whichever of our statuses it has heard.
   std::map<AgentId, double> lent(Stamp now) const;
 
@@ -69,6 +74,7 @@ class BudgetShares {
   Duration period_;
   std::map<AgentId, Peer> peers_;
   std::vector<Grant> grants_;
+  Stamp all_return_until_;  ///< until then the parts are those of the whole fleet
 };
 
 }  // namespace fleetmap::exchange

@@ -30,6 +30,7 @@ class ScratchFolder {
 }  // namespace
 
 Outcome run(const Scenario& scenario, const RunConfig& config) {
+  if (!config.stores.empty()) return FaultyFleet(scenario, config, config.stores).run();
   const ScratchFolder folder;
   return FaultyFleet(scenario, config, folder.path()).run();
 }

@@ -11,6 +11,10 @@ namespace {
 
 /// B in any second: 160 of the radio's 200 kbit/s.
 constexpr double kRadio = 20'000.0;
+/// Parts of a fleet that were apart for more than a minute each divide the whole budget. When they meet, the
+/// sum is that of both for as long as it takes until each robot has heard one of the others.
+constexpr double kReunionRadio = 2.0 * kRadio;
+constexpr Duration kReunion = std::chrono::seconds(3);
 /// The longest status period of the largest fleet, and a queue before it.
 constexpr Duration kMaxSilence = std::chrono::seconds(60);
 /// Names that cost a forger nothing.
@@ -45,7 +49,7 @@ void Monitor::note(Invariant invariant, const AgentId& robot, Stamp now, const s
     violations_.push_back({invariant, now - start_, robot.str(), what});
 }
 
-void Monitor::on_sent(const Packet& packet) {
+void Monitor::on_sent(const Packet& packet, const std::vector<AgentId>& hearers) {
   sent_[packet.from] = packet.at;
   ++packets_;
   const auto mix = [this](std::uint64_t value) { fingerprint_ = (fingerprint_ ^ value) * 0x100000001b3u; };
@@ -53,20 +57,26 @@ void Monitor::on_sent(const Packet& packet) {
   mix(std::hash<AgentId>{}(packet.from));
   mix(packet.outgoing.message.index());
   mix(packet.wire_bytes);
-  if (packet.outgoing.reach == messages::Reach::kLongRange) note_radio(packet);
+  if (packet.outgoing.reach == messages::Reach::kLongRange) {
+    note_radio(packet.from, packet);
+    for (const AgentId& hearer : hearers) note_radio(hearer, packet);
+  }
   note_announced(packet);
 }
 
-void Monitor::note_radio(const Packet& packet) {
-  while (!last_second_.empty() && packet.at - last_second_.front().first >= std::chrono::seconds(1)) {
-    in_last_second_ -= last_second_.front().second;
-    last_second_.pop_front();
+void Monitor::note_radio(const AgentId& at, const Packet& packet) {
+  Medium& medium = media_[at];
+  auto& last_second = medium.last_second;
+  while (!last_second.empty() && packet.at - last_second.front().first >= std::chrono::seconds(1)) {
+    medium.bytes -= last_second.front().second;
+    last_second.pop_front();
   }
-  last_second_.emplace_back(packet.at, packet.wire_bytes);
-  in_last_second_ += static_cast<double>(packet.wire_bytes);
-  max_bytes_per_second_ = std::max(max_bytes_per_second_, in_last_second_);
-  if (in_last_second_ > kRadio)
-    note(Invariant::kBudget, {}, packet.at, std::to_string(std::lround(in_last_second_)) + " B in a second");
+  last_second.emplace_back(packet.at, packet.wire_bytes);
+  medium.bytes += static_cast<double>(packet.wire_bytes);
+  max_bytes_per_second_ = std::max(max_bytes_per_second_, medium.bytes);
+  const bool reunites = reunion_ && packet.at - *reunion_ < kReunion;
+  if (medium.bytes > (reunites ? kReunionRadio : kRadio))
+    note(Invariant::kBudget, at, packet.at, std::to_string(std::lround(medium.bytes)) + " B in a second");
 }
 
 void Monitor::note_announced(const Packet& packet) {

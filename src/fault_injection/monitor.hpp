@@ -2,8 +2,10 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "fleetmap/cloud/point_cloud.hpp"
 #include "fleetmap/fault_injection/exchange_fleet.hpp"
@@ -23,7 +25,10 @@ class Monitor {
       : start_(start), config_(&config), checked_(std::move(checked)) {}
 
   void note(Invariant invariant, const AgentId& robot, Stamp now, const std::string& what);
-  void on_sent(const Packet& packet);
+  /// `hearers`: the robots that hear this packet on the radio, whoever it is for, without its sender.
+  void on_sent(const Packet& packet, const std::vector<AgentId>& hearers);
+  /// Robots hear each other on the radio again that did not before.
+  void on_reunion(Stamp now) { reunion_ = now; }
   void on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now);
   /// The node is in the store of its maker, with its submap.
   void on_made(const graph::Node& node);
@@ -46,7 +51,12 @@ class Monitor {
   void fill(Outcome& outcome) const;
 
  private:
-  void note_radio(const Packet& packet);
+  /// The radio as one robot hears it.
+  struct Medium {
+    std::deque<std::pair<Stamp, double>> last_second;
+    double bytes = 0.0;  ///< in the last second
+  };
+  void note_radio(const AgentId& at, const Packet& packet);
   void note_announced(const Packet& packet);
   void check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now);
 
@@ -60,8 +70,8 @@ class Monitor {
   store::SeqSet forged_nodes_, forged_alignments_;    ///< by the names under which an attacker sent some
   std::map<AgentId, std::map<NodeId, std::set<std::uint32_t>>> requested_;  ///< chunks of submaps
   std::map<AgentId, Stamp> sent_;                                           ///< last packet, or start
-  std::deque<std::pair<Stamp, double>> last_second_;
-  double in_last_second_ = 0.0;
+  std::map<AgentId, Medium> media_;
+  std::optional<Stamp> reunion_;
   double max_bytes_per_second_ = 0.0;
   std::uint64_t packets_ = 0;
   std::uint64_t fingerprint_ = 0xcbf29ce484222325u;

@@ -88,5 +88,30 @@ TEST_F(MapInfo, WhatOneLacksChangesItsHash) {
   EXPECT_EQ(without_alignment.at("alignments"), 1);
 }
 
+/// Standard output of the program.
+std::string output_of(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
+  testing::Process process(arguments);
+  process.wait();
+  return process.output();
+}
+
+TEST_F(MapInfo, NamesTheRobotThatContradictsTheFleet) {
+  for (int seed = 1; seed < 40; ++seed) {
+    const std::string stores = (folder_ / std::to_string(seed)).string();
+    const std::string trace = output_of({"fuzz-fleet", "--replay", std::to_string(seed), "--robots", "4",
+                                         "--faults", "compromised", "--mapping", "80", "--stores", stores});
+    const std::string deceives = " deceives by scheme garbage";
+    const std::size_t at = trace.find(deceives);
+    if (at == std::string::npos) continue;
+    const std::string robot = trace.substr(at - 2, 2);
+    const std::string info = output_of({"map", "info", stores + (robot == "r1" ? "/r2.db" : "/r1.db")});
+    EXPECT_NE(info.find(robot + " contradicts the fleet: "), std::string::npos) << info;
+    EXPECT_NE(info.find("--without " + robot), std::string::npos) << info;
+    return;
+  }
+  FAIL() << "a quarter of the seeds should send garbage";
+}
+
 }  // namespace
 }  // namespace fleetmap

@@ -138,6 +138,23 @@ TEST(BudgetShares, the_part_of_a_robot_that_is_gone_goes_to_the_others_until_it_
   EXPECT_DOUBLE_EQ(fleet.rate("r2"), kBudget / 3.0);
 }
 
+TEST(BudgetShares, a_robot_that_returns_makes_room_for_all_that_may_return_with_it) {
+  std::vector<AgentId> names;
+  for (int k = 1; k <= 10; ++k) names.push_back(agent("r" + std::to_string(k)));
+  BudgetShares shares(names[0], names, kBudget, kPeriod, kStart);
+  Stamp now = kStart;
+  const auto run_for = [&](Duration time, const std::vector<std::size_t>& heard) {
+    for (const Stamp end = now + time; now < end; now += std::chrono::seconds(1))
+      for (const std::size_t peer : heard) shares.on_heard(names[peer], now);
+  };
+  run_for(std::chrono::seconds(70), {1});
+  EXPECT_DOUBLE_EQ(shares.rate(now), kBudget / 2.0);
+  shares.on_heard(names[7], now);
+  EXPECT_DOUBLE_EQ(shares.rate(now), kBudget / 10.0) << "the other eight may be as near as this one";
+  run_for(3 * kPeriod, {1, 7});
+  EXPECT_DOUBLE_EQ(shares.rate(now), kBudget / 3.0) << "none of them was heard";
+}
+
 TEST(BudgetShares, loans_of_strangers_to_others_and_beyond_the_budget_are_worth_nothing) {
   const std::vector<AgentId> names = {agent("r1"), agent("r2"), agent("r3")};
   BudgetShares shares(names[0], names, kBudget, kPeriod, kStart);

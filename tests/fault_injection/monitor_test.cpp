@@ -33,7 +33,13 @@ class MonitorTest : public ::testing::Test {
     return node;
   }
   void send(const char* from, const messages::Message& message) {
-    monitor_.on_sent({kNow, agent(from), {messages::Reach::kShortRange, {}, message}, 100});
+    monitor_.on_sent({kNow, agent(from), {messages::Reach::kShortRange, {}, message}, 100}, {});
+  }
+
+  /// A radio message of `bytes`, `after` a second's beginning, that robot r3 hears if `hearers` names it.
+  void send_radio(const char* from, Duration after, std::size_t bytes, const std::vector<AgentId>& hearers) {
+    const messages::Message hold = messages::Hold{};
+    monitor_.on_sent({kNow + after, agent(from), {messages::Reach::kLongRange, {}, hold}, bytes}, hearers);
   }
 
   fleetmap::testing::ScratchFolder folder_;
@@ -106,6 +112,28 @@ TEST_F(MonitorTest, AForgedNameMayLoseItsSubmapThoughItWasAnnounced) {
   monitor_.on_forged(node);
   monitor_.check_held(agent("r2"), store_, kNow);
   EXPECT_THAT(violations(), IsEmpty());
+}
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+TEST_F(MonitorTest, TheBudgetIsOfTheRobotsThatHearEachOther) {
+  send_radio("r1", milliseconds(0), 12'000, {agent("r2")});
+  send_radio("r3", milliseconds(1), 12'000, {agent("r4")});
+  EXPECT_THAT(violations(), IsEmpty()) << "two media";
+  send_radio("r2", milliseconds(2), 9'000, {agent("r1")});
+  ASSERT_EQ(violations().size(), 2u) << "both hear 21 kB";
+  EXPECT_EQ(violations()[0].invariant, Invariant::kBudget);
+}
+
+TEST_F(MonitorTest, PartsThatMeetHaveBothTheBudgetForAMoment) {
+  monitor_.on_reunion(kNow);
+  send_radio("r1", milliseconds(0), 18'000, {agent("r2")});
+  send_radio("r2", milliseconds(1), 18'000, {agent("r1")});
+  EXPECT_THAT(violations(), IsEmpty());
+  send_radio("r1", seconds(4), 18'000, {});
+  send_radio("r1", seconds(4), 18'000, {});
+  EXPECT_EQ(violations().size(), 1u);
 }
 
 }  // namespace

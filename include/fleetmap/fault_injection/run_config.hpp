@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <set>
 
 #include "fleetmap/core/time.hpp"
@@ -15,6 +16,8 @@ struct RunConfig {
   /// Robots sign their items, forged items bear wrong signatures, and a liar alters items of others that it
   /// hands over.
   bool signatures = false;
+  /// Existing folder that keeps the robots' stores; empty: they are deleted.
+  std::filesystem::path stores = {};
 };
 
 }  // namespace fleetmap::fault_injection
