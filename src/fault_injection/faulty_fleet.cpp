@@ -12,8 +12,6 @@ namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(100);
 constexpr double kWifi = 50.0;  // m
-/// Robots that do not hear each other for less divide the budget with each other.
-constexpr Duration kPeerTimeout = std::chrono::seconds(60);
 
 std::string backup_name(std::size_t fault) { return std::string(".").append(std::to_string(fault)); }
 
@@ -96,9 +94,6 @@ void FaultyFleet::harm(const Fault& fault, const AgentId& name, std::size_t numb
 
 void FaultyFleet::end(const Fault& fault) {
   links_.end(fault);
-  const bool cut_radio =
-      fault.radio && (fault.kind == FaultKind::kPartition || fault.kind == FaultKind::kOneWay);
-  if (cut_radio && fault.length >= kPeerTimeout) monitor_.on_reunion(now());
   attacks_.erase(static_cast<std::size_t>(&fault - scenario_.faults.data()));
   if (fault.robots.empty()) return;
   const AgentId& name = name_of(fault.robots[0]);

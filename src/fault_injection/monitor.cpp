@@ -9,12 +9,8 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-/// B in any second: 160 of the radio's 200 kbit/s.
+/// B in any second, as one robot hears them: 160 of the radio's 200 kbit/s.
 constexpr double kRadio = 20'000.0;
-/// Parts of a fleet that were apart for more than a minute each divide the whole budget. When they meet, the
-/// sum is that of both for as long as it takes until each robot has heard one of the others.
-constexpr double kReunionRadio = 2.0 * kRadio;
-constexpr Duration kReunion = std::chrono::seconds(3);
 /// The longest status period of the largest fleet, and a queue before it.
 constexpr Duration kMaxSilence = std::chrono::seconds(60);
 /// Names that cost a forger nothing.
@@ -74,8 +70,7 @@ void Monitor::note_radio(const AgentId& at, const Packet& packet) {
   last_second.emplace_back(packet.at, packet.wire_bytes);
   medium.bytes += static_cast<double>(packet.wire_bytes);
   max_bytes_per_second_ = std::max(max_bytes_per_second_, medium.bytes);
-  const bool reunites = reunion_ && packet.at - *reunion_ < kReunion;
-  if (medium.bytes > (reunites ? kReunionRadio : kRadio))
+  if (medium.bytes > kRadio)
     note(Invariant::kBudget, at, packet.at, std::to_string(std::lround(medium.bytes)) + " B in a second");
 }
 

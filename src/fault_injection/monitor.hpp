@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,8 +26,6 @@ class Monitor {
   void note(Invariant invariant, const AgentId& robot, Stamp now, const std::string& what);
   /// `hearers`: the robots that hear this packet on the radio, whoever it is for, without its sender.
   void on_sent(const Packet& packet, const std::vector<AgentId>& hearers);
-  /// Robots hear each other on the radio again that did not before.
-  void on_reunion(Stamp now) { reunion_ = now; }
   void on_started(const AgentId& robot, const store::Store& store, bool disk_intact, Stamp now);
   /// The node is in the store of its maker, with its submap.
   void on_made(const graph::Node& node);
@@ -71,7 +68,6 @@ class Monitor {
   std::map<AgentId, std::map<NodeId, std::set<std::uint32_t>>> requested_;  ///< chunks of submaps
   std::map<AgentId, Stamp> sent_;                                           ///< last packet, or start
   std::map<AgentId, Medium> media_;
-  std::optional<Stamp> reunion_;
   double max_bytes_per_second_ = 0.0;
   std::uint64_t packets_ = 0;
   std::uint64_t fingerprint_ = 0xcbf29ce484222325u;
