@@ -50,7 +50,9 @@ int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig confi
   for (const std::string& line : outcome.trace) std::cout << line << '\n';
   std::cout << selected.robots << " robots, " << outcome.nodes << " nodes, " << outcome.alignments
             << " alignments, " << outcome.packets << " packets, fingerprint " << std::hex
-            << outcome.fingerprint << std::dec << '\n';
+            << outcome.fingerprint << std::dec << '\n'
+            << "honest nodes are at most " << outcome.largest_error << " m off, and moved by " << outcome.torn
+            << " m against each other by a compromised robot\n";
   for (const Violation& violation : outcome.violations)
     std::cout << "violates " << to_string(violation) << '\n';
   return outcome.violations.empty() ? kDone : kFailed;

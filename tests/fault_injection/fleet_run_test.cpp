@@ -32,6 +32,19 @@ TEST(FleetRun, keeps_its_invariants_whatever_fails_where_items_are_signed) {
   }
 }
 
+/// A compromised robot that pulls others along leaves an honest one that contradicts them all.
+TEST(FleetRun, does_not_blame_the_honest_robot_that_was_not_pulled_along) {
+  ScenarioConfig config;
+  config.max_robots = 10;
+  config.kinds = parse_fault_kinds("compromised").value();
+  for (const std::uint64_t seed : {18u, 12u, 35u}) {
+    const Outcome outcome = run(make_scenario(seed, config), checking("named,truth"));
+    for (const Violation& violation : outcome.violations)
+      ADD_FAILURE() << "seed " << seed << ": " << to_string(violation);
+    EXPECT_GT(outcome.alignments, 40u) << "seed " << seed;
+  }
+}
+
 TEST(FleetRun, replays_a_seed_packet_by_packet) {
   const Scenario scenario = make_scenario(7, small_fleets("all"));
   const Outcome first = run(scenario, checking("all")), second = run(scenario, checking("all"));

@@ -1,6 +1,7 @@
 #include "rejection/agent_check.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -13,6 +14,10 @@ namespace {
 constexpr std::size_t kMaxHypotheses = 32;  ///< bounds the cost
 constexpr std::size_t kMinPeers = 2;
 
+constexpr double kMeanDistance = 3.0;  ///< squared Mahalanobis distance of a right hypothesis: its dimensions
+constexpr double kMinDifference = 13.8;  ///< of squared distances: a thousand times as likely
+
+using Peers = std::map<AgentId, std::set<AgentId>>;
 using Ends = std::pair<AgentId, AgentId>;
 
 struct BestHypotheses {
@@ -60,6 +65,52 @@ std::size_t agreeing_peers(const AgentId& agent, const BestHypotheses& best, con
   return peers.size();
 }
 
+Peers peers_of(const BestHypotheses& best) {
+  Peers peers;
+  for (const auto& [a, b] : best.ends) {
+    peers[a].insert(b);
+    peers[b].insert(a);
+  }
+  return peers;
+}
+
+/// Squared distance of the hypotheses for which `keep` is true, if they are consistent. Those that are left
+/// out count as much as right ones do in the mean.
+template <class Keep>
+std::optional<double> distance_of(const JointHypotheses& joint, const Keep& keep) {
+  const auto kept = joint.select(keep);
+  if (!joint.are_consistent(kept)) return {};
+  return joint.distance(kept) + kMeanDistance * static_cast<double>(joint.size() - kept.size());
+}
+
+/// The least of distance_of() with one hypothesis left out.
+double distance_without_one(const JointHypotheses& joint) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t one = 0; one < joint.size(); ++one)
+    least = std::min(least, distance_of(joint, [&](std::size_t k) { return k != one; }).value_or(least));
+  return least;
+}
+
+/// The agent without whose hypotheses the rest is consistent, and by far the likeliest explanation. There may
+/// be others: of a compromised robot, the only honest one that it did not displace along.
+std::optional<AgentId> likeliest_cause(const BestHypotheses& best, const JointHypotheses& joint,
+                                       const Peers& peers) {
+  std::optional<AgentId> found;
+  double least = std::numeric_limits<double>::infinity(), second = distance_without_one(joint);
+  for (const auto& entry : peers) {
+    if (entry.second.size() < kMinPeers) continue;
+    const auto distance = distance_of(joint, [&](std::size_t k) { return !best.concerns(k, entry.first); });
+    if (!distance) continue;
+    second = std::min(second, std::max(least, *distance));
+    if (*distance < least) {
+      least = *distance;
+      found = entry.first;
+    }
+  }
+  if (second - least < kMinDifference) return {};
+  return found;
+}
+
 }  // namespace
 
 std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, const PriorEvidence& evidence,
@@ -68,22 +119,9 @@ std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, cons
   if (best.all.size() <= kMinPeers) return {};
   const JointHypotheses joint(problem.candidates, best.all, prior, 1);
   if (joint.are_consistent(joint.select([](std::size_t) { return true; }))) return {};
-  for (std::size_t one = 0; one < joint.size(); ++one)
-    if (joint.are_consistent(joint.select([&](std::size_t k) { return k != one; }))) return {};
-  std::map<AgentId, std::set<AgentId>> peers;
-  for (const auto& [a, b] : best.ends) {
-    peers[a].insert(b);
-    peers[b].insert(a);
-  }
-  std::optional<AgentId> found;
-  for (const auto& entry : peers) {
-    const auto& [agent, others] = entry;
-    const auto without = joint.select([&](std::size_t k) { return !best.concerns(k, entry.first); });
-    if (others.size() < kMinPeers || !joint.are_consistent(without)) continue;
-    if (found) return {};
-    found = agent;
-  }
-  if (!found || 2 * agreeing_peers(*found, best, joint) > peers[*found].size()) return {};
+  const Peers peers = peers_of(best);
+  const auto found = likeliest_cause(best, joint, peers);
+  if (!found || 2 * agreeing_peers(*found, best, joint) > peers.at(*found).size()) return {};
   return found;
 }
 

@@ -7,9 +7,10 @@
 namespace fleetmap::graph {
 
 /// The one agent without whose hypotheses the best ones of all frame pairs agree with each other, GPS and
-/// odometry, if with them they do not. None if a single false hypothesis explains the contradiction, if
-/// several agents may be the cause, or if most of the agent's hypotheses agree with the others: an honest
-/// robot's false registrations differ in cause, those of a compromised one are all its own.
+/// odometry, if with them they do not: the agent whose absence makes the rest a thousand times as likely as
+/// that of any other agent or of any single hypothesis does. None if there is no such agent, or if most of
+/// its hypotheses agree with the others: an honest robot's false registrations differ in cause, those of a
+/// compromised one are all its own.
 std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, const PriorEvidence& evidence,
                                            const SolvedGraph& prior);
 
