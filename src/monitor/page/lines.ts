@@ -1,10 +1,8 @@
 import * as THREE from 'three';
-import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
-import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import type {Edge} from './edges';
 import type {Hit} from './map';
 import {colourOf, type FleetNode, type State} from './model';
+import {WideLines} from './wide_lines';
 
 export interface Marks {
   state: State;
@@ -23,7 +21,7 @@ const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearS
 
 /** Trajectories, edges and nodes, in front of all points. */
 export class Lines {
-  private lines: LineSegments2[] = [];
+  private lines: WideLines[] = [];
   private dots?: THREE.Points;
   private size = new THREE.Vector2(1, 1);
 
@@ -31,7 +29,6 @@ export class Lines {
 
   resize(width: number, height: number): void {
     this.size.set(width, height);
-    for (const line of this.lines) line.material.resolution.copy(this.size);
   }
 
   show(marks: Marks): void {
@@ -56,9 +53,8 @@ export class Lines {
 
   private clear(): void {
     for (const line of this.lines) {
-      this.scene.remove(line);
-      line.geometry.dispose();
-      line.material.dispose();
+      this.scene.remove(line.object);
+      line.dispose();
     }
     this.lines = [];
     if (this.dots) {
@@ -82,15 +78,10 @@ export class Lines {
 
   private segments(positions: number[], colour: string, width: number, opacity: number): void {
     if (positions.length === 0) return;
-    const geometry = new LineSegmentsGeometry().setPositions(positions);
-    const material = new LineMaterial({linewidth: width, transparent: true, opacity, depthTest: false, depthWrite: false});
-    material.color.copy(rgb(colour));
-    material.resolution.copy(this.size);
-    const line = new LineSegments2(geometry, material);
-    line.frustumCulled = false;
-    line.renderOrder = this.lines.length;
+    const line = new WideLines(positions, rgb(colour), width, opacity, this.size);
+    line.object.renderOrder = this.lines.length;
     this.lines.push(line);
-    this.scene.add(line);
+    this.scene.add(line.object);
   }
 
   private points(marks: Marks): void {
