@@ -101,6 +101,8 @@ async function visit(browser, pid, url) {
   const result = {};
   await drawn(page, 1, false);
   result.first_points_s = seconds();
+  await drawn(page, Number(budget) / 8, false);
+  result.eighth_of_submaps_s = seconds();  // spread over the whole site
   await drawn(page, 1, true);
   result.first_picture_s = seconds();
   await drawn(page, 0.8 * Number(budget), true);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 
 const {Pace} = await pageModule(process.argv[2], 'pace');
-const full = {shaded: true, ratio: 2, share: 1};
+const full = {shaded: true, detailed: true, ratio: 2, share: 1};
 let now = 0;
 /** The efforts of so many frames while the view moves, `step` ms apart. */
 const frames = (pace, count, step) => Array.from({length: count}, () => pace.effort((now += typeof step === 'function' ? step() : step), true));
@@ -18,8 +18,8 @@ assert.deepEqual(card.effort((now += 5000), false), full);
 const slow = new Pace(full);
 const efforts = frames(slow, 12, 100);
 assert.deepEqual(efforts[0], full, 'the first frame tells nothing of its time');
-assert.deepEqual(efforts[1], {shaded: false, ratio: 1, share: 1});
-assert.ok(!efforts[2].shaded && efforts[2].ratio < 1 && efforts[2].share === 1);
+assert.deepEqual(efforts[1], {shaded: false, detailed: true, ratio: 1, share: 1});
+assert.ok(!efforts[2].shaded && !efforts[2].detailed && efforts[2].ratio < 1 && efforts[2].share === 1);
 assert.ok(efforts.at(-1).share < 1 && efforts.at(-1).share >= 0.25, 'a picture of too few points shows nothing');
 assert.deepEqual(slow.effort((now += 200), false), full);
 

@@ -1,6 +1,6 @@
 // Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
 // that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px. Then the page of an agent
-// beside another one: fleet and radio, hold and resume with a token, a robot that falls silent.
+// beside another one: fleet and radio, hold and resume with a token, a robot that falls silent; and that of a run under way.
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
@@ -191,6 +191,17 @@ async function bothWaysDrawAlike(browser, url, state) {
   assert.ok(difference / both < 20, `colours differ by ${difference / both} of 765`);
 }
 
+/** As when the robot is out of reach for a while: the map is whole all the same. */
+async function lostAnswersAreAskedForAgain(browser, url) {
+  const page = await browser.newPage({viewport: {width: 700, height: 590}});
+  let lost = 0;
+  await page.route('**/submap*', (route) => (++lost, route.abort()), {times: 2});
+  await page.goto(url);
+  await mapIsDrawn(page);
+  assert.equal(lost, 2);
+  await page.close();
+}
+
 async function onAPhone(page, state) {
   await shot(page, 'phone');
   await page.locator('.layers summary').click();
@@ -295,6 +306,31 @@ async function holdAndResume(page) {
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
 }
 
+/** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */
+async function testVirtual(browser) {
+  const tokenFile = join(folder, 'token');
+  writeFileSync(tokenFile, kToken);
+  const run = spawn(fleetmap, ['run', '-c', 'config/fleets/farm_small.yaml', '--agents', '2', '--set', 'max_time=1800', '--out', join(folder, 'virtual'), '--monitor', '0',
+    '--monitor-token-file', tokenFile], {cwd: fileURLToPath(new URL('../..', import.meta.url)), stdio: ['ignore', 'pipe', 'pipe']});
+  try {
+    await watchLive(browser, await addressOf(run), 1366, 768, async (page) => {
+      await page.locator('#tab-fleet').click();
+      await textIs(page, '[data-robot=r1]', /r1 drives row \d+ \(\d+ % of it\), \d+ % of the rows are driven/);
+      await textIs(page, '[data-robot=r2]', /in contact.*Last heard \d+ s ago by (radio|Wi-Fi).*position known to/);
+      const held = () => page.locator('[data-robot=r1]').textContent().then((text) => Number(text.match(/holds (\d+) nodes/)?.[1] ?? 0));
+      const first = await held();
+      await page.waitForFunction((n) => Number(document.querySelector('[data-robot=r1]').textContent.match(/holds (\d+) nodes/)?.[1] ?? 0) > n, first, {timeout: 60_000});
+      await page.locator('#tab-radio').click();
+      await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
+      await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
+      await holdAndResume(page);
+      await shot(page, 'virtual');
+    });
+  } finally {
+    run.kill('SIGKILL');
+  }
+}
+
 async function testLive(browser) {
   const {lock, domain} = await testDomain();
   const tokenFile = join(folder, 'token');
@@ -342,7 +378,9 @@ try {
   });
   await visit(browser, url, 390, 844, state, (page) => onAPhone(page, state));
   await bothWaysDrawAlike(browser, url, state);
+  await lostAnswersAreAskedForAgain(browser, url);
   await testLive(browser);
+  await testVirtual(browser);
   await browser.close();
   console.log(`passed: ${state.nodes.length} nodes, ${state.registrations.length} registrations`);
 } finally {

@@ -22,6 +22,7 @@ const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearS
 /** Trajectories, edges and nodes, in front of all points. */
 export class Lines {
   private lines: WideLines[] = [];
+  private edges: WideLines[] = [];  // white ones below others
   private dots?: THREE.Points;
   private size = new THREE.Vector2(1, 1);
 
@@ -31,12 +32,18 @@ export class Lines {
     this.size.set(width, height);
   }
 
+  /** Without details there are no nodes, and lines have no edges. */
+  set detailed(on: boolean) {
+    for (const edge of this.edges) edge.object.visible = on;
+    if (this.dots) this.dots.visible = on;
+  }
+
   show(marks: Marks): void {
     this.clear();
     if (marks.paths) for (const robot of marks.state.robots) this.path(marks, robot.id);
     for (const kind of ['rejected', 'unused', 'used'] as const) {
       const positions = marks.edges.filter((edge) => edge.kind === kind).flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
-      this.segments(positions, '#ffffff', 4.5, 0.55);
+      this.edge(positions, 4.5, 0.55);
       this.segments(positions, kEdgeColours[kind], 2.5, 1);
     }
     const selected = marks.selected;
@@ -57,6 +64,7 @@ export class Lines {
       line.dispose();
     }
     this.lines = [];
+    this.edges = [];
     if (this.dots) {
       this.scene.remove(this.dots);
       this.dots.geometry.dispose();
@@ -72,8 +80,14 @@ export class Lines {
     for (let k = 1; k < own.length; ++k) {
       if (own[k].node.session === own[k - 1].node.session) positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
     }
-    this.segments(positions, '#ffffff', 5, 0.7);
+    this.edge(positions, 5, 0.7);
     this.segments(positions, colourOf(marks.state, robot), 3, 1);
+  }
+
+  /** Below lines that are added next. */
+  private edge(positions: number[], width: number, opacity: number): void {
+    this.segments(positions, '#ffffff', width, opacity);
+    if (positions.length > 0) this.edges.push(this.lines.at(-1)!);
   }
 
   private segments(positions: number[], colour: string, width: number, opacity: number): void {

@@ -69,7 +69,7 @@ export class FleetMap {
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.submaps = new Submaps(this.look, () => this.draw());
     this.points = onCpu ? new CpuPoints(this.submaps.pool, this.look) : new GlPoints(this.submaps.pool, this.renderer);
-    this.pace = new Pace({shaded: true, ratio: Math.min(2, window.devicePixelRatio), share: 1});
+    this.pace = new Pace({shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1});
     this.lines = new Lines(this.marks);
     for (const camera of [this.perspective, this.plan]) camera.up.set(0, 0, 1);
     this.plan.up.set(0, 1, 0);
@@ -339,6 +339,7 @@ export class FleetMap {
     this.renderer.setClearColor(0x000000, 0);
     this.renderer.clear();
     if (picture) this.shading.draw(this.renderer, picture, view, pixelAtOne, effort.shaded);
+    this.lines.detailed = effort.detailed;
     this.renderer.render(this.marks, camera);
   }
 }

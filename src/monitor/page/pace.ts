@@ -1,8 +1,9 @@
-/** A way to draw: with or without the shading of points, device pixels per pixel of the page, and the share of the points. */
+/** A way to draw. */
 export interface Effort {
-  shaded: boolean;
-  ratio: number;
-  share: number;
+  shaded: boolean;   // points
+  detailed: boolean; // nodes, and lines with an edge
+  ratio: number;     // device pixels per pixel of the page
+  share: number;     // of the points
 }
 
 const kSlow_ms = 33;  // 30 frames/s
@@ -16,11 +17,11 @@ export const kStill_ms = 180;  // without a change: the view stands still
 
 /**
  * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than 33 ms, first
- * the shading and the finer pixels are left out, then points; each submap then shows its coarser ones. Where drawing costs little,
+ * the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its coarser ones. Where drawing costs little,
  * as with a graphics card, nothing changes.
  */
 export class Pace {
-  private level = 0;  // 1: without shading; 2: with fewer pixels, too; 3: and with a share of the points
+  private level = 0;  // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
   private share = 1;
   private fast = 0;
   private last?: number;
@@ -37,7 +38,7 @@ export class Pace {
     this.last = now;
     if (this.level === 0) return this.full;
     const ratio = Math.min(1, this.full.ratio);
-    return {shaded: false, ratio: this.level > 1 ? kCoarse * ratio : ratio, share: this.share};
+    return {shaded: false, detailed: this.level < 2, ratio: this.level < 2 ? ratio : kCoarse * ratio, share: this.share};
   }
 
   /** To a frame that took so many ms. */

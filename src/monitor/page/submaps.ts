@@ -10,6 +10,7 @@ const kCoarseAtOnce = 3;  // requests
 const kFineAtOnce = 6;
 const kFineStep = 4096;   // points
 const kAllocate_ms = 100; // while the view moves
+const kAgain_ms = 2000;   // after a request that nobody answered
 
 /** All submaps: asks for those that are worth it, and divides the budget of points among them. */
 export class Submaps {
@@ -171,7 +172,7 @@ export class Submaps {
     for (const submap of submaps) submap.asked = true;
     ++this.running;
     try {
-      const answer = await fetch(address);
+      const answer = await this.fetchPatiently(address);
       if (!answer.ok) throw new Error(await answer.text());
       take(await answer.arrayBuffer());
     } catch (error) {
@@ -183,6 +184,17 @@ export class Submaps {
       this.fetchMore();
       this.refresh();
       this.changed();
+    }
+  }
+
+  /** A robot that is out of reach for a while is asked again. */
+  private async fetchPatiently(address: string): Promise<Response> {
+    for (;;) {
+      try {
+        return await fetch(address);
+      } catch {
+        await new Promise((later) => setTimeout(later, kAgain_ms));
+      }
     }
   }
 
