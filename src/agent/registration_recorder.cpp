@@ -38,6 +38,7 @@ void RegistrationRecorder::add_row(const loop_closure::Registration& registratio
     row.inlier_fraction = r.inlier_fraction;
     row.overlap = r.overlap;
     row.reason = r.reason;
+    row.T_target_source = r.T_target_source;
     spdlog::info("{}: {} with {}: E {:.3f} m, inliers {:.0f} %{}{}", self_.str(), row.verdict, source, r.rmse,
                  100.0 * r.inlier_fraction, r.reason.empty() ? "" : ", ", r.reason);
   } else {

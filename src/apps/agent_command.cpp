@@ -156,7 +156,12 @@ int run(const AgentOptions& options) {
   std::optional<DriveWatchdog> watchdog;
   if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
   std::optional<LivePublisher> live;
-  if (*page) live.emplace(**agent, **bus, (*page)->server(), config->dds.keys != nullptr);
+  if (*page) {
+    live.emplace(**agent, **bus, (*page)->server(), who_may_join(config->dds.keys != nullptr),
+                 [&bus](std::function<void()> work) {
+                   return (*bus)->post({"order of a viewer", std::move(work)});
+                 });
+  }
   run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
                  options.exit_after_idle, stop_on_signals());
   if (*recorder) {

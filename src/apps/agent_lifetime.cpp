@@ -99,7 +99,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
       bus.every(kTrafficPeriod, {"traffic log", [&] {
                                    const auto heard = bus.take_heard_traffic();
                                    log.add_traffic(heard, agent.asked_for_submaps(), bus.now());
-                                   if (page != nullptr) page->publish(heard, log);
+                                   if (page != nullptr) page->publish(heard, log.last_heard());
                                  }});
   const bus::Handle nodes =
       bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().nodes(), bus.now()); }});

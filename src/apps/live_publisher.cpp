@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "fleetmap/agent/navigator.hpp"
-#include "report.hpp"
 #include "robots_now.hpp"
 
 namespace fleetmap::apps {
@@ -36,11 +35,11 @@ void add_mission(const agent::Navigator& navigator, FleetNow& fleet) {
     fleet.reports.emplace(from, std::move(report));
   }
   fleet.reports.insert_or_assign(fleet.self, mission.report());
-  for (const planning::Row& row : mission.plan().mission.rows) fleet.rows.push_back(row.id);
+  fleet.rows = mission.plan().mission.rows;
   if (const auto reason = navigator.stop_reason()) fleet.stands = to_string(*reason);
 }
 
-FleetNow fleet_now(const agent::Agent& agent, const LinkLog& log, Stamp now) {
+FleetNow fleet_now(const agent::Agent& agent, const LivePublisher::LastHeard& last_heard, Stamp now) {
   const exchange::Exchange& exchange = agent.exchange();
   FleetNow fleet;
   fleet.self = agent.config().id;
@@ -49,9 +48,9 @@ FleetNow fleet_now(const agent::Agent& agent, const LinkLog& log, Stamp now) {
   fleet.statuses = exchange.statuses();
   fleet.driving = exchange.driving();
   fleet.orders = exchange.hold_orders();
-  fleet.heard = log.last_heard();
+  fleet.heard = last_heard;
   fleet.misbehaved = exchange.stats().misbehaved;
-  fleet.problems = problems_of(agent, now);
+  fleet.problems[fleet.self] = problems_of(agent, now);
   if (agent.navigator() != nullptr) add_mission(*agent.navigator(), fleet);
   return fleet;
 }
@@ -77,15 +76,17 @@ void add_missing_submaps(const store::Store& store, double rate, monitor::RadioN
 
 }  // namespace
 
-LivePublisher::LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server, bool keys)
-    : agent_(agent), bus_(bus), server_(server), keys_(keys) {
+LivePublisher::LivePublisher(agent::Agent& agent, bus::Bus& bus, monitor::Server& server,
+                             std::string who_may_join, const Post& post)
+    : agent_(agent), bus_(bus), server_(server), who_may_join_(std::move(who_may_join)) {
+  const AgentId self = agent.config().id;
   const std::vector<AgentId> fleet = agent.config().exchange.fleet;
-  server_.set_operator([&agent, &bus, fleet](const monitor::HoldRequest& request) -> Status {
+  server_.set_operator([&agent, post, self, fleet](const monitor::HoldRequest& request) -> Status {
     if (request.robot && std::ranges::find(fleet, *request.robot) == fleet.end())
       return failure(request.robot->str() + " is no robot of this fleet");
     // Stamp zero: the order replaces all others.
-    const messages::HoldOrder order{{}, request.robot.value_or(AgentId{}), agent.config().id, request.hold};
-    if (!bus.post({"order of a viewer", [&agent, order] { agent.give_order(order); }}))
+    const messages::HoldOrder order{{}, request.robot.value_or(AgentId{}), self, request.hold};
+    if (!post([&agent, order] { agent.give_order(order); }))
       return failure("the robot is too busy; try again");
     return {};
   });
@@ -93,11 +94,15 @@ LivePublisher::LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Ser
 
 LivePublisher::~LivePublisher() { server_.set_operator({}); }
 
-void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const LinkLog& log) {
+void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const LastHeard& last_heard,
+                            const std::vector<const agent::Agent*>& others) {
   monitor::LiveStatus status;
   status.self = agent_.config().id;
   status.lost_after_s = lost_after(agent_);
-  status.robots = robots_now(fleet_now(agent_, log, bus_.now()));
+  FleetNow fleet = fleet_now(agent_, last_heard, bus_.now());
+  for (const agent::Agent* other : others)
+    fleet.problems[other->config().id] = problems_of(*other, bus_.now());
+  status.robots = robots_now(fleet);
   status.sensors = sensors();
   status.radio = radio(heard);
   published_ = bus_.now();
@@ -111,7 +116,7 @@ monitor::RadioNow LivePublisher::radio(const std::vector<bus::HeardTraffic>& hea
                                stats.long_range.wire_bytes + bus_.discovery_bytes(bus::Link::kLongRange),
                                agent_.config().exchange.long_range.overhead_bytes};
   monitor::RadioNow radio = rates_.add(counters, heard, bus_.now());
-  radio.who_may_join = who_may_join(keys_);
+  radio.who_may_join = who_may_join_;
   radio.share = queue.share_bytes_per_second();
   radio.fleet_budget = agent_.config().exchange.long_range.fleet_bytes_per_second;
   radio.backlog_bytes = queue.backlog_bytes();

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fleetmap/agent/agent.hpp"
@@ -16,23 +19,29 @@ namespace fleetmap::apps {
 /// callback thread.
 class LivePublisher {
  public:
-  /// All outlive this. `keys`: the robot has those of its fleet.
-  LivePublisher(agent::Agent& agent, bus::DdsBus& bus, monitor::Server& server, bool keys);
+  /// Runs its argument on the thread of the bus; false where it cannot.
+  using Post = std::function<bool(std::function<void()>)>;
+  /// All outlive this; `post` is called by the server's thread. `who_may_join`: as report.json states it.
+  LivePublisher(agent::Agent& agent, bus::Bus& bus, monitor::Server& server, std::string who_may_join,
+                const Post& post);
   ~LivePublisher();
   LivePublisher(const LivePublisher&) = delete;
   LivePublisher& operator=(const LivePublisher&) = delete;
 
-  /// To be called once a second, with the traffic since the last call.
-  void publish(const std::vector<bus::HeardTraffic>& heard, const LinkLog& log);
+  using LastHeard = std::map<LinkLog::Source, LinkLog::Heard>;
+  /// To be called once a second, with the traffic since the last call. `others`: the agents of other robots
+  /// that run in this process, whose problems are therefore known, too.
+  void publish(const std::vector<bus::HeardTraffic>& heard, const LastHeard& last_heard,
+               const std::vector<const agent::Agent*>& others = {});
 
  private:
   monitor::RadioNow radio(const std::vector<bus::HeardTraffic>& heard);
   std::vector<monitor::SensorNow> sensors();
 
   agent::Agent& agent_;
-  bus::DdsBus& bus_;
+  bus::Bus& bus_;
   monitor::Server& server_;
-  bool keys_;
+  std::string who_may_join_;
   RadioRates rates_;
   std::array<std::uint64_t, sensor::kSources> samples_{};  ///< at the last call
   std::optional<Stamp> published_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "row_progress.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -11,10 +13,19 @@ using messages::Hold;
 using messages::MissionReport;
 using messages::MissionState;
 
-std::string words_of(const MissionReport& report, const std::vector<planning::RowId>& rows) {
+std::string words_of_row(const planning::Row& row, const MissionReport& report,
+                         std::optional<double> heading) {
+  if (!heading) return fmt::format("drives row {}", row.id);
+  const auto driven = row_progress(row, report.position, *heading);
+  return driven ? fmt::format("drives row {} ({:.0f} % of it)", row.id, 100.0 * *driven)
+                : fmt::format("is on its way to row {}", row.id);
+}
+
+std::string words_of(const MissionReport& report, const std::vector<planning::Row>& rows,
+                     std::optional<double> heading) {
   switch (report.state) {
     case MissionState::kDriving:
-      return report.current < rows.size() ? fmt::format("drives row {}", rows[report.current])
+      return report.current < rows.size() ? words_of_row(rows[report.current], report, heading)
                                           : "is between two rows";
     case MissionState::kMeeting:
       return "waits where all meet";
@@ -34,8 +45,11 @@ std::string activity_now(const FleetNow& fleet, const AgentId& id, bool stands) 
   const auto report = fleet.reports.find(id);
   if (id == fleet.self && !fleet.stands.empty()) return "stands still: " + fleet.stands;
   if (stands) return "stands still: an operator holds it";
-  if (report != fleet.reports.end()) return activity_of(report->second, fleet.rows);
   const auto status = fleet.statuses.find(id);
+  if (report != fleet.reports.end())
+    return activity_of(
+        report->second, fleet.rows,
+        status == fleet.statuses.end() ? std::nullopt : std::optional<double>(status->second.heading));
   if (status == fleet.statuses.end()) return "was not heard yet";
   return status->second.busy ? "maps" : "has nothing left to map or to exchange";
 }
@@ -74,16 +88,17 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
     robot.problems.push_back("has not confirmed the order to stand still");
   if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
     robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));
-  if (id == fleet.self)
-    robot.problems.insert(robot.problems.end(), fleet.problems.begin(), fleet.problems.end());
+  if (const auto known = fleet.problems.find(id); known != fleet.problems.end())
+    robot.problems.insert(robot.problems.end(), known->second.begin(), known->second.end());
   robot.heard = heard_of(fleet, id);
   return robot;
 }
 
 }  // namespace
 
-std::string activity_of(const MissionReport& report, const std::vector<planning::RowId>& rows) {
-  const std::string words = words_of(report, rows);
+std::string activity_of(const MissionReport& report, const std::vector<planning::Row>& rows,
+                        std::optional<double> heading) {
+  const std::string words = words_of(report, rows, heading);
   if (rows.empty()) return words;
   const messages::RowSet done(rows.size(), report.done.bytes());  // it may be of a longer mission
   const double share = static_cast<double>(done.count()) / static_cast<double>(rows.size());

@@ -23,14 +23,15 @@ struct FleetNow {
   std::map<AgentId, messages::MissionReport> reports;  ///< likewise
   std::vector<messages::HoldOrder> orders;             ///< in force or replaced by those for one robot
   std::map<LinkLog::Source, LinkLog::Heard> heard;
-  std::map<AgentId, std::uint64_t> misbehaved;  ///< messages that contradict the rules
-  std::vector<planning::RowId> rows;            ///< their names, by the mission's order
-  std::string stands;                           ///< why this robot stands still; empty: it does not
-  std::vector<std::string> problems;            ///< of this robot
+  std::map<AgentId, std::uint64_t> misbehaved;           ///< messages that contradict the rules
+  std::vector<planning::Row> rows;                       ///< of the mission, in its order
+  std::string stands;                                    ///< why this robot stands still; empty: it does not
+  std::map<AgentId, std::vector<std::string>> problems;  ///< of the robots whose insides are known
 };
 
-/// Activity of a robot by its last report, in words. `rows`: names of the mission's rows.
-std::string activity_of(const messages::MissionReport& report, const std::vector<planning::RowId>& rows);
+/// Activity of a robot by its last report, in words. `heading`: its last one, rad from east, if it is known.
+std::string activity_of(const messages::MissionReport& report, const std::vector<planning::Row>& rows,
+                        std::optional<double> heading);
 
 /// Every robot of the fleet, by name.
 std::vector<monitor::RobotNow> robots_now(const FleetNow& fleet);

@@ -138,6 +138,7 @@ int run(const RunOptions& options) {
   }
   const auto page = page_of_run(*page_config, options.out);
   if (!page) return report(page.error(), kFailed);
+  if (*page) (*fleet)->show_on((*page)->server());
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
   if (!outcome) return report(outcome.error(), kFailed);

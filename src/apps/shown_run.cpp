@@ -36,8 +36,8 @@ void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView&
   const output::Registrations read = output::read_registrations(file);
   if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
   for (const output::RegistrationRow& row : read.rows) {
-    view.attempts.push_back(
-        {by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction, row.overlap, row.reason});
+    view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
+                             row.overlap, row.reason, row.T_target_source});
   }
 }
 

@@ -204,6 +204,14 @@ std::optional<bus::EnuPosition> VirtualFleet::position_of(std::size_t member) co
   return bus::EnuPosition{p.x(), p.y(), p.z()};
 }
 
+void VirtualFleet::update_page() {
+  if (!page_) return;
+  std::vector<VirtualPage::Shown> shown;
+  for (const Member& member : members_)
+    if (member.agent) shown.push_back({member.agent.get(), member.bus});
+  page_->update(shown);
+}
+
 bool VirtualFleet::playing() const {
   for (std::size_t k = 0; k < members_.size(); ++k) {
     if (!feed_->ended(k)) return true;
@@ -254,6 +262,7 @@ Result<FleetOutcome> VirtualFleet::run() {
   while (error_.empty()) {
     network_->run_until(network_->now() + kStep);
     update_states();
+    update_page();
     end_mission(network_->now() - start);
     note_completion(network_->now() - start);
     if (playing()) last_sample = network_->now();
@@ -263,6 +272,7 @@ Result<FleetOutcome> VirtualFleet::run() {
     next_report += kReportEvery;
     report_progress(network_->now() - start);
   }
+  if (page_) page_->forget_agents();
   if (!error_.empty()) return failure(error_);
   outcome.virtual_time = network_->now() - start;
   outcome.settle_time = network_->now() - last_sample;

@@ -14,6 +14,7 @@
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
+#include "virtual_page.hpp"
 
 namespace fleetmap::apps {
 
@@ -66,6 +67,8 @@ class VirtualFleet {
                                                       const std::filesystem::path& out,
                                                       const std::optional<std::filesystem::path>& record);
 
+  /// Publishes the fleet's live status there while it runs; `server` outlives this.
+  void show_on(monitor::Server& server) { page_ = std::make_unique<VirtualPage>(*network_, server); }
   /// Plays everything, lets the exchange settle and writes every agent's results.
   Result<FleetOutcome> run();
 
@@ -95,6 +98,7 @@ class VirtualFleet {
   void switch_on(std::size_t member);
   Status begin();
   void deliver(std::size_t member, const recording::Sample& sample, Stamp stamp);
+  void update_page();
   /// Passes the robots' positions and batteries to the network and the agents once a second.
   void update_states();
   /// By the feed, else by its own G.
@@ -116,6 +120,7 @@ class VirtualFleet {
   std::unique_ptr<FleetFeed> feed_;
   std::optional<GeoPoint> origin_;
   std::unique_ptr<bus::LocalNetwork> network_;
+  std::unique_ptr<VirtualPage> page_;  ///< null without one
   std::vector<Member> members_;
   std::optional<Completion> completion_;
   std::vector<output::MapFiles> maps_;  ///< written so far

@@ -31,6 +31,7 @@ void VirtualFleet::switch_off(std::size_t member, bool for_ever) {
   self.base.clear();
   // Work under way uses the agent and its store.
   network_->finish_work(self.id);
+  if (page_) page_->forget_agents();
   if (self.agent) self.work_before += self.agent->work_seconds();
   self.agent.reset();
   self.bus = nullptr;

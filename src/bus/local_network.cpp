@@ -56,7 +56,7 @@ struct LocalNetwork::State {
   void transmit(const AgentId& from, const Topic& topic, const std::shared_ptr<const Bytes>& cdr) {
     for (const auto& [to, robot] : robots) {
       if (to == from || !robot->subscribes(topic) || !reachable(topic.link, from, to)) continue;
-      radio(topic.link).send(Transmission{from, to, topic, cdr});
+      radio(topic.link).send(Transmission{from, to, topic, cdr, events.now()});
     }
   }
 
@@ -122,6 +122,13 @@ void LocalNetwork::at(Stamp stamp, std::function<void()> event) {
 }
 bool LocalNetwork::step() { return state_->events.step(); }
 void LocalNetwork::run_until(Stamp stamp) { state_->events.run_until(stamp); }
+
+std::vector<HeardCopies> LocalNetwork::take_heard(const AgentId& agent) {
+  std::vector<HeardCopies> heard = state_->long_range.take_heard(agent);
+  const std::vector<HeardCopies> near = state_->short_range.take_heard(agent);
+  heard.insert(heard.end(), near.begin(), near.end());
+  return heard;
+}
 
 std::vector<LinkUse> LocalNetwork::link_use() const {
   auto all = state_->long_range.use();

@@ -73,11 +73,25 @@ void Radio::start_next() {
 }
 
 void Radio::finish(const Transmission& transmission, bool arrived) {
+  HeardCopies& heard = heard_[transmission.to][transmission.from];
+  heard.link = link_;
+  heard.from = transmission.from;
   if (!arrived || !reachable_(transmission.from, transmission.to)) {
     ++use_of(transmission).lost;
+    ++heard.lost;
     return;
   }
+  ++heard.messages;
+  heard.bytes += wire_bytes(transmission.cdr->size(), config_.overhead);
+  heard.delay += events_.now() + config_.delay - transmission.published;
   events_.at(events_.now() + config_.delay, [this, transmission] { deliver_(transmission); });
+}
+
+std::vector<HeardCopies> Radio::take_heard(const AgentId& to) {
+  std::vector<HeardCopies> all;
+  for (const auto& [from, heard] : heard_[to]) all.push_back(heard);
+  heard_.erase(to);
+  return all;
 }
 
 std::vector<LinkUse> Radio::use() const {

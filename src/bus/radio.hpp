@@ -20,6 +20,7 @@ struct Transmission {
   AgentId to;
   Topic topic;
   std::shared_ptr<const Bytes> cdr;
+  Stamp published{};
 };
 
 /// The simulated medium: a queue per robot, one datagram in the air at a time, robots in turn.
@@ -41,6 +42,8 @@ class Radio {
   void send(Transmission transmission);
   void forget(const AgentId& agent) { waiting_.erase(agent); }
   std::vector<LinkUse> use() const;
+  /// Copies that `to` had of each robot since the last call.
+  std::vector<HeardCopies> take_heard(const AgentId& to);
 
  private:
   struct Attempt {
@@ -63,6 +66,7 @@ class Radio {
   AgentId last_turn_;
   bool busy_ = false;
   std::map<std::pair<AgentId, std::string>, LinkUse> use_;
+  std::map<AgentId, std::map<AgentId, HeardCopies>> heard_;  ///< by receiver and sender
 };
 
 }  // namespace fleetmap::bus

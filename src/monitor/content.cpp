@@ -47,6 +47,7 @@ void Content::show(const LiveStatus& status, bool operated) {
 
 Reply Content::reply(std::string_view target) {
   if (target.starts_with("/submap/")) return submap(target);
+  if (target.starts_with("/submaps?")) return submaps(target);
   if (target == "/state.json") return {.type = "application/json", .body = *state_};
   if (target == "/live.json") return {.type = "application/json", .body = live_->empty() ? "{}" : *live_};
   return page_file(target.substr(0, target.find('?')));
@@ -83,6 +84,34 @@ Reply Content::submap(std::string_view target) {
   cache_.keep(request->hash, *loaded);
   const Bytes points = encoded_points(**loaded, request->from, std::min(request->count, kMaxPointsAtOnce));
   return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
+}
+
+std::shared_ptr<const QuantisedCloud> Content::coarse(const NodeId& node, const std::string& hash,
+                                                      std::size_t& decodable) {
+  if (auto kept = coarse_.find(hash)) return kept;
+  if (decodable == 0 && !cache_.find(hash)) return nullptr;
+  decodable -= decodable > 0;
+  const auto whole = cloud(node, hash);
+  if (!whole) return std::make_shared<const QuantisedCloud>();
+  auto prefix = std::make_shared<const QuantisedCloud>(prefix_of(**whole, kCoarsePoints));
+  coarse_.keep(hash, prefix);
+  return prefix;
+}
+
+Reply Content::submaps(std::string_view target) {
+  const auto request = parse_submaps_request(target);
+  if (!request) return plain(400, "expected /submaps?count=N&of=HASH,HASH");
+  Reply reply{.type = "application/octet-stream", .body = {}};
+  std::size_t decodable = kDecodedAtOnce;
+  for (const std::string& hash : request->hashes) {
+    const auto node = submaps_.find(hash);
+    if (node == submaps_.end()) continue;
+    const auto points = coarse(node->second, hash, decodable);
+    if (!points) continue;
+    const Bytes part = encoded_points(*points, 0, request->count);
+    reply.body.append(hash).append(part.begin(), part.end());
+  }
+  return reply;
 }
 
 }  // namespace fleetmap::monitor

@@ -46,8 +46,13 @@ class PointCache {
 /// by one thread.
 class Content {
  public:
+  /// Points of a submap that come with those of others at most.
+  static constexpr std::size_t kCoarsePoints = 1024;
+  /// Submaps that one answer decodes, so that other requests wait for some 0.1 s at most.
+  static constexpr std::size_t kDecodedAtOnce = 16;
+
   Content(std::span<const PageFile> page, store::SubmapLoader load, std::size_t cached_bytes)
-      : page_(page), load_(std::move(load)), cache_(cached_bytes) {}
+      : page_(page), load_(std::move(load)), cache_(cached_bytes), coarse_(cached_bytes) {}
 
   void show(const FleetView& view);
   void show(const LiveStatus& status, bool operated);
@@ -63,10 +68,16 @@ class Content {
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const NodeId& node, const std::string& hash);
   Reply page_file(std::string_view path) const;
   Reply submap(std::string_view target);
+  Reply submaps(std::string_view target);
+  /// The first kCoarsePoints of a shown submap, empty where it cannot be read; null for later where they must
+  /// be decoded first and `decodable` is 0.
+  std::shared_ptr<const QuantisedCloud> coarse(const NodeId& node, const std::string& hash,
+                                               std::size_t& decodable);
 
   std::span<const PageFile> page_;
   store::SubmapLoader load_;
   PointCache cache_;
+  PointCache coarse_;  ///< first points of the same and of others, so that the whole map is at hand
   std::shared_ptr<const std::string> state_ = std::make_shared<const std::string>("{}");
   std::shared_ptr<const std::string> live_ = std::make_shared<const std::string>();
   std::map<std::string, NodeId> submaps_;  ///< by content hash

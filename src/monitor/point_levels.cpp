@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <unordered_set>
+#include <random>
+#include <utility>
 
 namespace fleetmap::monitor {
 namespace {
@@ -33,12 +34,50 @@ Box box_of(const cloud::PointCloud& cloud) {
   return box;
 }
 
-/// 21 bits an axis.
-std::uint64_t voxel_of(const Eigen::Vector3f& from_low, float edge) {
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    key = key << 21 | (static_cast<std::uint64_t>(from_low[axis] / edge) & 0x1fffffu);
-  return key;
+constexpr float kMostSteps = 0x1fffff;  // 21 bits an axis
+
+/// Every third bit, from the lowest on, is one of `axis` (Morton 1966).
+std::uint64_t spread(std::uint32_t axis) {
+  std::uint64_t bits = axis & 0x1fffffu;
+  bits = (bits | bits << 32) & 0x1f00000000ffffu;
+  bits = (bits | bits << 16) & 0x1f0000ff0000ffu;
+  bits = (bits | bits << 8) & 0x100f00f00f00f00fu;
+  bits = (bits | bits << 4) & 0x10c30c30c30c30c3u;
+  return (bits | bits << 2) & 0x1249249249249249u;
+}
+
+/// A point and its place along the Z-order curve of the finest grid.
+struct Placed {
+  std::uint64_t code;
+  std::uint32_t index;
+};
+
+/// The finite points along the curve.
+std::vector<Placed> along_curve(const cloud::PointCloud& cloud, const Box& box) {
+  const float coarsest = std::max(box.half_extent() / 4.0f, 1e-3f);
+  const float per_metre = static_cast<float>(1u << (kLevels - 1)) / coarsest;
+  std::vector<Placed> placed;
+  placed.reserve(cloud.size());
+  for (std::uint32_t k = 0; k < cloud.size(); ++k) {
+    const Eigen::Vector3f& p = cloud.points[k];
+    if (!p.allFinite()) continue;
+    std::uint64_t code = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float steps = std::fmin(std::fmax((p[axis] - box.low[axis]) * per_metre, 0.0f), kMostSteps);
+      code |= spread(static_cast<std::uint32_t>(steps)) << axis;
+    }
+    placed.push_back({code, k});
+  }
+  std::ranges::sort(placed, {}, [](const Placed& one) { return std::pair(one.code, one.index); });
+  return placed;
+}
+
+/// The coarsest level at which a point is the first of its voxel along the curve, given the code before it;
+/// kLevels if it is at none.
+int level_of(std::uint64_t code, std::uint64_t before) {
+  if (code == before) return kLevels;
+  const int highest = 63 - std::countl_zero(code ^ before);  // bit that differs
+  return std::max(0, kLevels - 1 - highest / 3);
 }
 
 /// As kPointHeaderBytes describes it; without gaps.
@@ -54,26 +93,19 @@ static_assert(sizeof(PointHeader) == kPointHeaderBytes);
 
 std::vector<std::uint32_t> coarse_to_fine(const cloud::PointCloud& cloud) {
   const Box box = box_of(cloud);
-  std::vector<std::uint32_t> left, order;
-  for (std::uint32_t k = 0; k < cloud.size(); ++k) {
-    if (cloud.points[k].allFinite()) left.push_back(k);
+  if (box.empty()) return {};
+  const std::vector<Placed> placed = along_curve(cloud, box);
+  std::array<std::vector<std::uint32_t>, kLevels + 1> levels;
+  for (std::size_t k = 0; k < placed.size(); ++k)
+    levels[k == 0 ? 0 : level_of(placed[k].code, placed[k - 1].code)].push_back(placed[k].index);
+  std::vector<std::uint32_t> order;
+  order.reserve(placed.size());
+  // Mixed within a level, so that the part of one that a prefix holds is spread over the whole, too.
+  std::minstd_rand random(1);
+  for (std::vector<std::uint32_t>& level : levels) {
+    for (std::size_t k = level.size(); k > 1; --k) std::swap(level[k - 1], level[random() % k]);
+    order.insert(order.end(), level.begin(), level.end());
   }
-  if (box.empty()) return order;
-  order.reserve(left.size());
-  float edge = std::max(box.half_extent() / 4.0f, 1e-3f);
-  std::unordered_set<std::uint64_t> taken;
-  for (int level = 0; level < kLevels && !left.empty(); ++level, edge /= 2.0f) {
-    // A voxel of this level that holds a point of a coarser one is represented already.
-    taken.clear();
-    for (const std::uint32_t k : order) taken.insert(voxel_of(cloud.points[k] - box.low, edge));
-    std::vector<std::uint32_t> rest;
-    for (const std::uint32_t k : left) {
-      const bool first = taken.insert(voxel_of(cloud.points[k] - box.low, edge)).second;
-      (first ? order : rest).push_back(k);
-    }
-    left = std::move(rest);
-  }
-  order.insert(order.end(), left.begin(), left.end());
   return order;
 }
 
@@ -88,6 +120,7 @@ QuantisedCloud quantised(const cloud::PointCloud& cloud) {
     if (std::isfinite(intensity)) strongest = std::max(strongest, intensity);
   }
   const std::vector<std::uint32_t> order = coarse_to_fine(cloud);
+  result.whole = order.size();
   result.values.reserve(4 * order.size());
   for (const std::uint32_t k : order) {
     const Eigen::Vector3f steps = (cloud.points[k] - result.centre) / result.scale;
@@ -101,13 +134,18 @@ QuantisedCloud quantised(const cloud::PointCloud& cloud) {
   return result;
 }
 
+QuantisedCloud prefix_of(const QuantisedCloud& cloud, std::size_t points) {
+  const auto end = cloud.values.begin() + static_cast<std::ptrdiff_t>(4 * std::min(points, cloud.size()));
+  return {cloud.centre, cloud.scale, {cloud.values.begin(), end}, cloud.whole};
+}
+
 Bytes encoded_points(const QuantisedCloud& cloud, std::size_t from, std::size_t count) {
   from = std::min(from, cloud.size());
   count = std::min(count, cloud.size() - from);
   PointHeader header;
   header.centre = {cloud.centre.x(), cloud.centre.y(), cloud.centre.z()};
   header.scale = cloud.scale;
-  header.whole = static_cast<std::uint32_t>(cloud.size());
+  header.whole = static_cast<std::uint32_t>(cloud.whole);
   header.from = static_cast<std::uint32_t>(from);
   header.count = static_cast<std::uint32_t>(count);
   Bytes bytes(kPointHeaderBytes + 8 * count);

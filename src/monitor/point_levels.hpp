@@ -23,13 +23,16 @@ struct QuantisedCloud {
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< m
   float scale = 1.0f;                                ///< m per step
   std::vector<std::int16_t> values;                  ///< 4 a point, coarse to fine
+  std::size_t whole = 0;                             ///< points of the submap; these are its first ones
 
   std::size_t size() const { return values.size() / 4; }
 };
 QuantisedCloud quantised(const cloud::PointCloud& cloud);
+/// The first points of a cloud, as many as there are.
+QuantisedCloud prefix_of(const QuantisedCloud& cloud, std::size_t points);
 
 /// Bytes of points [from, from + count) for the page, little-endian: "FMP1", centre (3 float), scale (float),
-/// points of the whole cloud (uint32), `from` (uint32), points here (uint32), reserved (uint32), then the
+/// points of the whole submap (uint32), `from` (uint32), points here (uint32), reserved (uint32), then the
 /// points.
 Bytes encoded_points(const QuantisedCloud& cloud, std::size_t from, std::size_t count);
 inline constexpr std::size_t kPointHeaderBytes = 36;

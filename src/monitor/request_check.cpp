@@ -44,6 +44,13 @@ std::optional<std::size_t> number_after(std::string_view text, std::string_view 
   return value;
 }
 
+constexpr std::size_t kHashDigits = 32;
+
+bool is_hash(std::string_view text) {
+  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
+  return text.size() == kHashDigits && std::ranges::all_of(text, is_hex);
+}
+
 }  // namespace
 
 bool is_own_host(std::string_view host) {
@@ -114,19 +121,37 @@ std::optional<std::string_view> refusal(const RequestHead& head, std::string_vie
 
 std::optional<SubmapRequest> parse_submap_request(std::string_view target) {
   constexpr std::string_view kStart = "/submap/";
-  constexpr std::size_t kHashDigits = 32;
   if (!target.starts_with(kStart)) return std::nullopt;
   target.remove_prefix(kStart.size());
   const std::size_t question = target.find('?');
   if (question != kHashDigits) return std::nullopt;
   const std::string_view hash = target.substr(0, question), query = target.substr(question + 1);
-  const auto is_hex = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
   const std::size_t between = query.find('&');
-  if (!std::ranges::all_of(hash, is_hex) || between == std::string_view::npos) return std::nullopt;
+  if (!is_hash(hash) || between == std::string_view::npos) return std::nullopt;
   const auto from = number_after(query.substr(0, between), "from=");
   const auto count = number_after(query.substr(between + 1), "count=");
   if (!from || !count) return std::nullopt;
   return SubmapRequest{std::string(hash), *from, *count};
+}
+
+std::optional<SubmapsRequest> parse_submaps_request(std::string_view target) {
+  constexpr std::string_view kStart = "/submaps?";
+  if (!target.starts_with(kStart)) return std::nullopt;
+  target.remove_prefix(kStart.size());
+  const std::size_t between = target.find("&of=");
+  if (between == std::string_view::npos) return std::nullopt;
+  const auto count = number_after(target.substr(0, between), "count=");
+  if (!count) return std::nullopt;
+  SubmapsRequest request{{}, *count};
+  for (std::string_view left = target.substr(between + 4);;) {
+    const std::string_view hash = left.substr(0, kHashDigits);
+    if (!is_hash(hash) || request.hashes.size() == kMaxSubmapsAtOnce) return std::nullopt;
+    request.hashes.emplace_back(hash);
+    left.remove_prefix(kHashDigits);
+    if (left.empty()) return request;
+    if (left.front() != ',') return std::nullopt;
+    left.remove_prefix(1);
+  }
 }
 
 std::optional<HoldRequest> parse_hold_request(std::string_view target) {

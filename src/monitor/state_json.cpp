@@ -118,6 +118,7 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"overlap", optional_json(attempt.overlap)},
                         {"reason", attempt.reason},
                         {"sentence", sentence(attempt, status)}});
+    if (attempt.T_target_source) attempts.back()["pose"] = pose_json(*attempt.T_target_source);
   }
   return attempts;
 }

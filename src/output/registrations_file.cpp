@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
@@ -34,6 +35,40 @@ std::optional<double> finite(std::string_view text) {
   return value;
 }
 
+constexpr std::string_view kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
+
+/// "x y z qx qy qz qw"
+std::string text_of(const Pose& T) {
+  const Eigen::Vector3d& t = T.translation();
+  const Eigen::Quaterniond q(T.rotation());
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "%.4f %.4f %.4f %.7f %.7f %.7f %.7f", t.x(), t.y(), t.z(), q.x(),
+                q.y(), q.z(), q.w());
+  return text.data();
+}
+
+/// Empty unless it is seven finite numbers of which the last four are a rotation.
+std::optional<Pose> pose_of(std::string_view text) {
+  std::array<double, 7> numbers{};
+  for (double& number : numbers) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    const auto value = finite(word);
+    if (!value) return std::nullopt;
+    number = *value;
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  const Eigen::Quaterniond q(numbers[6], numbers[3], numbers[4], numbers[5]);
+  if (!text.empty() || std::abs(q.norm() - 1.0) > 1e-3) return std::nullopt;
+  return make_pose(q.normalized().toRotationMatrix(), {numbers[0], numbers[1], numbers[2]});
+}
+
+/// A file without a column of poses, as former versions wrote it, keeps its columns.
+bool has_poses(const std::filesystem::path& file) {
+  std::string header;
+  std::ifstream in(file);
+  return std::getline(in, header) && header == kHeader;
+}
+
 /// The columns of a file, by name.
 class Columns {
  public:
@@ -62,7 +97,8 @@ class Columns {
                            finite(cell("inlier_fraction")),
                            finite(cell("overlap")),
                            finite(cell("cpu_s")).value_or(0.0),
-                           std::string(reason)};
+                           std::string(reason),
+                           pose_of(cell("pose"))};
   }
 
  private:
@@ -72,15 +108,17 @@ class Columns {
 }  // namespace
 
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
-  const bool fresh = !is_there(file);
+  const bool fresh = !is_there(file), with_pose = fresh || has_poses(file);
   std::ofstream out(file, std::ios::app);
-  if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
+  if (fresh) out << kHeader << '\n';
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';
   for (const std::optional<double>& value : {row.rmse, row.inlier_fraction, row.overlap}) {
     if (value) out << *value;
     out << ',';
   }
-  out << row.cpu_seconds << ",\"" << row.reason << "\"\n";
+  out << row.cpu_seconds << ',';
+  if (with_pose) out << (row.T_target_source ? text_of(*row.T_target_source) : "") << ',';
+  out << '"' << row.reason << "\"\n";
   out.flush();
   if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
   return {};

@@ -22,6 +22,7 @@ loop_closure::Registration accepted() {
   result.rmse = 0.05;
   result.inlier_fraction = 0.75;
   result.overlap = 0.5;
+  result.T_target_source = make_pose(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});
   one.result = result;
   one.input = {one.target.id, one.source.id, "correlation", Bytes(30, 1), Bytes(40, 2), {}};
   return one;
@@ -45,8 +46,11 @@ TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
   recorder.add(accepted());
   recorder.add(failed());
   const std::string text = text_of(folder.path() / "registrations.csv");
-  EXPECT_NE(text.find(",accepted,0.05,0.75,0.5,1.5,\"\"\n"), std::string::npos) << text;
-  EXPECT_NE(text.find(",failed,,,,1.5,\"no points\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(",accepted,0.05,0.75,0.5,1.5,1.0000 2.0000 3.0000 "
+                      "0.0000000 0.0000000 0.0000000 1.0000000,\"\"\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find(",failed,,,,1.5,,\"no points\"\n"), std::string::npos) << text;
   const auto log = store::RegistrationLog::open_read_only(folder.path() / store::kRegistrationLogFile);
   ASSERT_TRUE(log) << log.error().message;
   const auto kept = log->read();

@@ -30,7 +30,10 @@ class RobotsNow : public ::testing::Test {
     fleet_.self = kR1;
     fleet_.fleet = {kR2, kR1};
     fleet_.now = Stamp{1000s};
-    fleet_.rows = {70, 71, 72, 73};
+    for (const planning::RowId id : {70u, 71u, 72u, 73u}) {  // 100 m to the north, 10 m apart
+      const double east = 10.0 * (id - 70);
+      fleet_.rows.push_back({id, {{east, 0.0}, {east, 100.0}}});
+    }
   }
   monitor::RobotNow of(const AgentId& id) const {
     const auto robots = robots_now(fleet_);
@@ -50,16 +53,27 @@ TEST_F(RobotsNow, EveryRobotOfTheFleetIsThereByNameAlsoUnheard) {
 
 TEST_F(RobotsNow, WhatItDoesIsSaidByItsReport) {
   const auto words = [&](MissionState state, std::uint32_t current) {
-    return activity_of(report(state, current, 4, 1), fleet_.rows);
+    return activity_of(report(state, current, 4, 1), fleet_.rows, std::nullopt);
   };
   EXPECT_EQ(words(MissionState::kDriving, 2), "drives row 72, 25 % of the rows are driven");
   EXPECT_THAT(words(MissionState::kDriving, messages::MissionReport::kNoRow), HasSubstr("between two rows"));
   EXPECT_THAT(words(MissionState::kDriving, 4), HasSubstr("between two rows")) << "of another mission";
   EXPECT_THAT(words(MissionState::kMeeting, 0), HasSubstr("waits where all meet"));
   EXPECT_THAT(words(MissionState::kStuck, 0), HasSubstr("stuck"));
-  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 0, 0), {}), "is done");
-  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 40, 40), fleet_.rows),
+  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 0, 0), {}, std::nullopt), "is done");
+  EXPECT_EQ(activity_of(report(MissionState::kDone, 0, 40, 40), fleet_.rows, 0.0),
             "is done, 100 % of the rows are driven");
+}
+
+TEST_F(RobotsNow, PlaceAndHeadingTellHowFarItIsOnItsRow) {
+  fleet_.reports[kR2] = report(MissionState::kDriving, 1, 4, 1);
+  fleet_.reports[kR2].position = {10.5, 30.0};
+  fleet_.statuses[kR2].heading = 1.5f;
+  EXPECT_EQ(of(kR2).activity, "drives row 71 (30 % of it), 25 % of the rows are driven");
+  fleet_.statuses[kR2].heading = -1.5f;
+  EXPECT_THAT(of(kR2).activity, HasSubstr("drives row 71 (70 % of it)"));
+  fleet_.reports[kR2].position = {20.0, 30.0};
+  EXPECT_THAT(of(kR2).activity, HasSubstr("is on its way to row 71,"));
 }
 
 TEST_F(RobotsNow, WithoutAMissionTheStatusSaysWhetherItMaps) {
@@ -116,7 +130,7 @@ TEST_F(RobotsNow, AnOrderCountsOnceTheRobotHasAnswered) {
 TEST_F(RobotsNow, WhyThisRobotStandsIsKnownHere) {
   fleet_.reports[kR1] = report(MissionState::kDriving, 1, 4, 0);
   fleet_.stands = "no scan comes";
-  fleet_.problems = {"no scan for 7 s"};
+  fleet_.problems[kR1] = {"no scan for 7 s"};
   EXPECT_EQ(of(kR1).activity, "stands still: no scan comes");
   EXPECT_THAT(of(kR1).problems, ElementsAre("no scan for 7 s"));
   EXPECT_THAT(of(kR2).problems, IsEmpty());

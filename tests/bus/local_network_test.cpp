@@ -79,6 +79,44 @@ TEST(LocalNetwork, AllRobotsShareOneLongRangeMediumAndEveryReceiverCostsACopy) {
   EXPECT_EQ(air, 3s);
 }
 
+TEST(LocalNetwork, TellsWhatARobotHeardOfEachOther) {
+  LocalNetworkConfig config;
+  config.long_range.loss = 0.1;
+  config.long_range.delay = 20ms;
+  config.long_range.queue_capacity = 10000;
+  Network net(config);
+  for (std::size_t to : {0u, 1u}) net.listen(to, kCloud);
+  net.listen(1, kBulk);
+  for (int i = 0; i < 1000; ++i) net.robots[0]->publish(kCloud, Bytes(900, 1));
+  net.robots[2]->publish(kBulk, Bytes(100, 1));
+  net.network->run_until(Stamp{} + 1h);
+  const auto heard = net.network->take_heard(agent("r2"));
+  ASSERT_EQ(heard.size(), 2u);
+  EXPECT_EQ(heard[0].link, Link::kLongRange);
+  EXPECT_EQ(heard[0].from, agent("r1"));
+  EXPECT_EQ(heard[0].messages + heard[0].lost, 1000u);
+  EXPECT_NEAR(static_cast<double>(heard[0].lost), 100.0, 40.0);
+  EXPECT_EQ(heard[0].bytes, 1000u * heard[0].messages);
+  EXPECT_EQ(heard[1].link, Link::kShortRange);
+  EXPECT_EQ(heard[1].from, agent("r3"));
+  EXPECT_EQ(heard[1].messages, 1u);
+  EXPECT_TRUE(net.network->take_heard(agent("r2")).empty()) << "it was taken";
+  EXPECT_TRUE(net.network->take_heard(agent("r3")).empty()) << "it does not listen";
+}
+
+TEST(LocalNetwork, TheDelayOfWhatIsHeardCountsFromItsPublication) {
+  LocalNetworkConfig config;
+  config.long_range.rate_bit_s = 200e3;
+  config.long_range.delay = 20ms;
+  Network net(config);
+  net.listen(1, kSmall);
+  for (int i = 0; i < 2; ++i) net.robots[0]->publish(kSmall, Bytes(900, 7));  // 40 ms in the air each
+  net.network->run_until(Stamp{} + 1s);
+  const auto heard = net.network->take_heard(agent("r2"));
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_EQ(heard[0].delay, 60ms + 100ms);
+}
+
 TEST(LocalNetwork, RobotsTakeTurns) {
   Network net;
   net.listen(2, kCloud);

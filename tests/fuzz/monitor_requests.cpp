@@ -61,6 +61,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::ask(robot, bytes);
   const std::string_view text = fuzz::text_of(bytes);
   static_cast<void>(monitor::parse_submap_request(text));
+  if (const auto submaps = monitor::parse_submaps_request(text))
+    fuzz::require(!submaps->hashes.empty() && submaps->hashes.size() <= monitor::kMaxSubmapsAtOnce,
+                  "too many submaps");
   if (const auto order = monitor::parse_hold_request(text); order && order->robot)
     fuzz::require(text.ends_with("=" + order->robot->str()), "an order for another robot than is named");
   return 0;

@@ -77,6 +77,66 @@ TEST(Content, a_submap_that_cannot_be_read_is_no_end) {
   EXPECT_THAT(reply.body, HasSubstr("disk error"));
 }
 
+/// A fleet of so many nodes, and what is asked of it.
+class ManySubmaps : public ::testing::Test {
+ protected:
+  ManySubmaps() {
+    fleet.robot("r1", 0, 40);
+    for (std::size_t k = 0; k < 40; ++k)
+      fleet.view.nodes[k].submap_hash[0] = static_cast<std::uint8_t>(k + 1);
+    content.show(fleet.view);
+  }
+  std::string hash(std::size_t k) const { return to_hex(fleet.view.nodes[k].submap_hash); }
+  std::string ask(std::size_t count, std::initializer_list<std::size_t> nodes = {}) {
+    std::string target = "/submaps?count=" + std::to_string(count) + "&of=";
+    for (std::size_t k = 0; k < 40 && nodes.size() == 0; ++k) target += hash(k) + (k < 39 ? "," : "");
+    for (const std::size_t k : nodes) target += (target.back() == '=' ? "" : ",") + hash(k);
+    return content.reply(target).body;
+  }
+
+  ViewMaker fleet;
+  int loads = 0;
+  bool broken = false;
+  Content content{kPage,
+                  [this](const NodeId&) -> Result<cloud::PointCloud> {
+                    ++loads;
+                    if (broken) return failure("disk error");
+                    return cloud_of(3000);
+                  },
+                  1 << 20};
+};
+
+TEST_F(ManySubmaps, come_in_one_answer_each_after_its_hash) {
+  constexpr std::size_t kPart = 32 + kPointHeaderBytes + 8 * 100;
+  const std::string both = ask(100, {0, 1});
+  ASSERT_EQ(both.size(), 2 * kPart);
+  for (const std::size_t k : {0u, 1u}) {
+    const std::string one = content.reply("/submap/" + hash(k) + "?from=0&count=100").body;
+    EXPECT_EQ(both.substr(k * kPart, kPart), hash(k) + one);
+  }
+  EXPECT_EQ(ask(5000, {0}).size(), 32 + kPointHeaderBytes + 8 * Content::kCoarsePoints)
+      << "the first ones alone";
+}
+
+TEST_F(ManySubmaps, an_answer_decodes_some_at_a_time_and_none_twice) {
+  constexpr std::size_t kPart = 32 + kPointHeaderBytes + 8 * 10;
+  EXPECT_EQ(ask(10).size(), Content::kDecodedAtOnce * kPart);
+  EXPECT_EQ(ask(10).size(), 2 * Content::kDecodedAtOnce * kPart);
+  EXPECT_EQ(ask(10).size(), 40 * kPart);
+  EXPECT_EQ(loads, 40);
+  EXPECT_EQ(ask(10).size(), 40 * kPart);
+  EXPECT_EQ(loads, 40);
+}
+
+TEST_F(ManySubmaps, what_cannot_be_read_is_empty_and_what_is_not_shown_is_left_out) {
+  broken = true;
+  EXPECT_EQ(ask(10, {3}).size(), 32 + kPointHeaderBytes);
+  broken = false;
+  EXPECT_EQ(ask(10, {3}).size(), 32 + kPointHeaderBytes + 80) << "a disk may recover";
+  EXPECT_EQ(content.reply("/submaps?count=1&of=" + std::string(32, '0')).body, "");
+  EXPECT_EQ(content.reply("/submaps?count=1&of=../../etc/passwd").status, 400u);
+}
+
 TEST(PointCache, drops_what_was_used_longest_ago) {
   const auto cloud = std::make_shared<const QuantisedCloud>(quantised(cloud_of(100)));  // 800 bytes
   PointCache cache(1700);

@@ -2,13 +2,9 @@
 //   node geodesy_test.mjs PAGE_FOLDER
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {join, resolve} from 'node:path';
+import {pageModule} from './page_module.mjs';
 
-const pageFolder = resolve(process.argv[2]);
-const {build} = createRequire(join(pageFolder, 'package.json'))('esbuild');
-const bundle = await build({entryPoints: [join(pageFolder, 'geodesy.ts')], bundle: true, format: 'esm', write: false});
-const {toGeo, toUtm} = await import(`data:text/javascript;base64,${Buffer.from(bundle.outputFiles[0].contents).toString('base64')}`);
+const {toGeo, toUtm} = await pageModule(process.argv[2], 'geodesy');
 
 const near = (value, expected, tolerance, what) => assert.ok(Math.abs(value - expected) <= tolerance, `${what}: ${value}, expected ${expected}`);
 

@@ -1,6 +1,6 @@
 // Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
 // that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px. Then the page of an agent
-// beside another one: fleet and radio, hold and resume with a token, a robot that falls silent.
+// beside another one: fleet and radio, hold and resume with a token, a robot that falls silent; and that of a run under way.
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
@@ -62,7 +62,8 @@ async function visit(browser, url, width, height, state, check) {
   const said = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && said.push(message.text()));
   page.on('pageerror', (error) => said.push(String(error)));
-  page.on('request', (request) => assert.ok(request.url().startsWith(url) || request.url().startsWith('data:') || request.url().startsWith('ws:'), `asked another site: ${request.url()}`));
+  const site = new URL('/', url).href;
+  page.on('request', (request) => assert.ok(request.url().startsWith(site) || request.url().startsWith('data:') || request.url().startsWith('ws:'), `asked another site: ${request.url()}`));
   await page.goto(url);
   await mapIsDrawn(page);
   assert.equal(await page.locator('#summary').textContent(), `${state.robots.length} robots · ${state.nodes.length} nodes · ${state.alignments.length} alignments`);
@@ -99,7 +100,7 @@ async function onADesk(page, state) {
   const picture = () => page.locator('#canvas').evaluate((canvas) => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.toDataURL())))));
   const pictures = [], all = Number(await page.locator('#canvas').getAttribute('data-drawn'));
   await page.locator('.registration').first().click();
-  for (const place of ['gps', 'placed']) {
+  for (const place of ['gps', 'placed', 'rejected']) {
     await page.locator(`[data-compare=${place}]`).click();
     assert.equal(await page.locator(`[data-compare=${place}]`).getAttribute('aria-pressed'), 'true');
     await page.waitForFunction((all) => {
@@ -109,7 +110,7 @@ async function onADesk(page, state) {
     pictures.push(await picture());
     await shot(page, `desk_compare_${place}`);
   }
-  assert.notEqual(pictures[0], pictures[1], 'GPS and placement show the clouds alike');
+  assert.equal(new Set(pictures).size, 3, 'GPS, placement and the rejected pose show the clouds alike');
 
   // The map by keyboard, in plan view, with a node that tells what it is.
   await page.locator('#canvas').focus();
@@ -153,8 +154,61 @@ async function onADesk(page, state) {
   await shot(page, 'desk_measure');
 }
 
+/** The map's picture of points alone, in plan view: R, G, B, A of each pixel. */
+async function pointsAlone(page) {
+  await page.locator('#view-plan').click();
+  await page.locator('.layers summary').click();
+  for (const layer of ['paths', 'nodes', 'used', 'unused', 'rejected']) await page.locator(`#layer-${layer}`).uncheck();
+  await mapIsDrawn(page);
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+    const canvas = document.getElementById('canvas'), copy = document.createElement('canvas');
+    Object.assign(copy, {width: canvas.width, height: canvas.height});
+    copy.getContext('2d').drawImage(canvas, 0, 0);
+    done([...copy.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data]);
+  }))));
+}
+
+/** The CPU draws points as WebGL does, so what the other tests see of one is true of the other. So small a screen asks for few points. */
+async function bothWaysDrawAlike(browser, url, state) {
+  const pictures = [];
+  for (const way of ['gl', 'cpu']) {
+    await visit(browser, new URL(`?points=${way}`, url).href, 700, 590, state, async (page) => {
+      pictures.push(await pointsAlone(page));
+      await shot(page, `points_${way}`);
+    });
+  }
+  const [gl, cpu] = pictures;
+  assert.equal(gl.length, cpu.length);
+  let covered = 0, both = 0, difference = 0;
+  for (let k = 0; k < gl.length; k += 4) {
+    const [a, b] = [gl[k + 3] > 127, cpu[k + 3] > 127];
+    covered += a || b;
+    if (!a || !b) continue;
+    ++both;
+    difference += Math.abs(gl[k] - cpu[k]) + Math.abs(gl[k + 1] - cpu[k + 1]) + Math.abs(gl[k + 2] - cpu[k + 2]);
+  }
+  assert.ok(covered > 20_000 && both / covered > 0.95, `${both} of ${covered} pixels are covered both ways`);
+  assert.ok(difference / both < 20, `colours differ by ${difference / both} of 765`);
+}
+
+/** As when the robot is out of reach for a while: the map is whole all the same. */
+async function lostAnswersAreAskedForAgain(browser, url) {
+  const page = await browser.newPage({viewport: {width: 700, height: 590}});
+  let lost = 0;
+  await page.route('**/submap*', (route) => (++lost, route.abort()), {times: 2});
+  await page.goto(url);
+  await mapIsDrawn(page);
+  assert.equal(lost, 2);
+  await page.close();
+}
+
 async function onAPhone(page, state) {
   await shot(page, 'phone');
+  await page.locator('.layers summary').click();
+  await page.locator('#layer-nodes').uncheck();
+  await shot(page, 'phone_layers');
+  await page.locator('#layer-nodes').check();
+  await page.locator('.layers summary').click();
   await rejectedExplainsItself(page, state);
   await page.locator('#tab-fleet').click();
   assert.equal(await page.locator('.robot').count(), state.robots.length);
@@ -252,6 +306,31 @@ async function holdAndResume(page) {
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
 }
 
+/** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */
+async function testVirtual(browser) {
+  const tokenFile = join(folder, 'token');
+  writeFileSync(tokenFile, kToken);
+  const run = spawn(fleetmap, ['run', '-c', 'config/fleets/farm_small.yaml', '--agents', '2', '--set', 'max_time=1800', '--out', join(folder, 'virtual'), '--monitor', '0',
+    '--monitor-token-file', tokenFile], {cwd: fileURLToPath(new URL('../..', import.meta.url)), stdio: ['ignore', 'pipe', 'pipe']});
+  try {
+    await watchLive(browser, await addressOf(run), 1366, 768, async (page) => {
+      await page.locator('#tab-fleet').click();
+      await textIs(page, '[data-robot=r1]', /r1 drives row \d+ \(\d+ % of it\), \d+ % of the rows are driven/);
+      await textIs(page, '[data-robot=r2]', /in contact.*Last heard \d+ s ago by (radio|Wi-Fi).*position known to/);
+      const held = () => page.locator('[data-robot=r1]').textContent().then((text) => Number(text.match(/holds (\d+) nodes/)?.[1] ?? 0));
+      const first = await held();
+      await page.waitForFunction((n) => Number(document.querySelector('[data-robot=r1]').textContent.match(/holds (\d+) nodes/)?.[1] ?? 0) > n, first, {timeout: 60_000});
+      await page.locator('#tab-radio').click();
+      await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
+      await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
+      await holdAndResume(page);
+      await shot(page, 'virtual');
+    });
+  } finally {
+    run.kill('SIGKILL');
+  }
+}
+
 async function testLive(browser) {
   const {lock, domain} = await testDomain();
   const tokenFile = join(folder, 'token');
@@ -298,7 +377,10 @@ try {
     await onADesk(page, state);
   });
   await visit(browser, url, 390, 844, state, (page) => onAPhone(page, state));
+  await bothWaysDrawAlike(browser, url, state);
+  await lostAnswersAreAskedForAgain(browser, url);
   await testLive(browser);
+  await testVirtual(browser);
   await browser.close();
   console.log(`passed: ${state.nodes.length} nodes, ${state.registrations.length} registrations`);
 } finally {

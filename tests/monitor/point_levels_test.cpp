@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <random>
 #include <set>
@@ -54,6 +55,42 @@ TEST(PointLevels, a_prefix_covers_the_whole_though_most_points_lie_in_one_corner
   EXPECT_EQ(cells(400), 64u) << "2 % of the points";
 }
 
+TEST(PointLevels, a_prefix_that_ends_within_a_level_covers_the_whole_too) {
+  // A plane of 64 x 64 points: each level has four times the points of the one before.
+  cloud::PointCloud cloud;
+  for (int k = 0; k < 64 * 64; ++k)
+    cloud.points.emplace_back(static_cast<float>(k % 64), static_cast<float>(k / 64), 0.0f);
+  const auto order = coarse_to_fine(cloud);
+  std::array<int, 4> quarters{};
+  for (std::size_t k = 0; k < 500; ++k) {
+    const Eigen::Vector3f& p = cloud.points[order[k]];
+    ++quarters[(p.x() < 32.0f ? 0u : 1u) + (p.y() < 32.0f ? 0u : 2u)];
+  }
+  for (const int points : quarters) EXPECT_NEAR(points, 125, 40);
+}
+
+TEST(PointLevels, each_level_has_one_point_of_each_voxel_that_it_adds) {
+  const cloud::PointCloud cloud = random_cloud(20'000, 40.0f);
+  const auto order = coarse_to_fine(cloud);
+  // Voxels of the second level: half of a quarter of 40 m, from the lowest corner on.
+  Eigen::Vector3f low = cloud.points[0];
+  for (const Eigen::Vector3f& p : cloud.points) low = low.cwiseMin(p);
+  const auto voxel = [&](std::uint32_t k) {
+    const Eigen::Vector3f v = (cloud.points[k] - low) / 4.9999f;
+    return std::tuple(static_cast<int>(v.x()), static_cast<int>(v.y()), static_cast<int>(v.z()));
+  };
+  std::set<std::tuple<int, int, int>> all, first;
+  for (const std::uint32_t k : order) all.insert(voxel(k));
+  for (std::size_t k = 0; k < all.size(); ++k) first.insert(voxel(order[k]));
+  EXPECT_GT(first.size(), all.size() - 10) << "of " << all.size();
+}
+
+TEST(PointLevels, points_at_the_ends_of_what_numbers_can_say) {
+  cloud::PointCloud cloud;
+  for (const float x : {-3e38f, 3e38f, 0.0f, 0.0f, 1e-38f}) cloud.points.emplace_back(x, -x, x);
+  EXPECT_EQ(coarse_to_fine(cloud).size(), 5u);
+}
+
 TEST(PointLevels, quantised_points_lie_within_half_a_step) {
   const cloud::PointCloud cloud = random_cloud(3000, 50.0f);
   const QuantisedCloud quantised = monitor::quantised(cloud);
@@ -86,6 +123,14 @@ TEST(PointLevels, parts_put_together_are_the_whole) {
   EXPECT_EQ(joined, whole);
   EXPECT_EQ(encoded_points(cloud, 5000, 10).size(), kPointHeaderBytes) << "beyond the end is nothing";
   EXPECT_EQ(encoded_points(cloud, 0, SIZE_MAX).size(), whole.size());
+}
+
+TEST(PointLevels, a_prefix_is_told_from_a_whole_submap) {
+  const QuantisedCloud whole = quantised(random_cloud(1000, 20.0f));
+  const QuantisedCloud prefix = prefix_of(whole, 300);
+  EXPECT_EQ(prefix.size(), 300u);
+  EXPECT_EQ(encoded_points(prefix, 0, 300), encoded_points(whole, 0, 300));
+  EXPECT_EQ(prefix_of(whole, 5000).size(), 1000u);
 }
 
 TEST(PointLevels, clouds_without_extent_or_points) {

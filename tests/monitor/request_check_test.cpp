@@ -74,6 +74,24 @@ TEST(RequestCheck, submaps_are_asked_for_by_hash_alone) {
     EXPECT_FALSE(parse_submap_request(wrong)) << wrong;
 }
 
+TEST(RequestCheck, several_submaps_are_asked_for_by_their_hashes) {
+  const std::string a(32, 'a'), b(32, '0');
+  const auto request = parse_submaps_request("/submaps?count=150&of=" + a + "," + b);
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->count, 150u);
+  EXPECT_EQ(request->hashes, (std::vector{a, b}));
+  std::string most = "/submaps?count=1&of=" + a;
+  for (std::size_t k = 1; k < kMaxSubmapsAtOnce; ++k) most += "," + b;
+  ASSERT_TRUE(parse_submaps_request(most));
+  EXPECT_EQ(parse_submaps_request(most)->hashes.size(), kMaxSubmapsAtOnce);
+  for (const std::string& wrong : std::initializer_list<std::string>{
+           most + "," + a, "/submaps", "/submaps?", "/submaps?of=" + a, "/submaps?count=&of=" + a,
+           "/submaps?count=1&of=", "/submaps?count=1&of=" + a + ",", "/submaps?count=1&of=" + a + b,
+           "/submaps?count=1&of=" + a + ",," + b, "/submaps?count=1&of=" + a.substr(1),
+           "/submaps?count=-1&of=" + a, "/submaps?count=1&of=" + std::string(32, 'g')})
+    EXPECT_FALSE(parse_submaps_request(wrong)) << wrong;
+}
+
 TEST(RequestCheck, orders_are_for_one_robot_or_for_all) {
   const auto all = parse_hold_request("/operator/hold");
   ASSERT_TRUE(all);

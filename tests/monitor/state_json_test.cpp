@@ -23,6 +23,7 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   fleet.alignment(node_id("r1", 0), node_id("r2", 1), AlignmentStatus::used);
   fleet.attempt(node_id("r1", 0), node_id("r2", 1), "accepted");
   fleet.attempt(node_id("r1", 1), node_id("r2", 1), "rejected", "only 3 inliers");
+  fleet.view.attempts.back().T_target_source = make_pose(Eigen::Matrix3d::Identity(), {1.0, 2.0, 3.0});
   fleet.view.has_submap[1] = false;
   fleet.view.holdings.push_back({agent("r1"), agent("r2"), 2, 1, 0});
   Matrix6d C = Matrix6d::Zero();
@@ -46,6 +47,8 @@ TEST(StateJson, tells_robots_nodes_registrations_and_pairs) {
   EXPECT_TRUE(state["registrations"][1]["status"].is_null());
   EXPECT_THAT(state["registrations"][1]["sentence"].get<std::string>(),
               HasSubstr("rejected, because only 3 inliers"));
+  EXPECT_EQ(state["registrations"][1]["pose"], nlohmann::json({1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_FALSE(state["registrations"][0].contains("pose"));
   EXPECT_EQ(state["alignments"][0]["status"], "used");
   EXPECT_EQ(state["alignments"][0]["poses"][0].size(), 7u);
   EXPECT_EQ(state["pairs"][0]["joined"], true);

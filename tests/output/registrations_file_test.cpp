@@ -21,8 +21,8 @@ TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
   std::ifstream in(file);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::string names = to_string(kTarget) + "," + to_string(kSource);
-  EXPECT_EQ(text, "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n" + names +
-                      ",accepted,0.05,0.75,0.5,1.5,\"\"\n" + names + ",failed,,,,0.25,\"no points\"\n");
+  EXPECT_EQ(text, "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason\n" + names +
+                      ",accepted,0.05,0.75,0.5,1.5,,\"\"\n" + names + ",failed,,,,0.25,,\"no points\"\n");
 }
 
 TEST(RegistrationsFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
@@ -53,6 +53,41 @@ TEST(RegistrationsFile, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(read.rows[0].reason, reason);
   EXPECT_EQ(read.rows[1].rmse, std::nullopt);
   EXPECT_EQ(read.rows[1].reason, "no cloud");
+}
+
+TEST(RegistrationsFile, PosesOfRejectedRegistrationsAreKept) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  RegistrationRow row{kTarget, kSource, "rejected", 0.5, 0.5, 0.5, 1.5, "too far, by 3 m"};
+  row.T_target_source = make_pose(rotation_from_rpy(0.1, -0.2, 2.0), {12.5, -3.25, 0.75});
+  ASSERT_TRUE(append_registration(file, row));
+  const Registrations read = read_registrations(file);
+  ASSERT_EQ(read.rows.size(), 1u);
+  EXPECT_EQ(read.rows[0].reason, row.reason);
+  ASSERT_TRUE(read.rows[0].T_target_source);
+  EXPECT_TRUE(read.rows[0].T_target_source->isApprox(*row.T_target_source, 1e-6));
+  for (const char* wrong :
+       {"", "1 2 3", "1 2 3 0 0 0 0", "1 2 3 0 0 0 1 2", "1 2 3 0 0 0 x", "nan 2 3 0 0 0 1"}) {
+    const std::string head = "target,source,verdict,pose\nr1/3,r2/7,rejected,";
+    const Registrations odd = parse_registrations(head + wrong + "\n");
+    ASSERT_EQ(odd.rows.size(), 1u) << wrong;
+    EXPECT_FALSE(odd.rows[0].T_target_source) << wrong;
+  }
+}
+
+TEST(RegistrationsFile, AFileWithoutPosesGoesOnWithoutThem) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  std::ofstream(file) << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n"
+                      << "r1/0,r3/1,accepted,0.0757,0.70,0.98,0.0165,\"\"\n";
+  RegistrationRow row{kTarget, kSource, "rejected", 0.5, 0.5, 0.5, 1.5, "far"};
+  row.T_target_source = Pose::Identity();
+  ASSERT_TRUE(append_registration(file, row));
+  const Registrations read = read_registrations(file);
+  EXPECT_EQ(read.damaged, 0u);
+  ASSERT_EQ(read.rows.size(), 2u);
+  EXPECT_EQ(read.rows[1].reason, "far");
+  EXPECT_FALSE(read.rows[1].T_target_source);
 }
 
 TEST(RegistrationsFile, ColumnsAreFoundByName) {

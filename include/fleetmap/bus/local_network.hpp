@@ -44,6 +44,16 @@ struct LinkUse {
   std::uint64_t dropped = 0;  ///< copies that a full transmit queue let go
 };
 
+/// Copies of messages that one robot had from another over a radio.
+struct HeardCopies {
+  Link link = Link::kLongRange;
+  AgentId from;
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;  ///< on the wire, without what was sent again
+  std::uint64_t lost = 0;   ///< loss, range, blackout
+  Duration delay{};         ///< sum over the messages, from their publication on
+};
+
 /// A fleet in one process in virtual time: an event queue, and a Bus per robot over simulated links. The same
 /// calls with the same seed give the same run, on any machine and with any number of threads. Not
 /// thread-safe; events at one instant run in the order in which they were scheduled.
@@ -78,6 +88,8 @@ class LocalNetwork {
   void run_until(Stamp stamp);
 
   std::vector<LinkUse> link_use() const;
+  /// By sender and radio, since the last call for this robot (or since the start).
+  std::vector<HeardCopies> take_heard(const AgentId& agent);
 
  private:
   struct State;

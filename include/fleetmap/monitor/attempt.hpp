@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fleetmap/core/ids.hpp"
+#include "fleetmap/geometry/se3.hpp"
 #include "fleetmap/graph/placement.hpp"
 
 namespace fleetmap::monitor {
@@ -14,7 +15,8 @@ struct Attempt {
   NodeId target, source;
   std::string verdict;  ///< accepted, ambiguous, rejected or failed
   std::optional<double> rmse_m, inlier_fraction, overlap;
-  std::string reason;  ///< empty when accepted
+  std::string reason;                        ///< empty when accepted
+  std::optional<Pose> T_target_source = {};  ///< of the best mode, if it is known
 };
 
 /// Describes the attempt and its outcome in one sentence. `status` is the graph's decision about its

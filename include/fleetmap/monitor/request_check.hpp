@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fleetmap/core/ids.hpp"
 
@@ -42,6 +43,14 @@ struct SubmapRequest {
   std::size_t from = 0, count = 0;
 };
 std::optional<SubmapRequest> parse_submap_request(std::string_view target);
+
+/// First points of several submaps: "/submaps?count=N&of=HASH,HASH", at most kMaxSubmapsAtOnce.
+struct SubmapsRequest {
+  std::vector<std::string> hashes;
+  std::size_t count = 0;  ///< of each
+};
+inline constexpr std::size_t kMaxSubmapsAtOnce = 128;
+std::optional<SubmapsRequest> parse_submaps_request(std::string_view target);
 
 /// An operator's order: "/operator/hold" and "/operator/resume", of all robots or with "?robot=NAME" of one.
 struct HoldRequest {

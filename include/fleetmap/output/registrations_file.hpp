@@ -8,6 +8,7 @@
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/se3.hpp"
 
 namespace fleetmap::output {
 
@@ -20,13 +21,14 @@ struct RegistrationRow {
   std::optional<double> inlier_fraction;  ///< [0, 1]
   std::optional<double> overlap;          ///< [0, 1]
   double cpu_seconds = 0.0;
-  std::string reason;  ///< of the verdict or of the failure
+  std::string reason;                        ///< of the verdict or of the failure
+  std::optional<Pose> T_target_source = {};  ///< of the best mode, also where it was rejected
 };
 
 /// Name of the file in a robot's folder.
 inline constexpr const char* kRegistrationsFile = "registrations.csv";
 
-/// Begins the file if it is not there.
+/// Begins the file if it is not there. A file that was begun without poses goes on without.
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row);
 
 struct Registrations {

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::size_t kValues = 4;  // of QuantisedCloud, a point
 
-QuantisedCloud prefix_of(const QuantisedCloud& cloud, std::size_t points) {
-  const auto end =
-      cloud.values.begin() + static_cast<std::ptrdiff_t>(kValues * std::min(points, cloud.size()));
-  return {cloud.centre, cloud.scale, {cloud.values.begin(), end}};
-}
-
 struct Field {
   const char* name;
   std::uint32_t offset, type;
@@ -62,7 +56,7 @@ void ThinnedMap::begin(std::shared_ptr<const FleetView> view) {
 
 bool ThinnedMap::holds(const NodeId& id, std::size_t points) const {
   const auto kept = kept_.find(id);
-  return kept != kept_.end() && kept->second.prefix.size() >= std::min(points, kept->second.whole);
+  return kept != kept_.end() && kept->second.size() >= std::min(points, kept->second.whole);
 }
 
 bool ThinnedMap::step() {
@@ -77,9 +71,9 @@ bool ThinnedMap::step() {
         unreadable_.push_back(id);
         continue;
       }
-      kept_[id] = {(*cloud)->size(), prefix_of(**cloud, share)};
+      kept_[id] = prefix_of(**cloud, share);
     }
-    QuantisedCloud& prefix = kept_[id].prefix;
+    QuantisedCloud& prefix = kept_[id];
     part.points = std::min(share, prefix.size());
     // Shares shrink as nodes come, so a longer prefix is not needed again.
     if (prefix.size() > part.points) prefix = prefix_of(prefix, part.points);
@@ -91,7 +85,7 @@ bool ThinnedMap::step() {
 void ThinnedMap::append(const Part& part, Bytes& points) const {
   const auto kept = kept_.find(part.node->id);
   if (kept == kept_.end()) return;
-  const QuantisedCloud& cloud = kept->second.prefix;
+  const QuantisedCloud& cloud = kept->second;
   std::size_t at = points.size();
   points.resize(at + part.points * kPointBytes);
   for (std::size_t k = 0; k < part.points; ++k, at += kPointBytes) {

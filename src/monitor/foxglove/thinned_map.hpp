@@ -37,10 +37,6 @@ class ThinnedMap {
   static constexpr std::size_t kPointBytes = 16;
 
  private:
-  struct Kept {
-    std::size_t whole = 0;  ///< points of the whole submap
-    QuantisedCloud prefix;
-  };
   struct Part {
     const graph::Node* node = nullptr;  ///< of `view_`
     Eigen::Affine3f T_enu_node = Eigen::Affine3f::Identity();
@@ -54,9 +50,9 @@ class ThinnedMap {
   Load load_;
   std::shared_ptr<const FleetView> view_;
   std::vector<Part> parts_;
-  std::size_t next_ = 0;  ///< of parts_
-  std::size_t left_ = 0;  ///< points
-  std::map<NodeId, Kept> kept_;
+  std::size_t next_ = 0;                   ///< of parts_
+  std::size_t left_ = 0;                   ///< points
+  std::map<NodeId, QuantisedCloud> kept_;  ///< prefixes
   std::vector<NodeId> unreadable_;
 };
 

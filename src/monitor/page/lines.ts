@@ -1,10 +1,8 @@
 import * as THREE from 'three';
-import {LineMaterial} from 'three/examples/jsm/lines/LineMaterial.js';
-import {LineSegments2} from 'three/examples/jsm/lines/LineSegments2.js';
-import {LineSegmentsGeometry} from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import type {Edge} from './edges';
 import type {Hit} from './map';
 import {colourOf, type FleetNode, type State} from './model';
+import {WideLines} from './wide_lines';
 
 export interface Marks {
   state: State;
@@ -23,7 +21,8 @@ const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearS
 
 /** Trajectories, edges and nodes, in front of all points. */
 export class Lines {
-  private lines: LineSegments2[] = [];
+  private lines: WideLines[] = [];
+  private edges: WideLines[] = [];  // white ones below others
   private dots?: THREE.Points;
   private size = new THREE.Vector2(1, 1);
 
@@ -31,7 +30,12 @@ export class Lines {
 
   resize(width: number, height: number): void {
     this.size.set(width, height);
-    for (const line of this.lines) line.material.resolution.copy(this.size);
+  }
+
+  /** Without details there are no nodes, and lines have no edges. */
+  set detailed(on: boolean) {
+    for (const edge of this.edges) edge.object.visible = on;
+    if (this.dots) this.dots.visible = on;
   }
 
   show(marks: Marks): void {
@@ -39,7 +43,7 @@ export class Lines {
     if (marks.paths) for (const robot of marks.state.robots) this.path(marks, robot.id);
     for (const kind of ['rejected', 'unused', 'used'] as const) {
       const positions = marks.edges.filter((edge) => edge.kind === kind).flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
-      this.segments(positions, '#ffffff', 4.5, 0.55);
+      this.edge(positions, 4.5, 0.55);
       this.segments(positions, kEdgeColours[kind], 2.5, 1);
     }
     const selected = marks.selected;
@@ -56,11 +60,11 @@ export class Lines {
 
   private clear(): void {
     for (const line of this.lines) {
-      this.scene.remove(line);
-      line.geometry.dispose();
-      line.material.dispose();
+      this.scene.remove(line.object);
+      line.dispose();
     }
     this.lines = [];
+    this.edges = [];
     if (this.dots) {
       this.scene.remove(this.dots);
       this.dots.geometry.dispose();
@@ -76,21 +80,22 @@ export class Lines {
     for (let k = 1; k < own.length; ++k) {
       if (own[k].node.session === own[k - 1].node.session) positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
     }
-    this.segments(positions, '#ffffff', 5, 0.7);
+    this.edge(positions, 5, 0.7);
     this.segments(positions, colourOf(marks.state, robot), 3, 1);
+  }
+
+  /** Below lines that are added next. */
+  private edge(positions: number[], width: number, opacity: number): void {
+    this.segments(positions, '#ffffff', width, opacity);
+    if (positions.length > 0) this.edges.push(this.lines.at(-1)!);
   }
 
   private segments(positions: number[], colour: string, width: number, opacity: number): void {
     if (positions.length === 0) return;
-    const geometry = new LineSegmentsGeometry().setPositions(positions);
-    const material = new LineMaterial({linewidth: width, transparent: true, opacity, depthTest: false, depthWrite: false});
-    material.color.copy(rgb(colour));
-    material.resolution.copy(this.size);
-    const line = new LineSegments2(geometry, material);
-    line.frustumCulled = false;
-    line.renderOrder = this.lines.length;
+    const line = new WideLines(positions, rgb(colour), width, opacity, this.size);
+    line.object.renderOrder = this.lines.length;
     this.lines.push(line);
-    this.scene.add(line);
+    this.scene.add(line.object);
   }
 
   private points(marks: Marks): void {

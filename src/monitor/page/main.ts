@@ -188,13 +188,14 @@ byId('time').oninput = setTime;
 
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {
+  measure?.draw();
+  if (picture.moving) return;
   byId('drawn').textContent = `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`;
   canvas.dataset.drawn = String(picture.drawn);
   canvas.dataset.loading = String(picture.loading);
   canvas.setAttribute('aria-label', `Map of ${state?.title ?? 'the fleet'}: ${picture.planar ? 'plan' : '3D'} view, ${count(picture.drawn)} points`);
   showScale(picture);
   showLegend(picture);
-  measure?.draw();
 }
 
 function showScale(picture: Picture): void {

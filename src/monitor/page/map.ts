@@ -1,10 +1,15 @@
 import * as THREE from 'three';
 import {MapControls} from 'three/examples/jsm/controls/MapControls.js';
+import {CpuPoints} from './cpu_points';
 import {type Edge, edgesOf} from './edges';
+import {GlPoints} from './gl_points';
 import {colourOf, type FleetNode, type State} from './model';
 import {pointLook} from './point_material';
+import {drawsOnCpu, type Effort, kStill_ms, Pace} from './pace';
+import {pointAt} from './picking';
 import {Shading} from './shading';
-import {matrixOf, Submap, Submaps} from './submaps';
+import {matrixOf} from './submap';
+import {Submaps} from './submaps';
 import {Lines} from './lines';
 
 export type ColourMode = 'robot' | 'height' | 'intensity' | 'age' | 'sigma';
@@ -17,6 +22,7 @@ export interface Picture {
   drawn: number;
   total: number;
   loading: boolean;
+  moving: boolean;  // the view; what people read may wait until it stands still
   metresPerPixel: number;
   planar: boolean;
   heights: [number, number];
@@ -38,7 +44,7 @@ export class FleetMap {
   private nodes = new Map<string, {node: FleetNode; p: THREE.Vector3}>();
   private renderer: THREE.WebGLRenderer;
   private shading = new Shading();
-  private points = new THREE.Scene();
+  private points: CpuPoints | GlPoints;
   private marks = new THREE.Scene();
   private perspective = new THREE.PerspectiveCamera(kFov, 1, 0.5, kFar);
   private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
@@ -50,13 +56,20 @@ export class FleetMap {
   private scheduled = false;
   private selected?: Hit;
   private fitted = false;
+  private pace: Pace;
+  private ratio = 0;  // device pixels per pixel, now
+  private moved = -Infinity;  // when the view did, ms
+  private still?: ReturnType<typeof setTimeout>;
+  private ramp?: {key: string; range: [number, number]};
 
   constructor(private canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
+    const onCpu = drawsOnCpu();
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !onCpu, alpha: true, preserveDrawingBuffer: true});
     this.renderer.autoClear = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.submaps = new Submaps(() => this.draw());
-    this.points.add(this.submaps.group);
+    this.submaps = new Submaps(this.look, () => this.draw());
+    this.points = onCpu ? new CpuPoints(this.submaps.pool, this.look) : new GlPoints(this.submaps.pool, this.renderer);
+    this.pace = new Pace({shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1});
     this.lines = new Lines(this.marks);
     for (const camera of [this.perspective, this.plan]) camera.up.set(0, 0, 1);
     this.plan.up.set(0, 1, 0);
@@ -73,7 +86,12 @@ export class FleetMap {
     const controls = new MapControls(camera, this.canvas);
     controls.zoomToCursor = true;
     controls.enableDamping = false;
-    controls.addEventListener('change', () => this.draw());
+    controls.addEventListener('change', () => {
+      this.moved = performance.now();
+      this.draw();
+      clearTimeout(this.still);
+      this.still = setTimeout(() => this.draw(), kStill_ms + 20);  // with all effort, when it stands still
+    });
     return controls;
   }
 
@@ -94,20 +112,12 @@ export class FleetMap {
       this.nodes.set(node.id, {node, p: new THREE.Vector3().setFromMatrixPosition(T)});
       if (!node.submap) continue;
       wanted.add(node.submap);
-      let submap = this.submaps.all.get(node.submap);
-      if (!submap) {
-        submap = new Submap(node.submap, node.robot, node.t, this.look, colourOf(state, node.robot));
-        this.submaps.all.set(node.submap, submap);
-        this.submaps.group.add(submap.object);
-      }
+      const submap = this.submaps.all.get(node.submap) ?? this.submaps.add(node.submap, node.robot, node.t, colourOf(state, node.robot));
       submap.place(T);
       submap.sigma_m = node.sigma_m;
     }
-    for (const [hash, submap] of this.submaps.all) {
-      if (wanted.has(hash)) continue;
-      this.submaps.group.remove(submap.object);
-      this.submaps.all.delete(hash);
-    }
+    this.submaps.keepOnly(wanted);
+    this.ramp = undefined;
     this.edges = edgesOf(state);
     this.remark();
     if (!this.fitted && this.nodes.size > 0) this.fit();
@@ -133,6 +143,7 @@ export class FleetMap {
 
   set budget(points: number) {
     this.submaps.budget = points;
+    this.submaps.refresh();
     this.draw();
   }
 
@@ -145,6 +156,7 @@ export class FleetMap {
   /** Hides all submaps but these; undefined shows all. Two that are compared are told apart by their colours. */
   showOnly(hashes: ReadonlySet<string> | undefined): void {
     this.submaps.only = hashes;
+    this.submaps.refresh();
     this.look.mode.value = hashes ? 0 : kModes[this.mode];
     this.draw();
   }
@@ -255,42 +267,28 @@ export class FleetMap {
     return best;
   }
 
-  /** The drawn point that is seen at a pixel: the nearest to the eye of those within `reach`. */
   pointAt(x: number, y: number, reach: number): THREE.Vector3 | undefined {
-    const p = new THREE.Vector3(), q = new THREE.Vector3();
-    const view = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
-    const w = this.canvas.clientWidth, h = this.canvas.clientHeight;
-    let best: THREE.Vector3 | undefined, least = Infinity;
-    for (const submap of this.submaps.all.values()) {
-      const drawn = submap.object.visible ? Math.min(submap.wanted, submap.loaded) : 0;
-      for (let k = 0; k < drawn; ++k) {
-        submap.point(k, p);
-        q.copy(p).applyMatrix4(view);
-        const dx = ((q.x + 1) / 2) * w - x, dy = ((1 - q.y) / 2) * h - y;
-        const off2 = dx * dx + dy * dy;
-        if (off2 > reach * reach || q.z < -1 || q.z > 1) continue;
-        // A point in front wins by far; of those at one depth that under the pointer.
-        const cost = q.z * 1e6 + off2;
-        if (cost < least) [least, best] = [cost, p.clone()];
-      }
-    }
-    return best;
+    return pointAt(this.submaps.all.values(), this.camera, this.canvas, x, y, reach);
   }
 
   private resize(): void {
     const box = this.canvas.parentElement!.getBoundingClientRect();
     const width = Math.max(1, Math.round(box.width)), height = Math.max(1, Math.round(box.height));
     const span = this.fitted ? this.metresPerPixel() * this.canvas.clientHeight : 0;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.renderer.setSize(width, height);
-    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
-    this.shading.resize(size.x, size.y);
+    this.ratio = 0;
     this.perspective.aspect = width / height;
     this.perspective.updateProjectionMatrix();
     Object.assign(this.plan, {left: -width / height, right: width / height, top: 1, bottom: -1});
     this.plan.updateProjectionMatrix();
     this.lines.resize(width, height);
     if (span > 0) this.draw();
+  }
+
+  private setRatio(ratio: number): void {
+    if (ratio === this.ratio) return;
+    this.ratio = ratio;
+    this.renderer.setPixelRatio(ratio);
   }
 
   draw(): void {
@@ -303,27 +301,45 @@ export class FleetMap {
   }
 
   private render(): void {
+    const now = performance.now(), moving = now - this.moved < kStill_ms;
+    const effort = this.pace.effort(now, moving);
+    this.setRatio(effort.ratio);
     const camera = this.camera, height = Math.max(1, this.canvas.clientHeight);
     camera.updateMatrixWorld();
     const pixelAtOne = this.planar ? this.metresPerPixel() : (2 * Math.tan((kFov * Math.PI) / 360)) / height;
     this.look.pixelsPerMetre.value = 1 / pixelAtOne;
     this.look.planar.value = this.planar ? 1 : 0;
-    this.look.ratio.value = this.renderer.getPixelRatio();
+    this.look.ratio.value = effort.ratio;
     const heights = this.submaps.heights();
     if (heights) [this.look.low.value, this.look.high.value] = heights;
-    const range = this.submaps.putOnRamp((one) => (this.mode === 'age' ? one.t : one.sigma_m), this.until);
-    this.submaps.group.visible = this.layers.points;
-    this.submaps.allocate(camera, this.planar, this.until);
-    this.renderer.setRenderTarget(null);
-    this.renderer.setClearColor(0x000000, 0);
-    this.renderer.clear();
-    this.shading.draw(this.renderer, this.points, camera, pixelAtOne / this.renderer.getPixelRatio());
-    this.renderer.render(this.marks, camera);
+    const range = this.putOnRamp();
+    this.submaps.prepare(camera, this.planar, this.until, moving, effort.share);
+    this.drawScene(camera, effort, pixelAtOne / effort.ratio);
     let total = 0;
     for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
     this.onPicture({
-      drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, metresPerPixel: this.metresPerPixel(), planar: this.planar,
+      drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, moving, metresPerPixel: this.metresPerPixel(), planar: this.planar,
       heights: [this.look.low.value, this.look.high.value], range,
     });
+  }
+
+  /** Anew when what they show has changed. */
+  private putOnRamp(): [number, number] {
+    const key = `${this.mode} ${this.until}`;
+    if (this.ramp?.key !== key) this.ramp = {key, range: this.submaps.putOnRamp((one) => (this.mode === 'age' ? one.t : one.sigma_m), this.until)};
+    return this.ramp.range;
+  }
+
+  private drawScene(camera: THREE.PerspectiveCamera | THREE.OrthographicCamera, effort: Effort, pixelAtOne: number): void {
+    const size = this.renderer.getDrawingBufferSize(new THREE.Vector2());
+    const view = {camera, width: size.x, height: size.y};
+    if (this.points instanceof GlPoints && this.submaps.listed) this.submaps.pool.end();
+    this.submaps.listed = false;
+    const picture = this.layers.points ? this.points.render(view, effort.shaded) : undefined;
+    this.renderer.setClearColor(0x000000, 0);
+    this.renderer.clear();
+    if (picture) this.shading.draw(this.renderer, picture, view, pixelAtOne, effort.shaded);
+    this.lines.detailed = effort.detailed;
+    this.renderer.render(this.marks, camera);
   }
 }

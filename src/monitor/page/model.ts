@@ -53,6 +53,7 @@ export interface Registration {
   overlap: number | null;
   reason: string;
   sentence: string;
+  pose?: PoseValues;  // T_target_source of its best mode, also where it was rejected
 }
 
 export interface Holding {

@@ -3,7 +3,7 @@ import type {Edge} from './edges';
 import type {FleetMap} from './map';
 import type {State} from './model';
 import {el} from './panels';
-import {matrixOf, type Submap} from './submaps';
+import {matrixOf, type Submap} from './submap';
 
 const kTarget = '#2f7de1', kSource = '#e8743b';
 
@@ -33,6 +33,8 @@ export class PairView {
       places.push(['gps', 'before, by GPS', T_target_source]);
     }
     alignment?.poses.forEach((pose, k) => places.push([`pose-${k}`, alignment.poses.length > 1 ? `pose ${k + 1}` : 'as registered', matrixOf(pose)]));
+    const rejected = edge.registration === undefined || alignment ? undefined : state.registrations[edge.registration].pose;
+    if (rejected) places.push(['rejected', 'as rejected', matrixOf(rejected)]);
     const buttons = places.map(([id, label, T]) => {
       const button = el('button', {type: 'button', 'data-compare': id, 'aria-pressed': 'false'}, label);
       button.onclick = () => {

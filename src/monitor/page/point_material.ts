@@ -1,6 +1,7 @@
 import * as THREE from 'three';
+import {turboTexture} from './ramp';
 
-/** What all points share; a change is seen by every submap at once. */
+/** The look that all points share. */
 export interface PointLook {
   mode: {value: number};       // 0 robot, 1 height, 2 intensity, 3 the submap's own share
   low: {value: number};        // m, of the colours of height
@@ -10,46 +11,37 @@ export interface PointLook {
   ratio: {value: number};      // device pixels per pixel
 }
 
+export const kPointSize = {metres: 0.11, least: 1.7, most: 6};  // the latter two in pixels
+
 export function pointLook(): PointLook {
   return {mode: {value: 0}, low: {value: 0}, high: {value: 1}, pixelsPerMetre: {value: 1}, planar: {value: 0}, ratio: {value: 1}};
 }
 
 const kVertex = /* glsl */ `
 attribute float intensity;
-uniform vec3 colour;
-uniform float mode, share, low, high, pixelsPerMetre, planar, ratio;
+uniform sampler2D looks;  // of each block of 256 points: three rows of its matrix, then colour and share
+uniform sampler2D turbo;
+uniform float mode, low, high, pixelsPerMetre, planar, ratio;
 varying vec3 vColour;
 
-// Turbo (A. Mikhailov, 2019), by a polynomial.
-vec3 turbo(float x) {
-  const vec4 r4 = vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234);
-  const vec4 g4 = vec4(0.09140261, 2.19418839, 4.84296658, -14.18503333);
-  const vec4 b4 = vec4(0.10667330, 12.64194608, -60.58204836, 110.36276771);
-  const vec2 r2 = vec2(-152.94239396, 59.28637943);
-  const vec2 g2 = vec2(4.27729857, 2.82956604);
-  const vec2 b2 = vec2(-89.90310912, 27.34824973);
-  vec4 v4 = vec4(1.0, x, x * x, x * x * x);
-  vec2 v2 = v4.zw * v4.z;
-  return vec3(dot(v4, r4) + dot(v2, r2), dot(v4, g4) + dot(v2, g2), dot(v4, b4) + dot(v2, b2));
-}
+vec3 ramp(float x) { return texture2D(turbo, vec2(x * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb; }
 
 void main() {
-  vec4 world = modelMatrix * vec4(position, 1.0);
-  vec4 view = viewMatrix * world;
+  int block = gl_VertexID >> 8;
+  ivec2 at = ivec2((block & 63) << 2, block >> 6);
+  vec4 steps = vec4(position, 1.0);
+  vec3 world = vec3(dot(texelFetch(looks, at, 0), steps), dot(texelFetch(looks, at + ivec2(1, 0), 0), steps),
+                    dot(texelFetch(looks, at + ivec2(2, 0), 0), steps));
+  vec4 own = texelFetch(looks, at + ivec2(3, 0), 0);
+  vec4 view = viewMatrix * vec4(world, 1.0);
   gl_Position = projectionMatrix * view;
   float scale = planar > 0.5 ? pixelsPerMetre : pixelsPerMetre / max(0.5, -view.z);
-  gl_PointSize = ratio * clamp(0.11 * scale, 1.7, 6.0);
-  if (mode < 0.5) {
-    // A little lighter with height, so that shapes show in one colour.
-    float h = clamp((world.z - low) / max(0.1, high - low), 0.0, 1.0);
-    vColour = mix(colour * 0.72, mix(colour, vec3(1.0), 0.42), h);
-  } else if (mode < 1.5) {
-    vColour = turbo(clamp((world.z - low) / max(0.1, high - low), 0.0, 1.0));
-  } else if (mode > 2.5) {
-    vColour = turbo(share);
-  } else {
-    vColour = turbo(0.08 + 0.84 * clamp(intensity, 0.0, 1.0));
-  }
+  gl_PointSize = ratio * clamp(${kPointSize.metres} * scale, ${kPointSize.least}, ${kPointSize.most.toFixed(1)});
+  float height = clamp((world.z - low) / max(0.1, high - low), 0.0, 1.0);
+  if (mode < 0.5) vColour = mix(own.rgb * 0.72, mix(own.rgb, vec3(1.0), 0.42), height);
+  else if (mode < 1.5) vColour = ramp(height);
+  else if (mode > 2.5) vColour = ramp(own.a);
+  else vColour = ramp(0.08 + 0.84 * clamp(intensity, 0.0, 1.0));
 }`;
 
 const kFragment = /* glsl */ `
@@ -59,10 +51,6 @@ void main() { gl_FragColor = vec4(vColour, 1.0); }`;
 /** Drawn as written, without tone curves. */
 export const rgbOf = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
 
-export function pointMaterial(look: PointLook, colour: string): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({
-    vertexShader: kVertex,
-    fragmentShader: kFragment,
-    uniforms: {...look, colour: {value: rgbOf(colour)}, share: {value: 0}},
-  });
+export function pointMaterial(look: PointLook): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({vertexShader: kVertex, fragmentShader: kFragment, uniforms: {...look, looks: {value: null}, turbo: {value: turboTexture()}}});
 }

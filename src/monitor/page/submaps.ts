@@ -1,159 +1,97 @@
 import * as THREE from 'three';
-import type {PoseValues} from './model';
-import {pointMaterial, rgbOf, type PointLook} from './point_material';
+import type {PointLook} from './point_material';
+import {kBlock, PointPool} from './point_pool';
+import {type Part, parsePart, parseParts, Submap} from './submap';
 
-const kHeader = 36;
-const kFirst = 4096;  // points of the first part of a submap
-const kAtOnce = 6;    // requests
-
-/** One part of a submap as the program sends it (include/fleetmap/monitor/point_levels.hpp). */
-interface Part {
-  centre: [number, number, number];
-  scale: number;
-  total: number;
-  from: number;
-  values: Int16Array;
-}
-
-export function parsePart(buffer: ArrayBuffer): Part {
-  const view = new DataView(buffer);
-  const magic = String.fromCharCode(...new Uint8Array(buffer, 0, 4));
-  const here = view.getUint32(28, true);
-  if (magic !== 'FMP1' || buffer.byteLength !== kHeader + 8 * here) throw new Error('a submap came damaged');
-  return {
-    centre: [view.getFloat32(4, true), view.getFloat32(8, true), view.getFloat32(12, true)],
-    scale: view.getFloat32(16, true),
-    total: view.getUint32(20, true),
-    from: view.getUint32(24, true),
-    values: new Int16Array(buffer.slice(kHeader)),
-  };
-}
-
-export function matrixOf([x, y, z, qx, qy, qz, qw]: PoseValues): THREE.Matrix4 {
-  return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
-}
-
-/** A submap on the map. Its points never change; a correction moves `object` alone. */
-export class Submap {
-  readonly object: THREE.Points<THREE.BufferGeometry, THREE.ShaderMaterial>;
-  readonly centre = new THREE.Vector3();  // in the world, of the bounding sphere
-  radius = 30;
-  total = -1;   // points it has; -1: nobody has asked yet
-  loaded = 0;   // points that are here
-  wanted = 0;   // points that the budget leaves it
-  asked = false;
-  failed = false;
-  sigma_m: number | undefined;  // of its node in ENU, horizontal
-  visible = true;
-  inView = true;
-  private values: Int16Array<ArrayBufferLike> = new Int16Array(0);  // x, y, z, intensity of each point
-  private T = new THREE.Matrix4();
-  private moved?: THREE.Matrix4;
-  private local = new THREE.Matrix4();
-
-  constructor(readonly hash: string, readonly robot: string, readonly t: number, look: PointLook, private colour: string) {
-    this.object = new THREE.Points(new THREE.BufferGeometry(), pointMaterial(look, colour));
-    this.object.matrixAutoUpdate = false;
-    this.object.frustumCulled = false;  // allocate() does that
-  }
-
-  place(T_enu_node: THREE.Matrix4): void {
-    this.T.copy(T_enu_node);
-    this.object.matrix.multiplyMatrices(this.moved ?? this.T, this.local);
-    this.object.matrixWorldNeedsUpdate = true;
-    this.centre.setFromMatrixPosition(this.object.matrix);
-  }
-
-  /** Draws it elsewhere until it is moved back by undefined. */
-  move(T_enu_node: THREE.Matrix4 | undefined): void {
-    this.moved = T_enu_node;
-    this.place(this.T.clone());
-  }
-
-  /** Draws it in another colour than its robot's; undefined ends that. */
-  tint(colour: string | undefined): void {
-    this.object.material.uniforms.colour.value.copy(rgbOf(colour ?? this.colour));
-  }
-
-  /** Where it stands on the ramp of colours, 0 to 1. */
-  set share(value: number) {
-    this.object.material.uniforms.share.value = Math.min(1, Math.max(0, value));
-  }
-
-  add(part: Part): void {
-    this.total = part.total;
-    if (part.from !== this.loaded) return;
-    const values = new Int16Array(4 * this.loaded + part.values.length);
-    values.set(this.values.subarray(0, 4 * this.loaded));
-    values.set(part.values, 4 * this.loaded);
-    this.loaded += part.values.length / 4;
-    this.replace(values);
-    const steps = part.scale * 32767;
-    this.radius = steps * Math.sqrt(3);
-    this.local.makeTranslation(...part.centre).scale(new THREE.Vector3(steps, steps, steps));
-    this.place(this.T.clone());
-  }
-
-  /** Keeps the coarse part alone, so that memory stays bounded. */
-  trim(): void {
-    if (this.loaded <= kFirst) return;
-    this.loaded = kFirst;
-    this.replace(this.values.slice(0, 4 * kFirst));
-  }
-
-  private replace(values: Int16Array<ArrayBufferLike>): void {
-    this.values = values;
-    this.object.geometry.dispose();
-    this.object.geometry = new THREE.BufferGeometry();
-    const buffer = new THREE.InterleavedBuffer(values, 4);
-    this.object.geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(buffer, 3, 0, true));
-    this.object.geometry.setAttribute('intensity', new THREE.InterleavedBufferAttribute(buffer, 1, 3, true));
-  }
-
-  /** World coordinates of point k. */
-  point(k: number, out: THREE.Vector3): THREE.Vector3 {
-    const v = this.values;
-    return out.set(v[4 * k] / 32767, v[4 * k + 1] / 32767, v[4 * k + 2] / 32767).applyMatrix4(this.object.matrix);
-  }
-}
+const kCoarse = 1024;     // points of a submap that come with those of others, at most
+const kLeast = 64;        // likewise, at least
+const kTogether = 64;     // submaps of one request
+const kCoarseAtOnce = 3;  // requests
+const kFineAtOnce = 6;
+const kFineStep = 4096;   // points
+const kAllocate_ms = 100; // while the view moves
+const kAgain_ms = 2000;   // after a request that nobody answered
 
 /** All submaps: asks for those that are worth it, and divides the budget of points among them. */
 export class Submaps {
-  readonly group = new THREE.Group();
   readonly all = new Map<string, Submap>();
+  readonly pool: PointPool;
   budget = 1_000_000;
   only: ReadonlySet<string> | undefined;  // the hashes of those that are shown; undefined: all
   drawn = 0;
+  listed = false;  // what is drawn has changed since this was set to false
   private running = 0;
-  private order: Submap[] = [];  // nearest first
+  private seen: {submap: Submap; weight: number}[] = [];  // nearest first
+  private allocated = -Infinity;
+  private share = 1;
+  private stale = true;
+  private heights_?: [number, number];
+  private heightsOf = 0;  // points loaded when they were taken
+  private loaded = 0;
 
-  constructor(private changed: () => void) {}
+  constructor(look: PointLook, private changed: () => void) {
+    this.pool = new PointPool(look);
+  }
 
-  allocate(camera: THREE.Camera, planar: boolean, until: number): void {
+  add(hash: string, robot: string, t: number, colour: string): Submap {
+    const submap = new Submap(hash, robot, t, this.pool, colour);
+    this.all.set(hash, submap);
+    return submap;
+  }
+
+  keepOnly(hashes: ReadonlySet<string>): void {
+    for (const [hash, submap] of this.all) {
+      if (hashes.has(hash)) continue;
+      submap.trim(0);
+      this.all.delete(hash);
+    }
+    this.refresh();
+  }
+
+  /** Something other than the view has changed: the next picture divides the budget anew. */
+  refresh(): void {
+    this.stale = true;
+  }
+
+  /** Prepares a picture of so large a share of the budget. While the view moves the budget is divided from time to time only. */
+  prepare(camera: THREE.Camera, planar: boolean, until: number, moving: boolean, share: number): void {
+    const now = performance.now();
+    const due = this.stale || !moving || now - this.allocated > kAllocate_ms;
+    if (due) {
+      this.allocate(camera, planar, until);
+      this.allocated = now;
+      this.stale = false;
+    }
+    if (due || share !== this.share) this.list(share);
+    for (const submap of this.all.values()) submap.dress();
+  }
+
+  private allocate(camera: THREE.Camera, planar: boolean, until: number): void {
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
       new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
     const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
     const sphere = new THREE.Sphere();
-    const seen: {submap: Submap; weight: number}[] = [];
+    this.seen = [];
     for (const submap of this.all.values()) {
       submap.visible = submap.t <= until && (this.only?.has(submap.hash) ?? true);
-      submap.inView = submap.visible && frustum.intersectsSphere(sphere.set(submap.centre, submap.radius));
       submap.wanted = 0;
-      if (!submap.inView) continue;
+      if (!submap.visible || !frustum.intersectsSphere(sphere.set(submap.centre, submap.radius))) continue;
       const distance = planar ? 1 : Math.max(5, eye.distanceTo(submap.centre) - 0.5 * submap.radius);
-      seen.push({submap, weight: 1 / (distance * distance)});
+      this.seen.push({submap, weight: 1 / (distance * distance)});
     }
-    divide(seen, this.budget);
-    this.drawn = 0;
-    for (const submap of this.all.values()) {
-      const drawn = Math.min(submap.wanted, submap.loaded);
-      submap.object.visible = drawn > 0;
-      submap.object.geometry.setDrawRange(0, drawn);
-      this.drawn += submap.object.visible ? drawn : 0;
-    }
+    divide(this.seen, this.budget);
+    this.seen.sort((a, b) => b.weight - a.weight);
     this.trim();
-    this.order = seen.sort((a, b) => b.weight - a.weight).map((one) => one.submap);
     this.fetchMore();
+  }
+
+  /** Names the points that are drawn: of each submap the first ones. */
+  private list(share: number): void {
+    this.share = share;
+    this.pool.begin();
+    this.drawn = 0;
+    for (const {submap} of this.seen) this.drawn += submap.draw(share);
+    this.listed = true;
   }
 
   /** Puts each submap on the ramp of colours by a value of it; returns the values at the ramp's ends. */
@@ -171,57 +109,117 @@ export class Submaps {
     return [low, high];
   }
 
-  /** Heights between which most of the points are; undefined while there are few. */
+  /** Heights between which most of the points are; undefined while there are few. Taken anew when a tenth more points have come. */
   heights(): [number, number] | undefined {
+    if (this.heights_ && this.loaded < 1.1 * this.heightsOf) return this.heights_;
     const heights: number[] = [], p = new THREE.Vector3();
+    const each = Math.max(4, Math.min(40, Math.floor(40_000 / this.all.size)));
     for (const submap of this.all.values()) {
-      const known = Math.min(submap.loaded, 4096), step = Math.max(1, Math.floor(known / 40));
+      const known = Math.min(submap.loaded, 4096), step = Math.max(1, Math.floor(known / each));
       for (let k = 0; k < known; k += step) heights.push(submap.point(k, p).z);
     }
     if (heights.length < 10) return undefined;
     heights.sort((a, b) => a - b);
-    return [heights[Math.floor(0.02 * heights.length)], heights[Math.floor(0.985 * heights.length)]];
+    this.heightsOf = this.loaded;
+    this.heights_ = [heights[Math.floor(0.02 * heights.length)], heights[Math.floor(0.985 * heights.length)]];
+    return this.heights_;
   }
 
   /** Some submap in view is not on the map at all yet. */
   get loading(): boolean {
-    return this.order.some((one) => one.total < 0 && !one.failed);
+    return this.seen.some(({submap}) => submap.total < 0 && !submap.failed);
   }
 
   private trim(): void {
-    let held = 0;
-    for (const submap of this.all.values()) held += submap.loaded;
-    if (held <= 3 * this.budget + 200_000) return;
-    for (const submap of this.all.values()) if (submap.wanted <= kFirst) submap.trim();
+    if (kBlock * this.pool.used <= 3 * this.budget + 2 * kBlock * this.all.size) return;
+    for (const submap of this.all.values()) if (submap.wanted < submap.loaded) submap.trim(Math.max(kLeast, submap.wanted));
   }
 
   /** Goes on where the last picture left off, so that loading does not wait for slow pictures. */
   private fetchMore(): void {
-    const coarse = this.order.filter((one) => one.total < 0), fine = this.order.filter((one) => one.total >= 0 && one.loaded < Math.min(one.wanted, one.total));
-    for (const submap of [...coarse, ...fine]) {
-      if (this.running >= kAtOnce) return;
-      if (!submap.asked && !submap.failed) void this.fetchPart(submap);
+    const open = this.seen.map(({submap}) => submap).filter((one) => !one.asked && !one.failed);
+    const coarse = spread(open.filter((one) => one.total < 0));
+    const share = Math.ceil(this.budget / Math.max(1, this.seen.length));
+    for (let k = 0; k < coarse.length && this.running < kCoarseAtOnce; k += kTogether)
+      void this.fetchCoarse(coarse.slice(k, k + kTogether), Math.min(kCoarse, Math.max(kLeast, share)));
+    if (coarse.length > 0) return;
+    for (const submap of open) {
+      if (this.running >= kFineAtOnce) return;
+      // A few points more are not worth a request while the view moves.
+      const missing = Math.min(submap.wanted, submap.total) - submap.loaded;
+      if (missing > 0 && (missing > 0.1 * submap.loaded || submap.wanted >= submap.total)) void this.fetchFine(submap);
     }
   }
 
-  private async fetchPart(submap: Submap): Promise<void> {
-    submap.asked = true;
+  /** The first points of several submaps. The program decodes some at a time; the rest is asked for again. */
+  private async fetchCoarse(submaps: Submap[], points: number): Promise<void> {
+    await this.ask(submaps, `/submaps?count=${points}&of=${submaps.map((one) => one.hash).join()}`, (answer) => {
+      const parts = parseParts(answer);
+      if (parts.size === 0) throw new Error('the program sent none of the submaps');
+      for (const submap of submaps) {
+        const part = parts.get(submap.hash);
+        if (part) this.put(submap, part);
+      }
+    });
+  }
+
+  private async fetchFine(submap: Submap): Promise<void> {
+    const points = Math.ceil((submap.wanted - submap.loaded) / kFineStep) * kFineStep;
+    await this.ask([submap], `/submap/${submap.hash}?from=${submap.loaded}&count=${Math.min(points, 262_144)}`, (answer) => this.put(submap, parsePart(answer)));
+  }
+
+  private async ask(submaps: Submap[], address: string, take: (answer: ArrayBuffer) => void): Promise<void> {
+    for (const submap of submaps) submap.asked = true;
     ++this.running;
-    const points = submap.total < 0 ? kFirst : Math.max(kFirst, Math.ceil((submap.wanted - submap.loaded) / kFirst) * kFirst);
     try {
-      const answer = await fetch(`/submap/${submap.hash}?from=${submap.loaded}&count=${Math.min(points, 262_144)}`);
+      const answer = await this.fetchPatiently(address);
       if (!answer.ok) throw new Error(await answer.text());
-      submap.add(parsePart(await answer.arrayBuffer()));
+      take(await answer.arrayBuffer());
     } catch (error) {
-      submap.failed = true;  // the picture goes on without it
-      console.warn(`submap ${submap.hash}: ${(error as Error).message}`);
+      for (const submap of submaps) submap.failed = true;  // the picture goes on without them
+      console.warn(`submap ${submaps.map((one) => one.hash).join()}: ${(error as Error).message}`);
     } finally {
-      submap.asked = false;
+      for (const submap of submaps) submap.asked = false;
       --this.running;
       this.fetchMore();
+      this.refresh();
       this.changed();
     }
   }
+
+  /** A robot that is out of reach for a while is asked again. */
+  private async fetchPatiently(address: string): Promise<Response> {
+    for (;;) {
+      try {
+        return await fetch(address);
+      } catch {
+        await new Promise((later) => setTimeout(later, kAgain_ms));
+      }
+    }
+  }
+
+  private put(submap: Submap, part: Part): void {
+    if (this.all.get(submap.hash) !== submap) return;
+    const before = submap.loaded;
+    submap.add(part);
+    this.loaded += submap.loaded - before;
+    if (part.total > 0) return;
+    submap.failed = true;
+    console.warn(`submap ${submap.hash}: the program cannot read it`);
+  }
+}
+
+/** In an order of which the first ones are spread over all (van der Corput), so that the first picture is of the whole site. */
+function spread(submaps: Submap[]): Submap[] {
+  const bits = Math.max(1, Math.ceil(Math.log2(Math.max(2, submaps.length))));
+  const order: Submap[] = [];
+  const inTime = [...submaps].sort((a, b) => (a.robot < b.robot ? -1 : a.robot > b.robot ? 1 : a.t - b.t));
+  for (let k = 0; k < 1 << bits; ++k) {
+    let mirrored = 0;
+    for (let bit = 0; bit < bits; ++bit) mirrored |= ((k >> bit) & 1) << (bits - 1 - bit);
+    if (mirrored < inTime.length) order.push(inTime[mirrored]);
+  }
+  return order;
 }
 
 /** Points in proportion to the weights, no submap more than it has. */
@@ -240,10 +238,11 @@ function divide(seen: {submap: Submap; weight: number}[], budget: number): void 
       left -= size(submap) - submap.wanted;
       submap.wanted = size(submap);
     }
-    open = open.filter((one) => !full.includes(one));
+    const isFull = new Set(full);
+    open = open.filter((one) => !isFull.has(one));
   }
 }
 
 function size(submap: Submap): number {
-  return submap.total < 0 ? kFirst : submap.total;
+  return submap.total < 0 ? kFineStep : submap.total;
 }

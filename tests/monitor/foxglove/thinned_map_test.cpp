@@ -25,6 +25,7 @@ class Submaps {
       loaded.push_back(node.id);
       if (sizes_[node.id.seq] == kUnreadable) return failure("disk error");
       QuantisedCloud cloud;
+      cloud.whole = sizes_[node.id.seq];
       for (std::size_t k = 0; k < sizes_[node.id.seq]; ++k) {
         for (const std::size_t value : {std::size_t{0}, k, std::size_t{node.id.seq}, std::size_t{1000}})
           cloud.values.push_back(static_cast<std::int16_t>(value));

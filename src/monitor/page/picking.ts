@@ -1,0 +1,23 @@
+import * as THREE from 'three';
+import type {Submap} from './submap';
+
+/** The drawn point that is seen at a pixel: the nearest to the eye of those within `reach`. */
+export function pointAt(submaps: Iterable<Submap>, camera: THREE.Camera, canvas: HTMLCanvasElement, x: number, y: number, reach: number): THREE.Vector3 | undefined {
+  const p = new THREE.Vector3(), q = new THREE.Vector3();
+  const view = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+  const w = canvas.clientWidth, h = canvas.clientHeight;
+  let best: THREE.Vector3 | undefined, least = Infinity;
+  for (const submap of submaps) {
+    for (let k = 0; k < submap.drawn; ++k) {
+      submap.point(k, p);
+      q.copy(p).applyMatrix4(view);
+      const dx = ((q.x + 1) / 2) * w - x, dy = ((1 - q.y) / 2) * h - y;
+      const off2 = dx * dx + dy * dy;
+      if (off2 > reach * reach || q.z < -1 || q.z > 1) continue;
+      // A point in front wins by far; of those at one depth that under the pointer.
+      const cost = q.z * 1e6 + off2;
+      if (cost < least) [least, best] = [cost, p.clone()];
+    }
+  }
+  return best;
+}
