@@ -5,13 +5,15 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
-#include "fleetmap/core/paths.hpp"
+#include "fleetmap/output/line_file.hpp"
 
 namespace fleetmap::output {
 namespace {
 
+constexpr const char* kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason";
 constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
 
 /// At most `count` cells; the last one takes the rest of the line, so the reason may hold commas.
@@ -72,18 +74,16 @@ class Columns {
 }  // namespace
 
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
-  const bool fresh = !is_there(file);
-  std::ofstream out(file, std::ios::app);
-  if (fresh) out << "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason\n";
+  Result<LineFile> lines = LineFile::open(file, std::ios::app, {kMaxTableBytes, kHeader});
+  if (!lines) return tl::unexpected(lines.error());
+  std::ostringstream out;
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';
   for (const std::optional<double>& value : {row.rmse, row.inlier_fraction, row.overlap}) {
     if (value) out << *value;
     out << ',';
   }
-  out << row.cpu_seconds << ",\"" << row.reason << "\"\n";
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
+  out << row.cpu_seconds << ",\"" << row.reason << '"';
+  return lines->add(out.str());
 }
 
 Registrations parse_registrations(std::string_view csv) {
@@ -108,9 +108,15 @@ Registrations parse_registrations(std::string_view csv) {
 }
 
 Registrations read_registrations(const std::filesystem::path& file) {
-  std::ostringstream text;
-  if (std::ifstream in(file, std::ios::binary); in) text << in.rdbuf();
-  return parse_registrations(text.view());
+  Registrations all;
+  for (const std::filesystem::path& part : parts_of(file)) {
+    std::ostringstream text;
+    text << std::ifstream(part, std::ios::binary).rdbuf();
+    Registrations read = parse_registrations(text.view());
+    std::ranges::move(read.rows, std::back_inserter(all.rows));
+    all.damaged += read.damaged;
+  }
+  return all;
 }
 
 std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file) {
