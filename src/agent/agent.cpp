@@ -19,8 +19,6 @@ namespace fleetmap::agent {
 namespace {
 
 constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
-/// The graph is solved for the live pose at most this often, and only if anything is new.
-constexpr Duration kLivePlacementPeriod = std::chrono::seconds(5);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// Shortest time between two sessions that begin because another robot holds items under the session's
 /// number.
@@ -118,8 +116,8 @@ Status Agent::start() {
     live_placement_ = std::make_unique<LivePlacement>(
         config_, bus_, store_,
         [this](std::span<const graph::Alignment> used) { loop_closing_.on_used_alignments(used); });
-    live_timer_ =
-        bus_.every(kLivePlacementPeriod, {"placement", [this] { live_placement_->refresh(session_); }});
+    live_timer_ = bus_.every(config_.live_placement.period,
+                             {"placement", [this] { live_placement_->refresh(session_); }});
   }
   status_timer_ = bus_.every(kStatusPeriod, {"status", [this] { update_status(); }});
   if (const std::size_t index = *sessions_.index_of(session_); index > 0) {
@@ -143,7 +141,8 @@ bool Agent::idle() const {
 
 WorkSeconds Agent::work_seconds() const {
   const loop_closure::RegistrationCounters& registrations = loop_closing_.registrations();
-  WorkSeconds all{odometry_seconds_, registrations.registration_seconds, registrations.spherization_seconds};
+  WorkSeconds all{scan_seconds_.sum(), registrations.registration_seconds,
+                  registrations.spherization_seconds};
   if (live_placement_) all.placement = live_placement_->cpu_seconds();
   return all;
 }
@@ -168,8 +167,7 @@ void Agent::on_perceived(Perceived&& perceived) {
     return;
   if (numbers_run_out()) begin_session("no number is left for another item of this session");
   const odometry::OdometryUpdate& update = perceived.odometry;
-  scan_seconds_.push_back(perceived.cpu_seconds);
-  odometry_seconds_ += perceived.cpu_seconds;
+  scan_seconds_.add(perceived.cpu_seconds);
   if (navigator_) navigator_->on_perceived(perceived);
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   tracks_.add(perceived);

@@ -22,7 +22,8 @@ Status AgentConfig::validate() const {
         own_path.validate(), of("exchange", loop_closure.validate()), of("submap", submap.validate()),
         of("spherize", spherize.validate()), of("registration", registration.validate()),
         of("exchange", complete_exchange.validate(id)), of("store", store.validate()),
-        registration_log.validate(), of("map", map.validate()), placement.validate()}) {
+        registration_log.validate(), of("map", map.validate()), placement.validate(),
+        live_placement.validate()}) {
     if (!status) return status;
   }
   if (loop_closure.max_active > exchange.clouds.max_receiving)

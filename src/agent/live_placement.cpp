@@ -14,13 +14,9 @@
 namespace fleetmap::agent {
 namespace {
 
-/// A solution costs in proportion to the nodes; so long after each, its share of the CPU stays what it is of
-/// a small fleet.
-constexpr Duration kPausePerNode = std::chrono::microseconds(500);
-constexpr std::size_t kFewNodes = 10'000;  ///< need no pause
-
-Duration pause_after(std::size_t nodes) {
-  return nodes < kFewNodes ? Duration::zero() : static_cast<int>(nodes) * kPausePerNode;
+/// By the number of nodes and not by the CPU time that was measured, so that a run in virtual time repeats.
+Duration pause_after(std::size_t nodes, const LivePlacementConfig& config) {
+  return from_seconds(static_cast<double>(nodes) * to_seconds(config.cost_per_node) / config.cpu_share);
 }
 
 }  // namespace
@@ -47,16 +43,25 @@ bool LivePlacement::due() const {
   return has_own && store_.revision() != items_;
 }
 
+std::optional<NodeId> LivePlacement::newest_of(std::uint16_t session) const {
+  const std::uint32_t next = store_.next_node_seq(session);
+  if (next == first_seq(session)) return std::nullopt;
+  return NodeId{config_.id, next - 1};
+}
+
 void LivePlacement::refresh(std::uint16_t session) {
-  if (under_way_ || !due() || bus_.now() < paused_until_) return;
+  if (under_way_ || !due()) return;
+  const std::optional<NodeId> newest = newest_of(session);
+  // The first node of a session ends the pause: before it is placed, the session has no corrected pose.
+  const bool begins = newest && solved_session_ != session;
+  if (!begins && bus_.now() < paused_until_) return;
   const std::optional<GeoPoint> origin = output::site_origin(store_, config_.site_origin);
   if (!origin) return;
   items_ = store_.revision();
   auto job = std::make_shared<Job>();
   job->origin = *origin;
   job->config = config_.placement;
-  if (const std::uint32_t next = store_.next_node_seq(session); next != first_seq(session))
-    job->newest = NodeId{config_.id, next - 1};
+  job->newest = newest;
   job->nodes = output::nodes_of(store_);
   job->alignments = output::alignments_of(store_);
   under_way_ = true;
@@ -68,7 +73,8 @@ void LivePlacement::refresh(std::uint16_t session) {
     on_used_(job->used);
   });
   if (taken) {
-    paused_until_ = bus_.now() + pause_after(job->nodes.size());
+    paused_until_ = bus_.now() + pause_after(job->nodes.size(), config_.live_placement);
+    if (newest) solved_session_ = session;
     return;
   }
   under_way_ = false;

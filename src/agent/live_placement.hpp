@@ -24,7 +24,8 @@ class LivePlacement {
   /// All arguments must outlive it and the work under way.
   LivePlacement(const AgentConfig& config, bus::Bus& bus, const store::Store& store, OnUsed on_used);
 
-  /// Begins a solution unless one is under way or nothing is new. publish() then uses the frame of `session`.
+  /// Begins a solution unless one is under way, nothing is new, or the share of the CPU is spent
+  /// (LivePlacementConfig). publish() then uses the frame of `session`.
   void refresh(std::uint16_t session);
   /// True if no solution is under way and the last one includes all items.
   bool idle() const { return !under_way_ && !due(); }
@@ -45,6 +46,8 @@ class LivePlacement {
   void name(const std::map<AgentId, graph::Contradiction>& contradicting);
   static void solve(Job& job);
   bool due() const;
+  /// The newest own node of a session.
+  std::optional<NodeId> newest_of(std::uint16_t session) const;
 
   const AgentConfig& config_;
   bus::Bus& bus_;
@@ -53,6 +56,7 @@ class LivePlacement {
   std::uint64_t items_ = 0;  ///< the store's revision at the last solution
   bool under_way_ = false;
   Stamp paused_until_;
+  std::optional<std::uint16_t> solved_session_;  ///< of the newest node in the last solution
   double cpu_seconds_ = 0.0;
   std::optional<Solution> solution_;
   std::set<AgentId> named_;  ///< that contradict the fleet

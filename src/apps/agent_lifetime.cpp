@@ -102,7 +102,7 @@ void run_until_done(bus::DdsBus& bus, agent::Agent& agent, LinkLog& log, DriveWa
                                    if (page != nullptr) page->publish(heard, log.last_heard());
                                  }});
   const bus::Handle nodes =
-      bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().nodes(), bus.now()); }});
+      bus.every(kNodesPeriod, {"node log", [&] { log.add_nodes(agent.store().node_set(), bus.now()); }});
   bus::Handle check;
   bool rest_frozen = false;
   if (exit_after_idle > 0.0) {

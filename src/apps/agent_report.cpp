@@ -3,8 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "distribution.hpp"
-
 namespace fleetmap::apps {
 namespace {
 
@@ -47,7 +45,7 @@ json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::Loo
 json perception_json(const agent::Agent& agent) {
   const agent::PerceptionCounters& counters = agent.perception().counters();
   const odometry::LoamCounters& loam = agent.perception().odometry_counters();
-  const Distribution cpu = distribution(agent.scan_seconds());
+  const QuantileSketch& cpu = agent.scan_seconds();
   json behind = json::object();
   json slow = json::object();
   for (std::size_t k = 0; k < sensor::kSources; ++k) {
@@ -57,26 +55,28 @@ json perception_json(const agent::Agent& agent) {
     if (const auto ppm = agent.perception().clock_offsets().slow_ppm(source))
       slow[sensor::to_string(source)] = *ppm;
   }
-  return {
-      {"stamps_behind_s", behind},
-      {"clocks_slow_ppm", slow},
-      {"findings", agent.perception().health().findings()},
-      {"unsound_samples", agent.perception().health().refused()},
-      {"missing_scans", agent.perception().health().missing_scans()},
-      {"scans", counters.scans},
-      {"imu", counters.imu},
-      {"fixes", counters.fixes},
-      {"wheel", counters.wheel},
-      {"refused_messages", counters.refused_messages},
-      {"refused_scans", counters.refused_scans},
-      {"dropped_scans", counters.dropped_scans},
-      {"unclear_stamps", counters.unclear_stamps},
-      {"repeated_scans", loam.refused_repeated},
-      {"lost_scans", loam.lost},
-      {"local_maps_begun_anew", loam.map_restarts},
-      {"local_map_full", loam.map_overflows},
-      {"odometry_cpu_ms",
-       {{"mean", 1e3 * cpu.mean}, {"p50", 1e3 * cpu.p50}, {"p99", 1e3 * cpu.p99}, {"max", 1e3 * cpu.max}}}};
+  return {{"stamps_behind_s", behind},
+          {"clocks_slow_ppm", slow},
+          {"findings", agent.perception().health().findings()},
+          {"unsound_samples", agent.perception().health().refused()},
+          {"missing_scans", agent.perception().health().missing_scans()},
+          {"scans", counters.scans},
+          {"imu", counters.imu},
+          {"fixes", counters.fixes},
+          {"wheel", counters.wheel},
+          {"refused_messages", counters.refused_messages},
+          {"refused_scans", counters.refused_scans},
+          {"dropped_scans", counters.dropped_scans},
+          {"unclear_stamps", counters.unclear_stamps},
+          {"repeated_scans", loam.refused_repeated},
+          {"lost_scans", loam.lost},
+          {"local_maps_begun_anew", loam.map_restarts},
+          {"local_map_full", loam.map_overflows},
+          {"odometry_cpu_ms",
+           {{"mean", 1e3 * cpu.mean()},
+            {"p50", 1e3 * cpu.quantile(0.5)},
+            {"p99", 1e3 * cpu.quantile(0.99)},
+            {"max", 1e3 * cpu.max()}}}};
 }
 
 json localization_json(const localization::EkfCounters& c) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -10,7 +9,8 @@
 
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/core/result.hpp"
-#include "fleetmap/graph/node.hpp"
+#include "fleetmap/output/line_file.hpp"
+#include "fleetmap/store/seq_set.hpp"
 
 namespace fleetmap::apps {
 
@@ -19,7 +19,8 @@ namespace fleetmap::apps {
 /// link_trace.csv has a row for each second and robot that was heard on a radio, and one with 100 % loss when
 /// it falls silent; time_s is when the second began. Its columns are those of a trace that `fleetmap trial`
 /// replays: kbit_s is what the link can carry, known only while submaps fill it, used_kbit_s what came.
-/// node_times.csv tells when each node of the fleet came to be held, by the system's clock.
+/// node_times.csv tells when each node of the fleet came to be held, by the system's clock. Both are bounded
+/// as output::LineFile is.
 class LinkLog {
  public:
   /// Goes on with the files of an earlier start. Fails with the file's name.
@@ -37,25 +38,18 @@ class LinkLog {
   using Source = std::pair<bus::Link, AgentId>;
   /// Every robot that was heard since the start, on each link.
   const std::map<Source, Heard>& last_heard() const { return last_received_; }
-  /// Often: all nodes held.
-  void add_nodes(const std::map<NodeId, graph::Node>& nodes, Stamp now);
+  /// Often: all nodes held (store::Store::node_set()).
+  void add_nodes(const store::SeqSet& nodes, Stamp now);
 
  private:
-  struct File {
-    std::filesystem::path path;
-    std::ofstream out;
-    bool failed = false;
-    void flush();
-  };
-  explicit LinkLog(const AgentId& self) : self_(self) {}
-  static Result<File> open_file(const std::filesystem::path& path, const char* header);
-  void begin_anew_when_full();
+  LinkLog(const AgentId& self, output::LineFile trace, output::LineFile nodes)
+      : self_(self), trace_(std::move(trace)), nodes_(std::move(nodes)) {}
   void add_row(const bus::HeardTraffic& traffic, std::uint64_t lost, Stamp from, Stamp to, bool full);
   void add_silent(Stamp now);
 
   AgentId self_;
-  File trace_, nodes_;
-  std::set<NodeId> held_;
+  output::LineFile trace_, nodes_;
+  store::SeqSet held_;              ///< nodes in the log
   std::set<AgentId> fetched_from_;  ///< when the last second ended
   std::map<Source, Heard> last_received_;
   Stamp written_{};  ///< when the last second ended; zero: none has

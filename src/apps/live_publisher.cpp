@@ -62,14 +62,16 @@ double lost_after(const agent::Agent& agent) {
 }
 
 void add_missing_submaps(const store::Store& store, double rate, monitor::RadioNow& radio) {
-  if (store.submap_set().size() == store.node_set().size()) {
+  const std::vector<SeqRange> missing = store.node_set().minus(store.submap_set());
+  if (missing.empty()) {
     radio.seconds_to_equal_map = 0.0;
     return;
   }
-  for (const auto& [id, node] : store.nodes()) {
-    if (store.has_submap(id)) continue;
-    ++radio.missing_submaps;
-    radio.missing_bytes += node.submap_bytes;
+  for (const SeqRange& range : missing) {
+    for (const graph::Node* node : store.nodes_from(range)) {
+      ++radio.missing_submaps;
+      radio.missing_bytes += node->submap_bytes;
+    }
   }
   if (rate > 0.0) radio.seconds_to_equal_map = static_cast<double>(radio.missing_bytes) / rate;
 }

@@ -75,7 +75,9 @@ void read_placement(Section& top, agent::AgentConfig& agent) {
   if (placed != "paper" && placed != "graph")
     placement.problem("method", "expected 'paper' or 'graph', found '" + placed + "'");
   agent.placement.method = placed == "paper" ? graph::PlacementMethod::paper : graph::PlacementMethod::graph;
+  placement.read("live_cpu_share", agent.live_placement.cpu_share);
   placement.finish();
+  placement.check(agent.live_placement.validate());
   agent.placement.paper.gps_correlation_time = agent.placement.fleet.gps_correlation_time =
       std::max(1.0, agent.perception.localization.gps.correlation_time);
 }

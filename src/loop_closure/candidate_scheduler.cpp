@@ -87,6 +87,7 @@ void CandidateScheduler::on_contested(const NodeId& node) {
     if (candidate.phase == Phase::kRequested) withdrawn_.push_back(pair);
     return true;
   });
+  state_->candidates.on_removed_node();
 }
 
 void CandidateScheduler::on_used_alignments(std::span<const graph::Alignment> used) {
@@ -144,9 +145,7 @@ void CandidateScheduler::yield_to(const NodePair& pair) {
 }
 
 void CandidateScheduler::on_cloud_request(const AgentId& peer, const NodeId& ours) {
-  state_->candidates.for_each([&](const NodePair& pair, ScheduledCandidate& candidate) {
-    if (pair.ours == ours && pair.theirs.agent == peer) candidate.known_to_peer = true;
-  });
+  state_->candidates.set_known_to_peer(ours, peer);
 }
 
 void CandidateScheduler::announce(exchange::CloudDemand& demand, Stamp now) {

@@ -26,7 +26,8 @@ class CandidateSelection {
       : config_(config), nodes_(nodes), candidates_(candidates) {}
 
   graph::InformationGain& information() { return information_; }
-  /// Candidates whose clouds may be requested; drops those that others have made redundant meanwhile.
+  /// Candidates whose clouds may be requested; drops those that others have made redundant meanwhile, and
+  /// gives up those that cannot be tried again.
   std::vector<NodePair> ready(const std::function<bool(const AgentId&)>& is_heard, Stamp now);
   /// Removes the next candidate from `ready` and returns it. Without room on the radio, candidates below
   /// min_information are dropped.

@@ -8,27 +8,52 @@ namespace fleetmap::loop_closure {
 using Origin = LoopCandidate::Origin;
 
 ScheduledCandidate* CandidateSet::find(const NodePair& pair) {
-  if (const auto found = candidates_.find(pair); found != candidates_.end()) return &found->second;
-  const auto done = done_.find(pair);
-  return done == done_.end() ? nullptr : &done->second;
+  for (Candidates* some : {&candidates_, &done_, &given_up_}) {
+    if (const auto found = some->find(pair); found != some->end()) return &found->second;
+  }
+  return nullptr;
 }
 
 const ScheduledCandidate& CandidateSet::held(const NodePair& pair) const {
-  const auto found = candidates_.find(pair);
-  return found == candidates_.end() ? done_.at(pair) : found->second;
+  for (const Candidates* some : {&candidates_, &done_}) {
+    if (const auto found = some->find(pair); found != some->end()) return found->second;
+  }
+  return given_up_.at(pair);
 }
 
 void CandidateSet::conclude(const NodePair& pair) {
-  done_.insert(candidates_.extract(pair)).position->second.phase = Phase::kDone;
+  Candidates& from = given_up_.contains(pair) ? given_up_ : candidates_;
+  done_.insert(from.extract(pair)).position->second.phase = Phase::kDone;
+}
+
+bool CandidateSet::hopeless(const NodePair& pair, const ScheduledCandidate& candidate) const {
+  return candidate.phase == Phase::kFailed &&
+         (candidate.attempts >= config_.max_attempts || !too_near(pair, 1, true).empty());
+}
+
+void CandidateSet::set_known_to_peer(const NodeId& ours, const AgentId& peer) {
+  for (Candidates* some : {&candidates_, &given_up_}) {
+    for (auto it = some->lower_bound({ours, {peer, 0}});
+         it != some->end() && it->first.ours == ours && it->first.theirs.agent == peer; ++it)
+      it->second.known_to_peer = true;
+  }
+}
+
+void CandidateSet::reopen() {
+  for (auto it = given_up_.begin(); it != given_up_.end();) {
+    const auto current = it++;
+    if (current->second.attempts < config_.max_attempts) candidates_.insert(given_up_.extract(current));
+  }
 }
 
 void CandidateSet::erase(const NodePair& pair) {
   candidates_.erase(pair);
   grid_.erase(pair);
+  if (given_up_.erase(pair) > 0) reopen();
 }
 
 ScheduledCandidate& CandidateSet::find_or_make(const NodePair& pair) {
-  if (const auto done = done_.find(pair); done != done_.end()) return done->second;
+  if (ScheduledCandidate* held = find(pair)) return *held;
   ScheduledCandidate& candidate = candidates_[pair];
   grid_.add(pair);
   candidate.candidate.target = pair.ours;
@@ -86,12 +111,13 @@ double CandidateSet::spacing(const ScheduledCandidate& other, const AgentId& pee
   return is_aligned(peer) ? std::max(config_.spacing_m, config_.spacing_aligned_m) : config_.spacing_m;
 }
 
-std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t max) const {
+std::vector<NodePair> CandidateSet::too_near(const NodePair& pair, std::size_t max, bool closed_only) const {
   std::vector<NodePair> found;
   if (!nodes_.contains(pair)) return found;
   for (const NodePair& other : grid_.around(pair.ours)) {
     if (found.size() >= max) break;
     if (other == pair || other.theirs.agent != pair.theirs.agent) continue;
+    if (closed_only && candidates_.contains(other)) continue;
     const double limit = spacing(held(other), pair.theirs.agent);
     if (nodes_.near(pair.ours, other.ours, limit) && nodes_.near(pair.theirs, other.theirs, limit))
       found.push_back(other);

@@ -44,18 +44,31 @@ class CandidateSet {
   CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes)
       : config_(config), nodes_(nodes), grid_(largest_spacing(config), nodes) {}
 
-  /// Those that are not done. Done ones, of which a long drive has many, only keep others away.
+  /// Those that are neither done nor given up. A long drive has many of these, and they only keep others
+  /// away.
   const Candidates& all() const { return candidates_; }
-  bool contains(const NodePair& pair) const { return candidates_.contains(pair) || done_.contains(pair); }
+  bool contains(const NodePair& pair) const {
+    return candidates_.contains(pair) || done_.contains(pair) || given_up_.contains(pair);
+  }
   /// The node was added to the index.
   void on_node(const NodeId& node) { grid_.on_node(node); }
-  /// Null: there is none. A done one is not in all().
+  /// The node was removed from the index: its candidates no longer keep others away.
+  void on_removed_node() { reopen(); }
+  /// Null: there is none. One that is done or given up is not in all().
   ScheduledCandidate* find(const NodePair& pair);
   ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
   /// Makes it if there is none.
   ScheduledCandidate& find_or_make(const NodePair& pair);
   /// The candidate is aligned.
   void conclude(const NodePair& pair);
+  /// A failed candidate that has had its attempts, or that one which is done or given up makes redundant.
+  /// Only another one that is erased, or a node that is removed, can make it retryable().
+  bool hopeless(const NodePair& pair, const ScheduledCandidate& candidate) const;
+  /// Takes a hopeless candidate out of all().
+  void give_up(const NodePair& pair) { given_up_.insert(candidates_.extract(pair)); }
+  /// The peer has all candidates of our node `ours` with it.
+  void set_known_to_peer(const NodeId& ours, const AgentId& peer);
+  /// Those in all().
   template <class Visitor>
   void for_each(Visitor visit) {
     for (auto& [pair, candidate] : candidates_) visit(pair, candidate);
@@ -67,11 +80,14 @@ class CandidateSet {
   /// Adds it in any case, unless a node is unknown. The oldest one waiting is dropped if too many wait.
   void add(const LoopCandidate& candidate, Stamp found, bool known_to_peer);
   void erase(const NodePair& pair);
+  /// Visits those that are given up, too.
   template <class Predicate>
   void erase_if(Predicate predicate) {
     std::vector<NodePair> erased;
-    for (const auto& [pair, candidate] : candidates_) {
-      if (predicate(pair, candidate)) erased.push_back(pair);
+    for (const Candidates* some : {&candidates_, &given_up_}) {
+      for (const auto& [pair, candidate] : *some) {
+        if (predicate(pair, candidate)) erased.push_back(pair);
+      }
     }
     for (const NodePair& pair : erased) erase(pair);
   }
@@ -99,8 +115,11 @@ class CandidateSet {
     return std::max({1.0, config.spacing_m, config.spacing_aligned_m, config.spacing_failed_m});
   }
   const ScheduledCandidate& held(const NodePair& pair) const;
-  /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them.
-  std::vector<NodePair> too_near(const NodePair& pair, std::size_t max) const;
+  /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them; with
+  /// `closed_only` of those that are done or given up.
+  std::vector<NodePair> too_near(const NodePair& pair, std::size_t max, bool closed_only = false) const;
+  /// Puts those given up that have attempts left back into all().
+  void reopen();
   double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
   /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.
   Stamp replace_rival(const LoopCandidate& candidate, Stamp now);
@@ -112,7 +131,8 @@ class CandidateSet {
   const NodeIndex& nodes_;
   Candidates candidates_;
   Candidates done_;
-  CandidateGrid grid_;  ///< of both
+  Candidates given_up_;
+  CandidateGrid grid_;  ///< of all three
   std::set<AgentId> aligned_;
   std::uint64_t redundant_ = 0;
   std::uint64_t crowded_out_ = 0;

@@ -15,7 +15,8 @@ constexpr std::size_t kMaxMatches = 400;  // of two frames; the oldest are dropp
 std::vector<LoopCandidate> DescriptorCandidates::propose(const graph::Node& node, bool located, Side side) {
   const Result<place::Descriptor> descriptor = place::Descriptor::decode(node.descriptor);
   if (!descriptor) return {};
-  std::vector<Keyframe>& track = keyframes_[{side, node.id.agent}];
+  Keyframes& keyframes = keyframes_[{side, node.id.agent}];
+  std::vector<Keyframe>& track = keyframes.all;
   const auto last = std::find_if(track.rbegin(), track.rend(),
                                  [&](const Keyframe& other) { return other.frame == node.frame(); });
   if (last != track.rend() &&
@@ -24,9 +25,10 @@ std::vector<LoopCandidate> DescriptorCandidates::propose(const graph::Node& node
   }
   const Keyframe query{node.id, node.frame(), located, node.T_odom_base, node.up_in_base, *descriptor};
   track.push_back(query);
+  keyframes.any_unlocated |= !located;
   std::vector<LoopCandidate> candidates;
-  for (const auto& [other, keyframes] : keyframes_) {
-    if (other.first == side) continue;
+  for (const auto& [other, theirs] : keyframes_) {
+    if (other.first == side || (located && !theirs.any_unlocated)) continue;
     std::optional<LoopCandidate> best;
     for (const auto& [frames, match] : compare(query, other)) {
       const double support = support_of(frames, match);
@@ -50,7 +52,7 @@ std::vector<LoopCandidate> DescriptorCandidates::propose(const graph::Node& node
 std::vector<const DescriptorCandidates::Keyframe*> DescriptorCandidates::comparable(
     const Keyframe& query, const Track& other) const {
   std::vector<std::pair<int, const Keyframe*>> ranked;
-  for (const Keyframe& keyframe : keyframes_.at(other)) {
+  for (const Keyframe& keyframe : keyframes_.at(other).all) {
     if (query.located && keyframe.located) continue;
     ranked.emplace_back(std::abs(keyframe.descriptor.occupied() - query.descriptor.occupied()), &keyframe);
   }

@@ -50,13 +50,17 @@ class DescriptorCandidates {
   using FramePair = std::pair<graph::FrameId, graph::FrameId>;  ///< ours, theirs
   using Track = std::pair<Side, AgentId>;
 
+  struct Keyframes {
+    std::vector<Keyframe> all;
+    bool any_unlocated = false;
+  };
   std::vector<const Keyframe*> comparable(const Keyframe& query, const Track& other) const;
   std::vector<std::pair<FramePair, Match>> compare(const Keyframe& query, const Track& other) const;
   double support_of(const FramePair& frames, const Match& match) const;
 
   DescriptorMatchConfig config_;
   double radius_;
-  std::map<Track, std::vector<Keyframe>> keyframes_;
+  std::map<Track, Keyframes> keyframes_;
   std::map<FramePair, std::vector<Match>> matches_;
 };
 

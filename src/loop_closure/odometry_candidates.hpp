@@ -25,9 +25,17 @@ class OdometryCandidates {
   UncertainPose odometry(std::size_t earlier, std::size_t later) const;
 
   OwnPathConfig config_;
-  std::vector<graph::Node> nodes_;      ///< of the current frame
-  std::vector<double> path_;            ///< m driven until each of them
-  std::optional<double> last_on_path_;  ///< m, of the last candidate
+  /// What is needed of a node; a long drive has many.
+  struct Step {
+    NodeId id;
+    Pose T_odom_base = Pose::Identity();
+    Matrix6d odom_covariance = Matrix6d::Zero();  ///< since the node before
+  };
+  graph::FrameId frame_;                    ///< the current one
+  std::vector<Step> steps_;                 ///< one a node of the frame
+  std::vector<Eigen::Vector3d> positions_;  ///< m, likewise; apart from the rest, since all are searched
+  std::vector<double> path_;                ///< m driven until each of them
+  std::optional<double> last_on_path_;      ///< m, of the last candidate
 };
 
 }  // namespace fleetmap::loop_closure

@@ -37,11 +37,11 @@ bool parse(const std::string& line, GlobalPose& G) {
 
 Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& file) {
   std::error_code error;
-  const bool fresh = !is_there(file) || std::filesystem::file_size(file, error) == 0;
-  Result<LineFile> lines = LineFile::open(file, std::ios::app);
+  const bool goes_on = is_there(file) && std::filesystem::file_size(file, error) > 0;
+  Result<LineFile> lines = LineFile::open(file, std::ios::app, {kMaxTrackBytes, kHeader});
   if (!lines) return tl::unexpected(lines.error());
   // A line that a kill cut off stays a line of its own, and the empty one behind it says why.
-  if (const Status begun = lines->add(fresh ? kHeader : "\n"); !begun) return tl::unexpected(begun.error());
+  if (const Status ended = goes_on ? lines->add("") : Status(); !ended) return tl::unexpected(ended.error());
   return GlobalTrackFile(std::move(*lines));
 }
 
@@ -58,10 +58,11 @@ Status GlobalTrackFile::add(const GlobalPose& G) {
   return lines_.add(line.data());
 }
 
-Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file) {
+namespace {
+
+Status read_part(const std::filesystem::path& file, std::vector<GlobalPose>& track) {
   std::ifstream in(file);
   if (!in) return failure(file.string() + ": cannot be read");
-  std::vector<GlobalPose> track;
   std::string line;
   bool cut_off = false;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -78,6 +79,17 @@ Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& f
     } else {
       cut_off = true;
     }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file) {
+  if (!is_there(file)) return failure(file.string() + ": cannot be read");
+  std::vector<GlobalPose> track;
+  for (const std::filesystem::path& part : parts_of(file)) {
+    if (const Status read = read_part(part, track); !read) return tl::unexpected(read.error());
   }
   return track;
 }

@@ -20,12 +20,14 @@ std::optional<GeoPoint> site_origin(const store::Store& store, const std::option
 
 std::vector<graph::Node> nodes_of(const store::Store& store) {
   std::vector<graph::Node> nodes;
+  nodes.reserve(store.nodes().size());
   for (const auto& [id, node] : store.nodes()) nodes.push_back(node);
   return nodes;
 }
 
 std::vector<graph::Alignment> alignments_of(const store::Store& store) {
   std::vector<graph::Alignment> alignments;
+  alignments.reserve(store.alignments().size());
   for (const auto& [id, alignment] : store.alignments()) alignments.push_back(alignment);
   return alignments;
 }

@@ -6,13 +6,17 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
-#include "fleetmap/core/paths.hpp"
+#include "fleetmap/output/line_file.hpp"
 
 namespace fleetmap::output {
 namespace {
 
+constexpr const char* kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
+/// Of former versions, without poses.
+constexpr const char* kFormerHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason";
 constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
 
 /// At most `count` cells; the last one takes the rest of the line, so the reason may hold commas.
@@ -34,8 +38,6 @@ std::optional<double> finite(std::string_view text) {
   if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
-
-constexpr std::string_view kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
 
 /// "x y z qx qy qz qw"
 std::string text_of(const Pose& T) {
@@ -62,11 +64,11 @@ std::optional<Pose> pose_of(std::string_view text) {
   return make_pose(q.normalized().toRotationMatrix(), {numbers[0], numbers[1], numbers[2]});
 }
 
-/// A file without a column of poses, as former versions wrote it, keeps its columns.
-bool has_poses(const std::filesystem::path& file) {
+/// A file without a column of poses keeps its columns.
+bool lacks_poses(const std::filesystem::path& file) {
   std::string header;
   std::ifstream in(file);
-  return std::getline(in, header) && header == kHeader;
+  return std::getline(in, header) && header == kFormerHeader;
 }
 
 /// The columns of a file, by name.
@@ -108,9 +110,11 @@ class Columns {
 }  // namespace
 
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
-  const bool fresh = !is_there(file), with_pose = fresh || has_poses(file);
-  std::ofstream out(file, std::ios::app);
-  if (fresh) out << kHeader << '\n';
+  const bool with_pose = !lacks_poses(file);
+  Result<LineFile> lines =
+      LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kHeader : kFormerHeader});
+  if (!lines) return tl::unexpected(lines.error());
+  std::ostringstream out;
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';
   for (const std::optional<double>& value : {row.rmse, row.inlier_fraction, row.overlap}) {
     if (value) out << *value;
@@ -118,10 +122,8 @@ Status append_registration(const std::filesystem::path& file, const Registration
   }
   out << row.cpu_seconds << ',';
   if (with_pose) out << (row.T_target_source ? text_of(*row.T_target_source) : "") << ',';
-  out << '"' << row.reason << "\"\n";
-  out.flush();
-  if (!out) return failure(file.string() + ": cannot be written; is the disk full?");
-  return {};
+  out << '"' << row.reason << '"';
+  return lines->add(out.str());
 }
 
 Registrations parse_registrations(std::string_view csv) {
@@ -146,9 +148,15 @@ Registrations parse_registrations(std::string_view csv) {
 }
 
 Registrations read_registrations(const std::filesystem::path& file) {
-  std::ostringstream text;
-  if (std::ifstream in(file, std::ios::binary); in) text << in.rdbuf();
-  return parse_registrations(text.view());
+  Registrations all;
+  for (const std::filesystem::path& part : parts_of(file)) {
+    std::ostringstream text;
+    text << std::ifstream(part, std::ios::binary).rdbuf();
+    Registrations read = parse_registrations(text.view());
+    std::ranges::move(read.rows, std::back_inserter(all.rows));
+    all.damaged += read.damaged;
+  }
+  return all;
 }
 
 std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file) {

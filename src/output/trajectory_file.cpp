@@ -61,11 +61,9 @@ std::optional<StampedPose> pose_of(const std::string& line) {
   return StampedPose{*stamp, make_pose(q, Eigen::Vector3d(v[0], v[1], v[2]))};
 }
 
-/// `complete`: the file has an end; stamps are in order.
-Result<Trajectory> read_lines(const std::filesystem::path& file, bool complete) {
+Status read_lines(const std::filesystem::path& file, bool complete, Trajectory& trajectory) {
   std::ifstream in(file);
   if (!in) return failure(file.string() + ": cannot be read");
-  Trajectory trajectory;
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
@@ -80,6 +78,17 @@ Result<Trajectory> read_lines(const std::filesystem::path& file, bool complete) 
     if (complete && !trajectory.empty() && pose->stamp < trajectory.back().stamp)
       return failure(where + ": the stamp is before that of the line above; sort the file by time");
     trajectory.push_back(*pose);
+  }
+  return {};
+}
+
+/// `complete`: the file has an end; stamps are in order.
+Result<Trajectory> read_parts(const std::filesystem::path& file, bool complete) {
+  if (!is_there(file)) return failure(file.string() + ": cannot be read");
+  Trajectory trajectory;
+  for (const std::filesystem::path& part : parts_of(file)) {
+    if (const Status read = read_lines(part, complete, trajectory); !read)
+      return tl::unexpected(read.error());
   }
   return trajectory;
 }
@@ -103,9 +112,9 @@ std::string tum_line(const StampedPose& pose) {
   return text.data();
 }
 
-Result<Trajectory> read_tum(const std::filesystem::path& file) { return read_lines(file, true); }
+Result<Trajectory> read_tum(const std::filesystem::path& file) { return read_parts(file, true); }
 
-Result<Trajectory> read_growing_tum(const std::filesystem::path& file) { return read_lines(file, false); }
+Result<Trajectory> read_growing_tum(const std::filesystem::path& file) { return read_parts(file, false); }
 
 Status write_tum(const std::filesystem::path& file, const Trajectory& trajectory) {
   std::ofstream out(file, std::ios::trunc);
@@ -116,7 +125,7 @@ Status write_tum(const std::filesystem::path& file, const Trajectory& trajectory
 }
 
 Result<TrajectoryFile> TrajectoryFile::create(const std::filesystem::path& file) {
-  Result<LineFile> lines = LineFile::open(file, std::ios::trunc);
+  Result<LineFile> lines = LineFile::open(file, std::ios::trunc, {kMaxTrackBytes, ""});
   if (!lines) return tl::unexpected(lines.error());
   return TrajectoryFile(std::move(*lines));
 }
@@ -125,11 +134,15 @@ Result<TrajectoryFile> TrajectoryFile::begin_session(const std::filesystem::path
                                                      std::size_t index) {
   const std::filesystem::path file = odometry_file(directory, index);
   std::error_code error;
-  for (int k = 1; is_there(file); ++k) {
+  for (int k = 1; !parts_of(file).empty(); ++k) {
     const std::filesystem::path aside = file.string() + ".before-" + std::to_string(k);
-    if (is_there(aside)) continue;
-    std::filesystem::rename(file, aside, error);
-    if (error) return failure(file.string() + ": cannot be moved aside: " + error.message());
+    if (!parts_of(aside).empty()) continue;
+    for (const auto& [part, to] :
+         {std::pair(part_before(file), part_before(aside)), std::pair(file, aside)}) {
+      if (!is_there(part)) continue;
+      std::filesystem::rename(part, to, error);
+      if (error) return failure(part.string() + ": cannot be moved aside: " + error.message());
+    }
     spdlog::warn("{}: is of a store that was lost or replaced; it is {} now", file.string(), aside.string());
   }
   return create(file);

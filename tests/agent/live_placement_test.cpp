@@ -128,16 +128,39 @@ TEST_F(LivePlacementTest, FollowsTheOdometryBetweenSolutionsAndIgnoresThatOfAnot
   EXPECT_EQ(used_.size(), 1u);
 }
 
-/// 5 s for each 10,000 nodes, so that a long day takes no more of the CPU.
-TEST_F(LivePlacementTest, WithManyNodesSolutionsAreFartherApart) {
-  for (std::uint32_t seq = 0; seq < 12'000; ++seq) add_node(kSelf, seq, seq == 0);
+/// Twice the nodes cost twice as much, so that they are placed half as often.
+TEST_F(LivePlacementTest, SolutionsTakeTheSameShareOfTheCpuWithAnyNumberOfNodes) {
+  const LivePlacementConfig& live = config_.live_placement;
+  constexpr Duration kTime = std::chrono::minutes(5);
+  std::uint32_t seq = 0;
+  for (const std::uint32_t nodes : {3'000u, 6'000u}) {
+    for (; seq < nodes; ++seq) add_node(kSelf, seq, seq == 0);
+    live_->refresh(0);
+    network_->run_until(network_->now() + std::chrono::minutes(1));  // the pause after it
+    const std::size_t before = used_.size();
+    for (const Stamp begun = network_->now(); network_->now() < begun + kTime;
+         network_->run_until(network_->now() + live.period)) {
+      add_node(kSelf, seq++, false);
+      live_->refresh(0);
+    }
+    const auto solutions = static_cast<double>(used_.size() - before);
+    const double share = solutions * nodes * to_seconds(live.cost_per_node) / to_seconds(kTime);
+    EXPECT_LT(share, 1.1 * live.cpu_share) << nodes;
+    EXPECT_GT(share, 0.5 * live.cpu_share) << nodes;
+  }
+}
+
+TEST_F(LivePlacementTest, ASessionThatBeginsWaitsForNoPause) {
+  config_.live_placement.cost_per_node = std::chrono::seconds(10);
+  for (std::uint32_t seq = 0; seq < 8; ++seq) add_node(kSelf, seq, true);
   solve();
-  add_node(kSelf, 12'000, false);
+  add_node(kSelf, 8, true);
   live_->refresh(0);
-  network_->run_until(network_->now() + std::chrono::seconds(3));
-  EXPECT_FALSE(live_->idle()) << "5 s after the start of the first, one more is due";
-  network_->run_until(network_->now() + std::chrono::seconds(1));
-  solve();
+  network_->run_until(network_->now() + std::chrono::seconds(5));
+  EXPECT_EQ(used_.size(), 1u) << "one more in the same session";
+  add_node(kSelf, first_seq(1), true);
+  live_->refresh(1);
+  network_->run_until(network_->now() + std::chrono::seconds(5));
   EXPECT_EQ(used_.size(), 2u);
 }
 

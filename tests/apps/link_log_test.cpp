@@ -112,10 +112,10 @@ TEST_F(LinkLogTest, ALineThatWasCutOffIsEnded) {
 
 TEST_F(LinkLogTest, EachNodeIsWrittenOnceAndALaterStartGoesOn) {
   const NodeId first{kR1, 0}, second{kR2, 3};
-  std::map<NodeId, graph::Node> nodes;
-  nodes[first];
+  store::SeqSet nodes;
+  nodes.insert(first.agent, first.seq);
   log_.add_nodes(nodes, kStart);
-  nodes[second];
+  nodes.insert(second.agent, second.seq);
   log_.add_nodes(nodes, kStart + 1s);
   log_.add_nodes(nodes, kStart + 2s);
   const auto file = folder_.path() / "node_times.csv";

@@ -1,7 +1,8 @@
 // Measures a whole agent (perception, nodes, store, exchange, placement, files) over a day in virtual time,
 // with scans of few points: memory, CPU and files for each thousand nodes, and how they grow over the second
 // half. One robot, without loop closures; bench_endurance has the exchange and the candidates of several.
-//   bench_agent_endurance [NODES [MINUTES]]    20000 nodes, or as many as this computes in 10 minutes
+//   bench_agent_endurance [NODES [MINUTES]]    24000 nodes (24 hours), or as many as this computes in 25
+//   minutes
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -82,6 +83,6 @@ void measure(std::size_t nodes, double minutes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  measure(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 20'000,
-          argc > 2 ? std::strtod(argv[2], nullptr) : 10.0);
+  measure(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 24'000,
+          argc > 2 ? std::strtod(argv[2], nullptr) : 25.0);
 }

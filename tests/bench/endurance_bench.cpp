@@ -30,7 +30,7 @@ using fault_injection::Draws;
 using fault_injection::Packet;
 using messages::Reach;
 
-constexpr Duration kTick = std::chrono::milliseconds(100);  // as an agent's FleetLink
+constexpr Duration kTick = std::chrono::milliseconds(100);  // five of an agent's FleetLink
 constexpr double kSpacing = 6.0;                            // m between nodes
 constexpr double kSpeed = kSpacing * 20'000 / 86'400.0;     // m/s
 constexpr double kApart = 1'000.0;                          // m, from robot to robot along the path

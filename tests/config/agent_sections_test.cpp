@@ -56,6 +56,12 @@ TEST(AgentSections, ModePaperIsThePapersSchemeThroughout) {
               HasSubstr("robot.yaml:2: mode: expected 'paper' or 'fleet', found 'papr'"));
 }
 
+TEST(AgentSections, TheShareOfTheCpuForLivePlacementsIsBounded) {
+  EXPECT_EQ(read("id: r1\nplacement: {live_cpu_share: 0.1}\n").agent.live_placement.cpu_share, 0.1);
+  EXPECT_THAT(read("id: r1\nplacement: {live_cpu_share: 2}\n").problems,
+              HasSubstr("placement.live_cpu_share"));
+}
+
 TEST(AgentSections, ASectionSetsEachPartOfThePapersSchemeAlone) {
   const AgentReading r =
       read("id: r1\nmode: paper\nregistration: {method: correlation}\nspherize: {ground_voxel: 1.5}\n");

@@ -63,6 +63,18 @@ TEST_F(CandidateSelectionTest, AFailedCandidateIsReadyAgainOnceAndNotBeforeItsTi
   EXPECT_TRUE(ready(kStart + std::chrono::seconds(60)).empty());
 }
 
+/// Those of a long day would be visited 50 times a second.
+TEST_F(CandidateSelectionTest, CandidatesThatFailedForGoodAreVisitedNoMore) {
+  for (const std::uint32_t seq : {10u, 20u, 30u}) {
+    offer(seq);
+    candidates_.at(pair(seq)).phase = Phase::kFailed;
+    candidates_.at(pair(seq)).attempts = seq == 20 ? 1 : config_.max_attempts;
+  }
+  EXPECT_EQ(ready(kStart), std::vector{pair(20)});
+  EXPECT_EQ(candidates_.all().size(), 1u);
+  EXPECT_EQ(ready(kStart), std::vector{pair(20)});
+}
+
 TEST_F(CandidateSelectionTest, CandidatesThatBecameRedundantAreDroppedAndOneOfTwoStays) {
   offer(10);
   offer(16);  // 12 m apart, and 20 m are required after the first good alignment

@@ -54,6 +54,23 @@ TEST(GlobalTrack, NextStartGoesOnBehindALineThatAKillCutOff) {
   EXPECT_EQ(track->back().stamp, made_up(2).stamp);
 }
 
+TEST(GlobalTrack, ThePartBeforeIsReadFirst) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "g.csv";
+  for (const int k : {0, 1}) {
+    {
+      auto file = GlobalTrackFile::append_to(path);
+      ASSERT_TRUE(file && file->add(made_up(k)));
+    }
+    if (k == 0) std::filesystem::rename(path, part_before(path));
+  }
+  const auto track = read_global_track(path);
+  ASSERT_TRUE(track) << track.error().message;
+  ASSERT_EQ(track->size(), 2u);
+  EXPECT_EQ(track->front().stamp, made_up(0).stamp);
+  EXPECT_EQ(track->back().stamp, made_up(1).stamp);
+}
+
 TEST(GlobalTrack, NonsenseInTheMiddleIsAnError) {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("g.csv", "hello\nworld\n");

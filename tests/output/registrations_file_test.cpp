@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "fleetmap/output/line_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -31,6 +32,20 @@ TEST(RegistrationsFile, ThatCannotBeWrittenIsAnErrorThatNamesIt) {
                                            {kTarget, kSource, "failed", {}, {}, {}, 0.0, ""});
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find("r.csv"), std::string::npos);
+}
+
+TEST(RegistrationsFile, ThePartBeforeIsReadFirst) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / kRegistrationsFile;
+  ASSERT_TRUE(append_registration(file, {kTarget, kSource, "rejected", 0.125, 0.5, 0.75, 1.5, ""}));
+  std::filesystem::rename(file, part_before(file));
+  ASSERT_TRUE(append_registration(file, {kSource, kTarget, "failed", {}, {}, {}, 0.25, "no cloud"}));
+  folder.write(part_before(file).filename(), "target,source,verdict\nr1/3,r2/7,rejected\ncut o");
+  const Registrations read = read_registrations(file);
+  EXPECT_EQ(read.damaged, 1u);
+  ASSERT_EQ(read.rows.size(), 2u);
+  EXPECT_EQ(read.rows[0].target, kTarget);
+  EXPECT_EQ(read.rows[1].target, kSource);
 }
 
 TEST(RegistrationsFile, WhatIsWrittenIsReadAgain) {

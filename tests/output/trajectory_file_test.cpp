@@ -90,8 +90,22 @@ TEST(TrajectoryFile, OnlyOneThatStillGrowsMayEndWithinALine) {
   EXPECT_FALSE(read_tum(folder.write("u.tum", "1.5 0 0 0 0 0 0 1\n2.5 0 0")));
 }
 
+TEST(TrajectoryFile, ThePartBeforeIsReadFirst) {
+  const testing::TemporaryFolder folder;
+  folder.write("t.tum.before", "1.5 0 0 0 0 0 0 1\n2.5 0 0 0 0 0 0 1\n");
+  const auto read = read_growing_tum(folder.write("t.tum", "3.5 0 0 0 0 0 0 1\n"));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->size(), 3u);
+  EXPECT_EQ(read->front().stamp, stamp_from_ns(1'500'000'000));
+  EXPECT_EQ(read->back().stamp, stamp_from_ns(3'500'000'000));
+  EXPECT_EQ(read_tum(folder.path() / "t.tum")->size(), 3u);
+  folder.write("t.tum", "2.25 0 0 0 0 0 0 1\n");
+  EXPECT_FALSE(read_tum(folder.path() / "t.tum")) << "stamps go back";
+}
+
 TEST(TrajectoryFile, OdometryOfALostStoreIsMovedAside) {
   const testing::TemporaryFolder folder;
+  folder.write("odometry.tum.before", "zeroth\n");
   folder.write("odometry.tum", "first\n");
   ASSERT_TRUE(TrajectoryFile::begin_session(folder.path(), 0));
   folder.write("odometry.tum", "second\n");
@@ -102,6 +116,7 @@ TEST(TrajectoryFile, OdometryOfALostStoreIsMovedAside) {
     std::getline(in, line);
     return line;
   };
+  EXPECT_EQ(line_of("odometry.tum.before-1.before"), "zeroth");
   EXPECT_EQ(line_of("odometry.tum.before-1"), "first");
   EXPECT_EQ(line_of("odometry.tum.before-2"), "second");
   EXPECT_TRUE(read_tum(folder.path() / "odometry.tum")->empty());

@@ -16,6 +16,7 @@
 #include "fleetmap/agent/registration_recorder.hpp"
 #include "fleetmap/agent/store_failures.hpp"
 #include "fleetmap/agent/track_recorder.hpp"
+#include "fleetmap/core/quantile_sketch.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
 #include "fleetmap/store/sessions.hpp"
 
@@ -88,8 +89,8 @@ class Agent {
   loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
   /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
-  /// CPU seconds of LOAM for each scan.
-  const std::vector<double>& scan_seconds() const { return scan_seconds_; }
+  /// CPU seconds of LOAM a scan.
+  const QuantileSketch& scan_seconds() const { return scan_seconds_; }
   /// Counts work that has finished.
   WorkSeconds work_seconds() const;
 
@@ -144,13 +145,12 @@ class Agent {
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
   TrackRecorder tracks_;
-  double odometry_seconds_ = 0.0;  ///< CPU
   RegistrationRecorder registrations_;
   NodeFactory nodes_;
   loop_closure::LoopClosing loop_closing_;
   std::optional<exchange::Exchange> exchange_;
   OdometryFrame frame_;
-  std::vector<double> scan_seconds_;
+  QuantileSketch scan_seconds_;
   std::unique_ptr<Perception> perception_;
   std::unique_ptr<FleetLink> link_;
   std::unique_ptr<Navigator> navigator_;

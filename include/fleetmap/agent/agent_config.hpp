@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "fleetmap/agent/live_placement_config.hpp"
 #include "fleetmap/agent/perception.hpp"
 #include "fleetmap/agent/submap_builder.hpp"
 #include "fleetmap/core/ids.hpp"
@@ -41,6 +42,7 @@ struct AgentConfig {
   exchange::ExchangeConfig exchange;  ///< payload_size, clouds.order and clouds.cancel_when_aligned are
                                       ///< filled in by the agent
   graph::PlacementConfig placement;
+  LivePlacementConfig live_placement;
   store::StoreConfig store;
   store::RegistrationLogConfig registration_log;
   store::MergeConfig map;

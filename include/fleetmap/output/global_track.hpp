@@ -23,8 +23,8 @@ class GlobalTrackFile {
   LineFile lines_;
 };
 
-/// Stamp, position and attitude of each line; the covariance holds the four sigmas only. A last line that is
-/// cut off (a killed writer) is left out; any other bad line is an error.
+/// Stamp, position and attitude of each line, with those of part_before(file); the covariance holds the four
+/// sigmas only. A last line that is cut off (a killed writer) is left out; any other bad line is an error.
 Result<std::vector<GlobalPose>> read_global_track(const std::filesystem::path& file);
 
 }  // namespace fleetmap::output

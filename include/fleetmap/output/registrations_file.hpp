@@ -38,7 +38,7 @@ struct Registrations {
 /// Finds the columns by the names in the first line, so that files with more, fewer or reordered columns can
 /// be read; target, source and verdict must be there. Numbers that are missing or not finite stay empty.
 Registrations parse_registrations(std::string_view csv);
-/// A file that is not there holds nothing.
+/// With those of part_before(file). A file that is not there holds nothing.
 Registrations read_registrations(const std::filesystem::path& file);
 /// States the file and the number of its damaged lines. Empty if there is none.
 std::optional<std::string> damage_note(const Registrations& read, const std::filesystem::path& file);

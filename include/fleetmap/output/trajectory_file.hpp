@@ -24,8 +24,8 @@ std::filesystem::path odometry_file(const std::filesystem::path& directory, std:
 /// "stamp_s x y z qx qy qz qw" of base_link, as `evo` reads it.
 std::string tum_line(const StampedPose& pose);
 
-/// A TUM file; empty lines and those that begin with # are skipped. Fails with file and line on anything
-/// else, on a number that is not finite, and where stamps go back.
+/// A TUM file with its part_before(); empty lines and those that begin with # are skipped. Fails with file
+/// and line on anything else, on a number that is not finite, and where stamps go back.
 Result<Trajectory> read_tum(const std::filesystem::path& file);
 /// One that a program still writes, or was killed while it did: a last line that is cut off is left out.
 /// Stamps are taken as they are.

@@ -1,0 +1,27 @@
+#include "fleetmap/agent/live_placement_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/field_bounds.hpp"
+
+namespace fleetmap::agent {
+namespace {
+
+using testing::expect_accepted;
+using testing::expect_refused;
+using testing::kNaN;
+
+using Config = LivePlacementConfig;
+
+TEST(LivePlacementConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+
+TEST(LivePlacementConfig, TheShareIsOfOneCoreAndTimesArePositive) {
+  expect_accepted(Config{}, &Config::cpu_share, {0.001, 1.0});
+  expect_refused(Config{}, &Config::cpu_share, {0.0, -0.1, 1.1, kNaN<double>}, "live_cpu_share");
+  expect_refused(Config{}, &Config::period, {Duration::zero(), Duration{-1}}, "period");
+  expect_accepted(Config{}, &Config::cost_per_node, {Duration::zero()});
+  expect_refused(Config{}, &Config::cost_per_node, {Duration{-1}}, "cost");
+}
+
+}  // namespace
+}  // namespace fleetmap::agent
