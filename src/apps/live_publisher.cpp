@@ -37,7 +37,7 @@ void add_mission(const agent::Navigator& navigator, FleetNow& fleet) {
   }
   fleet.reports.insert_or_assign(fleet.self, mission.report());
   for (const planning::Row& row : mission.plan().mission.rows) fleet.rows.push_back(row.id);
-  if (const auto reason = navigator.stop_reason()) fleet.stands = to_string(*reason);
+  if (const auto reason = navigator.stop_reason()) fleet.stop_reason = to_string(*reason);
 }
 
 FleetNow fleet_now(const agent::Agent& agent, const LinkLog& log, Stamp now) {

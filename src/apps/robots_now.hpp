@@ -25,7 +25,7 @@ struct FleetNow {
   std::map<LinkLog::Source, LinkLog::Heard> heard;
   std::map<AgentId, std::uint64_t> misbehaved;  ///< messages that contradict the rules
   std::vector<planning::RowId> rows;            ///< their names, by the mission's order
-  std::string stands;                           ///< why this robot stands still; empty: it does not
+  std::string stop_reason;                      ///< why this robot stands still; empty: it does not
   std::vector<std::string> problems;            ///< of this robot
 };
 

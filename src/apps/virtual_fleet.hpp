@@ -48,7 +48,7 @@ struct FleetOutcome {
   GeoPoint origin;
   bool origin_known = false;
   Duration virtual_time{};               ///< from the first sensor sample to the end of the exchange
-  Duration settle_time{};                ///< of it, after the last sensor sample
+  Duration exchange_time{};              ///< of it, after the last sensor sample
   bool exchange_ended = false;           ///< the exchange came to its end by itself
   std::optional<Completion> completion;  ///< of a mission
   FeedSeconds feed_seconds;              ///< CPU
@@ -66,7 +66,7 @@ class VirtualFleet {
                                                       const std::filesystem::path& out,
                                                       const std::optional<std::filesystem::path>& record);
 
-  /// Plays everything, lets the exchange settle and writes every agent's results.
+  /// Plays everything, lets the exchange end and writes every agent's results.
   Result<FleetOutcome> run();
 
  private:

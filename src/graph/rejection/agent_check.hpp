@@ -9,7 +9,9 @@ namespace fleetmap::graph {
 /// The one agent without whose hypotheses the best ones of all frame pairs agree with each other, GPS and
 /// odometry, if with them they do not. None if a single false hypothesis explains the contradiction, if
 /// several agents may be the cause, or if most of the agent's hypotheses agree with the others: an honest
-/// robot's false registrations differ in cause, those of a compromised one are all its own.
+/// robot's false registrations differ in cause, those of a compromised one are all its own. Leaving out one
+/// source after the other is how GPS receivers find a faulty satellite (RAIM; Parkinson and Axelrad,
+/// NAVIGATION 35(2), 1988).
 std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, const PriorEvidence& evidence,
                                            const SolvedGraph& prior);
 
