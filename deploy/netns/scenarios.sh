@@ -517,7 +517,7 @@ scenario_lidar_clock() { # one robot's LiDAR is 2 s behind its other sensors, an
 scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
   local known ended held i
   need_recordings
-  idle=30 # encounters ripen for 20 s, also those of two others
+  idle=30 # candidates wait for 20 s, also those of two others
   if ((wifi_from > 0)); then off wifi; fi
   all_start
   until_then=known watch_radio all_know 60

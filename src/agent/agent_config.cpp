@@ -27,7 +27,7 @@ Status AgentConfig::validate() const {
     if (!status) return status;
   }
   if (loop_closure.max_active > exchange.clouds.max_receiving)
-    return failure("exchange: encounters.max_active must be at most cloud_transfer.max_receiving");
+    return failure("exchange: loop_candidates.max_active must be at most cloud_transfer.max_receiving");
   // Else both clouds of a candidate hold the same submaps.
   if (own_path.min_path < 2.0 * static_cast<double>(spherize.radius_m))
     return failure("loop_closures.min_path must be at least twice spherize.radius");

@@ -7,14 +7,14 @@
 #include <mutex>
 #include <utility>
 
+#include "fleetmap/core/utc.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr Duration kRequestPeriod = std::chrono::seconds(1);
 constexpr Duration kSilence = std::chrono::seconds(5);
-
-Stamp now() { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
 
 /// Until the next try, or until the input ends.
 void wait(const std::stop_token& stop) {
@@ -59,13 +59,13 @@ Error DeviceInput::serve(DeviceStream& stream, const std::stop_token& stop) {
         said_.clear();
       }
       heard = moment;
-      handlers_.on_bytes(ByteView(buffer).first(*size), now());
+      handlers_.on_bytes(ByteView(buffer).first(*size), system_now());
     } else if (moment - heard > kSilence) {
       say(name + ": sends nothing; check its power, its settings and the baud rate");
     }
     if (!handlers_.request || !any || moment - asked < kRequestPeriod) continue;
     asked = moment;
-    if (const Status sent = stream.write(handlers_.request(now())); !sent) return sent.error();
+    if (const Status sent = stream.write(handlers_.request(system_now())); !sent) return sent.error();
   }
   return {};
 }

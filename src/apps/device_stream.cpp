@@ -14,6 +14,8 @@
 #include <utility>
 #include <variant>
 
+#include "udp_socket.hpp"
+
 namespace fleetmap::apps {
 namespace {
 
@@ -77,15 +79,11 @@ Opened open_place(const SerialPort& serial) {
 }
 
 Opened open_place(const UdpPort& udp) {
-  const int descriptor = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (descriptor < 0) return refused(descriptor);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(udp.port);
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  if (::bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return descriptor;
-  return errno == EADDRINUSE ? refused(descriptor, "another program receives there; end that one")
-                             : refused(descriptor);
+  const auto socket = open_udp_socket(udp.port);
+  if (socket) return *socket;
+  if (socket.error() == std::errc::address_in_use)
+    return refused(-1, "another program receives there; end that one");
+  return refused(-1, socket.error().message());
 }
 
 Opened open_place(const TcpServer& server) {
@@ -164,11 +162,6 @@ Status DeviceStream::write(ByteView bytes) {
   return failed("the device is gone (" + std::string(std::strerror(errno)) + ")");
 }
 
-std::uint16_t DeviceStream::port() const {
-  sockaddr_in address{};
-  socklen_t length = sizeof address;
-  ::getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &length);
-  return ntohs(address.sin_port);
-}
+std::uint16_t DeviceStream::port() const { return udp_port_of(descriptor_); }
 
 }  // namespace fleetmap::apps

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/trust/key_store.hpp"
 #include "options.hpp"
 
@@ -18,10 +19,8 @@ struct KeysOptions {
   std::uint32_t days = 365;
 };
 
-Stamp now() { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
-
 int init(const KeysOptions& options) {
-  const auto keys = trust::KeyStore::init(options.folder, now());
+  const auto keys = trust::KeyStore::init(options.folder, system_now());
   if (!keys) return report(keys.error(), kFailed);
   std::cout << options.folder
             << ": keys of a new fleet; keep the folder where no robot goes, and a copy of it\n";
@@ -35,7 +34,7 @@ int add(const KeysOptions& options) {
   if (!keys) return report(keys.error(), kFailed);
   const auto role = trust::parse_role(options.role);
   if (!role) return report(role.error(), kUsage);
-  const auto added = keys->add(*name, *role, std::chrono::days(options.days), now());
+  const auto added = keys->add(*name, *role, std::chrono::days(options.days), system_now());
   if (!added) return report(added.error(), kFailed);
   std::cout << options.folder << '/' << options.name << ": keys of " << options.name << ", "
             << trust::to_string(added->role) << ", valid until " << trust::date(added->not_after)
@@ -48,7 +47,8 @@ int revoke(const KeysOptions& options) {
   if (!name) return report(name.error(), kUsage);
   auto keys = trust::KeyStore::open(options.folder);
   if (!keys) return report(keys.error(), kFailed);
-  if (const Status revoked = keys->revoke(*name, now()); !revoked) return report(revoked.error(), kFailed);
+  if (const Status revoked = keys->revoke(*name, system_now()); !revoked)
+    return report(revoked.error(), kFailed);
   std::cout
       << options.name << " is revoked, and the fleet has a new key (" << keys->epoch()
       << "): copy the folders of all others to them and start them anew; who has the old one is not heard\n";
@@ -62,7 +62,9 @@ int show(const KeysOptions& options) {
             << trust::date(keys->authority().not_after) << '\n';
   for (const auto& member : keys->members()) {
     const trust::Certificate& certificate = member.certificate;
-    const char* state = member.revoked ? "revoked" : certificate.not_after < now() ? "expired" : "valid";
+    const char* state = member.revoked                         ? "revoked"
+                        : certificate.not_after < system_now() ? "expired"
+                                                               : "valid";
     std::cout << certificate.name.str() << ' ' << trust::to_string(certificate.role) << ' ' << state
               << " until " << trust::date(certificate.not_after) << ", serial " << certificate.serial << '\n';
   }

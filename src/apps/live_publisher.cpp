@@ -36,7 +36,7 @@ void add_mission(const agent::Navigator& navigator, FleetNow& fleet) {
   }
   fleet.reports.insert_or_assign(fleet.self, mission.report());
   fleet.rows = mission.plan().mission.rows;
-  if (const auto reason = navigator.stop_reason()) fleet.stands = to_string(*reason);
+  if (const auto reason = navigator.stop_reason()) fleet.stop_reason = to_string(*reason);
 }
 
 FleetNow fleet_now(const agent::Agent& agent, const LivePublisher::LastHeard& last_heard, Stamp now) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/graph/frame_name.hpp"
@@ -162,7 +163,7 @@ CLI::Validator ends_with(std::vector<std::string> extensions) {
     const std::string extension = std::filesystem::path(file).extension();
     if (std::ranges::find(extensions, extension) != extensions.end()) return {};
     std::string expected;
-    for (const std::string& one : extensions) expected += (expected.empty() ? "" : " or ") + one;
+    for (const std::string& one : extensions) append_to_list(expected, one, " or ");
     return file + ": must end with " + expected;
   };
   return {check, "FILE"};

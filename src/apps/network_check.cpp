@@ -14,6 +14,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/fleet_agreement.hpp"
 #include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 
@@ -132,7 +133,7 @@ class LinkCheck {
     for (const auto& [robot, places] : names_) {
       if (places.size() < 2) continue;
       std::string all;
-      for (const std::string& place : places) all += (all.empty() ? "" : " and ") + place;
+      for (const std::string& place : places) append_to_list(all, place, " and ");
       problems_.push_back(robot.str() + " is the name of several robots, at " + all +
                           ": each needs a name of its own");
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "agent_report.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/core/whole_file.hpp"
 #include "fleetmap/eval/html_page.hpp"
 #include "fleetmap/eval/plot.hpp"
@@ -105,7 +106,7 @@ std::string title_of_map(const std::vector<std::string>& nowhere, std::size_t tr
   if (nowhere.size() >= tracks)
     return "Trajectories from above; no robot had a GPS fix, so place and north are unknown";
   std::string names;
-  for (const std::string& name : nowhere) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : nowhere) append_to_list(names, name);
   return "Trajectories in ENU, north up, but those of " + names +
          ": without a GPS fix their place is unknown";
 }
@@ -172,8 +173,8 @@ std::string lost_ways(const odometry::LoamCounters& odometry) {
 Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome,
                     const RunProfile& profile) {
   json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
-                 {"settle_time_s", to_seconds(outcome.settle_time)},
-                 {"settled", outcome.exchange_ended},
+                 {"exchange_time_s", to_seconds(outcome.exchange_time)},
+                 {"exchange_ended", outcome.exchange_ended},
                  {"wall_time_s", profile.wall},
                  {"profile", to_json(profile)},
                  {"links", links_json(outcome.links)}};

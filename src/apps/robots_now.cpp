@@ -43,7 +43,7 @@ std::string words_of(const MissionReport& report, const std::vector<planning::Ro
 
 std::string activity_now(const FleetNow& fleet, const AgentId& id, bool stands) {
   const auto report = fleet.reports.find(id);
-  if (id == fleet.self && !fleet.stands.empty()) return "stands still: " + fleet.stands;
+  if (id == fleet.self && !fleet.stop_reason.empty()) return "stands still: " + fleet.stop_reason;
   if (stands) return "stands still: an operator holds it";
   const auto status = fleet.statuses.find(id);
   if (report != fleet.reports.end())

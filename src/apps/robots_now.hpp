@@ -25,7 +25,7 @@ struct FleetNow {
   std::map<LinkLog::Source, LinkLog::Heard> heard;
   std::map<AgentId, std::uint64_t> misbehaved;           ///< messages that contradict the rules
   std::vector<planning::Row> rows;                       ///< of the mission, in its order
-  std::string stands;                                    ///< why this robot stands still; empty: it does not
+  std::string stop_reason;                               ///< why this robot stands still; empty: it does not
   std::map<AgentId, std::vector<std::string>> problems;  ///< of the robots whose insides are known
 };
 

@@ -59,7 +59,7 @@ void print_agreement(std::ostream& out, const FleetOutcome& outcome) {
   }
   out << (maps.size() <= 1 ? "all robots hold the same map\n" : "the robots' maps differ: see report.json\n");
   if (!outcome.exchange_ended) {
-    out << "the exchange did not come to its end within settle_time: maps may be incomplete, see "
+    out << "the exchange did not come to its end within exchange_timeout: maps may be incomplete, see "
            "report.json\n";
   }
 }

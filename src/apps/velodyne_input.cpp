@@ -7,9 +7,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "fleetmap/core/utc.hpp"
+#include "udp_socket.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -27,15 +29,6 @@ std::string text_of(std::uint32_t address) {
   return text;
 }
 
-tl::unexpected<Error> failed(int socket, std::uint16_t port) {
-  const int error = errno;
-  if (socket >= 0) ::close(socket);
-  const std::string where = "lidar.velodyne_port " + std::to_string(port) + ": ";
-  if (error == EADDRINUSE)
-    return failure(where + "another program receives there; end it, or take its topic as topics.points");
-  return failure(where + std::strerror(error));
-}
-
 /// When the system received a datagram.
 Stamp arrival_of(msghdr& message) {
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
@@ -44,28 +37,20 @@ Stamp arrival_of(msghdr& message) {
     std::memcpy(&time, CMSG_DATA(part), sizeof time);
     return stamp_from_ns(std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec);
   }
-  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  return system_now();
 }
 
 }  // namespace
 
 Result<std::unique_ptr<VelodyneInput>> VelodyneInput::open(std::uint16_t port, OnScan on_scan) {
-  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (socket < 0) return failed(socket, port);
-  const int yes = 1;
-  // Without either the input works: the times of arrival are less exact, or a busy computer loses packets.
-  ::setsockopt(socket, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
-  ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &kReceiveBuffer, sizeof kReceiveBuffer);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_ANY);
-  socklen_t size = sizeof address;
-  if (::bind(socket, reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
-      ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0)
-    return failed(socket, port);
-  return std::unique_ptr<VelodyneInput>(
-      new VelodyneInput(socket, ntohs(address.sin_port), std::move(on_scan)));
+  const auto socket = open_udp_socket(port, {.receive_buffer = kReceiveBuffer, .stamps_arrivals = true});
+  if (!socket) {
+    const bool is_taken = socket.error() == std::errc::address_in_use;
+    return failure("lidar.velodyne_port " + std::to_string(port) + ": " +
+                   (is_taken ? "another program receives there; end it, or take its topic as topics.points"
+                             : socket.error().message()));
+  }
+  return std::unique_ptr<VelodyneInput>(new VelodyneInput(*socket, udp_port_of(*socket), std::move(on_scan)));
 }
 
 VelodyneInput::VelodyneInput(int socket, std::uint16_t port, OnScan on_scan)

@@ -267,7 +267,8 @@ Result<FleetOutcome> VirtualFleet::run() {
     note_completion(network_->now() - start);
     if (playing()) last_sample = network_->now();
     outcome.exchange_ended = exchange_ended();
-    if (outcome.exchange_ended || network_->now() - last_sample > from_seconds(config_.settle_time)) break;
+    if (outcome.exchange_ended || network_->now() - last_sample > from_seconds(config_.exchange_timeout))
+      break;
     if (network_->now() < next_report) continue;
     next_report += kReportEvery;
     report_progress(network_->now() - start);
@@ -275,7 +276,7 @@ Result<FleetOutcome> VirtualFleet::run() {
   if (page_) page_->forget_agents();
   if (!error_.empty()) return failure(error_);
   outcome.virtual_time = network_->now() - start;
-  outcome.settle_time = network_->now() - last_sample;
+  outcome.exchange_time = network_->now() - last_sample;
   if (completion_) completion_->abandoned = abandoned_rows();
   outcome.completion = completion_;
   outcome.links = network_->link_use();

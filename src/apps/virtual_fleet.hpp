@@ -49,7 +49,7 @@ struct FleetOutcome {
   GeoPoint origin;
   bool origin_known = false;
   Duration virtual_time{};               ///< from the first sensor sample to the end of the exchange
-  Duration settle_time{};                ///< of it, after the last sensor sample
+  Duration exchange_time{};              ///< of it, after the last sensor sample
   bool exchange_ended = false;           ///< the exchange came to its end by itself
   std::optional<Completion> completion;  ///< of a mission
   FeedSeconds feed_seconds;              ///< CPU
@@ -69,7 +69,7 @@ class VirtualFleet {
 
   /// Publishes the fleet's live status there while it runs; `server` outlives this.
   void show_on(monitor::Server& server) { page_ = std::make_unique<VirtualPage>(*network_, server); }
-  /// Plays everything, lets the exchange settle and writes every agent's results.
+  /// Plays everything, lets the exchange end and writes every agent's results.
   Result<FleetOutcome> run();
 
  private:

@@ -130,9 +130,9 @@ class Grid {
       const Eigen::Vector2d mean = A.block<2, 1>(1, 0) / weights;
       const Eigen::Matrix2d spread = A.bottomRightCorner<2, 2>() / weights - mean * mean.transpose();
       const double cell_m = static_cast<double>(config_.cell_m);
-      const double least_spread =
+      const double min_spread =
           0.5 * spread.trace() - std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
-      if (weights < 3.0 || least_spread < 0.1 * cell_m * cell_m) {
+      if (weights < 3.0 || min_spread < 0.1 * cell_m * cell_m) {
         return std::nullopt;
       }
       plane = A.ldlt().solve(b);
@@ -192,7 +192,7 @@ class Grid {
     }
   }
 
-  bool stands_above_another(const Cell& cell, const std::vector<std::size_t>& sizes) const {
+  bool is_above_another(const Cell& cell, const std::vector<std::size_t>& sizes) const {
     bool above = false;
     for_cells_around(cell, kContactCells, [&](int at) {
       const Cell& other = cells_[static_cast<std::size_t>(at)];
@@ -210,7 +210,7 @@ class Grid {
       if (cell.plane) ++sizes[static_cast<std::size_t>(cell.surface)];
     }
     for (const Cell& cell : cells_) {
-      if (cell.plane && stands_above_another(cell, sizes)) ++elevated[static_cast<std::size_t>(cell.surface)];
+      if (cell.plane && is_above_another(cell, sizes)) ++elevated[static_cast<std::size_t>(cell.surface)];
     }
     const double cell_area = static_cast<double>(config_.cell_m) * static_cast<double>(config_.cell_m);
     ground_.assign(surfaces, false);

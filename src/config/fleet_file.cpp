@@ -79,7 +79,7 @@ Result<FleetConfig> read_fleet(Document& document) {
   FleetConfig fleet;
   Section top(document, document.root(), "");
   read_network(top, fleet.network, fleet.blackouts);
-  top.read("settle_time", fleet.settle_time);
+  top.read("exchange_timeout", fleet.exchange_timeout);
   fleet.twin = read_twin(top);
   fleet.field = read_field(top);
   const LoopbackDomains domains = read_loopback(top);

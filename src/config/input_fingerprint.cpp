@@ -31,7 +31,7 @@ class Inputs {
   void add_file(const fs::path& file) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(file, error);
-    if (error || !seen_.insert(file.string()).second || seen_.size() > kMaxFiles) return;
+    if (error || !visited_.insert(file.string()).second || visited_.size() > kMaxFiles) return;
     if (size > kLargest) return add_stamp(file);
     std::ifstream in(file, std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(in), {}};
@@ -67,7 +67,7 @@ class Inputs {
   }
 
   std::string text_;
-  std::set<std::string> seen_;
+  std::set<std::string> visited_;
 };
 
 }  // namespace

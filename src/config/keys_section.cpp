@@ -6,6 +6,7 @@
 
 #include "fleetmap/agent/item_keys.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/trust/credentials.hpp"
 
 namespace fleetmap::config {
@@ -15,7 +16,7 @@ void read_keys(Section& top, bool of_fleet, agent::AgentConfig& agent, bus::DdsB
   std::filesystem::path folder;
   top.read_path("keys", folder);
   if (of_fleet) folder /= agent.id.str();
-  const auto now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  const auto now = system_now();
   auto keys = trust::load_credentials(folder, now);
   if (!keys) return top.problem("keys", keys.error().message);
   if (keys->certificate.name != agent.id) {

@@ -29,22 +29,22 @@ void read_loop_closure(Section& top, loop_closure::LoopClosureConfig& closure) {
 
   // The paper lets both ends register, and keeps the better of the two.
   closure.stop_when_peer_aligned = false;
-  Section section = top.section("encounters");
+  Section section = top.section("loop_candidates");
   section.read("spacing", closure.spacing_m);
   section.read("spacing_aligned", closure.spacing_aligned_m);
   section.read("spacing_failed", closure.spacing_failed_m);
-  section.read("ripe_nodes", closure.min_nodes_after);
-  section.read_seconds("ripe_after", closure.max_wait);
+  section.read("min_nodes_after", closure.min_nodes_after);
+  section.read_seconds("max_wait", closure.max_wait);
   section.read_seconds("retry_after", closure.retry_after);
   section.read("max_attempts", closure.max_attempts);
   section.read("stop_when_peer_aligned", closure.stop_when_peer_aligned);
-  std::string order = closure.order == exchange::CloudOrder::kFirstCome ? "first_come" : "worth";
+  std::string order = closure.order == exchange::CloudOrder::kFirstCome ? "first_come" : "information";
   section.read("order", order);
-  if (order != "worth" && order != "first_come")
-    section.problem("order", "expected 'worth' or 'first_come', found '" + order + "'");
+  if (order != "information" && order != "first_come")
+    section.problem("order", "expected 'information' or 'first_come', found '" + order + "'");
   closure.order =
       order == "first_come" ? exchange::CloudOrder::kFirstCome : exchange::CloudOrder::kInformation;
-  section.read("min_worth", closure.min_information);
+  section.read("min_information", closure.min_information);
   section.finish();
   section.check(closure.validate());
 }

@@ -40,7 +40,7 @@ void read_settings(Section& section, planning::MissionConfig& mission) {
   section.read("battery_reserve", mission.division.battery_reserve);
   section.read("c_max", mission.meeting.c_max);
   section.read("map_bytes_per_metre", mission.meeting.map_bytes_per_metre);
-  section.read("least_gain", mission.meeting.least_gain);
+  section.read("min_gain", mission.meeting.min_gain);
   section.read("lost_after", mission.executive.lost_after);
   section.read("low_battery", mission.executive.low_battery);
   section.read("meeting_timeout", mission.executive.meeting_timeout);

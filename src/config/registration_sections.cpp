@@ -28,7 +28,7 @@ void read_paper_registration(Section& section, registration::PaperConfig& paper)
   section.read("feature_voxel", paper.feature_voxel_m);
   section.read("normal_neighbours", paper.normal_neighbours);
   section.read("feature_radius", paper.feature_radius_m);
-  section.read("least_side_ratio", paper.least_side_ratio);
+  section.read("min_side_ratio", paper.min_side_ratio);
   section.read("ransac_iterations", paper.ransac_iterations);
   section.read("ransac_inlier", paper.ransac_inlier_m);
   section.read("icp_iterations", paper.icp_iterations);

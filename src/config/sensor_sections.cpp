@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::config {
 namespace {
 
@@ -104,8 +106,7 @@ std::optional<agent::SerialPort> read_serial(Section& section, const std::string
   section.read(baud_key, serial.baud);
   if (std::ranges::find(agent::kBaudRates, serial.baud) == agent::kBaudRates.end()) {
     std::string known;
-    for (const std::uint32_t baud : agent::kBaudRates)
-      known += (known.empty() ? "" : ", ") + std::to_string(baud);
+    for (const std::uint32_t baud : agent::kBaudRates) append_to_list(known, std::to_string(baud));
     section.problem(baud_key, "expected one of " + known);
   }
   if (section.has(baud_key) && !section.has(path_key))

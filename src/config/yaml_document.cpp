@@ -7,6 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::config {
 namespace {
 
@@ -184,7 +186,7 @@ void Document::problem(const std::string& path, const YAML::Mark& mark, const st
 Status Document::status() const {
   if (problems_.empty()) return {};
   std::string all;
-  for (const std::string& line : problems_) all += (all.empty() ? "" : "\n") + line;
+  for (const std::string& line : problems_) append_to_list(all, line, "\n");
   return failure(all);
 }
 

@@ -1,8 +1,11 @@
 #include "yaml_section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "fleetmap/core/edit_distance.hpp"
 
@@ -18,6 +21,35 @@ std::string text_of(const YAML::Node& node) {
   emitter.SetMapFormat(YAML::Flow);
   emitter << node;
   return emitter.c_str();
+}
+
+/// Keys that had another name in earlier versions: former name, present name.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kRenamed{{
+    {"encounters", "loop_candidates"},
+    {"least_gain", "min_gain"},
+    {"least_side_ratio", "min_side_ratio"},
+    {"min_worth", "min_information"},
+    {"ripe_after", "max_wait"},
+    {"ripe_nodes", "min_nodes_after"},
+    {"settle_time", "exchange_timeout"},
+}};
+
+/// The present name of a key of this section; empty if the key had no other name.
+std::string present_name(const std::string& key, const std::set<std::string>& known) {
+  const auto renamed = std::ranges::find(kRenamed, key, [](const auto& names) { return names.first; });
+  const std::string name(renamed == kRenamed.end() ? "" : renamed->second);
+  return known.contains(name) ? name : "";
+}
+
+/// The known key that is most like it; empty where none is alike.
+std::string nearest_key(const std::string& key, const std::set<std::string>& known) {
+  std::string nearest;
+  for (const std::string& candidate : known) {
+    if (nearest.empty() || edit_distance(key, candidate) < edit_distance(key, nearest)) nearest = candidate;
+  }
+  const bool alike =
+      !nearest.empty() && edit_distance(key, nearest) <= std::max<std::size_t>(2, key.size() / 3);
+  return alike ? nearest : "";
 }
 
 }  // namespace
@@ -215,12 +247,10 @@ void Section::finish() {
   for (const auto& entry : node_) {
     const std::string key = entry.first.Scalar();
     if (known_.contains(key)) continue;
-    std::string nearest;
-    for (const std::string& candidate : known_) {
-      if (nearest.empty() || edit_distance(key, candidate) < edit_distance(key, nearest)) nearest = candidate;
-    }
     std::string what = "unknown key";
-    if (!nearest.empty() && edit_distance(key, nearest) <= std::max<std::size_t>(2, key.size() / 3)) {
+    if (const std::string name = present_name(key, known_); !name.empty()) {
+      what = "this key was renamed; write '" + name + "'";
+    } else if (const std::string nearest = nearest_key(key, known_); !nearest.empty()) {
       what += "; did you mean '" + nearest + "'?";
     } else {
       what += "; known here:";

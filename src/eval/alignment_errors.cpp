@@ -68,15 +68,15 @@ Pose laid_on_truth(const std::map<NodeId, Pose>& T_enu_node, const TruePoses& tr
   return make_pose(R, there - R * placed);
 }
 
-std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
-                                   const graph::Placement& placement, const TruePoses& truth,
-                                   const RightPose& limits) {
+std::vector<AlignmentError> alignment_errors(std::span<const graph::Alignment> alignments,
+                                             const graph::Placement& placement, const TruePoses& truth,
+                                             const RightPose& limits) {
   const auto used = by_name(placement.used);
-  std::vector<JudgedAlignment> judged;
+  std::vector<AlignmentError> errors;
   for (const graph::Alignment& alignment : alignments) {
     const auto T_true = relative(truth, alignment.i, alignment.j);
     if (!T_true || alignment.modes.empty()) continue;
-    JudgedAlignment one;
+    AlignmentError one;
     one.i = alignment.i;
     one.j = alignment.j;
     one.ambiguous = alignment.ambiguous();
@@ -93,9 +93,9 @@ std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
     });
     one.offset = mode.T_i_j.translation() - T_true->translation();
     one.stated = {tangent_error(*T_true, mode.T_i_j), mode.covariance};
-    judged.push_back(std::move(one));
+    errors.push_back(std::move(one));
   }
-  return judged;
+  return errors;
 }
 
 std::vector<StatedError> odometry_errors(std::span<const graph::Node> nodes, const TruePoses& truth) {

@@ -18,7 +18,8 @@ struct TruthPlanes {
 
 /// T_truth_map by point-to-plane ICP from the identity, Gauss-Newton with Geman-McClure weights, a stage for
 /// each of `max_distances` (m, of correspondences; the kernel is as wide). Apart from the registration that
-/// is judged, so that neither shares the other's faults. Directions that nothing constrains stay as they are.
+/// is evaluated, so that neither shares the other's faults. Directions that nothing constrains stay as they
+/// are.
 Pose fit_to_truth(const TruthPlanes& truth, const std::vector<Eigen::Vector3f>& map,
                   std::span<const float> max_distances);
 

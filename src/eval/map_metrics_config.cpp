@@ -13,7 +13,7 @@ Status MapMetricsConfig::validate() const {
                                     {"truth_reach", truth_reach},
                                     {"resolution", resolution},
                                     {"registration_distance", registration_distance},
-                                    {"least_noise", least_noise},
+                                    {"min_noise", min_noise},
                                     {"thresholds[0]", thresholds[0]},
                                     {"thresholds[1]", thresholds[1]},
                                     {"thresholds[2]", thresholds[2]}}) {
@@ -21,9 +21,9 @@ Status MapMetricsConfig::validate() const {
   }
   if (thresholds[2] > inlier_distance || !std::is_sorted(thresholds.begin(), thresholds.end()))
     return failure("thresholds must ascend and not exceed inlier_distance");
-  for (const auto& [name, value] : {std::pair{"most_truth", most_truth},
-                                    {"most_distances", most_distances},
-                                    {"most_densities", most_densities}}) {
+  for (const auto& [name, value] : {std::pair{"max_truth", max_truth},
+                                    {"max_distances", max_distances},
+                                    {"max_densities", max_densities}}) {
     if (value < 1000) return failure(std::string(name) + " must be at least 1000");
   }
   return {};

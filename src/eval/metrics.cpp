@@ -40,7 +40,7 @@ Pose registered(const cloud::PointCloud& map, const TruthSurface& truth, const M
 
 /// Fisher information of the registration: each inlier measures the map's pose along the truth's normal.
 void set_covariance(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map,
-                    const std::vector<Foot>& feet, const TruthSurface& truth, double least_noise) {
+                    const std::vector<Foot>& feet, const TruthSurface& truth, double min_noise) {
   Matrix6d information = Matrix6d::Zero();
   double squares = 0.0;
   std::size_t count = 0;
@@ -59,7 +59,7 @@ void set_covariance(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map
     metrics.det_covariance = std::numeric_limits<double>::infinity();
     return;
   }
-  metrics.sigma = std::max(least_noise, std::sqrt(squares / static_cast<double>(count)));
+  metrics.sigma = std::max(min_noise, std::sqrt(squares / static_cast<double>(count)));
   information = Matrix6d(information.selfadjointView<Eigen::Lower>()) / (metrics.sigma * metrics.sigma);
   // det C = 1 / det I does not depend on the point about which rotations are taken.
   metrics.det_covariance = 1.0 / information.determinant();
@@ -67,7 +67,7 @@ void set_covariance(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map
 
 void set_density(MapMetrics& metrics, const std::vector<Eigen::Vector3f>& map,
                  const MapMetricsConfig& config) {
-  const std::vector<Eigen::Vector3f> queries = evenly(map, config.most_densities);
+  const std::vector<Eigen::Vector3f> queries = evenly(map, config.max_densities);
   const auto counts = density_at(queries, map, static_cast<float>(config.density_radius));
   const double largest = *std::max_element(counts.begin(), counts.end());
   // Bins of 1, 2 or 5 times a power of ten, so that those of two maps can be laid over each other.
@@ -166,7 +166,7 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   const Eigen::Vector3f middle = middle_of(map);
   cloud::PointCloud thin = thinned({usable(map, middle), {}}, config.resolution);
   cloud::PointCloud truth_points =
-      thinned({evenly(usable(truth, middle), config.most_truth), {}}, config.resolution);
+      thinned({evenly(usable(truth, middle), config.max_truth), {}}, config.resolution);
   if (thin.empty()) return failure("the map holds no finite point");
   if (truth_points.empty()) return failure("the truth holds no finite point");
   sort_by_place(thin.points);
@@ -176,7 +176,7 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   Pose T = to_middle.inverse() * T_truth_map * to_middle;
   if (!known) T = registered(cloud::transformed(thin, T), surface, config) * T;
   const cloud::PointCloud placed = cloud::transformed(thin, T);
-  const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.most_distances);
+  const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.max_distances);
   const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
   const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
   if (static_cast<std::size_t>(inliers) < std::min(kMinInliers, chosen.size())) {
@@ -190,9 +190,9 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   metrics.T_truth_map = to_middle * T * to_middle.inverse();
   const double there = set_accuracy(metrics, feet, config);
   const double back =
-      set_completeness(metrics, placed, evenly(surface.cloud().points, config.most_distances), config);
+      set_completeness(metrics, placed, evenly(surface.cloud().points, config.max_distances), config);
   metrics.chamfer = 0.5 * (there + back);
-  set_covariance(metrics, chosen, feet, surface, config.least_noise);
+  set_covariance(metrics, chosen, feet, surface, config.min_noise);
   // Each point taken stands for as many as were left out.
   metrics.det_covariance *=
       std::pow(static_cast<double>(chosen.size()) / static_cast<double>(placed.size()), 6.0);

@@ -77,8 +77,8 @@ class Camera {
     pixels_ = free * std::min(width / box[0].size(), height / box[1].size());
     distance_ = 0.5 * box[2].size();
     if (perspective_)
-      stand_back(samples, 0.5 * free * width, 0.5 * free * height,
-                 std::tan(0.5 * view.field_of_view_deg * kDegree));
+      camera_distance(samples, 0.5 * free * width, 0.5 * free * height,
+                      std::tan(0.5 * view.field_of_view_deg * kDegree));
   }
 
   bool valid() const { return valid_; }
@@ -97,8 +97,8 @@ class Camera {
 
  private:
   /// So far that what is looked at fills the picture, and so placed that it lies in its middle.
-  void stand_back(const std::vector<Eigen::Vector3d>& samples, double half_width, double half_height,
-                  double tangent) {
+  void camera_distance(const std::vector<Eigen::Vector3d>& samples, double half_width, double half_height,
+                       double tangent) {
     focal_ = 0.5 * width_ / tangent;
     for (int k = 0; k < 5; ++k) {
       const Extent needed = extent_of(samples, [&](const Eigen::Vector3d& p) {

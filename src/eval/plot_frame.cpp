@@ -209,9 +209,9 @@ std::string PlotFrame::ticks_x() const {
       out += text(x_pixel(static_cast<double>(k)), bottom_ + 18, "middle", categories_[k]);
     return out;
   }
-  constexpr std::size_t kMaxGiven = 12;
-  const bool given = !axes_.x_ticks.empty() && axes_.x_ticks.size() <= kMaxGiven;
-  for (const double tick : given ? axes_.x_ticks : round_ticks(x_.low, x_.high, kTicks)) {
+  constexpr std::size_t kMaxConfiguredTicks = 12;
+  const bool configured = !axes_.x_ticks.empty() && axes_.x_ticks.size() <= kMaxConfiguredTicks;
+  for (const double tick : configured ? axes_.x_ticks : round_ticks(x_.low, x_.high, kTicks)) {
     const double at = x_pixel(tick);
     out += line(at, top_, at, bottom_, 0.12);
     out += text(at, bottom_ + 18, "middle", short_number(tick, 4));

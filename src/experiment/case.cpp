@@ -13,6 +13,7 @@
 #include "fleetmap/config/override.hpp"
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/edit_distance.hpp"
+#include "fleetmap/core/text_list.hpp"
 
 namespace fleetmap::experiment {
 namespace {
@@ -169,15 +170,15 @@ Result<std::string> input_hash(const Case& one) {
 }
 
 Status check_cases(const std::vector<Case>& cases) {
-  std::set<std::string> seen, found;
+  std::set<std::string> points, found;
   std::string problems;
   for (const Case& one : cases) {
     std::string point = one.study;
     for (const std::string& label : one.point) point += "\n" + label;
-    if (!seen.insert(point).second) continue;
+    if (!points.insert(point).second) continue;
     const auto valid = config::check(one.base, one.overrides);
     if (!valid && found.insert(valid.error().message).second)
-      problems += (problems.empty() ? "" : "\n") + valid.error().message;
+      append_to_list(problems, valid.error().message, "\n");
   }
   if (!problems.empty()) return failure(problems);
   return {};

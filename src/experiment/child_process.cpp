@@ -14,6 +14,8 @@
 #include <fstream>
 #include <thread>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::experiment {
 namespace {
 
@@ -109,7 +111,7 @@ std::string tail_of(const std::filesystem::path& log, std::size_t lines) {
     if (last.size() > lines) last.pop_front();
   }
   std::string text;
-  for (const std::string& line : last) text += (text.empty() ? "" : "\n") + line;
+  for (const std::string& line : last) append_to_list(text, line, "\n");
   return text;
 }
 

@@ -20,6 +20,9 @@ struct ChildExit {
 /// Runs this very program, even if its file was replaced meanwhile, with `arguments` (without its name); its
 /// output goes to `log`. Once `stop` is set the child is asked to end, two seconds later made to. It never
 /// outlives this process.
+///
+/// By fork() and wait4(), because Boost.Process 1.74 reports neither CPU time nor memory of a child that
+/// ended, and ties no child to its parent's life: what remained of run() would be its call of execv().
 Result<ChildExit> run_self(const std::vector<std::string>& arguments, const std::filesystem::path& log,
                            const std::atomic<bool>& stop);
 /// The same of another program or script; once asked to end it has as long as it takes it to clean up.

@@ -49,8 +49,8 @@ std::optional<double> number(const Row& row, const std::string& column) {
   const char* last = cell->second.data() + cell->second.size();
   const auto [end, error] = std::from_chars(cell->second.data(), last, value);
   // Times are counted in whole seconds further on.
-  constexpr double kMost = 1e18;
-  if (error != std::errc() || end != last || cell->second.empty() || !(std::abs(value) < kMost))
+  constexpr double kMaxValue = 1e18;
+  if (error != std::errc() || end != last || cell->second.empty() || !(std::abs(value) < kMaxValue))
     return std::nullopt;
   return value;
 }

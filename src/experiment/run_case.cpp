@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "child_process.hpp"
+#include "fleetmap/core/text_list.hpp"
 
 namespace fleetmap::experiment {
 namespace {
@@ -116,7 +117,7 @@ Result<CaseResult> ChildEngine::operator()(const Case& one, const fs::path& dire
   std::vector<std::string> evaluation_arguments{"eval", directory.string()};
   if (!one.pictures) evaluation_arguments.emplace_back("--no-pictures");
   std::string modes;
-  for (const std::string& mode : one.modes) modes += (modes.empty() ? "" : ",") + mode;
+  for (const std::string& mode : one.modes) append_to_list(modes, mode, ",");
   evaluation_arguments.insert(evaluation_arguments.end(), {"--modes", modes.empty() ? "none" : modes});
   if (!one.overlap) evaluation_arguments.emplace_back("--no-overlap");
   const auto evaluated = run_self(evaluation_arguments, directory / "eval.log", *stop_);

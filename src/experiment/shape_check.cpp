@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/eval/plot.hpp"
 #include "student.hpp"
 #include "study_values.hpp"
@@ -101,8 +102,8 @@ Residual residual_of(const Curve& curve) {
 
 namespace {
 
-/// The means over the seeds and how they change, not judged yet.
-Trend unjudged(const Curve& curve) {
+/// The means over the seeds and how they change, not tested yet.
+Trend untested(const Curve& curve) {
   Trend trend;
   for (const std::vector<double>& row : curve.values) trend.means.push_back(mean_of(row));
   trend.change = trend.means.back() - trend.means.front();
@@ -120,7 +121,7 @@ double error_of_difference(const Curve& curve, const Residual& residual) {
 Trend check_trend(const Curve& curve, bool falling) {
   const double sign = falling ? -1.0 : 1.0;
   const std::string direction = falling ? "fall" : "rise";
-  Trend trend = unjudged(curve);
+  Trend trend = untested(curve);
   const Residual residual = residual_of(curve);
   trend.p = slope_chance(curve, residual, sign);
   trend.tolerance = std::isnan(residual.sigma)
@@ -140,7 +141,7 @@ Trend check_trend(const Curve& curve, bool falling) {
 
 Trend check_limit(const Curve& curve, bool falling, double by) {
   const double sign = falling ? -1.0 : 1.0;
-  Trend trend = unjudged(curve);
+  Trend trend = untested(curve);
   const Residual residual = residual_of(curve);
   const double error = error_of_difference(curve, residual);
   trend.tolerance = by;
@@ -187,11 +188,11 @@ Curve times_x(Curve curve, bool log_scale) {
 
 std::string list_of(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value);
+  for (const double value : values) append_to_list(text, short_number(value));
   return text;
 }
 
-Trend judged(const Curve& curve, const config::Expectation& expectation) {
+Trend tested(const Curve& curve, const config::Expectation& expectation) {
   switch (expectation.shape) {
     case config::Shape::kDoesNotRise:
       return check_limit(curve, false, expectation.by);
@@ -206,9 +207,9 @@ Trend judged(const Curve& curve, const config::Expectation& expectation) {
   return check_trend(curve, true);
 }
 
-/// Judges one trend and, for falls_less_than_linearly, the one of the metric times x.
-void judge(ShapeCheck& check, const Curve& curve, bool log_scale) {
-  const Trend trend = judged(curve, check.expectation);
+/// Tests one trend and, for falls_less_than_linearly, the one of the metric times x.
+void test_trend(ShapeCheck& check, const Curve& curve, bool log_scale) {
+  const Trend trend = tested(curve, check.expectation);
   check.means = trend.means;
   if (log_scale)
     for (double& mean : check.means) mean = std::exp(mean);
@@ -248,7 +249,7 @@ void check_slice(ShapeCheck& check, const config::ExperimentConfig& config, cons
     check.detail = "no seed gave it at every point";
     return;
   }
-  judge(check, curve, log_scale);
+  test_trend(check, curve, log_scale);
   if (check.seeds < check.seeds_planned) {
     check.detail += "; only " + std::to_string(check.seeds) + " of " + std::to_string(check.seeds_planned) +
                     " seeds gave it at every point";

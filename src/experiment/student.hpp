@@ -1,5 +1,6 @@
 #pragma once
 
+/// Student's t by Boost.Math; NaN where an argument is.
 namespace fleetmap::experiment {
 
 /// One-sided chance that Student's t with `freedom` >= 1 degrees of freedom exceeds `t`.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::experiment {
 
 std::vector<Slice> slices(const config::Study& study, std::size_t free_axis) {
@@ -20,8 +22,8 @@ std::vector<Slice> slices(const config::Study& study, std::size_t free_axis) {
         Slice next = slice;
         next.labels.push_back(value.label);
         const std::string& unit = study.axes[axis].unit;
-        next.name += (next.name.empty() ? "" : ", ") + study.axes[axis].name + "=" + value.label +
-                     (unit.empty() ? "" : " " + unit);
+        append_to_list(next.name,
+                       study.axes[axis].name + "=" + value.label + (unit.empty() ? "" : " " + unit));
         longer.push_back(std::move(next));
       }
     }
@@ -114,11 +116,11 @@ std::vector<std::string> absent_metrics(const config::ExperimentConfig& config,
     };
     if (std::ranges::none_of(records, is_done)) continue;  // a failed study has nothing to say of names
     for (const std::string& metric : wanted) {
-      const bool given = std::ranges::any_of(records, [&](const CaseRecord& record) {
+      const bool reported = std::ranges::any_of(records, [&](const CaseRecord& record) {
         return is_done(record) && record.result->metrics.contains(metric);
       });
       const std::string line = study.name + ": no case gave the metric " + metric;
-      if (!given && std::ranges::find(absent, line) == absent.end()) absent.push_back(line);
+      if (!reported && std::ranges::find(absent, line) == absent.end()) absent.push_back(line);
     }
   }
   return absent;

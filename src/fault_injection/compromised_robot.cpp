@@ -15,9 +15,10 @@ namespace fleetmap::fault_injection {
 namespace {
 
 constexpr std::uint64_t kCompromisedStream = 8;
-constexpr double kClaimedSigma = 0.005;       // m
-constexpr double kLeast = 1.5, kMost = 25.0;  // m, of a displacement that is to be believed
-constexpr double kGarbageMost = 500.0;        // m
+constexpr double kClaimedSigma = 0.005;  // m
+constexpr double kMinDisplacement = 1.5,
+                 kMaxDisplacement = 25.0;  // m, of a displacement that is to be believed
+constexpr double kMaxGarbage = 500.0;      // m
 constexpr std::size_t kPairsTried = 10;
 constexpr std::size_t kManyJumps = 6;
 constexpr double kJump = 100.0;  // m
@@ -68,7 +69,7 @@ Pose CompromisedRobot::random_displacement(double least, double most) {
 Pose CompromisedRobot::displacement(const AgentId& peer) {
   switch (scheme_) {
     case Scheme::kGarbage:
-      return random_displacement(kLeast, kGarbageMost);
+      return random_displacement(kMinDisplacement, kMaxGarbage);
     case Scheme::kStretch:
       return Pose::Identity();
     case Scheme::kPull:
@@ -78,17 +79,17 @@ Pose CompromisedRobot::displacement(const AgentId& peer) {
   const AgentId& key = scheme_ == Scheme::kPull ? self_ : peer;
   const auto found = displacements_.find(key);
   if (found != displacements_.end()) return found->second;
-  return displacements_.emplace(key, random_displacement(kLeast, kMost)).first->second;
+  return displacements_.emplace(key, random_displacement(kMinDisplacement, kMaxDisplacement)).first->second;
 }
 
 graph::Node CompromisedRobot::falsified(const graph::Node& node, const LocalFrame& site) {
   graph::Node false_node = node;
   switch (scheme_) {
     case Scheme::kGarbage: {
-      const Pose off = random_displacement(kLeast, kGarbageMost);
+      const Pose off = random_displacement(kMinDisplacement, kMaxGarbage);
       false_node.G->position = site.to_geo(off * site.to_enu(node.G->position));
       false_node.G->covariance = isotropic(std::pow(10.0, draws_.between(-4.0, 3.0)));
-      false_node.T_odom_base = random_displacement(kLeast, kGarbageMost) * node.T_odom_base;
+      false_node.T_odom_base = random_displacement(kMinDisplacement, kMaxGarbage) * node.T_odom_base;
       false_node.odom_covariance = isotropic(std::pow(10.0, draws_.between(-4.0, 3.0)));
       break;
     }
@@ -166,7 +167,7 @@ std::optional<graph::Alignment> CompromisedRobot::of_others(const store::Store& 
   if (alignment.i.agent == alignment.j.agent) return {};
   alignment.computed_by = self_;
   alignment.seq = next_of_others_++;
-  const Pose moved = random_displacement(kLeast, kMost);
+  const Pose moved = random_displacement(kMinDisplacement, kMaxDisplacement);
   alignment.modes = {
       certain_mode(survey.T_enu_node(alignment.i)->inverse() * moved * *survey.T_enu_node(alignment.j))};
   return fleet_codec::quantised(alignment).value();

@@ -10,7 +10,7 @@ namespace fleetmap::fleet_codec {
 /// `read` makes the item of a message that encoding it again may change.
 template <class Msg, class Item>
 Result<Item> rounded(Item item, const char* type, Result<Item> (*read)(const Msg&)) {
-  constexpr int kMaxRounds = 4;  // the first one settles nearly all
+  constexpr int kMaxRounds = 4;  // the first one suffices for nearly all
   item.signature.reset();
   for (int round = 0; round < kMaxRounds; ++round) {
     const Bytes bytes = encode(item);

@@ -18,7 +18,7 @@ Placement compute_placement(std::span<const Node> nodes_as_made, std::span<const
       with_global_poses(nodes_as_made, alignments, site, config.paper.gps_correlation_time);
   return config.method == PlacementMethod::graph
              ? place_by_fleet_graph(nodes, alignments, site, config.fleet, covariance_of)
-             : place_by_least_rmse(nodes, alignments, site, config.paper);
+             : place_by_min_rmse(nodes, alignments, site, config.paper);
 }
 
 }  // namespace fleetmap::graph

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::graph {
 namespace {
 
@@ -98,10 +100,10 @@ void add_steps(std::span<const Node> nodes, const LocalFrame& site, std::map<Age
 std::string to_string(const Contradiction& contradiction) {
   std::string text;
   const auto add = [&text](std::size_t count, const std::string& what) {
-    if (count > 0) text.append(text.empty() ? "" : "; ").append(std::to_string(count)).append(what);
+    if (count > 0) append_to_list(text, std::to_string(count) + what, "; ");
   };
   std::string names;
-  for (const AgentId& agent : contradiction.with) names.append(names.empty() ? "" : ", ").append(agent.str());
+  for (const AgentId& agent : contradiction.with) append_to_list(names, agent.str());
   add(contradiction.alignments, " alignments with " + names + " are rejected");
   add(contradiction.steps, " steps of its odometry are impossible or contradict its fixes");
   add(contradiction.impossible, " of its items have impossible numbers");

@@ -54,7 +54,7 @@ struct Supported {
 };
 
 /// The pose of frame `to` that most alignments support; the first of equals.
-Supported most_supported(const std::vector<Link>& links, const FrameId& to,
+Supported best_supported(const std::vector<Link>& links, const FrameId& to,
                          const std::map<FrameId, Pose>& located) {
   std::vector<std::pair<const Link*, Pose>> proposals;
   for (const Link& link : links) {
@@ -108,7 +108,7 @@ void locate_the_rest(const Frames& frames, const std::vector<Link>& links, std::
     for (const auto& [frame, nodes] : frames) {
       if (located.contains(frame)) continue;
       if (first == nullptr) first = &frame;
-      const Supported found = most_supported(links, frame, located);
+      const Supported found = best_supported(links, frame, located);
       if (found.votes > best.votes) {
         best = found;
         next = frame;

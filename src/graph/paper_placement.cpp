@@ -63,8 +63,8 @@ struct Groups {
 
 }  // namespace
 
-Placement place_by_least_rmse(std::span<const Node> unsorted_nodes, std::span<const Alignment> alignments,
-                              const LocalFrame& site, const PaperPlacementConfig& config) {
+Placement place_by_min_rmse(std::span<const Node> unsorted_nodes, std::span<const Alignment> alignments,
+                            const LocalFrame& site, const PaperPlacementConfig& config) {
   const std::vector<Node> nodes = sorted_by_id(unsorted_nodes);
   std::map<NodeId, const Node*> by_id;
   Groups groups;

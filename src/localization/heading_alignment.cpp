@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kMinMatches = 5;
 constexpr double kMinSpacing = 0.5;           ///< m
 constexpr double kMinBaseline = 2.0;          ///< m
-constexpr double kDeadReckoningSigma = 0.03;  ///< rad, of the track's own bending
+constexpr double kDeadReckoningSigma = 0.03;  ///< rad, of the track's own curvature
 
 }  // namespace
 

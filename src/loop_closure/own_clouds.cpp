@@ -17,7 +17,7 @@ constexpr std::size_t kMaxSubmapBytes = 32u << 20;
 constexpr double kGrowth = 1.2;
 
 template <class Entries>
-auto least_recent(Entries& entries) {
+auto least_recently_used(Entries& entries) {
   return std::ranges::min_element(entries, {}, [](const auto& entry) { return entry.second.used; });
 }
 
@@ -76,7 +76,7 @@ std::shared_ptr<OwnSubmap> OwnClouds::submap_of(store::Store& store, const NodeI
 
 void OwnClouds::forget_submaps() {
   while (submap_bytes_ > kMaxSubmapBytes && !submaps_.empty()) {
-    const auto oldest = least_recent(submaps_);
+    const auto oldest = least_recently_used(submaps_);
     submap_bytes_ -= oldest->second.submap->encoded_bytes();
     submaps_.erase(oldest);
   }
@@ -98,7 +98,7 @@ std::shared_ptr<OwnCloud> OwnClouds::of(store::Store& store, const graph::Node& 
     entry.submaps = around.size();
   }
   std::shared_ptr<OwnCloud> cloud = entry.cloud;
-  if (clouds_.size() > kMaxClouds) clouds_.erase(least_recent(clouds_));
+  if (clouds_.size() > kMaxClouds) clouds_.erase(least_recently_used(clouds_));
   return cloud;
 }
 

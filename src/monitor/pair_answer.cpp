@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 
 namespace fleetmap::monitor {
@@ -136,7 +137,7 @@ std::string unused_because(const std::map<AlignmentStatus, std::size_t>& alignme
   std::string said;
   for (const auto& [status, count] : alignments) {
     if (status != AlignmentStatus::used)
-      said += (said.empty() ? "" : "; ") + std::to_string(count) + ": " + fate(status);
+      append_to_list(said, std::to_string(count) + ": " + fate(status), "; ");
   }
   return said;
 }
@@ -195,8 +196,7 @@ std::string go_betweens(const Facts& facts, const AgentId& a, const AgentId& b) 
   };
   std::string names;
   for (const auto& [robot, count] : facts.nodes) {
-    if (robot != a && robot != b && linked(robot, a) && linked(robot, b))
-      names += (names.empty() ? "" : ", ") + robot.str();
+    if (robot != a && robot != b && linked(robot, a) && linked(robot, b)) append_to_list(names, robot.str());
   }
   return names.empty() ? "others" : names;
 }

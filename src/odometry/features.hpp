@@ -23,7 +23,7 @@ struct Features {
 
 /// Curvature features along each ring, after Zhang and Singh, LOAM (RSS 2014), section V-A, with these
 /// changes: the neighbourhood is a length of surface rather than a number of points, so near and far surfaces
-/// and dense and sparse LiDARs are judged alike; posts and the borders of surfaces in front of a background
+/// and dense and sparse LiDARs are treated alike; posts and the borders of surfaces in front of a background
 /// are edges, but no corners: the sharpest of noisy points is no place, and both their surfaces count. Edges
 /// are placed where they look the same from all sides, or a map of them would be dragged along by the robot
 /// that passes them: a post at its axis, a border half a ray's spacing beyond its last return.

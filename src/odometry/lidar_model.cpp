@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::odometry {
 namespace {
 
@@ -70,12 +72,13 @@ LidarModel generic_lidar() {
 }
 
 Result<LidarModel> lidar_model(std::string_view name) {
-  if (name == "vlp16") return vlp16();
-  if (name == "os1-64") return os1_64();
-  if (name == "hdl64e") return hdl64e();
-  if (name == "generic") return generic_lidar();
-  return failure("lidar.model: '" + std::string(name) +
-                 "' is unknown; expected vlp16, os1-64, hdl64e or generic");
+  std::string known;
+  for (const auto make : {&vlp16, &os1_64, &hdl64e, &generic_lidar}) {
+    LidarModel model = make();
+    if (model.name == name) return model;
+    append_to_list(known, model.name);
+  }
+  return failure("lidar.model: '" + std::string(name) + "' is unknown; expected one of " + known);
 }
 
 }  // namespace fleetmap::odometry

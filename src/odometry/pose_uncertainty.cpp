@@ -8,13 +8,13 @@
 namespace fleetmap::odometry {
 namespace {
 
-constexpr double kKept = 0.95;         // of a prior's misfit, from scan to scan
-constexpr double kAssumed = 10.0;      // dimensions in which it is taken to be as stated
-constexpr double kChangeGain = 0.1;    // of the changes of the turn rate: over a second
-constexpr double kMostlyUnheld = 0.3;  // share of the map near that is as bad as all of it
-constexpr double kStrange = 1.0;       // variance of a prior's misfit: no robot drives so where all is held
-constexpr double kMapTurn = 1.0;       // rad, the same for a LiDAR that looks ahead
-constexpr double kMapReach = 5.0;      // m of way on which most of the map that is seen is replaced
+constexpr double kKept = 0.95;             // of a prior's misfit, from scan to scan
+constexpr double kAssumed = 10.0;          // dimensions in which it is taken to be as stated
+constexpr double kChangeGain = 0.1;        // of the changes of the turn rate: over a second
+constexpr double kLargeUnheldShare = 0.3;  // share of the map near that is as bad as all of it
+constexpr double kStrange = 1.0;   // variance of a prior's misfit: no robot drives so where all is held
+constexpr double kMapTurn = 1.0;   // rad, the same for a LiDAR that looks ahead
+constexpr double kMapReach = 5.0;  // m of way on which most of the map that is seen is replaced
 
 double square(double value) { return value * value; }
 
@@ -159,7 +159,7 @@ Matrix6d PoseUncertainty::growth(const Matched& scan, const Matrix6d& noise) {
 /// the map share it. The next constrained scan corrects it, except for the share of the map that was built at
 /// such poses.
 Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d& noise) {
-  const double stays = square(std::min(1.0, unheld_share_ / kMostlyUnheld));
+  const double stays = square(std::min(1.0, unheld_share_ / kLargeUnheldShare));
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>().setConstant(match.range);
   Matrix6d growth = Matrix6d::Zero();
@@ -180,7 +180,7 @@ Matrix6d PoseUncertainty::growth_unheld(const MatchResult& match, const Matrix6d
 /// warped map holds its scans well. Only wheels and a gyro measure whether they slid.
 Matrix6d PoseUncertainty::growth_sliding(const MatchResult& match, double way) {
   if (match.degenerate_count > 0) sliding_ = match;
-  if (unheld_share_ < kMostlyUnheld) {
+  if (unheld_share_ < kLargeUnheldShare) {
     slid_ = 0.0;
     return Matrix6d::Zero();
   }

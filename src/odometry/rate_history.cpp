@@ -48,14 +48,12 @@ Eigen::Vector3d RateHistory::at(Stamp stamp) const {
   return (1.0 - alpha) * before->rate + alpha * after->rate;
 }
 
-std::optional<Eigen::Vector3d> RateHistory::mean(Stamp from, Stamp to, Duration hold) const {
-  if (!covers(from, to, hold)) return std::nullopt;
-  if (to <= from) return at(from);
-  Eigen::Vector3d integral = Eigen::Vector3d::Zero();
+template <class Visitor>
+void RateHistory::for_each_piece(Stamp from, Stamp to, const Visitor& visit) const {
   Stamp stamp = from;
   Eigen::Vector3d rate = at(from);
-  auto advance = [&](Stamp next, const Eigen::Vector3d& next_rate) {
-    integral += 0.5 * to_seconds(next - stamp) * (rate + next_rate);
+  const auto advance = [&](Stamp next, const Eigen::Vector3d& next_rate) {
+    visit(to_seconds(next - stamp), rate, next_rate);
     stamp = next;
     rate = next_rate;
   };
@@ -65,6 +63,15 @@ std::optional<Eigen::Vector3d> RateHistory::mean(Stamp from, Stamp to, Duration 
     advance(it->stamp, it->rate);
   }
   advance(to, at(to));
+}
+
+std::optional<Eigen::Vector3d> RateHistory::mean(Stamp from, Stamp to, Duration hold) const {
+  if (!covers(from, to, hold)) return std::nullopt;
+  if (to <= from) return at(from);
+  Eigen::Vector3d integral = Eigen::Vector3d::Zero();
+  for_each_piece(from, to, [&](double seconds, const Eigen::Vector3d& rate, const Eigen::Vector3d& next) {
+    integral += 0.5 * seconds * (rate + next);
+  });
   return integral / to_seconds(to - from);
 }
 
@@ -72,19 +79,9 @@ std::optional<Eigen::Matrix3d> RateHistory::rotation(Stamp from, Stamp to, const
                                                      Duration hold) const {
   if (!covers(from, to, hold)) return std::nullopt;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  Stamp stamp = from;
-  Eigen::Vector3d rate = at(from);
-  auto advance = [&](Stamp next, const Eigen::Vector3d& next_rate) {
-    R = R * so3_exp(to_seconds(next - stamp) * (0.5 * (rate + next_rate) - bias));
-    stamp = next;
-    rate = next_rate;
-  };
-  for (auto it = std::upper_bound(samples_.begin(), samples_.end(), from,
-                                  [](Stamp t, const Sample&s) { return t < s.stamp; });
-       it != samples_.end() && it->stamp < to; ++it) {
-    advance(it->stamp, it->rate);
-  }
-  advance(to, at(to));
+  for_each_piece(from, to, [&](double seconds, const Eigen::Vector3d& rate, const Eigen::Vector3d& next) {
+    R = R * so3_exp(seconds * (0.5 * (rate + next) - bias));
+  });
   return R;
 }
 

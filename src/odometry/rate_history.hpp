@@ -38,6 +38,9 @@ class RateHistory {
   };
   bool covers(Stamp from, Stamp to, Duration hold) const;
   Eigen::Vector3d at(Stamp stamp) const;
+  /// Calls visit(seconds, rate, rate at the end) for the pieces into which samples divide the interval.
+  template <class Visitor>
+  void for_each_piece(Stamp from, Stamp to, const Visitor& visit) const;
 
   std::deque<Sample> samples_;
 };

@@ -78,7 +78,7 @@ Result<std::vector<cloud::LasPoint>> las_points(const store::MapTile& tile, std:
     points.push_back(
         {(*positions)[k - begin],
          tile.cloud.has_intensities() ? las_intensity(tile.cloud.intensities[k], gain) : std::uint16_t{0},
-         static_cast<std::uint16_t>(tile.seen_by[k] + 1)});
+         static_cast<std::uint16_t>(tile.observed_by[k] + 1)});
   }
   return points;
 }

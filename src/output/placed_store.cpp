@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/map_parts.hpp"
 
@@ -39,7 +40,7 @@ Result<MapItems> items_without(const store::Store& store, std::span<const AgentI
   for (const AgentId& robot : robots) {
     if (makers.contains(robot)) continue;
     std::string known;
-    for (const AgentId& maker : makers) known += (known.empty() ? "" : ", ") + maker.str();
+    for (const AgentId& maker : makers) append_to_list(known, maker.str());
     return failure(store.path().string() + ": holds nothing of '" + robot.str() + "', but of " + known);
   }
   const auto left_out = [&](const AgentId& robot) {

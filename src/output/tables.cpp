@@ -59,10 +59,10 @@ Status write_alignments(const store::Store& store, const graph::Placement& place
   out << "i,j,computed_by,seq,mode,x,y,z,qx,qy,qz,qw,rmse_m,inlier_fraction,score,used,status";
   for (int k = 0; k < 6; ++k) out << ",var_" << k;
   out << '\n';
-  const auto judged = outcomes(placement);
+  const auto known_outcomes = outcomes(placement);
   for (const auto& [id, a] : store.alignments()) {
-    const auto known = judged.find({a.computed_by, a.seq});
-    const Outcome outcome = known == judged.end() ? Outcome{} : known->second;
+    const auto known = known_outcomes.find({a.computed_by, a.seq});
+    const Outcome outcome = known == known_outcomes.end() ? Outcome{} : known->second;
     for (std::size_t m = 0; m < a.modes.size(); ++m) {
       const graph::AlignmentMode& mode = a.modes[m];
       out << to_string(a.i) << ',' << to_string(a.j) << ',' << a.computed_by.str() << ',' << a.seq << ',' << m

@@ -40,7 +40,7 @@ double BallTree::squared_chord(const Vector& a, const Vector& b) {
   return squared(a[0] - b[0]) + squared(a[1] - b[1]) + squared(a[2] - b[2]);
 }
 
-double BallTree::least_chord(const Ball& ball, const Vector& q) {
+double BallTree::min_chord(const Ball& ball, const Vector& q) {
   return std::sqrt(squared_chord(ball.centre, q)) - ball.radius;
 }
 
@@ -250,8 +250,8 @@ void BallTree::visit(Id node, double bound, const Vector& q, Visitor& visitor) c
       for (std::size_t i = 0; i < n.places; ++i) visitor.offer(chord2[i], bucket.place[i]);
       return;
     }
-    const double left = least_chord(nodes_[n.child].ball, q);
-    const double right = least_chord(nodes_[n.child + 1].ball, q);
+    const double left = min_chord(nodes_[n.child].ball, q);
+    const double right = min_chord(nodes_[n.child + 1].ball, q);
     // A query inside both balls is nearer to the side of the split on which it lies.
     const bool left_first = std::max(left, 0.0) != std::max(right, 0.0) ? left < right : q[n.axis] < n.split;
     const Id child = n.child;
@@ -263,7 +263,7 @@ void BallTree::visit(Id node, double bound, const Vector& q, Visitor& visitor) c
 
 template <class Visitor>
 void BallTree::search(const Vector& q, Visitor& visitor) const {
-  if (nodes_[0].places > 0) visit(0, least_chord(nodes_[0].ball, q), q, visitor);
+  if (nodes_[0].places > 0) visit(0, min_chord(nodes_[0].ball, q), q, visitor);
 }
 
 Neighbor BallTree::best_of_place(Id place, const GeoPoint& query) const {

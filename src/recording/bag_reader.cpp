@@ -203,7 +203,7 @@ class BagReader : public PacketReader {
 
 }  // namespace
 
-bool looks_like_bag(const fs::path& path) {
+bool is_bag(const fs::path& path) {
   const auto has_ending = [](const fs::path& file) {
     const fs::path name = file.extension() == ".zstd" ? file.stem() : file.filename();
     return name.extension() == ".db3" || name.extension() == ".mcap" || file.extension() == ".bag";

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::recording {
 namespace {
 
@@ -36,8 +38,7 @@ const Role kPackets{"recording.topics.points",
 
 std::string list(const std::vector<BagTopic>& topics) {
   std::string out;
-  for (const BagTopic& topic : topics)
-    out += (out.empty() ? "" : ", ") + topic.name + " (" + topic.type + ")";
+  for (const BagTopic& topic : topics) append_to_list(out, topic.name + " (" + topic.type + ")");
   return out.empty() ? "none" : out;
 }
 

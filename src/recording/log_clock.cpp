@@ -22,13 +22,13 @@ constexpr Duration kWrittenLater = std::chrono::minutes(1);
 /// Times of one kind of sensor.
 struct SensorTimes {
   Stamp first_stamp, last_stamp, first_recorded, last_recorded;
-  Duration least_lag = Duration::max();
+  Duration min_lag = Duration::max();
 };
 
-std::optional<double> rate_of(const SensorTimes& seen) {
-  const Duration span = seen.last_stamp - seen.first_stamp;
+std::optional<double> rate_of(const SensorTimes& times) {
+  const Duration span = times.last_stamp - times.first_stamp;
   if (span < kMinSpan) return std::nullopt;
-  return to_seconds(seen.last_recorded - seen.first_recorded) / to_seconds(span);
+  return to_seconds(times.last_recorded - times.first_recorded) / to_seconds(span);
 }
 
 /// Two sensors that disagree: the one nearer to the times of recording counts.
@@ -40,9 +40,9 @@ Duration common_lag(std::vector<Duration> lags) {
 LogClock clock_of(const std::vector<SensorTimes>& sensors) {
   std::vector<double> rates;
   std::vector<Duration> lags;
-  for (const SensorTimes& seen : sensors) {
-    if (const auto rate = rate_of(seen)) rates.push_back(*rate);
-    lags.push_back(seen.least_lag);
+  for (const SensorTimes& times : sensors) {
+    if (const auto rate = rate_of(times)) rates.push_back(*rate);
+    lags.push_back(times.min_lag);
   }
   LogClock clock;
   if (!rates.empty()) {
@@ -59,7 +59,7 @@ LogClock clock_of(const std::vector<SensorTimes>& sensors) {
 Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config) {
   auto reader = open(recording, config, ScanContent::kStampOnly);
   if (!reader) return tl::unexpected(reader.error());
-  std::array<std::optional<SensorTimes>, std::variant_size_v<Sample>> seen;
+  std::array<std::optional<SensorTimes>, std::variant_size_v<Sample>> times;
   std::optional<Stamp> begun;
   for (std::size_t samples = 0; samples < kMaxSamples; ++samples) {
     const auto sample = (*reader)->next();
@@ -68,15 +68,15 @@ Result<LogClock> find_log_clock(const std::filesystem::path& recording, const Re
     if (!recorded) return LogClock{};
     if (!begun) begun = recorded;
     const Stamp stamp = stamp_of(**sample);
-    std::optional<SensorTimes>& sensor = seen[(*sample)->index()];
+    std::optional<SensorTimes>& sensor = times[(*sample)->index()];
     if (!sensor) sensor = SensorTimes{stamp, stamp, *recorded, *recorded};
     sensor->last_stamp = stamp;
     sensor->last_recorded = *recorded;
-    sensor->least_lag = std::min(sensor->least_lag, *recorded - stamp);
+    sensor->min_lag = std::min(sensor->min_lag, *recorded - stamp);
     if (*recorded - *begun > kExamined) break;
   }
   std::vector<SensorTimes> sensors;
-  for (const auto& sensor : seen) {
+  for (const auto& sensor : times) {
     if (sensor) sensors.push_back(*sensor);
   }
   return sensors.empty() ? LogClock{} : clock_of(sensors);

@@ -93,9 +93,7 @@ Result<Stream> find_device(const fs::path& path) {
 
 }  // namespace
 
-bool looks_like_capture(const fs::path& path) {
-  return path.extension() == ".pcap" || path.extension() == ".pcapng";
-}
+bool is_capture(const fs::path& path) { return path.extension() == ".pcap" || path.extension() == ".pcapng"; }
 
 Result<std::unique_ptr<Reader>> open_capture(const fs::path& path, ScanContent content) {
   const auto device = find_device(path);

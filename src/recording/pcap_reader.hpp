@@ -8,7 +8,7 @@
 namespace fleetmap::recording {
 
 /// A file that ends in .pcap or .pcapng.
-bool looks_like_capture(const std::filesystem::path& path);
+bool is_capture(const std::filesystem::path& path);
 /// Reads the scans of one Velodyne LiDAR, of the first whose packets are found. Those of others are counted;
 /// other traffic is passed over. Refuses a capture without any data packet.
 Result<std::unique_ptr<Reader>> open_capture(const std::filesystem::path& path, ScanContent content);

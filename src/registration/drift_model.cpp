@@ -24,7 +24,7 @@ DriftModel::DriftModel(const MapDrift& drift, const Eigen::Matrix3d& R_level_clo
     if (distance < nearest) nearest = distance, fixed_ = k;
     if (k == 0) continue;
     const Matrix6d Ad = adjoint(T_level_base);
-    bends_.push_back(Ad * stops[k].step_covariance * Ad.transpose());
+    deformations_.push_back(Ad * stops[k].step_covariance * Ad.transpose());
   }
 }
 
@@ -33,11 +33,11 @@ void DriftModel::shares_beyond(const Eigen::Vector2d& center, std::vector<double
   const auto weight = [&](std::size_t stop) {
     return 1.0 / (1.0 + (center - stops_[stop]).squaredNorm() / (kObservingRange * kObservingRange));
   };
-  shares.assign(bends_.size(), 0.0);
+  shares.assign(deformations_.size(), 0.0);
   double behind = 0.0;
   for (std::size_t k = 0; k < stops_.size(); ++k) {
     behind += weight(k);
-    if (k < bends_.size()) shares[k] = behind;
+    if (k < deformations_.size()) shares[k] = behind;
   }
   all = behind;
   for (std::size_t k = 0; k < shares.size(); ++k)
@@ -46,16 +46,16 @@ void DriftModel::shares_beyond(const Eigen::Vector2d& center, std::vector<double
 
 Matrix6d DriftModel::gradient_covariance(const std::vector<PatchInformation>& patches,
                                          const Matrix6d& transport) const {
-  std::vector<Matrix6d> beyond(bends_.size(), Matrix6d::Zero());
+  std::vector<Matrix6d> beyond(deformations_.size(), Matrix6d::Zero());
   std::vector<double> shares;
   for (const PatchInformation& patch : patches) {
     shares_beyond(patch.center, shares);
     for (std::size_t k = 0; k < shares.size(); ++k) beyond[k] += shares[k] * patch.H;
   }
   Matrix6d sum = Matrix6d::Zero();
-  for (std::size_t k = 0; k < bends_.size(); ++k) {
+  for (std::size_t k = 0; k < deformations_.size(); ++k) {
     const Matrix6d pushed = beyond[k] * transport;
-    sum += pushed * bends_[k] * pushed.transpose();
+    sum += pushed * deformations_[k] * pushed.transpose();
   }
   return sum;
 }

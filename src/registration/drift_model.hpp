@@ -31,8 +31,8 @@ class DriftModel {
   void shares_beyond(const Eigen::Vector2d& center, std::vector<double>& shares) const;
 
   std::vector<Eigen::Vector2d> stops_;
-  std::vector<Matrix6d> bends_;  ///< covariance of a bend's twist about the cloud's origin
-  std::size_t fixed_ = 0;        ///< stop to which the frame is fixed
+  std::vector<Matrix6d> deformations_;  ///< covariance of a deformation as a twist about the cloud's origin
+  std::size_t fixed_ = 0;               ///< stop to which the frame is fixed
 };
 
 }  // namespace fleetmap::registration

@@ -152,7 +152,7 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
-/// Aligns anew what both sensors saw from the same side, once it is settled which pose is meant. What would
+/// Aligns anew what both sensors saw from the same side, once it is known which pose is meant. What would
 /// leave the prior stays as it was.
 void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
             const DriftModels& drift_models, const Window& window, double prior_sigmas, FoundMode& mode) {

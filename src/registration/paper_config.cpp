@@ -12,8 +12,8 @@ Status PaperConfig::validate() const {
     return failure("registration paper.feature_radius must lie between paper.feature_voxel and 20 m");
   if (ransac_iterations < 1 || icp_iterations < 1)
     return failure("registration paper.ransac_iterations and icp_iterations must be at least 1");
-  if (!(least_side_ratio >= 0.0 && least_side_ratio < 1.0))
-    return failure("registration paper.least_side_ratio must lie in [0, 1)");
+  if (!(min_side_ratio >= 0.0 && min_side_ratio < 1.0))
+    return failure("registration paper.min_side_ratio must lie in [0, 1)");
   if (!(ransac_inlier_m > 0.0 && inlier_m > 0.0))
     return failure("registration paper.ransac_inlier and inlier_distance must be positive");
   if (!(max_rmse_m > 0.0)) return failure("registration paper.max_rmse must be positive");

@@ -122,12 +122,12 @@ namespace {
 class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::PointNormal> {
  public:
   SimilarTriangles(const Points::ConstPtr& source, const Points::ConstPtr& target,
-                   const pcl::Correspondences& matches, double least_ratio)
+                   const pcl::Correspondences& matches, double min_ratio)
       : SampleConsensusModelRegistration(source, indices(matches, &pcl::Correspondence::index_query)),
         source_(source),
         target_(target),
         partner_(source->size(), 0),
-        least_ratio2_(static_cast<float>(least_ratio * least_ratio)) {
+        least_ratio2_(static_cast<float>(min_ratio * min_ratio)) {
     for (const pcl::Correspondence& match : matches) {
       partner_[static_cast<std::size_t>(match.index_query)] = static_cast<std::size_t>(match.index_match);
     }
@@ -182,7 +182,7 @@ std::optional<Pose> pose_by_features(const FeatureCloud::Data& target, const Fea
   silence_pcl();
   // Its random numbers come from a generator of its own with a fixed seed.
   const auto model =
-      std::make_shared<SimilarTriangles>(source.sparse, target.sparse, matches, config.least_side_ratio);
+      std::make_shared<SimilarTriangles>(source.sparse, target.sparse, matches, config.min_side_ratio);
   pcl::RandomSampleConsensus<pcl::PointNormal> ransac(model, config.ransac_inlier_m);
   ransac.setMaxIterations(config.ransac_iterations);
   if (!ransac.computeModel()) return std::nullopt;
@@ -250,7 +250,7 @@ void measure(const FeatureCloud::Data& target, const FeatureCloud::Data& source,
   result.overlap = result.agreement = result.inlier_fraction;
 }
 
-void judge(const PaperConfig& config, RegistrationResult& result) {
+void set_verdict(const PaperConfig& config, RegistrationResult& result) {
   char reason[160] = "";
   if (result.inlier_fraction < config.min_inlier_fraction) {
     std::snprintf(reason, sizeof reason,
@@ -294,7 +294,7 @@ RegistrationResult register_by_features(const FeatureCloud& target, const Featur
   RegistrationResult result;
   result.T_target_source = refined(*target.data(), *source.data(), *start, config);
   measure(*target.data(), *source.data(), config, result);
-  judge(config, result);
+  set_verdict(config, result);
   Mode mode;
   mode.T_target_source = result.T_target_source;
   mode.score = result.inlier_fraction;

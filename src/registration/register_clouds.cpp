@@ -44,7 +44,7 @@ Mode mode_of(const FoundMode& found, const PreparedCloud::Data& target, const Pr
 }
 
 /// Sets verdict and reason from the numbers already in `result`.
-void judge(RegistrationResult& result, const RegistrationConfig& config) {
+void set_verdict(RegistrationResult& result, const RegistrationConfig& config) {
   result.verdict = Verdict::rejected;
   const bool degenerate = result.covariance.diagonal().head<3>().maxCoeff() > kMaxStddev * kMaxStddev &&
                           result.agreement < kPlainAgreement;
@@ -134,7 +134,7 @@ RegistrationResult register_clouds(const PreparedCloud& target, const PreparedCl
   result.excess = noise > 0.0 ? best.rmse / noise : 0.0;
   result.inliers = best.inliers;
   result.scored = modes.front().fit.scored;
-  judge(result, config);
+  set_verdict(result, config);
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "fleetmap/bus/cdr.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "ros_time.hpp"
 #include "sensor_msgs.h"
 #include "type_names.hpp"
@@ -115,8 +116,7 @@ Result<Layout> read_layout(const PointCloud2_& in) {
     const auto field = find_field(in, std::array{kNames[axis]}, std::array{kFloat32, kFloat64});
     if (!field) {
       std::string present;
-      for (const PointField_& f : in.fields())
-        present += (present.empty() ? "" : ", ") + f.name().substr(0, 32);
+      for (const PointField_& f : in.fields()) append_to_list(present, f.name().substr(0, 32));
       return refused(std::string("no field '") + kNames[axis] +
                      "' of float32 or float64 within point_step; fields: " + present);
     }
@@ -192,7 +192,7 @@ void read_points(const PointCloud2_& in, const Layout& layout, DecodedScan& out)
 }
 
 /// Refuses an absurd number of fields before they are allocated.
-void look_at_fields(eprosima::fastcdr::Cdr& cdr) {
+void peek_fields(eprosima::fastcdr::Cdr& cdr) {
   std_msgs::msg::dds_::Header_ header;
   std::uint32_t height = 0, width = 0, fields = 0;
   header.deserialize(cdr);
@@ -267,7 +267,7 @@ Result<Stamp> stamp_of_scan(ByteView cdr) {
 }
 
 Result<DecodedScan> decode_scan(ByteView cdr) {
-  const auto in = bus::from_cdr<PointCloud2_>(cdr, type_name::kPointCloud2, look_at_fields);
+  const auto in = bus::from_cdr<PointCloud2_>(cdr, type_name::kPointCloud2, peek_fields);
   if (!in) return tl::unexpected(in.error());
   const auto stamp = from_ros(in->header().stamp(), type_name::kPointCloud2);
   if (!stamp) return tl::unexpected(stamp.error());

@@ -18,7 +18,7 @@ using velodyne_msgs::msg::dds_::VelodyneScan_;
 constexpr std::size_t kPacketBytes = 1206;
 
 /// Refuses more packets than the bytes can hold before they are allocated.
-void look_at_count(eprosima::fastcdr::Cdr& cdr, std::size_t bytes) {
+void peek_count(eprosima::fastcdr::Cdr& cdr, std::size_t bytes) {
   std_msgs::msg::dds_::Header_ header;
   std::uint32_t packets = 0;
   header.deserialize(cdr);
@@ -44,7 +44,7 @@ Bytes encode(const VelodyneScan& scan, std::string_view frame_id) {
 
 Result<VelodyneScan> decode_velodyne_scan(ByteView cdr) {
   const auto in = bus::from_cdr<VelodyneScan_>(cdr, type_name::kVelodyneScan,
-                                               [&](auto& stream) { look_at_count(stream, cdr.size()); });
+                                               [&](auto& stream) { peek_count(stream, cdr.size()); });
   if (!in) return tl::unexpected(in.error());
   const auto stamp = from_ros(in->header().stamp(), type_name::kVelodyneScan);
   if (!stamp) return tl::unexpected(stamp.error());

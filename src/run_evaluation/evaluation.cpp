@@ -146,7 +146,7 @@ std::optional<HeldFleet> held_by_most(RunFolder& run, const std::vector<Distinct
   if (maps.empty()) return std::nullopt;
   auto held = open_held(maps.front().file.parent_path() / "store.db");
   if (held) return std::move(*held);
-  run.notes.push_back(held.error().message + "; alignments are not judged, robots not told apart");
+  run.notes.push_back(held.error().message + "; alignments are not evaluated, robots not told apart");
   return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/eval/plot.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 
@@ -21,8 +22,7 @@ std::string text(const json& object, const char* key, double factor = 1.0) {
 std::string three(const json& map, const char* key) {
   if (!map.contains(key)) return "-";
   std::string out;
-  for (const json& share : map[key])
-    out += (out.empty() ? "" : " / ") + short_number(100.0 * share.get<double>(), 3);
+  for (const json& share : map[key]) append_to_list(out, short_number(100.0 * share.get<double>(), 3), " / ");
   return out + " %";
 }
 
@@ -136,9 +136,9 @@ void add_modes(eval::HtmlPage& page, const json& modes) {
 
 void add_alignments(eval::HtmlPage& page, const json& alignments) {
   page.heading("Alignments against the truth");
-  page.paragraph("Held " + text(alignments, "held") + ", judged " + text(alignments, "count") + ", wrong " +
-                 text(alignments, "wrong") + ", ambiguous " + text(alignments, "ambiguous") + " (" +
-                 text(alignments, "ambiguous_that_hold_right") + " hold the right one), used " +
+  page.paragraph("Held " + text(alignments, "held") + ", evaluated " + text(alignments, "count") +
+                 ", wrong " + text(alignments, "wrong") + ", ambiguous " + text(alignments, "ambiguous") +
+                 " (" + text(alignments, "ambiguous_that_hold_right") + " hold the right one), used " +
                  text(alignments, "used") + ", used and wrong " + text(alignments, "wrong_used") +
                  ". Wrong: more than 0.5 m or 2 deg off.");
   eval::Table rows{
@@ -163,7 +163,7 @@ void add_alignments(eval::HtmlPage& page, const json& alignments) {
 void add_consistency(eval::Table& rows, const std::string& title, const json& c) {
   if (!c.is_object() || !c.contains("nees")) return;
   std::string axes;
-  for (const json& axis : c["axes"]) axes += (axes.empty() ? "" : ", ") + short_number(axis.get<double>(), 3);
+  for (const json& axis : c["axes"]) append_to_list(axes, short_number(axis.get<double>(), 3));
   rows.push_back({title, text(c, "count"), text(c, "nees"), text(c, "nees_median"),
                   text(c, "expected_median"), text(c, "within_95", 100.0), axes});
 }

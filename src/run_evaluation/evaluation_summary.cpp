@@ -24,7 +24,7 @@ void print_map(std::ostream& out, const json& map) {
 void print_fleet(std::ostream& out, const json& evaluation) {
   if (evaluation.contains("alignments")) {
     const auto& alignments = evaluation["alignments"];
-    out << "alignments: " << alignments["count"] << " judged, " << alignments["wrong"] << " wrong, "
+    out << "alignments: " << alignments["count"] << " evaluated, " << alignments["wrong"] << " wrong, "
         << alignments["ambiguous"] << " ambiguous, " << alignments["used"] << " used, of these "
         << alignments["wrong_used"] << " wrong\n";
   }

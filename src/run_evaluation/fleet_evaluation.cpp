@@ -31,10 +31,10 @@ json attempts_json(const RunFolder& run) {
   return verdicts;
 }
 
-json magnitudes_json(const std::vector<eval::JudgedAlignment>& alignments) {
+json magnitudes_json(const std::vector<eval::AlignmentError>& alignments) {
   std::vector<double> translation, rotation;
   Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-  for (const eval::JudgedAlignment& one : alignments) {
+  for (const eval::AlignmentError& one : alignments) {
     translation.push_back(one.translation);
     rotation.push_back(kDegrees * one.rotation);
     squares += one.offset.cwiseAbs2();
@@ -47,7 +47,7 @@ json magnitudes_json(const std::vector<eval::JudgedAlignment>& alignments) {
           {"offset_rms", {axes.x(), axes.y(), axes.z()}}};
 }
 
-json listed(const eval::JudgedAlignment& one) {
+json listed(const eval::AlignmentError& one) {
   return {{"i", to_string(one.i)},
           {"j", to_string(one.j)},
           {"used", one.used},
@@ -128,12 +128,12 @@ eval::TruePoses true_poses(const RunFolder& run, const store::Store& store) {
 }
 
 json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::TruePoses& truth) {
-  const auto judged = eval::judge(held.alignments, held.placement, truth);
-  std::vector<eval::JudgedAlignment> right, used;
+  const auto errors = eval::alignment_errors(held.alignments, held.placement, truth);
+  std::vector<eval::AlignmentError> right, used;
   std::vector<eval::StatedError> stated;
   std::size_t wrong = 0, wrong_used = 0, ambiguous = 0, hold_right = 0, loops = 0;
   json list = json::array();
-  for (const eval::JudgedAlignment& one : judged) {
+  for (const eval::AlignmentError& one : errors) {
     loops += one.between_robots ? 0u : 1u;
     ambiguous += one.ambiguous ? 1u : 0u;
     hold_right += one.ambiguous && one.holds_right ? 1u : 0u;
@@ -148,7 +148,7 @@ json alignments_json(const RunFolder& run, const HeldFleet& held, const eval::Tr
     if ((one.used || !one.ambiguous) && list.size() < kMaxListed) list.push_back(listed(one));
   }
   json result = {{"held", held.alignments.size()},
-                 {"count", judged.size()},
+                 {"count", errors.size()},
                  {"of_one_robot", loops},
                  {"wrong", wrong},
                  {"ambiguous", ambiguous},

@@ -98,7 +98,7 @@ Result<std::vector<MapPicture>> pictures_by_robot(const store::MergedMap& map) {
   const std::vector<float> heights = heights_above_ground(map.cloud);
   std::vector<eval::Rgb> colours(map.cloud.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    const std::size_t robot = i < map.seen_by.size() ? map.seen_by[i] : 0;
+    const std::size_t robot = i < map.observed_by.size() ? map.observed_by[i] : 0;
     colours[i] = toned(eval::robot_colour(robot), heights[i]);
   }
   eval::View view;

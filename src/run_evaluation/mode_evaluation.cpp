@@ -89,7 +89,7 @@ std::optional<output::Trajectory> trajectory_of(const AgentFolder& agent, const 
 json statuses_json(const graph::Placement& placement, const std::vector<graph::Alignment>& alignments,
                    const eval::TruePoses& nodes) {
   std::set<std::pair<NodeId, NodeId>> wrong;
-  for (const eval::JudgedAlignment& one : eval::judge(alignments, placement, nodes)) {
+  for (const eval::AlignmentError& one : eval::alignment_errors(alignments, placement, nodes)) {
     if (!one.right) wrong.emplace(one.i, one.j);
   }
   json result = json::object();

@@ -32,19 +32,19 @@ class OverlapEvaluation::TrueSubmaps {
     }
     for (const auto& [id, T_truth_base] : truth) {
       if (const auto submap = load(id))
-        seen_.add(robots_.at(id.agent), cloud::transformed(*submap, T_truth_base));
+        observed_.add(robots_.at(id.agent), cloud::transformed(*submap, T_truth_base));
     }
   }
 
   std::size_t robots() const { return robots_.size(); }
-  const eval::ObservedPlaces& seen() const { return seen_; }
+  const eval::ObservedPlaces& observed() const { return observed_; }
 
   /// The part of the submap that two robots observed.
   Result<cloud::PointCloud> shared_part(const NodeId& id) const {
     auto submap = load(id);
     if (!submap) return submap;
     const cloud::PointCloud placed = cloud::transformed(*submap, truth_.at(id));
-    return cloud::select(*submap, seen_.indices_within(placed, kTwoRobots));
+    return cloud::select(*submap, observed_.indices_within(placed, kTwoRobots));
   }
 
   /// The map of those parts, with the submaps placed at `poses`.
@@ -71,7 +71,7 @@ class OverlapEvaluation::TrueSubmaps {
   const store::MergeConfig& merge_;
   const eval::TruePoses& truth_;
   std::map<AgentId, std::size_t> robots_;
-  eval::ObservedPlaces seen_{kPlace, kMinReturns};
+  eval::ObservedPlaces observed_{kPlace, kMinReturns};
 };
 
 OverlapEvaluation::OverlapEvaluation(store::Store& store, const store::MergeConfig& merge,
@@ -79,7 +79,7 @@ OverlapEvaluation::OverlapEvaluation(store::Store& store, const store::MergeConf
                                      const eval::MapMetricsConfig& config)
     : submaps_(std::make_unique<TrueSubmaps>(store, merge, truth)), truth_(truth), config_(config) {
   if (submaps_->robots() < kTwoRobots) return;
-  shared_ = submaps_->seen().within(surface, kTwoRobots);
+  shared_ = submaps_->observed().within(surface, kTwoRobots);
   if (shared_.empty()) return;
   if (const auto limit = eval::evaluate_map(submaps_->merged(truth), shared_, config))
     limit_ = scores(*limit);
@@ -94,7 +94,7 @@ json OverlapEvaluation::of(const std::map<NodeId, Pose>& T_enu_node, const Pose&
   const auto metrics = eval::evaluate_registered_map(map, shared_, T_truth_map, config_);
   if (!metrics) return nullptr;
   json overlap = scores(*metrics);
-  overlap["places"] = submaps_->seen().count(kTwoRobots);
+  overlap["places"] = submaps_->observed().count(kTwoRobots);
   overlap["map_points"] = map.size();
   overlap["truth_points"] = metrics->truth_points;
   if (!limit_.is_null()) overlap["with_true_poses"] = limit_;

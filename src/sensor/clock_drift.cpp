@@ -11,16 +11,16 @@ bool ClockDrift::add(Stamp arrival, double lag) {
   if (!begun_) begun_ = bucket_begun_ = arrival;
   bool completed = false;
   if (arrival - *bucket_begun_ >= kBucket) {
-    if (!first_) first_ = least_;
-    buckets_.push_back({least_time_, least_ - *first_});
+    if (!first_) first_ = min_;
+    buckets_.push_back({min_time_, min_ - *first_});
     if (buckets_.size() > kMax) buckets_.pop_front();
     bucket_begun_ = arrival;
-    least_ = std::numeric_limits<double>::infinity();
+    min_ = std::numeric_limits<double>::infinity();
     completed = true;
   }
-  if (lag < least_) {
-    least_ = lag;
-    least_time_ = to_seconds(arrival - *begun_);
+  if (lag < min_) {
+    min_ = lag;
+    min_time_ = to_seconds(arrival - *begun_);
   }
   return completed;
 }

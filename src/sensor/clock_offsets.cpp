@@ -63,7 +63,7 @@ void ClockOffsets::add(Source source, Stamp stamp, Stamp arrival) {
   const auto right = right_lag();
   if (!right) return;
   for (std::size_t k = 0; k < kSources; ++k) {
-    if (tracks_[k].known) judge(static_cast<Source>(k), *right, since, arrival);
+    if (tracks_[k].known) check(static_cast<Source>(k), *right, since, arrival);
   }
 }
 
@@ -157,7 +157,7 @@ void ClockOffsets::find_drifts() {
   }
 }
 
-void ClockOffsets::judge(Source source, double right, Duration since, Stamp arrival) {
+void ClockOffsets::check(Source source, double right, Duration since, Stamp arrival) {
   Track& own = tracks_[static_cast<std::size_t>(source)];
   const double behind = own.lag() - right;
   const double drifted = own.slow ? behind - *own.behind_at_first : 0.0;

@@ -33,7 +33,7 @@ const DeviceClock::RoundTrip* DeviceClock::shortest() const {
 std::optional<Stamp> DeviceClock::to_system(Duration device) const {
   if (const RoundTrip* best = shortest()) return Stamp(device) + best->lag;
   if (envelope_.empty()) return std::nullopt;
-  return Stamp(device) + from_seconds(envelope_.least());
+  return Stamp(device) + from_seconds(envelope_.min());
 }
 
 std::optional<Duration> DeviceClock::uncertainty() const {

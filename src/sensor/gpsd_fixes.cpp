@@ -14,7 +14,7 @@ using nlohmann::json;
 /// gpsd's own limit, GPS_JSON_RESPONSE_MAX, is 10,240.
 constexpr std::size_t kLongest = 65'536;
 constexpr int kFix3d = 3;
-constexpr std::size_t kMostErrors = 10;
+constexpr std::size_t kMaxErrors = 10;
 
 std::optional<double> number(const json& report, const char* key) {
   const auto found = report.find(key);
@@ -71,7 +71,7 @@ void GpsdFixes::read(const std::string& line, DeviceSamples& samples) {
   const std::string kind = report.is_object() ? text(report, "class") : std::string();
   if (kind.empty()) return void(++counters_.malformed);
   ++counters_.reports;
-  if (kind == "ERROR" && errors_.size() < kMostErrors) errors_.push_back(text(report, "message"));
+  if (kind == "ERROR" && errors_.size() < kMaxErrors) errors_.push_back(text(report, "message"));
   if (kind != "TPV") return;
   const auto stamp = from_utc(text(report, "time"));
   if (!stamp) return void(++counters_.without_time);

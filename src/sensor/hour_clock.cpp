@@ -43,7 +43,7 @@ HourClock::Reading HourClock::read(std::uint32_t microseconds, Stamp arrival) {
 }
 
 Duration HourClock::offset() const {
-  return synchronised_ || lag_.empty() ? Duration::zero() : from_seconds(lag_.least());
+  return synchronised_ || lag_.empty() ? Duration::zero() : from_seconds(lag_.min());
 }
 
 }  // namespace fleetmap::sensor

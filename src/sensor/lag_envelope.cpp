@@ -21,9 +21,9 @@ bool LagEnvelope::add(Stamp stamp, Stamp arrival) {
   const double lag = to_seconds(arrival - stamp);
   const bool step = stepped(stamp, arrival, lag);
   if (step) {
-    const double least = late_->least;
+    const double min = late_->min;
     *this = {};
-    insert(arrival, least);
+    insert(arrival, min);
   } else {
     insert(arrival, lag);
   }
@@ -32,20 +32,19 @@ bool LagEnvelope::add(Stamp stamp, Stamp arrival) {
 }
 
 bool LagEnvelope::stepped(Stamp stamp, Stamp arrival, double lag) {
-  if (empty() || lag <= least_ + kLate) {
+  if (empty() || lag <= min_ + kLate) {
     late_.reset();
     return false;
   }
-  if (!late_) late_ = LateRun{.begun = arrival, .least = lag, .most = lag};
+  if (!late_) late_ = LateRun{.begun = arrival, .min = lag, .max = lag};
   LateRun& run = *late_;
   ++run.samples;
-  run.least = std::min(run.least, lag);
-  run.most = std::max(run.most, lag);
+  run.min = std::min(run.min, lag);
+  run.max = std::max(run.max, lag);
   run.set_back = run.set_back && newest_ - stamp > kSetBack;
   if (run.samples < kStepSamples) return false;
   if (run.set_back) return arrival - run.begun >= kStepTime;
-  return run.least > least_ + kMaxLateness && run.most - run.least < kSteady &&
-         arrival - run.begun >= kSteadyTime;
+  return run.min > min_ + kMaxLateness && run.max - run.min < kSteady && arrival - run.begun >= kSteadyTime;
 }
 
 void LagEnvelope::insert(Stamp arrival, double lag) {
@@ -53,9 +52,9 @@ void LagEnvelope::insert(Stamp arrival, double lag) {
     buckets_.push_back({arrival, lag});
     while (arrival - buckets_.front().begun >= kWindow) buckets_.pop_front();
   }
-  buckets_.back().least = std::min(buckets_.back().least, lag);
-  least_ = kNone;
-  for (const Bucket& bucket : buckets_) least_ = std::min(least_, bucket.least);
+  buckets_.back().min = std::min(buckets_.back().min, lag);
+  min_ = kNone;
+  for (const Bucket& bucket : buckets_) min_ = std::min(min_, bucket.min);
 }
 
 }  // namespace fleetmap::sensor

@@ -11,7 +11,7 @@ namespace {
 
 /// The standard allows 82; receivers with more digits send a little more.
 constexpr std::size_t kLongest = 120;
-constexpr std::size_t kMostFields = 24;
+constexpr std::size_t kMaxFields = 24;
 
 /// A field that is absent is empty; one that is malformed makes the sentence so.
 class Fields {
@@ -83,7 +83,7 @@ class Fields {
     malformed_ = true;
     return std::nullopt;
   }
-  std::array<std::string_view, kMostFields> fields_;
+  std::array<std::string_view, kMaxFields> fields_;
   bool malformed_ = false;
 };
 

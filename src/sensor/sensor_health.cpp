@@ -30,7 +30,7 @@ constexpr Duration kShortestSweep = std::chrono::milliseconds(5);
 constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
-constexpr std::uint64_t kScansJudged = 50;
+constexpr std::uint64_t kMinScansChecked = 50;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
 constexpr double kLevel = 5.0 * kDegree;  // tilt of the ground in base_link
@@ -193,7 +193,8 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
   // Half a sweep is what a cropped cloud may lack.
   if (sweeps > kMissing) missing_scans_ += static_cast<std::uint64_t>(std::lround(sweeps)) - 1;
   const auto all = static_cast<double>(scans_ + missing_scans_);
-  if (scans_missing_ || scans_ < kScansJudged || static_cast<double>(missing_scans_) < kMissingShare * all)
+  if (scans_missing_ || scans_ < kMinScansChecked ||
+      static_cast<double>(missing_scans_) < kMissingShare * all)
     return;
   scans_missing_ = true;
   state("LiDAR: " + std::to_string(missing_scans_) + " of " + std::to_string(scans_ + missing_scans_) +

@@ -32,7 +32,7 @@ MergedMap merge(const std::map<NodeId, Pose>& T_enu_node, const SubmapLoader& lo
     const std::uint8_t agent = map.add_submap(id, *submap);
     const std::size_t added = merger.add(cloud::transformed(*submap, T_enu));
     // Voxels appear in the order in which they were first hit.
-    map.seen_by.insert(map.seen_by.end(), added, agent);
+    map.observed_by.insert(map.observed_by.end(), added, agent);
   }
   map.points_refused = merger.refused();
   map.cloud = merger.cloud();

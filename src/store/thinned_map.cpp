@@ -32,12 +32,13 @@ void ThinnedMap::add(const MapTile& tile) {
     // Adds points of one agent at a time, because the merger returns how many it kept, not which.
     std::size_t end = begin;
     while (end < tile.cloud.size() && end - begin < kMaxPointsAtOnce &&
-           tile.seen_by[end] == tile.seen_by[begin])
+           tile.observed_by[end] == tile.observed_by[begin])
       ++end;
-    seen_by_.insert(seen_by_.end(), merger_.add(slice(tile.cloud, begin, end)), tile.seen_by[begin]);
+    observed_by_.insert(observed_by_.end(), merger_.add(slice(tile.cloud, begin, end)),
+                        tile.observed_by[begin]);
     begin = end;
     while (merger_.voxels() > max_points_) {
-      const MapTile held{merger_.cloud(), std::exchange(seen_by_, {})};
+      const MapTile held{merger_.cloud(), std::exchange(observed_by_, {})};
       voxel_m_ *= 1.5f;
       merger_ = cloud::VoxelMerger(voxel_m_, cloud::VoxelPoint::first);
       add(held);
@@ -45,6 +46,8 @@ void ThinnedMap::add(const MapTile& tile) {
   }
 }
 
-MergedMap ThinnedMap::map(const MapOutline& outline) const { return {outline, merger_.cloud(), seen_by_}; }
+MergedMap ThinnedMap::map(const MapOutline& outline) const {
+  return {outline, merger_.cloud(), observed_by_};
+}
 
 }  // namespace fleetmap::store

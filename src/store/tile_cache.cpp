@@ -25,7 +25,7 @@ void TileCache::put(std::size_t submap, Parts parts) {
   for (const auto& [tile, points] : parts) bytes_ += bytes_of(points);
   held_.emplace(submap, std::move(parts));
   while (bytes_ > max_bytes_) evict_one();
-  most_bytes_ = std::max(most_bytes_, bytes_);
+  peak_bytes_ = std::max(peak_bytes_, bytes_);
 }
 
 void TileCache::evict_one() {

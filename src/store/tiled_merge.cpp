@@ -148,7 +148,7 @@ MapTile TiledMerge::merged(std::size_t tile) {
       continue;
     const std::size_t added = merger.add(part_of(k, tile));
     // Voxels appear in the order in which they were first hit.
-    result.seen_by.insert(result.seen_by.end(), added, source.agent);
+    result.observed_by.insert(result.observed_by.end(), added, source.agent);
   }
   result.cloud = merger.cloud();
   if (!outline_.has_intensities) result.cloud.intensities.clear();
@@ -168,6 +168,6 @@ Status TiledMerge::stream(const TileSink& sink) {
   return {};
 }
 
-TiledMergeStats TiledMerge::stats() const { return {loads_, largest_tile_, cache_.most_bytes()}; }
+TiledMergeStats TiledMerge::stats() const { return {loads_, largest_tile_, cache_.peak_bytes()}; }
 
 }  // namespace fleetmap::store

@@ -6,7 +6,7 @@ namespace fleetmap::trust {
 
 void ReplayWindow::clear_above(std::uint64_t counter) {
   const std::uint64_t bit = counter % kBits;
-  if (bit + 1 < kBits) seen_[counter / kBits % kWords] &= (std::uint64_t{1} << (bit + 1)) - 1;
+  if (bit + 1 < kBits) received_[counter / kBits % kWords] &= (std::uint64_t{1} << (bit + 1)) - 1;
 }
 
 bool ReplayWindow::accept(std::uint64_t counter) {
@@ -15,11 +15,11 @@ bool ReplayWindow::accept(std::uint64_t counter) {
   if (counter > newest_) {
     const std::uint64_t last = newest_ / kBits;
     const std::uint64_t fresh = std::min(word - last, kWords);
-    for (std::uint64_t k = 1; k <= fresh; ++k) seen_[(last + k) % kWords] = 0;
+    for (std::uint64_t k = 1; k <= fresh; ++k) received_[(last + k) % kWords] = 0;
     newest_ = counter;
   }
   const std::uint64_t bit = std::uint64_t{1} << (counter % kBits);
-  std::uint64_t& bits = seen_[word % kWords];
+  std::uint64_t& bits = received_[word % kWords];
   if ((bits & bit) != 0) return false;
   bits |= bit;
   return true;

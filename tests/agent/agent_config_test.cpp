@@ -50,7 +50,7 @@ TEST(AgentConfig, EachPartIsCheckedUnderItsName) {
   expect_refused(
       valid(), [](AgentConfig& c) { c.own_path.reach = 0.0; }, "loop_closures.reach");
   expect_refused(
-      valid(), [](AgentConfig& c) { c.loop_closure.max_attempts = 0; }, "exchange: encounters");
+      valid(), [](AgentConfig& c) { c.loop_closure.max_attempts = 0; }, "exchange: loop_candidates");
   expect_refused(
       valid(), [](AgentConfig& c) { c.submap.voxel = 0.0; }, "submap: ");
   expect_refused(

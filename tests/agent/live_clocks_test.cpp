@@ -17,7 +17,7 @@ using fleetmap::testing::SensorClock;
 using fleetmap::testing::TemporaryFolder;
 using sensor::Source;
 
-constexpr double kSettled = 16.0;  // s: what is 2.5 s late may only be late for 10 s
+constexpr double kStartUp = 16.0;  // s: what is 2.5 s late may only be late for 10 s
 
 /// A sensor's clock, and what is expected of the log and of the correction.
 struct WrongClock {
@@ -54,7 +54,7 @@ struct Rms {
 Rms rms_of(const LappingRobot& robot) {
   Rms rms;
   for (const LappingRobot::Error& error : robot.errors()) {
-    if (error.seconds < kSettled) continue;
+    if (error.seconds < kStartUp) continue;
     ++rms.scans;
     rms.odometry += error.odometry * error.odometry;
     rms.position += error.position * error.position;

@@ -253,18 +253,18 @@ TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
 
 TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
   stand(at({0.0, 0.0}, 0.0), 2);
-  Perceived doubtful = at({0.0, 0.0}, 0.0);
-  doubtful.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
+  Perceived uncertain = at({0.0, 0.0}, 0.0);
+  uncertain.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
   commands_.clear();
-  stand(doubtful, 1);
+  stand(uncertain, 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "it still knows its lane";
-  doubtful.G->covariance = 5.1 * 5.1 * Matrix6d::Identity();
+  uncertain.G->covariance = 5.1 * 5.1 * Matrix6d::Identity();
   commands_.clear();
-  stand(doubtful, 1);
+  stand(uncertain, 1);
   expect_zeros();
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
-  doubtful.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
-  stand(doubtful, 1);
+  uncertain.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+  stand(uncertain, 1);
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
   stand(at({0.0, 0.0}, 0.0), 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2);

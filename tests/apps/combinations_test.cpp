@@ -42,7 +42,7 @@ std::size_t replayed(const json& mode) {
          verdicts["rejected"].get<std::size_t>();
 }
 
-TEST(Combinations, OneRunOfModeFleetShowsAllFourFromTheSameEncounters) {
+TEST(Combinations, OneRunOfModeFleetShowsAllFourFromTheSameCandidates) {
   const testing::SmallTwin twin;
   const auto run = twin.run("fleet");
   ASSERT_EQ(run.exit_code, 0) << run.output;

@@ -60,7 +60,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   ASSERT_EQ(process.wait(), 0) << process.output();
   std::ifstream file(out / "report.json");
   const auto report = nlohmann::json::parse(file);
-  EXPECT_TRUE(report["settled"].get<bool>()) << process.output();
+  EXPECT_TRUE(report["exchange_ended"].get<bool>()) << process.output();
   const auto& r1 = report["agents"]["r1"];
   const auto& r2 = report["agents"]["r2"];
   EXPECT_EQ(r1["map_hash"], r2["map_hash"]);

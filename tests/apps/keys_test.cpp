@@ -62,7 +62,7 @@ TEST_F(KeysCommand, MakesShowsAndRevokes) {
   EXPECT_THAT(output_, AllOf(HasSubstr("fleet key 2"), ContainsRegex("r2 robot revoked until")));
 }
 
-TEST_F(KeysCommand, MistakesAreSaid) {
+TEST_F(KeysCommand, ErrorsAreNamed) {
   keys({"show"});
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, HasSubstr("holds no fleet's keys; make them with `fleetmap keys init"));

@@ -87,7 +87,7 @@ TEST_F(KittiFleet, OdometryStaysNearTheConsensusOfOthers) {
 namespace {
 
 void expect_equal_and_complete_maps(const nlohmann::json& report) {
-  EXPECT_TRUE(report["settled"].get<bool>());
+  EXPECT_TRUE(report["exchange_ended"].get<bool>());
   const auto& r1 = report["agents"]["r1"];
   const auto& r2 = report["agents"]["r2"];
   EXPECT_EQ(r1["map_hash"], r2["map_hash"]);

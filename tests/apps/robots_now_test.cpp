@@ -129,7 +129,7 @@ TEST_F(RobotsNow, AnOrderCountsOnceTheRobotHasAnswered) {
 
 TEST_F(RobotsNow, WhyThisRobotStandsIsKnownHere) {
   fleet_.reports[kR1] = report(MissionState::kDriving, 1, 4, 0);
-  fleet_.stands = "no scan comes";
+  fleet_.stop_reason = "no scan comes";
   fleet_.problems[kR1] = {"no scan for 7 s"};
   EXPECT_EQ(of(kR1).activity, "stands still: no scan comes");
   EXPECT_THAT(of(kR1).problems, ElementsAre("no scan for 7 s"));

@@ -47,7 +47,7 @@ TEST(TwinFaults, OthersDriveTheRowsOfARobotThatDied) {
   twin.write_fleet("", {"", "", "robot: {switched_off: [{from: 9}]}"}, kSoonLost);
   const auto run = twin.run("out", {"--threads", "2"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_TRUE(run.report["settled"].get<bool>()) << run.output;
+  EXPECT_TRUE(run.report["exchange_ended"].get<bool>()) << run.output;
   const auto& completion = run.report["completion"];
   ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
   EXPECT_GT(completion["mission_s"].get<double>(), 21.0) << "nobody knows before lost_after that it is gone";
@@ -71,7 +71,7 @@ TEST(TwinFaults, ARobotThatComesBackGoesOnFromItsStore) {
   twin.write_fleet("", {"", "", "robot: {switched_off: [{from: 9, until: 30}]}"}, kSoonLost);
   const auto run = twin.run("out", {"--threads", "2"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_TRUE(run.report["settled"].get<bool>()) << run.output;
+  EXPECT_TRUE(run.report["exchange_ended"].get<bool>()) << run.output;
   const auto& completion = run.report["completion"];
   ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
   EXPECT_GT(completion["completed_s"].get<double>(), 30.0) << "who comes back is waited for";
@@ -98,7 +98,7 @@ TEST(TwinFaults, MapsFlowOnceTheRadiosWorkAgain) {
       "r2}]\n");
   const auto run = twin.run("out", {"--threads", "2", "--agents", "2"});
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_TRUE(run.report["settled"].get<bool>()) << run.output;
+  EXPECT_TRUE(run.report["exchange_ended"].get<bool>()) << run.output;
   EXPECT_GT(run.report["virtual_time_s"].get<double>(), 60.0) << "no submap passes before";
   const auto& agents = run.report["agents"];
   EXPECT_EQ(agents["r1"]["map_hash"], agents["r2"]["map_hash"]);

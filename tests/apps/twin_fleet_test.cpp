@@ -39,9 +39,9 @@ double share_touching(const output::Trajectory& truth, const sim::World& world, 
 
 /// The result of `fleetmap eval`.
 nlohmann::json evaluated(const fs::path& out) {
-  testing::Process judge(
+  testing::Process evaluation(
       {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
-  EXPECT_EQ(judge.wait(), 0) << judge.output();
+  EXPECT_EQ(evaluation.wait(), 0) << evaluation.output();
   std::ifstream file(out / "evaluation.json");
   return nlohmann::json::parse(file, nullptr, false);
 }
@@ -98,7 +98,7 @@ void expect_true_map(const nlohmann::json& evaluation, const fs::path& out, unsi
 }
 
 void expect_complete_mission(const nlohmann::json& report) {
-  EXPECT_TRUE(report["settled"].get<bool>());
+  EXPECT_TRUE(report["exchange_ended"].get<bool>());
   const auto& completion = report["completion"];
   ASSERT_TRUE(completion["completed_s"].is_number()) << completion.dump();
   EXPECT_LT(completion["completed_s"].get<double>(), 200.0);

@@ -21,9 +21,9 @@ using ::testing::SizeIs;
 constexpr const char* kLed = "robot: {guided: true, gps: {fitted: false}}";
 
 nlohmann::json evaluation_of(const std::filesystem::path& out) {
-  testing::Process judge(
+  testing::Process evaluation(
       {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
-  EXPECT_EQ(judge.wait(), 0) << judge.output();
+  EXPECT_EQ(evaluation.wait(), 0) << evaluation.output();
   std::ifstream file(out / "evaluation.json");
   return nlohmann::json::parse(file, nullptr, false);
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fleetmap/core/utc.hpp"
 #include "support/eventually.hpp"
 #include "support/velodyne_packets.hpp"
 
@@ -22,8 +23,6 @@ using fleetmap::testing::VelodyneDevice;
 using ::testing::HasSubstr;
 
 constexpr std::chrono::seconds kPatience(60);
-
-Stamp now() { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
 
 /// Sends datagrams to a port of this machine, from one of its own addresses.
 class Sender {
@@ -80,7 +79,7 @@ struct Received {
 TEST(VelodyneInput, PacketsOverUdpBecomeScans) {
   Received received;
   const Sender sender(received.input->port(), "127.0.0.1");
-  const Stamp start = now();
+  const Stamp start = system_now();
   VelodyneDevice device(start.time_since_epoch());
   for (std::uint64_t sent = 1; sent <= 240; ++sent) {
     sender.send(device.next().bytes);
@@ -110,7 +109,7 @@ TEST(VelodyneInput, WhatIsNoPacketIsCounted) {
 TEST(VelodyneInput, ASecondDeviceIsRefusedWhileTheFirstSends) {
   Received received;
   const Sender first(received.input->port(), "127.0.0.1"), second(received.input->port(), "127.0.0.2");
-  VelodyneDevice device(now().time_since_epoch());
+  VelodyneDevice device(system_now().time_since_epoch());
   first.send(device.next().bytes);
   received.wait_for_datagrams(1);
   second.send(device.next().bytes);

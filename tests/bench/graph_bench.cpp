@@ -40,7 +40,7 @@ void measure(int robots, int nodes_each, int every, double false_share) {
     placement = graph::compute_placement(fleet.nodes, fleet.alignments, fleet.site, fleet_mode, {&newest, 1});
   });
   const double paper_s =
-      best_of(3, [&] { graph::place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site); });
+      best_of(3, [&] { graph::place_by_min_rmse(fleet.nodes, fleet.alignments, fleet.site); });
   const auto wrong = std::ranges::count_if(placement.used, [&](const graph::Alignment& a) {
     return false_ones.contains({a.computed_by, a.seq});
   });

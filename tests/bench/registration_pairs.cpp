@@ -1,8 +1,8 @@
-// Encounters of robots on generated sites, with truth: how often registration is right, wrong or undecided,
-// how accurate, and at what cost. Made in three steps, each kept in a folder so that trying is quick:
-//   bench_encounters maps DIR SET        maps around nodes (SET: dev, drift, noisy, more, earlier, final)
-//   bench_encounters clouds DIR SET      spherized clouds of these
-//   bench_encounters register DIR SET    the table; METHOD=paper: by the paper's registration
+// Pairs of nodes on generated sites, with truth: how often registration is right, wrong or undecided, how
+// accurate, and at what cost. Made in three steps, each kept in a folder so that trying is quick:
+//   bench_registration_pairs maps DIR SET      maps around nodes; dev, drift, noisy, more, earlier, final
+//   bench_registration_pairs clouds DIR SET    spherized clouds of these
+//   bench_registration_pairs register DIR SET  the table; METHOD=paper: by the paper's registration
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -339,7 +339,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "bench_encounters maps|clouds|register DIR SET [TAG]\n");
+    std::fprintf(stderr, "bench_registration_pairs maps|clouds|register DIR SET [TAG]\n");
     return 2;
   }
   const std::string step = argv[1], tag = argc > 4 ? argv[4] : "";

@@ -55,11 +55,6 @@ TEST_F(QosDirectory, AnUnknownWordIsNamed) {
   EXPECT_THAT(error(), HasSubstr("<kind> is \"BEST_EFORT\"; expected one of BEST_EFFORT|RELIABLE"));
 }
 
-TEST_F(QosDirectory, AReliableRadioIsRefusedSinceItsRepairsHaveNoEnd) {
-  replace("short_range.xml", "<kind>BEST_EFFORT</kind>", "<kind>RELIABLE</kind>");
-  EXPECT_THAT(error(), HasSubstr("<data_writer> \"control\" is reliable; short_range is best effort"));
-}
-
 TEST_F(QosDirectory, ADefaultProfileIsRefusedSinceItWouldChangeTheWholeProcess) {
   replace("onboard.xml", "<participant profile_name",
           "<participant is_default_profile=\"true\" profile_name");

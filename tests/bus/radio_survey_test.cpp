@@ -146,51 +146,5 @@ TEST_F(RadioSurveyTest, ARobotOfAnotherVersionIsNamedOncePerAddress) {
   EXPECT_EQ(heard(first), 0u);
 }
 
-/// r1 has heard r2, whose messages the test sends, and then one Hello of another participant at r2's place.
-class RadioClaim : public LoneRadio {
- protected:
-  void SetUp() override {
-    start(robot("r1"));
-    hello_.link = Link::kLongRange;
-    hello_.address = {127, 0, 0, 1};
-    hello_.port = static_cast<std::uint16_t>(own_ + 2);
-    ASSERT_TRUE(run_until([&] {
-      send_hello_of_r2();
-      return log_.count("heard r2") == 1;
-    })) << log_.text();
-    send_to(own_, rtps_message(encode(hello_), 1, /*participant=*/2));
-  }
-  void send_hello_of_r2() { send_to(own_, rtps_message(encode(hello_), ++sent_, /*participant=*/1)); }
-
-  const std::uint16_t own_ = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
-  Hello hello_ = some_hello();
-  std::uint8_t sent_ = 0;
-};
-
-/// Killed and started again: one Hello of the new start is enough although the one before was just heard.
-TEST_F(RadioClaim, ARobotThatStartsAnewAtOnceIsKnownByItsFirstHello) {
-  EXPECT_TRUE(run_until([&] { return log_.count("heard r2") == 2; })) << log_.text();
-}
-
-/// Somebody may only say to be at a robot's place: who goes on speaking stays known.
-TEST_F(RadioClaim, ARobotThatGoesOnSpeakingIsNotReplaced) {
-  // A third robot is heard well after the claim could have been taken: time enough went by.
-  Hello third = hello_;
-  third.sender = name("r3");
-  third.port = static_cast<std::uint16_t>(own_ + 4);
-  const auto begun = std::chrono::steady_clock::now();
-  auto next = begun;
-  ASSERT_TRUE(run_until([&] {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next) return false;
-    next = now + std::chrono::milliseconds(100);
-    send_hello_of_r2();
-    if (now - begun > std::chrono::seconds(3))
-      send_to(own_, rtps_message(encode(third), ++sent_, /*participant=*/3));
-    return log_.count("heard r3") == 1;
-  })) << log_.text();
-  EXPECT_EQ(log_.count("heard r2"), 1);
-}
-
 }  // namespace
 }  // namespace fleetmap::bus::testing

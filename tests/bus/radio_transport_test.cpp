@@ -5,6 +5,7 @@
 #include "bus/lone_radio.hpp"
 #include "bus/place.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "trust/fleet_of_keys.hpp"
 
 namespace fleetmap::bus::testing {
@@ -26,8 +27,7 @@ class RadioTransport : public LoneRadio, public ::testing::WithParamInterface<bo
     return cdr;
   }
 
-  fleetmap::testing::FleetOfKeys fleet_{
-      .made = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now())};
+  fleetmap::testing::FleetOfKeys fleet_{.made = system_now()};
   std::mt19937 random_{1};
 };
 

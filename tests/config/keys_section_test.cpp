@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/trust/key_store.hpp"
 #include "section_problems.hpp"
 #include "support/temporary_folder.hpp"
@@ -32,7 +33,7 @@ Read read(const std::string& yaml, bool of_fleet, const std::string& id) {
 class KeysSection : public ::testing::Test {
  protected:
   KeysSection() {
-    const auto now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+    const auto now = system_now();
     auto store = trust::KeyStore::init(folder_.path(), now);
     EXPECT_TRUE(store &&
                 store->add(AgentId::parse("r1").value(), trust::Role::kRobot, std::chrono::days(365), now));

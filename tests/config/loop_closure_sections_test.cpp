@@ -35,11 +35,12 @@ TEST(LoopClosureSections, ReadsTheOwnPath) {
   EXPECT_EQ(r.own_path.spacing, 12.0);
 }
 
-TEST(LoopClosureSections, ReadsProximityAndEncounters) {
+TEST(LoopClosureSections, ReadsProximityAndLoopCandidates) {
   const Read r = read(
       "proximity: {uncertainty: variance, radius_scale: 4, min_radius: 5, max_radius: 50}\n"
-      "encounters: {spacing: 1, spacing_aligned: 2, spacing_failed: 3, ripe_nodes: 4, ripe_after: 5.5,\n"
-      "  retry_after: 6, max_attempts: 7, stop_when_peer_aligned: true, order: first_come, min_worth: "
+      "loop_candidates: {spacing: 1, spacing_aligned: 2, spacing_failed: 3, min_nodes_after: 4, max_wait: "
+      "5.5,\n"
+      "  retry_after: 6, max_attempts: 7, stop_when_peer_aligned: true, order: first_come, min_information: "
       "0.8}\n");
   EXPECT_EQ(r.problems, "");
   EXPECT_EQ(r.closure.proximity.uncertainty, place::Uncertainty::variance);
@@ -71,11 +72,12 @@ TEST(LoopClosureSections, ProblemsNameTheKeyAndItsLine) {
   EXPECT_THAT(
       read("proximity:\n  uncertainty: covariance\n").problems,
       HasSubstr("robot.yaml:2: proximity.uncertainty: expected 'sigma' or 'variance', found 'covariance'"));
-  EXPECT_THAT(read("encounters:\n  order: best\n").problems,
-              HasSubstr("robot.yaml:2: encounters.order: expected 'worth' or 'first_come', found 'best'"));
-  EXPECT_THAT(read("encounters:\n  min_worth: -1\n").problems,
-              HasSubstr("robot.yaml:2: encounters.min_worth: "));
-  EXPECT_THAT(read("encounters:\n  spacing: -1\n").problems, HasSubstr("encounters"));
+  EXPECT_THAT(
+      read("loop_candidates:\n  order: best\n").problems,
+      HasSubstr("robot.yaml:2: loop_candidates.order: expected 'information' or 'first_come', found 'best'"));
+  EXPECT_THAT(read("loop_candidates:\n  min_information: -1\n").problems,
+              HasSubstr("robot.yaml:2: loop_candidates.min_information: "));
+  EXPECT_THAT(read("loop_candidates:\n  spacing: -1\n").problems, HasSubstr("loop_candidates"));
   EXPECT_THAT(read("loop_closures:\n  min_path: 10\n").problems,
               HasSubstr("robot.yaml:2: loop_closures.min_path: "));
   EXPECT_THAT(read("loop_closures: {distance: 10}\n").problems,

@@ -19,7 +19,7 @@ TEST(RegistrationSections, ReadsSpherizeAndBothMethods) {
       "0.5,\n"
       "  inlier_distance: 0.3, max_rmse: 0.25, min_inlier_fraction: 0.2, min_agreement: 0.6, min_weight: "
       "0.9,\n"
-      "  paper: {voxel: 0.4, feature_voxel: 0.8, normal_neighbours: 20, feature_radius: 4, least_side_ratio: "
+      "  paper: {voxel: 0.4, feature_voxel: 0.8, normal_neighbours: 20, feature_radius: 4, min_side_ratio: "
       "0.8,\n"
       "    ransac_iterations: 99, ransac_inlier: 1.5, icp_iterations: 11, inlier_distance: 0.7, max_rmse: "
       "0.5,\n"
@@ -48,7 +48,7 @@ TEST(RegistrationSections, ReadsSpherizeAndBothMethods) {
   EXPECT_EQ(paper.feature_voxel_m, 0.8f);
   EXPECT_EQ(paper.normal_neighbours, 20);
   EXPECT_EQ(paper.feature_radius_m, 4.0f);
-  EXPECT_EQ(paper.least_side_ratio, 0.8);
+  EXPECT_EQ(paper.min_side_ratio, 0.8);
   EXPECT_EQ(paper.ransac_iterations, 99);
   EXPECT_EQ(paper.ransac_inlier_m, 1.5);
   EXPECT_EQ(paper.icp_iterations, 11);

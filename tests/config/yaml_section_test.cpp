@@ -190,6 +190,22 @@ TEST(YamlSection, KeysThatNobodyReadAreProblems) {
   EXPECT_THAT(reading.top.known_keys(), ElementsAre("lidar"));
 }
 
+/// A file of an earlier version must not run with the setting left out.
+TEST(YamlSection, AKeyOfAnEarlierVersionIsRefusedWithItsPresentName) {
+  Reading reading(
+      "{encounters: {spacing: 1}, settle_time: 5, loop_candidates: {ripe_nodes: 4, least_gain: 1}}");
+  Section candidates = reading.top.section("loop_candidates");
+  EXPECT_FALSE(candidates.has("min_nodes_after"));
+  candidates.finish();
+  EXPECT_FALSE(reading.top.has("exchange_timeout"));
+  reading.top.finish();
+  EXPECT_EQ(reading.problems(),
+            "field/r1.yaml:1: loop_candidates.ripe_nodes: this key was renamed; write 'min_nodes_after'\n"
+            "field/r1.yaml:1: loop_candidates.least_gain: unknown key; known here: min_nodes_after\n"
+            "field/r1.yaml:1: encounters: this key was renamed; write 'loop_candidates'\n"
+            "field/r1.yaml:1: settle_time: this key was renamed; write 'exchange_timeout'");
+}
+
 TEST(YamlSection, AnErrorOfAComponentStandsAtTheKeyThatItNames) {
   Reading reading("lidar:\n  voxel: 0\n  tilt_deg: 91\n  max: 3\n");
   Section lidar = reading.top.section("lidar");

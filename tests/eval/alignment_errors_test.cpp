@@ -56,9 +56,9 @@ TEST(LaidOnTruth, IsTheShiftAndTheTurnBetweenBothFrames) {
 
 TEST(AlignmentErrors, RightOnesAreRightInWhateverFrameTheTruthIs) {
   const TwoRobots fleet;
-  const auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
-  ASSERT_EQ(judged.size(), 3u);
-  for (const JudgedAlignment& one : judged) {
+  const auto errors = alignment_errors(fleet.alignments, fleet.placement, fleet.truth);
+  ASSERT_EQ(errors.size(), 3u);
+  for (const AlignmentError& one : errors) {
     EXPECT_TRUE(one.right);
     EXPECT_TRUE(one.between_robots);
     EXPECT_FALSE(one.used);
@@ -73,13 +73,13 @@ TEST(AlignmentErrors, OneRowOffIsWrongAndSoIsATurn) {
   slipped = at(0.0, 7.0) * slipped;
   Pose& turned = fleet.alignments[1].modes.front().T_i_j;
   turned = turned * at(0.0, 0.0, 0.05);
-  const auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
-  EXPECT_FALSE(judged[0].right);
-  EXPECT_NEAR(judged[0].offset.y(), 7.0, 1e-9);
-  EXPECT_NEAR(judged[0].translation, 7.0, 1e-9);
-  EXPECT_FALSE(judged[1].right);
-  EXPECT_NEAR(judged[1].rotation, 0.05, 1e-9);
-  EXPECT_TRUE(judged[2].right);
+  const auto errors = alignment_errors(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_FALSE(errors[0].right);
+  EXPECT_NEAR(errors[0].offset.y(), 7.0, 1e-9);
+  EXPECT_NEAR(errors[0].translation, 7.0, 1e-9);
+  EXPECT_FALSE(errors[1].right);
+  EXPECT_NEAR(errors[1].rotation, 0.05, 1e-9);
+  EXPECT_TRUE(errors[2].right);
 }
 
 TEST(AlignmentErrors, OfSeveralModesTheOneThatIsTakenCounts) {
@@ -88,20 +88,20 @@ TEST(AlignmentErrors, OfSeveralModesTheOneThatIsTakenCounts) {
   graph::AlignmentMode right = alignment.modes.front();
   alignment.modes.front().T_i_j = at(0.0, 7.0) * right.T_i_j;
   alignment.modes.push_back(right);
-  auto judged = judge(fleet.alignments, fleet.placement, fleet.truth);
-  EXPECT_TRUE(judged[0].ambiguous);
-  EXPECT_FALSE(judged[0].right) << "its best mode is one row off";
-  EXPECT_TRUE(judged[0].holds_right);
+  auto errors = alignment_errors(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_TRUE(errors[0].ambiguous);
+  EXPECT_FALSE(errors[0].right) << "its best mode is one row off";
+  EXPECT_TRUE(errors[0].holds_right);
   fleet.placement.used = {alignment};
   fleet.placement.used.front().modes = {right};
-  judged = judge(fleet.alignments, fleet.placement, fleet.truth);
-  EXPECT_TRUE(judged[0].right) << "the placement took the other mode";
+  errors = alignment_errors(fleet.alignments, fleet.placement, fleet.truth);
+  EXPECT_TRUE(errors[0].right) << "the placement took the other mode";
 }
 
-TEST(AlignmentErrors, UnknownNodesAreNotJudged) {
+TEST(AlignmentErrors, UnknownNodesAreLeftOut) {
   TwoRobots fleet;
   fleet.truth.erase(node("r1", 1));
-  EXPECT_EQ(judge(fleet.alignments, fleet.placement, fleet.truth).size(), 2u);
+  EXPECT_EQ(alignment_errors(fleet.alignments, fleet.placement, fleet.truth).size(), 2u);
 }
 
 TEST(AlignmentErrors, RobotsThatAreJoinedARowOffAreAWrongMerge) {

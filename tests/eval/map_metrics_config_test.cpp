@@ -25,7 +25,7 @@ TEST(MapMetricsConfig, DistancesArePositive) {
                                     {&Config::truth_reach, "truth_reach"},
                                     {&Config::resolution, "resolution"},
                                     {&Config::registration_distance, "registration_distance"},
-                                    {&Config::least_noise, "least_noise"}}) {
+                                    {&Config::min_noise, "min_noise"}}) {
     expect_refused(Config{}, field, {0.0, -1.0, kNaN<double>, kInfinity<double>}, name);
   }
 }
@@ -41,9 +41,9 @@ TEST(MapMetricsConfig, ThresholdsAscendUpToTheInlierDistance) {
 }
 
 TEST(MapMetricsConfig, SamplesAreLargeEnoughForMeans) {
-  for (const auto& [field, name] : {std::pair{&Config::most_truth, "most_truth"},
-                                    {&Config::most_distances, "most_distances"},
-                                    {&Config::most_densities, "most_densities"}}) {
+  for (const auto& [field, name] : {std::pair{&Config::max_truth, "max_truth"},
+                                    {&Config::max_distances, "max_distances"},
+                                    {&Config::max_densities, "max_densities"}}) {
     expect_accepted(Config{}, field, {1000});
     expect_refused(Config{}, field, {999, 0}, name);
   }

@@ -16,7 +16,7 @@ using testing::SimFleet;
 
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
-bool settled(const SimFleet& fleet, std::size_t nodes) {
+bool has_ended(const SimFleet& fleet, std::size_t nodes) {
   return fleet.equal_sets(nodes) && fleet.all([&](const auto& robot) {
     return robot.exchange->fleet_caught_up() && robot.exchange->idle(fleet.now());
   });
@@ -31,8 +31,8 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
     SimFleet fleet(kThree, network, seed);
     for (const auto& name : kThree) fleet.start(name);
     drive(fleet, kThree, 20);
-    fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 60); });
-    EXPECT_TRUE(settled(fleet, 60)) << "seed " << seed;
+    fleet.run_for(std::chrono::minutes(20), [&] { return has_ended(fleet, 60); });
+    EXPECT_TRUE(has_ended(fleet, 60)) << "seed " << seed;
     EXPECT_GE(fleet.robot("r1").store->alignments().size(), 3u) << "seed " << seed;
     // Every cloud that was asked for came whole, or is counted as lost or no longer wanted.
     for (const auto& [name, robot] : fleet.robots()) {
@@ -49,7 +49,7 @@ TEST(Fleet, ends_with_equal_sets_whatever_the_network_loses) {
   }
 }
 
-TEST(Fleet, a_robot_says_that_it_is_busy_while_it_drives_and_while_a_pair_of_it_ripens) {
+TEST(Fleet, a_robot_says_that_it_is_busy_while_it_drives_and_while_a_pair_of_it_waits) {
   SimFleet fleet(kThree, {}, 3);
   for (const auto& name : kThree) fleet.start(name);
   const auto told = [&] { return fleet.robot("r3").exchange->others_busy(fleet.now()); };
@@ -117,8 +117,8 @@ TEST(Fleet, a_late_joiner_gets_everything_and_meets_the_others) {
   drive(fleet, {"r1", "r2"}, 80);
   fleet.start("r3");
   fleet.add_node("r3", 40.0);
-  fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 161); });
-  ASSERT_TRUE(settled(fleet, 161));
+  fleet.run_for(std::chrono::minutes(20), [&] { return has_ended(fleet, 161); });
+  ASSERT_TRUE(has_ended(fleet, 161));
   EXPECT_GE(fleet.robot("r3").received.size(), 2u);  // one of r1 and one of r2
 }
 
@@ -145,8 +145,8 @@ TEST(Fleet, a_partition_heals) {
   drive(fleet, kThree, 30);
   EXPECT_FALSE(fleet.equal_sets(90));
   cut = false;
-  fleet.run_for(std::chrono::minutes(10), [&] { return settled(fleet, 90); });
-  EXPECT_TRUE(settled(fleet, 90));
+  fleet.run_for(std::chrono::minutes(10), [&] { return has_ended(fleet, 90); });
+  EXPECT_TRUE(has_ended(fleet, 90));
 }
 
 TEST(Fleet, kills_at_any_time_lose_nothing) {
@@ -162,8 +162,8 @@ TEST(Fleet, kills_at_any_time_lose_nothing) {
       fleet.run_for(std::chrono::milliseconds(random() % 4000));
       fleet.start(victim);
     }
-    fleet.run_for(std::chrono::minutes(20), [&] { return settled(fleet, 36); });
-    EXPECT_TRUE(settled(fleet, 36)) << "seed " << seed;
+    fleet.run_for(std::chrono::minutes(20), [&] { return has_ended(fleet, 36); });
+    EXPECT_TRUE(has_ended(fleet, 36)) << "seed " << seed;
     EXPECT_GE(fleet.robot("r1").store->alignments().size(), 2u) << "seed " << seed;
     for (const auto& [name, robot] : fleet.robots()) EXPECT_EQ(robot.store->stats().conflicts, 0u);
   }

@@ -64,7 +64,7 @@ class Hostile : public ::testing::Test {
     node.session = session_of(seq);
     return node;
   }
-  void settle(Duration time = std::chrono::minutes(5)) {
+  void run_to_end(Duration time = std::chrono::minutes(5)) {
     fleet_.run_for(time, [&] { return equal_contents(fleet_) && all_made_are_held() && all_complete(); });
   }
   bool all_made_are_held() const {
@@ -88,14 +88,14 @@ TEST_F(Hostile, a_forged_own_node_of_a_huge_number_stops_nobody) {
   for (const auto& name : kThree) fleet_.forge(name, node);
   fleet_.run_for(std::chrono::seconds(30));
   for (int k = 0; k < 3; ++k) add_nodes();
-  settle();
+  run_to_end();
   expect_all_is_well();
   EXPECT_FALSE(events<SessionTaken>(fleet_.robot("r1")).empty()) << "it numbers from elsewhere now";
   EXPECT_EQ(events<ItemConflict>(fleet_.robot("r1")).front().id, node.id);
   for (const auto& name : kThree) fleet_.kill(name);
   for (const auto& name : kThree) fleet_.start(name, 8);
   add_nodes();
-  settle();
+  run_to_end();
   expect_all_is_well();
 }
 
@@ -105,11 +105,11 @@ TEST_F(Hostile, forged_nodes_of_the_last_sessions_stop_no_start) {
     fleet_.forge(name, forged("r1", kEndOfSeqs - 1));
     fleet_.forge(name, forged("r1", UINT32_MAX));
   }
-  settle();
+  run_to_end();
   fleet_.kill("r1");
   fleet_.start("r1", 9);
   add_nodes();
-  settle();
+  run_to_end();
   expect_all_is_well();
 }
 
@@ -121,7 +121,7 @@ TEST_F(Hostile, a_forged_alignment_of_the_largest_number_ends_no_alignments) {
   }
   fleet_.run_for(std::chrono::seconds(30));
   fleet_.add_alignment("r1", {i, j}, 0.1);
-  settle();
+  run_to_end();
   expect_all_is_well();
   EXPECT_EQ(fleet_.robot("r3").store->alignments().size(), 3u);
 }
@@ -132,7 +132,7 @@ TEST_F(Hostile, a_forged_next_node_that_comes_first_costs_the_name_and_not_the_n
   fleet_.forge("r3", node);
   add_nodes();
   ASSERT_EQ(made_[10].id, node.id) << "r2 has not heard of it";
-  settle();
+  run_to_end();
   expect_all_is_well();
   EXPECT_FALSE(all_have(fleet_, node)) << "nobody maps by the forged one";
   for (const auto& [name, robot] : fleet_.robots()) {
@@ -153,7 +153,7 @@ TEST_F(Hostile, a_forged_next_node_that_comes_first_costs_the_name_and_not_the_n
 /// Digests of names alone would show nothing.
 TEST_F(Hostile, robots_that_hold_other_contents_under_one_name_find_out) {
   for (int k = 0; k < 60; ++k) made_.push_back(fleet_.add_node("r2", 10'000.0 + 20.0 * k, 40));
-  settle();
+  run_to_end();
   ASSERT_TRUE(all_made_are_held());
   // r3 loses its store, and gets a forged item before the genuine ones.
   fleet_.kill("r3");
@@ -161,7 +161,7 @@ TEST_F(Hostile, robots_that_hold_other_contents_under_one_name_find_out) {
   fleet_.start("r3", 8);
   const auto node = forged("r2", made_[40].id.seq);
   fleet_.forge("r3", node);
-  settle();
+  run_to_end();
   expect_all_is_well();
   EXPECT_FALSE(all_have(fleet_, node));
   EXPECT_TRUE(fleet_.robot("r2").store->is_contested(node.id));
@@ -172,7 +172,7 @@ TEST_F(Hostile, a_forged_alignment_that_comes_first_costs_its_name) {
   fleet_.forge("r1", lie);
   fleet_.forge("r3", lie);
   fleet_.add_alignment("r2", {made_[1].id, made_[0].id}, 0.3);
-  settle();
+  run_to_end();
   expect_all_is_well();
   for (const auto& [name, robot] : fleet_.robots()) {
     ASSERT_EQ(robot.store->alignments().size(), 1u) << name.str();
@@ -182,21 +182,21 @@ TEST_F(Hostile, a_forged_alignment_that_comes_first_costs_its_name) {
 
 TEST_F(Hostile, a_node_that_is_named_anew_is_not_named_again_after_a_restart) {
   fleet_.forge("r1", forged("r2", made_[1].id.seq));
-  settle();
+  run_to_end();
   expect_all_is_well();
   const std::size_t nodes = fleet_.robot("r2").store->nodes().size();
   EXPECT_EQ(nodes, 9u);
   for (int k = 0; k < 2; ++k) {
     fleet_.kill("r2");
     fleet_.start("r2", static_cast<std::uint16_t>(20 + k));
-    settle();
+    run_to_end();
   }
   expect_all_is_well();
   EXPECT_EQ(fleet_.robot("r2").store->nodes().size(), nodes);
 }
 
 TEST_F(Hostile, a_forged_digest_lasts_until_the_next_genuine_one) {
-  settle();
+  run_to_end();
   ASSERT_TRUE(all_complete());
   const Digest lie{agent("r2"), {{agent("r3"), first_seq(40), first_seq(40) + 5'000}}, {}, {1}, {}};
   fleet_.forge("r1", lie);
@@ -207,7 +207,7 @@ TEST_F(Hostile, a_forged_digest_lasts_until_the_next_genuine_one) {
 }
 
 TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
-  settle();
+  run_to_end();
   const NodeId first = made_[0].id;
   const Digest lie{
       agent("r2"),
@@ -234,7 +234,7 @@ TEST_F(Hostile, what_a_liar_keeps_offering_is_named_and_not_waited_for) {
 }
 
 TEST_F(Hostile, what_is_offered_falsely_keeps_nobody_from_asking_for_the_rest) {
-  settle();
+  run_to_end();
   fleet_.reachable = [](const AgentId& from, const AgentId&, Reach) { return from.str() != "r3"; };
   made_.push_back(fleet_.add_node("r3", 5'000.0));
   // Before it in the order of names.
@@ -261,12 +261,12 @@ TEST_F(Hostile, a_forged_node_whose_submap_nobody_has_is_not_waited_for) {
   EXPECT_FALSE(all_complete());
   fleet_.run_for(std::chrono::seconds(20));
   EXPECT_FALSE(all_complete()) << "its maker may just have made it";
-  settle();
+  run_to_end();
   expect_all_is_well();
 }
 
 TEST_F(Hostile, digests_of_submaps_name_the_fleets_own_and_plausible_ranges_alone) {
-  settle();
+  run_to_end();
   const auto even = [&] { return fleet_.robot("r1").exchange->in_sync_with(fleet_.now()).size(); };
   fleet_.run_for(std::chrono::seconds(5), [&] { return even() == 2u; });
   ASSERT_EQ(even(), 2u);
@@ -285,7 +285,7 @@ TEST_F(Hostile, digests_of_submaps_name_the_fleets_own_and_plausible_ranges_alon
 }
 
 TEST_F(Hostile, chunks_nobody_asked_for_do_not_reach_the_disk) {
-  settle();
+  run_to_end();
   fleet_.reachable = [](const AgentId& from, const AgentId&, Reach) { return from.str() != "r3"; };
   const graph::Node node = fleet_.add_node("r3", 5'000.0, 400 * store::Store::kChunkBytes);
   fleet_.forge("r1", node);

@@ -53,16 +53,16 @@ class SignedItems : public ::testing::Test {
     for (const auto& name : kThree) fleet_.start(name, 7);
     for (const auto& name : kThree) made_.push_back(fleet_.add_node(name, 100.0 * ++east_));
     fleet_.add_alignment("r1", {made_[0].id, made_[1].id}, 0.2);
-    settle(3, 1);
+    run_to_end(3, 1);
   }
-  void settle(std::size_t nodes, std::size_t alignments) {
-    const auto settled = [&] {
+  void run_to_end(std::size_t nodes, std::size_t alignments) {
+    const auto has_ended = [&] {
       return fleet_.equal_sets(nodes) && fleet_.all([&](const SimFleet::Robot& robot) {
         return robot.store->alignments().size() == alignments && robot.exchange->complete();
       });
     };
-    fleet_.run_for(std::chrono::minutes(5), settled);
-    EXPECT_TRUE(settled());
+    fleet_.run_for(std::chrono::minutes(5), has_ended);
+    EXPECT_TRUE(has_ended());
   }
   graph::Node invented(const char* maker, std::uint32_t seq) const {
     graph::Node node = make_node(agent(maker), seq, testing::random_bytes(500, 99), 700.0, 99);
@@ -98,7 +98,7 @@ TEST_F(SignedItems, signatures_come_with_the_items_through_third_robots_and_rest
   fleet_.lose_store("r3");
   fleet_.start("r2", 8);
   fleet_.start("r3", 8);
-  settle(3, 1);
+  run_to_end(3, 1);
   EXPECT_TRUE(all_bear_signatures());
   EXPECT_EQ(refused(fleet_.robot("r3"), ItemProof::kGenuine), 4u) << "each is verified once";
   EXPECT_TRUE(events<ItemsAdopted>(fleet_.robot("r2")).empty());
@@ -118,7 +118,7 @@ TEST_F(SignedItems, an_invented_item_is_refused_and_takes_no_name_from_its_maker
   fleet_.forge("r2", lie, agent("r3"));  // to whom it pretends to be
   made_.push_back(fleet_.add_node("r2", 900.0));
   ASSERT_EQ(made_.back().id, lie.id);
-  settle(4, 1);
+  run_to_end(4, 1);
   EXPECT_FALSE(contested(lie.id));
   EXPECT_TRUE(all_bear_signatures());
   for (const auto& [name, robot] : fleet_.robots()) {
@@ -140,7 +140,7 @@ TEST_F(SignedItems, an_invented_alignment_is_refused) {
   lie.signature.emplace().fill(1);
   for (const auto& name : kThree) fleet_.forge(name, lie);
   fleet_.add_alignment("r2", {made_[1].id, made_[2].id}, 0.3);
-  settle(3, 2);
+  run_to_end(3, 2);
   EXPECT_EQ(fleet_.robot("r3").store->alignment({agent("r2"), first_seq(7)})->best().rmse, 0.3);
   EXPECT_EQ(events<ItemRefused>(fleet_.robot("r3")).size(), 1u);
 }
@@ -153,7 +153,7 @@ TEST_F(SignedItems, what_a_third_robot_altered_is_refused_and_the_genuine_one_ac
   altered.T_odom_base.translation().x() += 5.0;
   fleet_.forge("r3", altered, agent("r2"));
   EXPECT_EQ(refused(fleet_.robot("r3"), ItemProof::kWrong), 1u);
-  settle(3, 1);
+  run_to_end(3, 1);
   EXPECT_FALSE(contested(made_[0].id));
 }
 
@@ -174,7 +174,7 @@ TEST_F(SignedItems, a_maker_that_signs_two_contents_loses_the_name_and_is_told_o
   second.signature = signatures_->sign(second);
   fleet_.forge("r3", second, agent("r2"));
   ASSERT_TRUE(fleet_.robot("r3").store->is_contested(second.id));
-  settle(3, 1);
+  run_to_end(3, 1);
   EXPECT_TRUE(contested(second.id));
   for (const auto& [name, robot] : fleet_.robots()) {
     ASSERT_FALSE(events<ItemConflict>(robot).empty()) << name.str();
@@ -214,7 +214,7 @@ TEST_F(SignedItems, items_of_a_maker_whose_certificate_is_to_come_are_asked_for_
   ASSERT_EQ(events<ItemRefused>(fleet_.robot("r3")).size(), 2u) << "of r1 alone: by r1, and by r2";
   EXPECT_EQ(events<ItemRefused>(fleet_.robot("r3"))[0].proof, ItemProof::kUnknownMaker);
   some->known.insert(agent("r1"));
-  settle(3, 1);
+  run_to_end(3, 1);
 }
 
 TEST(SignedItemsLater, a_fleet_that_gets_keys_signs_its_items_and_drops_what_nobody_signs) {

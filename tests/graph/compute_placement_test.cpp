@@ -49,7 +49,7 @@ TEST(ComputePlacement, TheMethodIsTheConfiguredOne) {
   EXPECT_EQ(graph.outcomes.size(), fleet.alignments.size());
   const Placement paper =
       compute_placement(fleet.nodes, fleet.alignments, fleet.site, by(PlacementMethod::paper));
-  expect_same_bits(paper, place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site));
+  expect_same_bits(paper, place_by_min_rmse(fleet.nodes, fleet.alignments, fleet.site));
   EXPECT_TRUE(paper.outcomes.empty());
   EXPECT_NE(paper.T_enu_node.begin()->second.matrix(), graph.T_enu_node.begin()->second.matrix());
 }

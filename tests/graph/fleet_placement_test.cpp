@@ -45,7 +45,7 @@ TEST(FleetPlacement, BetterThanTheLeastRmseOfThePaper) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const SimulatedFleet fleet(seed);
     fleet_error += joint_error(fleet, place(fleet));
-    paper_error += joint_error(fleet, place_by_least_rmse(fleet.nodes, fleet.alignments, fleet.site));
+    paper_error += joint_error(fleet, place_by_min_rmse(fleet.nodes, fleet.alignments, fleet.site));
   }
   expect_at_most(fleet_error / paper_error, 0.61, "joint error over that of the paper", seeds);
 }

@@ -97,7 +97,7 @@ TEST(LocatedNodes, AFrameWithoutAnyFixGoesWhereMostAlignmentsAgree) {
   const auto again = fleet.located();
   for (std::size_t k = 0; k < located.size(); ++k) EXPECT_EQ(again[k].G->position, located[k].G->position);
   // The same by the paper's placement.
-  const Placement placement = place_by_least_rmse(located, fleet.alignments, kSite);
+  const Placement placement = place_by_min_rmse(located, fleet.alignments, kSite);
   ASSERT_EQ(placement.components.size(), 1u);
   EXPECT_TRUE(not_georeferenced(fleet.nodes, placement.components).empty());
 }
@@ -109,7 +109,7 @@ TEST(LocatedNodes, WithoutAnyFixTheMapIsRightInItselfAndSaidToBeNowhere) {
   fleet.add("d", pose(5, 5, 0.0), false);
   fleet.align("a", 8, "b", 9);
   const std::vector<Node> located = fleet.located();
-  const Placement placement = place_by_least_rmse(located, fleet.alignments, kSite);
+  const Placement placement = place_by_min_rmse(located, fleet.alignments, kSite);
   const Pose T =
       placement.T_enu_node.at({agent("a"), 0}).inverse() * placement.T_enu_node.at({agent("b"), 0});
   const Pose truth = fleet.truth.at({agent("a"), 0}).inverse() * fleet.truth.at({agent("b"), 0});

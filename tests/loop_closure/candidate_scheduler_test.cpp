@@ -195,7 +195,7 @@ TEST(CandidateScheduler, end_when_the_peer_has_aligned_the_pair) {
   }
 }
 
-TEST(CandidateScheduler, take_the_nearest_pair_that_comes_up_while_they_ripen) {
+TEST(CandidateScheduler, take_the_nearest_pair_that_is_found_while_they_wait) {
   LoopClosureConfig config;
   config.min_nodes_after = 100;
   CandidateScheduler a(kA, config);

@@ -28,10 +28,10 @@ TEST(LoopClosureConfig, DistancesAndInformationAreNotNegative) {
   for (double Config::*spacing :
        {&Config::spacing_m, &Config::spacing_aligned_m, &Config::spacing_failed_m}) {
     expect_accepted(Config{}, spacing, {0.0});
-    expect_refused(Config{}, spacing, {-0.1, kNaN<double>}, "encounters.spacing");
+    expect_refused(Config{}, spacing, {-0.1, kNaN<double>}, "loop_candidates.spacing");
   }
   expect_accepted(Config{}, &Config::min_information, {0.0});
-  expect_refused(Config{}, &Config::min_information, {-0.1, kNaN<double>}, "encounters.min_");
+  expect_refused(Config{}, &Config::min_information, {-0.1, kNaN<double>}, "loop_candidates.min_");
 }
 
 TEST(LoopClosureConfig, TimesAreBounded) {

@@ -155,7 +155,7 @@ TEST(TransformCandidates, WhereGTellsItIsG) {
   EXPECT_EQ(a.stats().by_transform, 1u);
 }
 
-TEST(TransformCandidates, TiesThatFailAgainAndAgainAreDoubtedUntilOneIsRight) {
+TEST(TransformCandidates, TransformsThatFailAgainAndAgainAreDistrustedUntilOneIsRight) {
   LoopClosureConfig config = at_once();
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
@@ -196,7 +196,7 @@ TEST(TransformCandidates, OtherTiesThanBeforeAreBelievedAnew) {
       a.on_rejected(pair, kStart);
     }
   }
-  EXPECT_FALSE(a.transform({{kA, 50}, {kB, 50}})) << "doubted by now";
+  EXPECT_FALSE(a.transform({{kA, 50}, {kB, 50}})) << "distrusted by now";
   a.on_used_alignments(ties(0));
   std::size_t abreast = 0;
   for (const NodeId& id : wanted(a)) {

@@ -24,7 +24,7 @@ class ViewerTest : public ::testing::Test {
                 "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n");
     ASSERT_TRUE(server_.run_until([&] { return !messages().empty(); }));
-    server_.settle();
+    server_.wait_until_idle();
     ASSERT_EQ(server_.state().viewers.size(), 1u);
   }
   Viewer& viewer() { return **server_.state().viewers.begin(); }
@@ -69,7 +69,7 @@ TEST_F(ViewerTest, that_is_slow_misses_states_and_gets_the_newest_of_each_kind) 
   viewer().send(Viewer::kLive, text("live"));
   viewer().send(Viewer::kState, text("newest"));
   ASSERT_TRUE(server_.run_until([&] { return messages().size() >= 4; }));
-  server_.settle();
+  server_.wait_until_idle();
   EXPECT_THAT(messages(), ElementsAre("{}", "under way", "live", "newest"));
 }
 
@@ -82,7 +82,7 @@ TEST_F(ViewerTest, an_empty_text_is_not_sent) {
 
 TEST_F(ViewerTest, that_tells_a_little_stays_and_that_tells_more_is_cut) {
   say(600);
-  server_.settle();
+  server_.wait_until_idle();
   viewer().send(Viewer::kState, text("still there"));
   ASSERT_TRUE(server_.run_until([&] { return messages().size() >= 2; }));
   EXPECT_EQ(server_.state().cut, 0u);

@@ -36,7 +36,7 @@ class WiredServer {
     return true;
   }
   /// Runs what can happen at once.
-  void settle() {
+  void wait_until_idle() {
     while (state_.io.poll() > 0) {
     }
   }

@@ -10,10 +10,10 @@ namespace fleetmap::odometry {
 namespace {
 
 TEST(CellKey, UnpacksToTheCellThatWasPacked) {
-  constexpr std::int64_t kMost = (1 << 20) - 1;
-  for (const std::int64_t x : {-kMost - 1, std::int64_t{-1}, std::int64_t{0}, kMost}) {
-    for (const std::int64_t y : {-kMost, std::int64_t{-7}, kMost}) {
-      for (const std::int64_t z : {-kMost - 1, std::int64_t{1}, kMost}) {
+  constexpr std::int64_t kMax = (1 << 20) - 1;
+  for (const std::int64_t x : {-kMax - 1, std::int64_t{-1}, std::int64_t{0}, kMax}) {
+    for (const std::int64_t y : {-kMax, std::int64_t{-7}, kMax}) {
+      for (const std::int64_t z : {-kMax - 1, std::int64_t{1}, kMax}) {
         const Eigen::Vector3d cell(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
         EXPECT_EQ(unpack_cell(pack_cell(x, y, z)), cell);
       }

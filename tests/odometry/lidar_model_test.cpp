@@ -40,12 +40,21 @@ TEST(LidarModels, HaveTheRingsOfTheirDataSheets) {
   EXPECT_EQ(generic_lidar().ring_source, RingSource::kNone);
 }
 
+TEST(LidarModels, AreFoundByTheirNames) {
+  for (const char* name : {"vlp16", "os1-64", "hdl64e", "generic"}) {
+    const auto model = lidar_model(name);
+    ASSERT_TRUE(model) << name;
+    EXPECT_EQ(model->name, name);
+    EXPECT_TRUE(model->validate());
+  }
+}
+
 TEST(LidarModels, NamesThatDoNotExistAreToldThoseThatDo) {
   for (const char* name : {"vlp32", "", "VLP16", "os1"}) {
     const auto model = lidar_model(name);
     ASSERT_FALSE(model) << name;
     EXPECT_EQ(model.error().message, "lidar.model: '" + std::string(name) +
-                                         "' is unknown; expected vlp16, os1-64, hdl64e or generic");
+                                         "' is unknown; expected one of vlp16, os1-64, hdl64e, generic");
   }
 }
 

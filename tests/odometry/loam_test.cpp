@@ -267,20 +267,5 @@ TEST(LoamConfig, NamesTheFieldThatBreaksARule) {
   EXPECT_FALSE(Loam(config, vlp16()).add_scan({}));
 }
 
-TEST(LidarModel, IsFoundByName) {
-  for (const char* name : {"vlp16", "os1-64", "hdl64e", "generic"}) {
-    const auto model = lidar_model(name);
-    ASSERT_TRUE(model);
-    EXPECT_EQ(model->name, name);
-    EXPECT_TRUE(model->validate());
-  }
-  EXPECT_EQ(vlp16().vertical_angles.size(), 16u);
-  EXPECT_EQ(os1_64().vertical_angles.size(), 64u);
-  EXPECT_EQ(hdl64e().vertical_angles.size(), 64u);
-  const auto unknown = lidar_model("vlp32");
-  ASSERT_FALSE(unknown);
-  EXPECT_NE(unknown.error().message.find("vlp16"), std::string::npos);
-}
-
 }  // namespace
 }  // namespace fleetmap::odometry

@@ -96,7 +96,7 @@ TEST(ModelCheck, ALidarMayHangUpsideDown) {
   EXPECT_TRUE(news(scan, vlp16()).empty());
 }
 
-TEST(ModelCheck, AScanWithHardlyAnyPointsIsNotJudged) {
+TEST(ModelCheck, AScanWithHardlyAnyPointsIsNotChecked) {
   sensor::Scan scan = scan_of(os1_64(), without_rings());
   scan.points.resize(50);
   EXPECT_TRUE(news(scan, vlp16()).empty());

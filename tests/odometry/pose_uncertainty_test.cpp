@@ -83,8 +83,8 @@ TEST(PoseUncertainty, WithoutAGyroATurnMayChangeAsMuchAsItHas) {
 }
 
 /// Points and prior know the translation equally well; where points keep moving it by more than both say, the
-/// prior is worse than it says, and where they never move it, better. With a gyro its rotation is not judged.
-TEST(PoseUncertainty, APriorIsJudgedByHowFarPointsMoveIt) {
+/// prior is worse than it says, and where they never move it, better. With a gyro its rotation is not rated.
+TEST(PoseUncertainty, APriorIsRatedByHowFarPointsMoveIt) {
   const MatchResult scan = match(0.1, 0.1);
   PoseUncertainty shaken = started(), smooth = started();
   const double as_stated = noise_of(shaken, {scan})[0];

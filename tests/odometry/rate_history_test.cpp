@@ -121,7 +121,7 @@ TEST(RateHistory, RotationsOfPiecesMakeThatOfTheWhole) {
   EXPECT_GT((R(0, 1000) - R(500, 1000) * R(400, 500) * R(0, 400)).norm(), 0.5);
 }
 
-TEST(RateHistory, TheTrendOfALineIsItsSlopeWithoutDoubt) {
+TEST(RateHistory, TheTrendOfALineIsItsSlopeWithoutVariance) {
   const RateHistory history = ramp(1000);
   const auto trend = history.trend(at(200), at(600));
   ASSERT_TRUE(trend);

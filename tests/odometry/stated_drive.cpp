@@ -30,7 +30,7 @@ Pose on_ground(const GroundShape& ground, const Pose& level) {
 }
 
 /// Errors and what is stated for them, along the drive.
-class Judge {
+class ErrorStatistics {
  public:
   void add(const odometry::OdometryUpdate& update, const Pose& truth) {
     check_.add(update);
@@ -106,7 +106,7 @@ StatedDrive state_drive(const PoorDrive& drive, bool gyro_and_wheels, std::uint6
   odometry::LoamConfig config;
   config.T_base_lidar = options.T_base_lidar;
   odometry::Loam loam(config, drive.model);
-  Judge judge;
+  ErrorStatistics statistics;
   StatedDrive result;
   double fed = 0.0;
   for (; 0.1 * (result.scans + 1) < motion.duration(); ++result.scans) {
@@ -126,11 +126,11 @@ StatedDrive state_drive(const PoorDrive& drive, bool gyro_and_wheels, std::uint6
     result.refused += !update;
     if (!update) continue;
     result.degenerate += update->degenerate_count > 0;
-    judge.add(*update, pose_at(now));
+    statistics.add(*update, pose_at(now));
   }
   result.lost = loam.counters().lost;
   result.warned = loam.counters().map_restarts > 0;
-  judge.fill(result);
+  statistics.fill(result);
   return result;
 }
 

@@ -46,7 +46,7 @@ std::vector<ObservedPoint> line(int axis) {
   return points;
 }
 
-TEST(SurfaceGrid, FitsAPlaneWithItsThicknessAndTheDoubtOfItsNormal) {
+TEST(SurfaceGrid, FitsAPlaneWithItsThicknessAndTheUncertaintyOfItsNormal) {
   SurfaceGrid grid = planes(0.08, 0.1);
   grid.add(ground(0.1, 0.02, kUp));
   const Surface* surface = grid.at({0.1, -0.1, 0.2}, kUp);

@@ -27,7 +27,7 @@ class Drive {
   int number_ = 0;
 };
 
-TEST(WayCheck, OfNothingThereIsNoDoubt) { EXPECT_TRUE(WayCheck().warnings().empty()); }
+TEST(WayCheck, OfNothingThereIsNoWarning) { EXPECT_TRUE(WayCheck().warnings().empty()); }
 
 TEST(WayCheck, ADriveThatIsStatedWellIsKept) {
   Drive drive;

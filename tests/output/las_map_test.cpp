@@ -60,7 +60,7 @@ TEST_F(LasMap, IsTheMergedMapInTheReferenceSystem) {
   for (std::size_t k = 0; k < file.points.size(); ++k) {
     EXPECT_LT((file.points[k].position - (*coordinates)[k]).cwiseAbs().maxCoeff(), 0.000501);
     EXPECT_NEAR(file.points[k].intensity, 257.0f * map.cloud.intensities[k], 0.51f);
-    EXPECT_EQ(file.points[k].source, map.seen_by[k] + 1);
+    EXPECT_EQ(file.points[k].source, map.observed_by[k] + 1);
   }
 }
 

@@ -41,15 +41,15 @@ class BagReaderTest : public ::testing::Test {
 
 TEST_F(BagReaderTest, ABagIsToldByItsNames) {
   for (const char* bag : {"a.db3", "a.mcap", "a.bag", "a.db3.zstd", "a.mcap.zstd"})
-    EXPECT_TRUE(looks_like_bag(bag)) << bag;
+    EXPECT_TRUE(is_bag(bag)) << bag;
   for (const char* other : {"a.bin", "a.zstd", "db3", "a.bag.zstd", "a.db3.xz"})
-    EXPECT_FALSE(looks_like_bag(other)) << other;
+    EXPECT_FALSE(is_bag(other)) << other;
   folder_.write("with_metadata/metadata.yaml", "");
   folder_.write("with_file/x.mcap", "");
   folder_.write("without/x.txt", "");
-  EXPECT_TRUE(looks_like_bag(folder_.path() / "with_metadata"));
-  EXPECT_TRUE(looks_like_bag(folder_.path() / "with_file"));
-  EXPECT_FALSE(looks_like_bag(folder_.path() / "without"));
+  EXPECT_TRUE(is_bag(folder_.path() / "with_metadata"));
+  EXPECT_TRUE(is_bag(folder_.path() / "with_file"));
+  EXPECT_FALSE(is_bag(folder_.path() / "without"));
 }
 
 TEST_F(BagReaderTest, TheOrderOfFilesIsThatOfTheMetadata) {

@@ -47,7 +47,7 @@ TEST(LogClock, ARateWithinFivePercentIsUsable) {
   for (const double rate : {0.94, 1.06}) EXPECT_FALSE(clock_of(every_second(8, 0.1, rate)).usable) << rate;
 }
 
-TEST(LogClock, WithoutTwoSecondsTheRateIsNotJudged) {
+TEST(LogClock, WithoutTwoSecondsTheRateIsNotChecked) {
   EXPECT_TRUE(clock_of(every_second(2, 0.0, 3.0)).usable);
   EXPECT_FALSE(clock_of(every_second(3, 0.0, 3.0)).usable);
 }

@@ -30,8 +30,8 @@ TEST(PaperConfig, CountsAndSharesAreBounded) {
   expect_refused(Config{}, &Config::normal_neighbours, {2, -1}, "paper.normal_neighbours");
   expect_refused(Config{}, &Config::ransac_iterations, {0}, "paper.ransac_iterations");
   expect_refused(Config{}, &Config::icp_iterations, {0}, "icp_iterations");
-  expect_accepted(Config{}, &Config::least_side_ratio, {0.0, 0.99});
-  expect_refused(Config{}, &Config::least_side_ratio, {-0.1, 1.0, kNaN<double>}, "paper.least_side_ratio");
+  expect_accepted(Config{}, &Config::min_side_ratio, {0.0, 0.99});
+  expect_refused(Config{}, &Config::min_side_ratio, {-0.1, 1.0, kNaN<double>}, "paper.min_side_ratio");
   expect_accepted(Config{}, &Config::min_inlier_fraction, {0.0, 1.0});
   expect_refused(Config{}, &Config::min_inlier_fraction, {-0.1, 1.1, kNaN<double>},
                  "paper.min_inlier_fraction");

@@ -50,8 +50,8 @@ struct Counts {
   double rms_of_right() const { return std::sqrt(squares / std::max(right, 1)); }
 };
 
-Counts encounters_of(const std::vector<MappedNode>& nodes, double sigma_m, unsigned seed,
-                     const RegistrationConfig& config = {}) {
+Counts pairs_of(const std::vector<MappedNode>& nodes, double sigma_m, unsigned seed,
+                const RegistrationConfig& config = {}) {
   Counts counts;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (std::size_t j = i + 1; j < nodes.size(); ++j) {
@@ -90,7 +90,7 @@ TEST(RobotPairs, OnASolarFarmNoneIsAcceptedWronglyAndTheRightPoseIsAmongTheModes
         spherized_nodes(farm_site("farm", farm), {2, 3, 4, 4}, {20, 26, 15, 31}, 760 + 10 * seed);
     for (const double sigma_m : {1.5, 10.0}) {
       const std::string of = sigma_m < 2.0 ? " on a farm, GPS of 1.5 m" : " on a farm, GPS of 10 m";
-      const Counts counts = encounters_of(nodes, sigma_m, 6 + seed);
+      const Counts counts = pairs_of(nodes, sigma_m, 6 + seed);
       expect_at_most(counts.wrong, 0, "wrong of 6" + of, seed);
       expect_at_least(counts.truth_in_modes, counts.pairs, "truth among the modes, of 6" + of, seed);
       expect_at_most(counts.rms_of_right(), sigma_m < 2.0 ? 0.049 : 0.073, "RMS of the right ones in m" + of,
@@ -120,7 +120,7 @@ TEST(RobotPairs, WhereRowsRepeatNoneIsAcceptedWrongly) {
     farm.terrain.rolling_amplitude = 0.0, farm.terrain.slope_east_rad = 0.0;
     const auto nodes =
         spherized_nodes(farm_site("rows", farm), {3, 3, 4}, {60, 66, 63}, 900 + 10 * seed, 8.0, 15.0);
-    const Counts counts = encounters_of(nodes, 10.0, 20 + seed);
+    const Counts counts = pairs_of(nodes, 10.0, 20 + seed);
     expect_at_most(counts.wrong, 0, "wrong of 3 where rows repeat", seed);
     accepted += counts.right;
   }
@@ -131,7 +131,7 @@ TEST(RobotPairs, AmongTreesAllAreAcceptedAndNoneWrongly) {
   for (unsigned seed = 1; seed <= seeds_to_run(1); ++seed) {
     const auto nodes =
         spherized_nodes(wild_site("wild", 77 + seed, 40.0), {3, 4, 4, 5}, {40, 36, 50, 44}, 770 + 10 * seed);
-    const Counts counts = encounters_of(nodes, 10.0, 7 + seed);
+    const Counts counts = pairs_of(nodes, 10.0, 7 + seed);
     expect_at_most(counts.wrong, 0, "wrong of 6 among trees", seed);
     expect_at_least(counts.right, counts.pairs, "accepted of 6 among trees", seed);
     expect_at_most(counts.rms_of_right(), 0.06, "RMS of the right ones in m among trees", seed);
@@ -148,7 +148,7 @@ TEST(RobotPairs, AmongTreesThePapersMethodIsAsRightAsItWasMeasured) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     const auto nodes =
         spherized_nodes(wild_site("wild", 77 + seed, 40.0), {3, 4, 4}, {40, 36, 50}, 770 + 10 * seed);
-    const Counts counts = encounters_of(nodes, 1.5, 7 + seed, paper);
+    const Counts counts = pairs_of(nodes, 1.5, 7 + seed, paper);
     sum.pairs += counts.pairs, sum.right += counts.right, sum.wrong += counts.wrong;
     sum.squares += counts.squares;
   }

@@ -87,7 +87,7 @@ TEST_F(Evaluation, TheMapIsComparedWithTheTruthBesideIt) {
   const json evaluation = evaluate();
   EXPECT_LT(evaluation["map"]["rmse"].get<double>(), 1e-3);
   const auto notes = evaluation["notes"].get<std::vector<std::string>>();
-  EXPECT_THAT(notes, Contains(HasSubstr("alignments are not judged, robots not told apart")));
+  EXPECT_THAT(notes, Contains(HasSubstr("alignments are not evaluated, robots not told apart")));
   EXPECT_THAT(notes, Not(Contains(HasSubstr("no true surface"))));
   EXPECT_FALSE(evaluation.contains("alignments"));
   EXPECT_FALSE(evaluation.contains("modes"));
@@ -96,7 +96,7 @@ TEST_F(Evaluation, TheMapIsComparedWithTheTruthBesideIt) {
 TEST_F(Evaluation, BytesOfTheLinksAreSummedByRobotAndArea) {
   write_track("r1/trajectory.tum", 0.0);
   write_ground("r1/map.ply", 0.0f);
-  folder_.write("report.json", R"({"settled": true, "links": [
+  folder_.write("report.json", R"({"exchange_ended": true, "links": [
       {"link": "long_range", "agent": "r1", "wire_bytes": 1000, "airtime_s": 0.5},
       {"link": "long_range", "agent": "r1", "wire_bytes": 500, "airtime_s": 0.25},
       {"link": "short_range", "agent": "r2", "wire_bytes": 7000},
@@ -130,10 +130,10 @@ TEST_F(Evaluation, CpuIsTheMeanOverTheRobotsThatReportIt) {
 
 TEST_F(Evaluation, ItsFilesHoldTheNumbersAndTheReportKeepsItsOwn) {
   write_track("r1/trajectory.tum", 0.0);
-  folder_.write("report.json", R"({"settled": true})");
+  folder_.write("report.json", R"({"exchange_ended": true})");
   const json evaluation = evaluate();
   EXPECT_EQ(read("evaluation.json"), evaluation);
-  EXPECT_EQ(read("report.json"), (json{{"settled", true}, {"evaluation", evaluation}}));
+  EXPECT_EQ(read("report.json"), (json{{"exchange_ended", true}, {"evaluation", evaluation}}));
   EXPECT_TRUE(fs::exists(folder_.path() / "evaluation.html"));
   fs::remove(folder_.path() / "evaluation.html");
   fs::remove(folder_.path() / "report.json");

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-class MapEvaluationTest : public SeenSite {
+class MapEvaluationTest : public ObservedSite {
  protected:
   MapEvaluationTest() { inputs_.pictures = false; }
   DistinctMap write_map(const std::string& name, const cloud::PointCloud& map) const {

@@ -28,14 +28,14 @@ TEST(MapPictures, RobotsHaveDifferentColours) {
   store::MergedMap map;
   map.cloud = ground();
   map.agents = {AgentId::parse("r1").value(), AgentId::parse("r2").value()};
-  map.seen_by.assign(map.cloud.size(), 0);
+  map.observed_by.assign(map.cloud.size(), 0);
   const auto one = pictures_by_robot(map);
   ASSERT_TRUE(one) << one.error().message;
   ASSERT_EQ(one->size(), 2u);
   EXPECT_EQ((*one)[0].file, "map_top.png");
   EXPECT_EQ((*one)[1].file, "map_perspective.png");
   EXPECT_TRUE(is_png((*one)[0].png));
-  std::fill(map.seen_by.begin() + 200, map.seen_by.end(), std::uint8_t{1});
+  std::fill(map.observed_by.begin() + 200, map.observed_by.end(), std::uint8_t{1});
   const auto both = pictures_by_robot(map);
   ASSERT_TRUE(both);
   EXPECT_NE((*one)[0].png, (*both)[0].png);

@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 /// A run whose placement is that of the fleet's graph and that logged no registration.
-class ModeEvaluation : public SeenSite {
+class ModeEvaluation : public ObservedSite {
  protected:
   ModeEvaluation() {
     inputs_.pictures = false;

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-class Overlap : public SeenSite {
+class Overlap : public ObservedSite {
  protected:
   json of(const std::map<NodeId, Pose>& placed) {
     return OverlapEvaluation(held_.store, held_.recipe.merge, truth_, site_, config_)

@@ -25,7 +25,7 @@ TEST_F(RunFolderTest, RobotsAreSortedAndOtherFoldersIgnored) {
   folder_.write("r1/ekf.tum", kPoses);
   folder_.write("r1/truth.tum", kPoses);
   folder_.write("plots/plot.svg", "");
-  folder_.write("report.json", "{\"settled\": true}");
+  folder_.write("report.json", "{\"exchange_ended\": true}");
   const auto run = open_run(folder_.path(), {});
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->agents.size(), 2u);
@@ -35,7 +35,7 @@ TEST_F(RunFolderTest, RobotsAreSortedAndOtherFoldersIgnored) {
   EXPECT_EQ(run->agents[0].trajectory->size(), 2u);
   EXPECT_FALSE(run->agents[0].odometry);
   EXPECT_FALSE(run->agents[1].truth);
-  EXPECT_EQ(run->report["settled"], true);
+  EXPECT_EQ(run->report["exchange_ended"], true);
   EXPECT_THAT(run->notes, IsEmpty());
 }
 

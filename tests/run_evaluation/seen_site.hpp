@@ -25,9 +25,9 @@ inline cloud::PointCloud small_site() {
 
 /// A store with a node of r1, which saw the western 4 m of small_site(), and one of r2, which saw the
 /// eastern 4 m. Both lie where they truly are.
-class SeenSite : public ::testing::Test {
+class ObservedSite : public ::testing::Test {
  protected:
-  SeenSite() {
+  ObservedSite() {
     held_.recipe.origin = geo_point_from_degrees(48.0, 11.0, 500.0);
     const auto session = [] { return std::uint16_t{0}; };
     EXPECT_TRUE(store::Sessions::load(held_.store)->begin(held_.store, session));

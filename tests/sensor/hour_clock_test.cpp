@@ -90,13 +90,13 @@ TEST(HourClock, ADeviceThatFindsGpsBecomesSynchronised) {
 }
 
 TEST(HourClock, HostileTimesDoNotOverflow) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-  for (const std::int64_t a : {-kMost - 1, std::int64_t{-1}, std::int64_t{0}, kMost}) {
-    for (const std::int64_t b : {-kMost - 1, std::int64_t{0}, kMost}) {
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t a : {-kMax - 1, std::int64_t{-1}, std::int64_t{0}, kMax}) {
+    for (const std::int64_t b : {-kMax - 1, std::int64_t{0}, kMax}) {
       HourClock clock;
       clock.read(0xffffffff, stamp_from_ns(a));
       const auto reading = clock.read(0, stamp_from_ns(b));
-      EXPECT_LT(to_ns(reading.device + clock.offset()), kMost);
+      EXPECT_LT(to_ns(reading.device + clock.offset()), kMax);
     }
   }
 }

@@ -29,16 +29,16 @@ struct Samples {
 TEST(LagEnvelope, IsTheLeastLagAndFallsAtOnce) {
   LagEnvelope envelope;
   EXPECT_TRUE(envelope.empty());
-  EXPECT_TRUE(std::isinf(envelope.least()));
+  EXPECT_TRUE(std::isinf(envelope.min()));
   EXPECT_FALSE(envelope.add(at(0.0), at(0.3)));
   EXPECT_FALSE(envelope.empty());
-  EXPECT_NEAR(envelope.least(), 0.3, 1e-8);
+  EXPECT_NEAR(envelope.min(), 0.3, 1e-8);
   EXPECT_FALSE(envelope.add(at(1.0), at(1.1)));
-  EXPECT_NEAR(envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(envelope.min(), 0.1, 1e-8);
   EXPECT_FALSE(envelope.add(at(2.0), at(2.6)));
-  EXPECT_NEAR(envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(envelope.min(), 0.1, 1e-8);
   EXPECT_FALSE(envelope.add(at(10.0), at(3.0))) << "an early sample is no step";
-  EXPECT_NEAR(envelope.least(), -7.0, 1e-8);
+  EXPECT_NEAR(envelope.min(), -7.0, 1e-8);
 }
 
 TEST(LagEnvelope, RisesWhenNothingWasOnTimeForHalfAMinute) {
@@ -46,16 +46,16 @@ TEST(LagEnvelope, RisesWhenNothingWasOnTimeForHalfAMinute) {
   samples.period = 1.0;
   samples.come(0.1, 1.0);
   EXPECT_EQ(samples.come(0.8, 29.0), 0);
-  EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 0.1, 1e-8);
   EXPECT_EQ(samples.come(0.8, 7.0), 0);
-  EXPECT_NEAR(samples.envelope.least(), 0.8, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 0.8, 1e-8);
 }
 
 TEST(LagEnvelope, AClockThatIsSetBackIsAStepAfterThreeSamples) {
   Samples samples;
   samples.come(0.1, 10.0);
   EXPECT_EQ(samples.come(2.6, 1.0), 3) << "the first two might have been overtaken";
-  EXPECT_NEAR(samples.envelope.least(), 2.6, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 2.6, 1e-8);
   EXPECT_EQ(samples.come(2.6, 10.0), 0) << "it is known now";
   samples.period = 1.0;
   EXPECT_EQ(samples.come(12.6, 10.0), 3) << "however far apart they are";
@@ -69,7 +69,7 @@ TEST(LagEnvelope, LateSamplesThatOvertakeEachOtherAreNoStep) {
     samples.now += 0.1;
     EXPECT_FALSE(samples.envelope.add(at(stamp), at(samples.now))) << stamp;
   }
-  EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 0.1, 1e-8);
 }
 
 TEST(LagEnvelope, SamplesThatAllArriveAtOnceProveNoStep) {
@@ -87,7 +87,7 @@ TEST(LagEnvelope, ASampleOnTimeBetweenLateOnesProvesThatTheClockIsRight) {
     EXPECT_EQ(samples.come(2.6, 0.2), 0);
     EXPECT_EQ(samples.come(0.1, 0.1), 0);
   }
-  EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 0.1, 1e-8);
 }
 
 TEST(LagEnvelope, AQueueThatIsEmptiedIsNoStep) {
@@ -97,7 +97,7 @@ TEST(LagEnvelope, AQueueThatIsEmptiedIsNoStep) {
   samples.now += 15.0;
   samples.period = 0.025;
   for (double lag = 15.0; lag > 0.1; lag -= 0.075) EXPECT_EQ(samples.come(lag, 0.025), 0) << lag;
-  EXPECT_NEAR(samples.envelope.least(), 0.1, 1e-8);
+  EXPECT_NEAR(samples.envelope.min(), 0.1, 1e-8);
 }
 
 TEST(LagEnvelope, SamplesThatStayLaterThanAnyQueueHoldsThemAreAStep) {
@@ -111,7 +111,7 @@ TEST(LagEnvelope, SamplesThatStayLaterThanAnyQueueHoldsThemAreAStep) {
       EXPECT_EQ(step, 0) << "a computer may be so busy";
     } else {
       EXPECT_NEAR(0.1 * step, 1.6, 0.11);
-      EXPECT_NEAR(samples.envelope.least(), lag, 1e-8);
+      EXPECT_NEAR(samples.envelope.min(), lag, 1e-8);
     }
   }
 }

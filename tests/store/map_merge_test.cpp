@@ -71,13 +71,13 @@ TEST(MapMerge, is_the_same_for_every_agent_and_stable_when_submaps_come) {
 TEST(MapMerge, tells_which_agent_saw_a_voxel_first) {
   const MergeConfig config{.voxel_m = 0.5};
   const auto map = merge(poses(), load, config);
-  ASSERT_EQ(map.seen_by.size(), map.cloud.size());
+  ASSERT_EQ(map.observed_by.size(), map.cloud.size());
   EXPECT_EQ(map.agents, (std::vector<AgentId>{kA, kB}));
   auto of_a_alone = poses();
   std::erase_if(of_a_alone, [](const auto& entry) { return entry.first.agent != kA; });
   const auto alone = merge(of_a_alone, load, config);
   for (std::size_t i = 0; i < map.cloud.size(); ++i)
-    EXPECT_EQ(map.seen_by[i], i < alone.cloud.size() ? 0 : 1);
+    EXPECT_EQ(map.observed_by[i], i < alone.cloud.size() ? 0 : 1);
 }
 
 TEST(MapMerge, finds_the_greatest_intensity_that_is_a_number) {

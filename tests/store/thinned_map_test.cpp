@@ -18,7 +18,7 @@ MapTile row(int first, int last) {
   for (int x = first; x < last; ++x) {
     tile.cloud.points.emplace_back(static_cast<float>(x) + 0.5f, 0.5f, 0.5f);
     tile.cloud.intensities.push_back(static_cast<float>(x));
-    tile.seen_by.push_back(x < 500 ? 0 : 1);
+    tile.observed_by.push_back(x < 500 ? 0 : 1);
   }
   return tile;
 }
@@ -39,7 +39,7 @@ TEST(ThinnedMap, KeepsAMapThatIsSmallEnoughAsItIs) {
   EXPECT_EQ(thinned.voxel_m(), 1.0);
   EXPECT_EQ(map.cloud.points, row(0, 1'000).cloud.points);
   EXPECT_EQ(map.cloud.intensities, row(0, 1'000).cloud.intensities);
-  EXPECT_EQ(map.seen_by, row(0, 1'000).seen_by);
+  EXPECT_EQ(map.observed_by, row(0, 1'000).observed_by);
   EXPECT_EQ(map.submaps, 7u);
   EXPECT_EQ(map.points_in, 5'000u);
   EXPECT_EQ(map.agents, outline().agents);
@@ -51,9 +51,9 @@ TEST(ThinnedMap, ThinsToTheBoundAndStillTellsWhoSawAPoint) {
   const MergedMap map = thinned.map(outline());
   EXPECT_LE(map.cloud.size(), 300u);
   EXPECT_GT(map.cloud.size(), 130u) << "one step of half more is at most 1.5 times fewer, and its grid";
-  ASSERT_EQ(map.seen_by.size(), map.cloud.size());
+  ASSERT_EQ(map.observed_by.size(), map.cloud.size());
   for (std::size_t i = 0; i < map.cloud.size(); ++i)
-    EXPECT_EQ(map.seen_by[i], map.cloud.points[i].x() < 500.0f ? 0 : 1);
+    EXPECT_EQ(map.observed_by[i], map.cloud.points[i].x() < 500.0f ? 0 : 1);
   EXPECT_GT(map.cloud.points.back().x(), 990.0f - static_cast<float>(thinned.voxel_m()));
 }
 

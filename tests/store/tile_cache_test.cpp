@@ -21,7 +21,7 @@ TEST(TileCache, GivesEachPartOnce) {
   EXPECT_EQ(cache.take(4, 3).size(), 5u);
   EXPECT_FALSE(cache.holds(4));
   EXPECT_EQ(cache.bytes(), 0u);
-  EXPECT_EQ(cache.most_bytes(), 84u);
+  EXPECT_EQ(cache.peak_bytes(), 84u);
 }
 
 TEST(TileCache, EvictsWhatIsNeededLast) {
@@ -39,7 +39,7 @@ TEST(TileCache, EvictsWhatIsNeededLast) {
   cache.clear();
   EXPECT_FALSE(cache.holds(0));
   EXPECT_EQ(cache.bytes(), 0u);
-  EXPECT_LE(cache.most_bytes(), 240u);
+  EXPECT_LE(cache.peak_bytes(), 240u);
 }
 
 }  // namespace

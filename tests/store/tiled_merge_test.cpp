@@ -50,12 +50,13 @@ Result<cloud::PointCloud> load(const NodeId& id) {
 
 /// A point with all that is known of it.
 using Known = std::array<float, 5>;
-std::vector<Known> known_points(const cloud::PointCloud& cloud, const std::vector<std::uint8_t>& seen_by) {
+std::vector<Known> known_points(const cloud::PointCloud& cloud,
+                                const std::vector<std::uint8_t>& observed_by) {
   std::vector<Known> points;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points[i];
     points.push_back({p.x(), p.y(), p.z(), cloud.has_intensities() ? cloud.intensities[i] : -1.0f,
-                      static_cast<float>(seen_by.at(i))});
+                      static_cast<float>(observed_by.at(i))});
   }
   return points;
 }
@@ -69,8 +70,8 @@ std::vector<Known> sorted(std::vector<Known> points) {
 std::vector<Known> streamed(TiledMerge& merge) {
   std::vector<Known> points;
   const Status done = merge.stream([&](const MapTile& tile) -> Status {
-    EXPECT_EQ(tile.seen_by.size(), tile.cloud.size());
-    const auto more = known_points(tile.cloud, tile.seen_by);
+    EXPECT_EQ(tile.observed_by.size(), tile.cloud.size());
+    const auto more = known_points(tile.cloud, tile.observed_by);
     points.insert(points.end(), more.begin(), more.end());
     return {};
   });
@@ -90,7 +91,7 @@ TEST(TiledMerge, HasThePointsOfTheMergeInOnePiece) {
       auto tiled = TiledMerge::plan(poses(), load, config, budget);
       ASSERT_TRUE(tiled) << tiled.error().message;
       EXPECT_GT(tiled->tiles(), 8u);
-      EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.seen_by)));
+      EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.observed_by)));
       EXPECT_EQ(tiled->outline().submaps, whole.submaps);
       EXPECT_EQ(tiled->outline().points_in, whole.points_in);
       EXPECT_EQ(tiled->outline().agents, whole.agents);
@@ -106,7 +107,7 @@ TEST(TiledMerge, OfAMapThatFitsATileIsTheMergeInOnePieceAndReadsOnce) {
   auto tiled = TiledMerge::plan(poses(), load, {});
   ASSERT_TRUE(tiled);
   EXPECT_EQ(tiled->tiles(), 1u);
-  EXPECT_EQ(streamed(*tiled), known_points(whole.cloud, whole.seen_by));
+  EXPECT_EQ(streamed(*tiled), known_points(whole.cloud, whole.observed_by));
   EXPECT_EQ(tiled->stats().loads, 24u);
 }
 
@@ -207,7 +208,7 @@ TEST(TiledMerge, FarOutliersMakeNoTilesOfTheirOwn) {
   ASSERT_TRUE(plain);
   ASSERT_TRUE(tiled);
   EXPECT_LE(tiled->tiles(), plain->tiles() + 2) << "480 more points";
-  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.seen_by)));
+  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.observed_by)));
   EXPECT_EQ(whole.points_refused, 48u);
   EXPECT_EQ(tiled->outline().points_refused, whole.points_refused);
 }
@@ -222,7 +223,7 @@ TEST(TiledMerge, LeavesOutAndNamesWhatItCannotRead) {
   const MergedMap whole = merge(T_enu_node, broken, {.voxel_m = 0.5});
   auto tiled = TiledMerge::plan(T_enu_node, broken, {.voxel_m = 0.5}, kSmall);
   ASSERT_TRUE(tiled);
-  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.seen_by)));
+  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.observed_by)));
   EXPECT_EQ(tiled->outline().unreadable, (std::vector<NodeId>{{kA, 2}, {kB, 3}}));
   EXPECT_EQ(tiled->outline().submaps, 22u);
 }
@@ -244,7 +245,7 @@ TEST(TiledMerge, NamesASubmapThatIsDamagedBetweenThePasses) {
   EXPECT_EQ(tiled->outline().submaps, 23u);
   T_enu_node.erase({kB, 5});
   const MergedMap without = merge(T_enu_node, load, {.voxel_m = 0.5});
-  EXPECT_EQ(sorted(points), sorted(known_points(without.cloud, without.seen_by)));
+  EXPECT_EQ(sorted(points), sorted(known_points(without.cloud, without.observed_by)));
 }
 
 TEST(TiledMerge, HasIntensitiesOnlyIfAllSubmapsHaveThem) {
@@ -257,7 +258,7 @@ TEST(TiledMerge, HasIntensitiesOnlyIfAllSubmapsHaveThem) {
   auto tiled = TiledMerge::plan(poses(), without, {.voxel_m = 0.5}, kSmall);
   ASSERT_TRUE(tiled);
   EXPECT_FALSE(tiled->outline().has_intensities);
-  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.seen_by)));
+  EXPECT_EQ(sorted(streamed(*tiled)), sorted(known_points(whole.cloud, whole.observed_by)));
 }
 
 TEST(TiledMerge, StopsWhereItsSinkFails) {

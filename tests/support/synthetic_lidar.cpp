@@ -74,7 +74,7 @@ double SyntheticWorld::cast_ground(const Eigen::Vector3d& origin, const Eigen::V
   if (!ground_.height)
     return direction.z() < 0.0 && origin.z() > 0.0 ? std::min(max_range, -origin.z() / direction.z())
                                                    : max_range;
-  const double closing = ground_.most_slope * direction.head<2>().norm() - direction.z();
+  const double closing = ground_.max_slope * direction.head<2>().norm() - direction.z();
   if (closing <= 0.0) return max_range;
   double range = 0.0;
   while (range < max_range) {

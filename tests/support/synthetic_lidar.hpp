@@ -15,10 +15,10 @@
 
 namespace fleetmap::testing {
 
-/// Ground height in m at x, y, nowhere steeper than `most_slope`.
+/// Ground height in m at x, y, nowhere steeper than `max_slope`.
 struct GroundShape {
   std::function<double(double, double)> height;
-  double most_slope = 0.0;
+  double max_slope = 0.0;
 };
 
 /// Ground with boxes and upright posts on it, for rays. Exact, deterministic, no files needed.

@@ -31,8 +31,8 @@ Bytes to_cdr(const Idl& value) {
 }
 
 /// `look` may inspect the stream before the value is read from the same place; it throws to refuse.
-template <class Idl, class Look>
-Result<Idl> from_cdr(ByteView bytes, const char* type, const Look& look) {
+template <class Idl, class Peek>
+Result<Idl> from_cdr(ByteView bytes, const char* type, const Peek& peek) {
   if (auto status = check_encapsulation(bytes, type); !status) return tl::unexpected(status.error());
   try {
     // Reading leaves the bytes alone; FastBuffer knows only mutable memory.
@@ -42,7 +42,7 @@ Result<Idl> from_cdr(ByteView bytes, const char* type, const Look& look) {
                                eprosima::fastcdr::Cdr::DDS_CDR);
     cdr.read_encapsulation();
     const auto start = cdr.getState();
-    look(cdr);
+    peek(cdr);
     cdr.setState(const_cast<eprosima::fastcdr::Cdr::state&>(start));
     Idl value;
     value.deserialize(cdr);

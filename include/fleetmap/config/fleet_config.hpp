@@ -53,7 +53,8 @@ struct FleetConfig {
   FieldConfig field;
   /// Leaves the first `count` robots, as if the file named no more.
   void keep_first(std::size_t count);
-  double settle_time = 120.0;  ///< s of virtual time that the exchange may take after the last sensor sample
+  double exchange_timeout =
+      120.0;  ///< s of virtual time that the exchange may take after the last sensor sample
 };
 
 }  // namespace fleetmap::config

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +8,9 @@
 #include "fleetmap/core/time.hpp"
 
 namespace fleetmap {
+
+/// By the computer's clock.
+inline Stamp system_now() { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
 
 /// "2026-11-26T18:12:39.500Z" (RFC 3339), rounded down to milliseconds.
 std::string to_utc(Stamp stamp);

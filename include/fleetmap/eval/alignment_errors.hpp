@@ -31,7 +31,7 @@ struct RightPose {
 };
 
 /// An alignment against the truth.
-struct JudgedAlignment {
+struct AlignmentError {
   NodeId i, j;
   bool ambiguous = false;
   bool used = false;            ///< by the placement
@@ -45,9 +45,9 @@ struct JudgedAlignment {
   StatedError stated;        ///< right tangent of T_i_j
 };
 /// Those of which both nodes' true poses are known.
-std::vector<JudgedAlignment> judge(std::span<const graph::Alignment> alignments,
-                                   const graph::Placement& placement, const TruePoses& truth,
-                                   const RightPose& limits = {});
+std::vector<AlignmentError> alignment_errors(std::span<const graph::Alignment> alignments,
+                                             const graph::Placement& placement, const TruePoses& truth,
+                                             const RightPose& limits = {});
 
 /// Nodes of one piece of odometry_errors(): some 35 m of path.
 inline constexpr std::uint32_t kOdometryPiece = 8;

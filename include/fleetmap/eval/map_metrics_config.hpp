@@ -15,10 +15,10 @@ struct MapMetricsConfig {
   double truth_reach = 1.0;
   double resolution = 0.05;            ///< m: of each cloud the first point of each voxel of this edge counts
   double registration_distance = 3.0;  ///< m, of the first correspondences of the registration
-  double least_noise = 0.005;          ///< m, floor of sigma in det(C)
-  std::size_t most_truth = 10'000'000;   ///< points of the truth that are kept, evenly chosen
-  std::size_t most_distances = 500'000;  ///< points of each cloud whose distance is taken, evenly chosen
-  std::size_t most_densities = 200'000;  ///< points of the map whose density is taken, evenly chosen
+  double min_noise = 0.005;            ///< m, floor of sigma in det(C)
+  std::size_t max_truth = 10'000'000;  ///< points of the truth that are kept, evenly chosen
+  std::size_t max_distances = 500'000;  ///< points of each cloud whose distance is taken, evenly chosen
+  std::size_t max_densities = 200'000;  ///< points of the map whose density is taken, evenly chosen
   Status validate() const;
 };
 

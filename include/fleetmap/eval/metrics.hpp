@@ -28,7 +28,7 @@ struct MapMetrics {
   /// det(C) in m^3 rad^3, C = sigma^2 (sum J J^T)^-1 the inverse Fisher information of that registration
   /// over all inliers at `resolution`, each counted as one independent point-to-plane measurement.
   double det_covariance = 0.0;
-  double sigma = 0.0;  ///< m, RMS of the inliers' point-to-plane residuals, at least `least_noise`
+  double sigma = 0.0;  ///< m, RMS of the inliers' point-to-plane residuals, at least `min_noise`
   /// Eq. 4: points of the map (as it is given) within r_d of a point of it, itself included; the mean.
   double mean_density = 0.0;
   std::vector<double> density_histogram;  ///< share of points by that number
@@ -42,7 +42,7 @@ struct MapMetrics {
   double chamfer = 0.0;          ///< m, mean of both directed mean distances (capped at inlier_distance)
   double truth_spacing = 0.0;    ///< m, between neighbouring truth points, median
   std::size_t map_points = 0;    ///< as given
-  std::size_t truth_points = 0;  ///< N_g, at `resolution` and at most `most_truth`
+  std::size_t truth_points = 0;  ///< N_g, at `resolution` and at most `max_truth`
   double mapped_area = 0.0;      ///< m^2, ground covered by the map's points (1 m cells)
 };
 

@@ -11,7 +11,8 @@
 
 namespace fleetmap::loop_closure {
 
-/// Selection and timing of registrations between two robots. The configuration file names it `encounters`.
+/// Selection and timing of registrations between two robots. The configuration file names it
+/// `loop_candidates`.
 struct LoopClosureConfig {
   place::ProximityConfig proximity;  ///< r^i of Eq. 1
   /// m, horizontal, of a G that proposes candidates; beyond it, and without G, descriptors do.

@@ -94,7 +94,7 @@ class BallTree {
 
   static Vector unit_vector(const GeoPoint& point);
   static double squared_chord(const Vector& a, const Vector& b);
-  static double least_chord(const Ball& ball, const Vector& q);
+  static double min_chord(const Ball& ball, const Vector& q);
   static void grow(Ball& ball, const Vector& v);
   static void enclose(Ball& ball, const Item* first, const Item* last, std::size_t& widest_axis);
 

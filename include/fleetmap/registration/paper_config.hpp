@@ -15,7 +15,7 @@ struct PaperConfig {
   float feature_radius_m = 3.0f;  ///< m, neighbourhood of a feature
   /// Three correspondences are scored if the sides of their triangles in both clouds have at least this
   /// ratio.
-  double least_side_ratio = 0.9;
+  double min_side_ratio = 0.9;
   int ransac_iterations = 10'000;     ///< poses scored at most
   double ransac_inlier_m = 1.0;       ///< m, farthest pair of points that supports a sampled pose
   int icp_iterations = 50;            ///< at most

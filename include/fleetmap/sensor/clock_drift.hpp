@@ -37,8 +37,8 @@ class ClockDrift {
     double lag = 0.0;   ///< s, above first_
   };
   std::optional<Stamp> begun_, bucket_begun_;
-  double least_ = std::numeric_limits<double>::infinity();
-  double least_time_ = 0.0;
+  double min_ = std::numeric_limits<double>::infinity();
+  double min_time_ = 0.0;
   std::optional<double> first_;
   std::deque<Bucket> buckets_;
 };

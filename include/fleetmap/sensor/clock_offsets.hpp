@@ -63,7 +63,7 @@ class ClockOffsets {
     double correction = 0.0;              ///< s
     double reported = 0.0;                ///< s, the offset in the last report
     std::optional<Stamp> unreported_since;
-    double lag() const { return envelope.least(); }
+    double lag() const { return envelope.min(); }
     void forget_drift() {
       drift.reset();
       behind_at_first.reset();
@@ -79,7 +79,7 @@ class ClockOffsets {
   std::optional<double> right_lag() const;
   std::optional<ClockDrift::Line> right_rate() const;
   void find_drifts();
-  void judge(Source source, double right, Duration since, Stamp arrival);
+  void check(Source source, double right, Duration since, Stamp arrival);
   void report_offset(Source source, double offset, Stamp arrival);
   std::string offset_report(Source source, double offset, bool is_off) const;
   void report_drift(Source source, double slow);

@@ -23,26 +23,26 @@ class LagEnvelope {
   bool add(Stamp stamp, Stamp arrival);
   bool empty() const { return buckets_.empty(); }
   /// s; infinity before the first sample.
-  double least() const { return least_; }
+  double min() const { return min_; }
 
  private:
   /// Samples in a row that are not on time.
   struct LateRun {
     Stamp begun;
     int samples = 0;
-    double least = 0.0, most = 0.0;  ///< s, their lags
-    bool set_back = true;            ///< all of them are from before the newest stamp
+    double min = 0.0, max = 0.0;  ///< s, their lags
+    bool set_back = true;         ///< all of them are from before the newest stamp
   };
   struct Bucket {
     Stamp begun;
-    double least = 0.0;
+    double min = 0.0;
   };
   bool stepped(Stamp stamp, Stamp arrival, double lag);
   void insert(Stamp arrival, double lag);
 
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   std::deque<Bucket> buckets_;
-  double least_ = kNone;
+  double min_ = kNone;
   Stamp newest_{};
   std::optional<LateRun> late_;
 };

@@ -36,7 +36,7 @@ struct MapOutline {
 struct MergedMap : MapOutline {
   cloud::PointCloud cloud;  ///< in the frame of the poses (ENU of the site's origin)
   /// For each point of `cloud` the index in `agents` of the agent that was first to see its voxel.
-  std::vector<std::uint8_t> seen_by;
+  std::vector<std::uint8_t> observed_by;
 };
 
 /// Merges a whole map: every submap is placed by `T_enu_node`, and one point is kept per voxel. Submaps are

@@ -22,7 +22,7 @@ class ThinnedMap {
   float voxel_m_;
   std::size_t max_points_;
   cloud::VoxelMerger merger_;
-  std::vector<std::uint8_t> seen_by_;
+  std::vector<std::uint8_t> observed_by_;
 };
 
 }  // namespace fleetmap::store

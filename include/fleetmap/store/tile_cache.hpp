@@ -24,14 +24,14 @@ class TileCache {
   void put(std::size_t submap, Parts parts);
   void clear();
   std::size_t bytes() const { return bytes_; }
-  std::size_t most_bytes() const { return most_bytes_; }
+  std::size_t peak_bytes() const { return peak_bytes_; }
 
  private:
   void evict_one();
 
   std::size_t max_bytes_;
   std::size_t bytes_ = 0;
-  std::size_t most_bytes_ = 0;
+  std::size_t peak_bytes_ = 0;
   std::map<std::size_t, Parts> held_;  ///< none without parts
 };
 

@@ -15,7 +15,7 @@ namespace fleetmap::store {
 
 struct MapTile {
   cloud::PointCloud cloud;
-  std::vector<std::uint8_t> seen_by;  ///< see MergedMap::seen_by
+  std::vector<std::uint8_t> observed_by;  ///< see MergedMap::observed_by
 };
 using TileSink = std::function<Status(const MapTile&)>;
 

@@ -12,7 +12,7 @@ class ReplayWindow {
   ReplayWindow() = default;
   /// Accepts none up to `last`.
   explicit ReplayWindow(std::uint64_t last) : newest_(last) {
-    seen_.fill(~std::uint64_t{0});
+    received_.fill(~std::uint64_t{0});
     clear_above(last);
   }
   /// False for a counter that was accepted before or is older than the window.
@@ -22,7 +22,7 @@ class ReplayWindow {
   static constexpr std::uint64_t kBits = 64, kWords = kSize / kBits + 1;  ///< a word is cleared ahead
   void clear_above(std::uint64_t counter);
 
-  std::array<std::uint64_t, kWords> seen_{};
+  std::array<std::uint64_t, kWords> received_{};
   std::uint64_t newest_ = 0;  ///< 0: none yet
 };
 

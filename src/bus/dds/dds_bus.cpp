@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "executor.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "onboard_link.hpp"
 #include "participant_qos.hpp"
 #include "qos_file.hpp"
@@ -35,7 +36,7 @@ const std::vector<std::string>& profiles_of(Link link) {
 }
 
 struct DdsBus::State {
-  const Stamp begun = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  const Stamp begun = system_now();
   const Executor::Clock::time_point begun_steady = Executor::Clock::now();
   std::shared_ptr<Executor> executor = std::make_shared<Executor>();
   std::map<Link, std::shared_ptr<LinkEnd>> links;

@@ -15,6 +15,8 @@
 #include <optional>
 #include <random>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
@@ -141,7 +143,7 @@ std::string names_of(const Interfaces& all) {
     if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
     char text[INET_ADDRSTRLEN] = "";
     inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(entry->ifa_addr)->sin_addr, text, sizeof text);
-    names += (names.empty() ? "" : ", ") + std::string(entry->ifa_name) + " " + text;
+    append_to_list(names, std::string(entry->ifa_name) + " " + text);
   }
   return names.empty() ? "none" : names;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fleetmap/core/utc.hpp"
 #include "radio_hellos.hpp"
 #include "radio_received.hpp"
 #include "rtps_messages.hpp"
@@ -82,7 +83,7 @@ void RadioLink::Greetings::answer_claim(const Prefix& sender, const Locator& fro
 bool RadioLink::Greetings::prove(const Prefix& sender, const Locator& from, const Hello& hello,
                                  const trust::Introduction& introduction) {
   const trust::Session session = session_of(sender);
-  const auto now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+  const auto now = system_now();
   const auto member = radio_.guard_->introducer().verify(introduction, session, now);
   std::string why;
   if (!member) {

@@ -7,7 +7,8 @@
 
 namespace fleetmap::graph {
 
-/// Hypotheses of several frame pairs, linearised together at the prior, each by some of its members.
+/// Hypotheses of several frame pairs, linearised together at the prior, each by some of its members: joint
+/// compatibility (Neira and Tardos, IEEE T-RA 17(6), 2001) of sets instead of single measurements.
 class JointHypotheses {
  public:
   JointHypotheses(std::span<const Candidate> all, std::span<const Hypothesis> hypotheses,
@@ -33,7 +34,9 @@ class JointHypotheses {
   CrossCovariances cross_;
 };
 
-/// Quantile of chi squared, 1e-5 (Wilson and Hilferty 1931), within 5 %.
+/// Quantile of chi squared, 1e-5, within 5.3 % (Wilson and Hilferty 1931). Boost.Math's is exact, but calls
+/// the C library's functions, whose last digit differs between x86 and ARM: two robots could then place the
+/// same items differently. This has a square root and products alone.
 double rare_chi_squared(double degrees_of_freedom);
 
 }  // namespace fleetmap::graph

@@ -50,8 +50,8 @@ CrossCovariances cross_covariances(std::span<const LinearisedCandidate> candidat
 
 bool ConditionalResidual::is_consistent() const { return distance < kPairGate; }
 
-ConditionalResidual residual_given(const LinearisedCandidate& a, const LinearisedCandidate& b,
-                                   const Matrix6d& S_ba) {
+ConditionalResidual conditional_residual(const LinearisedCandidate& a, const LinearisedCandidate& b,
+                                         const Matrix6d& S_ba) {
   const Matrix6d gain = S_ba * a.S_inverse;
   const Vector6d e = b.e - gain * a.e;
   const Matrix6d S = b.S - gain * S_ba.transpose();

@@ -36,8 +36,8 @@ struct ConditionalResidual {
   bool is_consistent() const;
 };
 /// Conditional distribution of `b` given `a`. `S_ba` is Cov(e_b, e_a).
-ConditionalResidual residual_given(const LinearisedCandidate& a, const LinearisedCandidate& b,
-                                   const Matrix6d& S_ba);
+ConditionalResidual conditional_residual(const LinearisedCandidate& a, const LinearisedCandidate& b,
+                                         const Matrix6d& S_ba);
 
 /// Pose variable of the candidate's end in its first frame, which orders candidates of two frames along the
 /// track, whichever of the two robots computed them.

@@ -28,7 +28,7 @@ std::array<std::vector<Vote>, 2> mutual_votes(const Modes& a, const Modes& b) {
   for (std::size_t i = 0; i < a.at.size(); ++i) {
     for (std::size_t j = 0; j < b.at.size(); ++j) {
       const LinearisedCandidate &x = a.candidates[i], &y = b.candidates[j];
-      const ConditionalResidual residual = residual_given(x, y, BlockCholesky::inner(y.z, x.z));
+      const ConditionalResidual residual = conditional_residual(x, y, BlockCholesky::inner(y.z, x.z));
       if (!residual.is_consistent()) continue;
       const Vote vote = residual.sigma_m > kCertainM ? Vote::abstains : Vote::for_it;
       votes[0][i] = std::max(votes[0][i], vote);

@@ -19,7 +19,7 @@ Consistency pairwise_consistency(std::span<const LinearisedCandidate> candidates
     for (std::size_t b = 0; b < a; ++b) {
       if (candidates[a].alignment == candidates[b].alignment) continue;
       consistent[a][b] = consistent[b][a] =
-          residual_given(candidates[b], candidates[a], cross[a][b]).is_consistent();
+          conditional_residual(candidates[b], candidates[a], cross[a][b]).is_consistent();
     }
   }
   return consistent;
@@ -88,16 +88,16 @@ Hypothesis hypothesis_of(std::span<const Candidate> all, const Indices& clique,
 }
 
 /// Conditional distribution of `candidate` given the member of a hypothesis that was measured nearest to it.
-ConditionalResidual residual_given_nearest(std::span<const Candidate> all,
-                                           std::span<const LinearisedCandidate> members,
-                                           const LinearisedCandidate& candidate) {
+ConditionalResidual residual_by_nearest(std::span<const Candidate> all,
+                                        std::span<const LinearisedCandidate> members,
+                                        const LinearisedCandidate& candidate) {
   const auto separation = [&](const LinearisedCandidate& member) {
     const std::size_t a = position_on_track(all[member.candidate]),
                       b = position_on_track(all[candidate.candidate]);
     return std::max(a, b) - std::min(a, b);
   };
   const LinearisedCandidate& nearest = *std::ranges::min_element(members, {}, separation);
-  return residual_given(nearest, candidate, BlockCholesky::inner(candidate.z, nearest.z));
+  return conditional_residual(nearest, candidate, BlockCholesky::inner(candidate.z, nearest.z));
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ std::vector<Indices> extended_members(std::span<const Candidate> all, std::span<
     std::optional<std::size_t> likeliest;
     double least = 0.0;
     for (std::size_t k = 0; k < members.size(); ++k) {
-      const ConditionalResidual residual = residual_given_nearest(all, members[k], candidate);
+      const ConditionalResidual residual = residual_by_nearest(all, members[k], candidate);
       if (!residual.is_consistent() || (likeliest && !(residual.cost < least))) continue;
       likeliest = k;
       least = residual.cost;

@@ -16,7 +16,8 @@ struct PriorGating {
   std::set<std::size_t> gated_out;          ///< those of them beyond four times the gate: never accepted
 };
 
-/// Gates each candidate alone by the squared Mahalanobis distance of its innovation. `prior` must be ready
+/// Gates each candidate alone by the squared Mahalanobis distance of its innovation: individual compatibility
+/// (Neira and Tardos, IEEE T-RA 17(6), 2001). `prior` must be ready
 /// for relative_covariance() between the candidates' ends.
 PriorGating gate_by_prior(std::span<const Candidate> candidates, const SolvedGraph& prior);
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "fleetmap/core/utc.hpp"
+
 namespace fleetmap::monitor::foxglove {
 namespace {
 
@@ -105,7 +107,7 @@ void ClientSession::write_next() {
   while (const auto due = subscriptions_.next_due(state_.feed.channels())) {
     message_ = state_.feed.message(due->channel);
     if (!message_) continue;
-    header_ = message_header(due->id, std::chrono::system_clock::now());
+    header_ = message_header(due->id, system_now());
     return write(false, std::array<net::const_buffer, 2>{net::buffer(header_), net::buffer(*message_)});
   }
 }

@@ -154,7 +154,7 @@ class Simulation {
     }
     if (!even) return;
     stop.even_since = std::min(stop.even_since, now);
-    if (now - stop.even_since < config_.settle_time) return;
+    if (now - stop.even_since < config_.stop_overhead) return;
     out_.leave[s] = now;
     for (const std::size_t k : {a, b}) {
       robots_[k].waiting = false;

@@ -44,7 +44,7 @@ struct Pace {
 };
 
 /// Steps through the drives of the whole fleet. Two at a stop go on when both are there and hold the same,
-/// `settle_time` later. Ends without a completion at `give_up` (s), or if not all are in reach at the end.
+/// `stop_overhead` later. Ends without a completion at `give_up` (s), or if not all are in reach at the end.
 Forecast forecast_exchange(std::span<const Itinerary> fleet, std::size_t stops,
                            const RendezvousConfig& config, double give_up, const Pace& pace = {});
 

@@ -87,8 +87,8 @@ class Planner {
   bool add_stop() {
     const double latest = std::ranges::max(now_.arrivals);
     // Even if nothing were left to be exchanged at the meeting, it could not be worth it.
-    if (!std::isfinite(now_.completion) || now_.completion - latest < config_.least_gain) return false;
-    double best = now_.completion - std::max(config_.least_gain, 1e-3);
+    if (!std::isfinite(now_.completion) || now_.completion - latest < config_.min_gain) return false;
+    double best = now_.completion - std::max(config_.min_gain, 1e-3);
     std::vector<double> late;
     for (const Pace& pace : kLate) {
       late.push_back(forecast_exchange(drives_, plan_.stops.size(), config_, 2.0 * best, pace).completion);
@@ -224,7 +224,7 @@ class Planner {
   /// The gain does not hang on meeting somebody by chance at the right second.
   bool lasts(const std::vector<Itinerary>& drives, std::span<const double> late) const {
     for (std::size_t k = 0; k < std::size(kLate); ++k) {
-      const double most = late[k] - std::max(config_.least_gain, 1e-3);
+      const double most = late[k] - std::max(config_.min_gain, 1e-3);
       const Forecast forecast = forecast_exchange(drives, plan_.stops.size() + 1, config_,
                                                   std::min(most, 2.0 * now_.completion), kLate[k]);
       if (!(forecast.completion < most)) return false;

@@ -14,8 +14,9 @@ Status RendezvousConfig::validate() const {
   }
   if (!(positive(spacing) && spacing < c_max)) return failure("spacing: must be > 0 m and below c_max");
   if (!positive(sample_period)) return failure("sample_period: must be > 0 s");
-  if (!(std::isfinite(settle_time) && settle_time >= 0.0)) return failure("settle_time: must be >= 0 s");
-  if (!(std::isfinite(least_gain) && least_gain >= 0.0)) return failure("least_gain: must be >= 0 s");
+  if (!(std::isfinite(stop_overhead) && stop_overhead >= 0.0))
+    return failure("stop_overhead: must be >= 0 s");
+  if (!(std::isfinite(min_gain) && min_gain >= 0.0)) return failure("min_gain: must be >= 0 s");
   return {};
 }
 

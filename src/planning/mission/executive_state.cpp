@@ -116,7 +116,7 @@ void ExecutiveState::check_battery(const MissionInput& input) {
 }
 
 void ExecutiveState::update_claims(Stamp now) {
-  if (claims.drop_lost(board, attempts.given_up(), now)) stop();
+  if (claims.drop_lost(board, attempts.abandoned(), now)) stop();
 }
 
 /// On schedule of a plan with stops, which lets some robots be done before others on purpose.
@@ -128,7 +128,7 @@ bool ExecutiveState::on_schedule(Stamp now) const {
 }
 
 void ExecutiveState::share_work(const MissionInput& input) {
-  claims.take_orphans(board, attempts.given_up(), input.now);
+  claims.take_orphans(board, attempts.abandoned(), input.now);
   if (on_schedule(input.now)) return;
   const double left = std::max(0.0, length_of(path) - input.progress);
   const double busy = claims.current() ? left / robot().speed : 0.0;
@@ -290,7 +290,7 @@ void ExecutiveState::update_report(const MissionInput& input) {
   report.current = current ? static_cast<std::uint32_t>(*current) : MissionReport::kNoRow;
   report.done = board.done();
   report.claimed = claims.as_set();
-  report.failed = attempts.given_up();
+  report.failed = attempts.abandoned();
   board.set_own(report);
 }
 

@@ -54,21 +54,21 @@ void MissionBoard::hear(const MissionReport& report, Stamp now) {
     peer.last = std::move(sound);
     peer.heard = now;
   }
-  settle_done();
+  resolve_done();
 }
 
 void MissionBoard::set_done(std::size_t row) {
   driven_.set(row);
-  settle_done();
+  resolve_done();
 }
 
 void MissionBoard::set_surveyed(const RowSet& rows) {
   if (rows == surveyed_) return;
   surveyed_ = RowSet(this->rows(), rows.bytes());
-  settle_done();
+  resolve_done();
 }
 
-void MissionBoard::settle_done() {
+void MissionBoard::resolve_done() {
   done_ = reported_;
   done_ &= surveyed_;
   done_ |= driven_;

@@ -71,7 +71,7 @@ class MissionBoard {
     std::optional<MissionReport> last;
     Stamp heard;
   };
-  void settle_done();
+  void resolve_done();
 
   std::shared_ptr<const FleetPlan> plan_;
   std::size_t self_;

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "fleetmap/core/text_list.hpp"
+
 namespace fleetmap::planning {
 namespace {
 
@@ -29,7 +31,7 @@ Completeness mapping_complete(std::span<const AgentId> agents, std::span<const P
   }
   std::string apart;
   for (std::size_t k = 1; k < agents.size(); ++k) {
-    if (root_of(parent, k) != root_of(parent, 0)) apart += (apart.empty() ? "" : ", ") + agents[k].str();
+    if (root_of(parent, k) != root_of(parent, 0)) append_to_list(apart, agents[k].str());
   }
   if (!apart.empty()) {
     char limit[32];

@@ -69,7 +69,7 @@ MissionExecutive::Status MissionExecutive::status() const {
   status.rows = s.board.rows();
   status.done = s.board.done().count();
   status.mine = s.report.claimed.count();
-  status.replans = s.claims.changes() + s.attempts.times_given_up();
+  status.replans = s.claims.changes() + s.attempts.times_abandoned();
   status.stops_kept = s.appointments.count_kept();
   status.stops_dropped = s.appointments.count_dropped();
   for (std::size_t row = 0; row < s.board.rows(); ++row) {

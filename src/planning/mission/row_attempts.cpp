@@ -14,7 +14,7 @@ constexpr int kMaxFailedRoutes = 4;    // to one row, until the robot gives it u
 }  // namespace
 
 RowAttempts::RowAttempts(std::size_t rows)
-    : given_up_(rows),
+    : abandoned_(rows),
       attempts_(rows, 0),
       last_reversed_(rows, false),
       covered_(rows, {0.0, 0.0}),
@@ -40,7 +40,7 @@ RowAttempts::Outcome RowAttempts::blocked(std::size_t row, double driven, double
                 "its last waypoint",
                 position.x(), position.y(), length, from_first, from_last);
   give_up(row, reason);
-  return Outcome::kGivenUp;
+  return Outcome::kAbandoned;
 }
 
 bool RowAttempts::unreachable(std::size_t row, const std::string& reason) {
@@ -50,13 +50,13 @@ bool RowAttempts::unreachable(std::size_t row, const std::string& reason) {
 }
 
 void RowAttempts::give_up(std::size_t row, std::string reason) {
-  given_up_.set(row);
+  abandoned_.set(row);
   reasons_[row] = std::move(reason);
-  ++times_given_up_;
+  ++times_abandoned_;
 }
 
 void RowAttempts::reset() {
-  given_up_ = RowSet(attempts_.size());
+  abandoned_ = RowSet(attempts_.size());
   std::ranges::fill(attempts_, 0);
   std::ranges::fill(failed_routes_, 0);
   std::ranges::fill(reasons_, "");

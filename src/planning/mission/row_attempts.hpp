@@ -19,9 +19,9 @@ class RowAttempts {
   explicit RowAttempts(std::size_t rows);
 
   enum class Outcome : std::uint8_t {
-    kDriven,   ///< all but a rest that was seen from both ends
-    kRetry,    ///< later, from the other end
-    kGivenUp,  ///< as often as a robot may try
+    kDriven,     ///< all but a rest that was seen from both ends
+    kRetry,      ///< later, from the other end
+    kAbandoned,  ///< as often as a robot may try
   };
   /// The direction of the next attempt: from the end that was not tried last, else `planned`.
   bool next_reversed(std::size_t row, bool planned) const;
@@ -35,17 +35,17 @@ class RowAttempts {
   void reset();
 
   bool tried(std::size_t row) const { return attempts_[row] > 0; }
-  const RowSet& given_up() const { return given_up_; }
+  const RowSet& abandoned() const { return abandoned_; }
   /// Why this robot gave the row up; empty if it did not.
   const std::string& reason(std::size_t row) const { return reasons_[row]; }
   /// Counts each time that any row was given up.
-  std::uint64_t times_given_up() const { return times_given_up_; }
+  std::uint64_t times_abandoned() const { return times_abandoned_; }
 
  private:
   void give_up(std::size_t row, std::string reason);
 
-  RowSet given_up_;
-  std::uint64_t times_given_up_ = 0;
+  RowSet abandoned_;
+  std::uint64_t times_abandoned_ = 0;
   std::vector<int> attempts_;
   std::vector<bool> last_reversed_;
   std::vector<std::array<double, 2>> covered_;  ///< m of each row driven from its first and its last waypoint

@@ -20,16 +20,16 @@ void RowClaims::begin() {
   }
 }
 
-bool RowClaims::drop_lost(const MissionBoard& board, const RowSet& given_up, Stamp now) {
+bool RowClaims::drop_lost(const MissionBoard& board, const RowSet& abandoned, Stamp now) {
   std::erase_if(queue_, [&](std::size_t row) {
-    return board.done().has(row) || board.lost_claim(row, false, now) || given_up.has(row);
+    return board.done().has(row) || board.lost_claim(row, false, now) || abandoned.has(row);
   });
   if (!current_ || !board.lost_claim(*current_, true, now)) return false;
   current_.reset();
   return true;
 }
 
-void RowClaims::take_orphans(const MissionBoard& board, const RowSet& given_up, Stamp now) {
+void RowClaims::take_orphans(const MissionBoard& board, const RowSet& abandoned, Stamp now) {
   const std::vector<std::size_t> orphans = board.orphans(now);
   for (std::size_t row = 0; row < board.rows(); ++row) {
     const bool orphan = std::ranges::binary_search(orphans, row);
@@ -43,7 +43,7 @@ void RowClaims::take_orphans(const MissionBoard& board, const RowSet& given_up, 
   for (std::size_t robot = 0; robot < self_; ++robot) rank += board.available(robot, now) ? 1 : 0;
   const Duration patience = from_seconds(plan_->config.executive.orphan_wait * rank);
   for (std::size_t k = 0; k < orphans.size(); ++k) {
-    if (given_up.has(orphans[k])) continue;
+    if (abandoned.has(orphans[k])) continue;
     const bool overdue = now - *orphan_since_[orphans[k]] > patience;
     if (taker[k] != self_ && !overdue) continue;
     queue_.push_back(orphans[k]);

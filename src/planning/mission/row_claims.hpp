@@ -19,12 +19,12 @@ class RowClaims {
 
   /// Claims what the plan gives to this robot.
   void begin();
-  /// Drops rows that are done, claimed by another robot with precedence, or `given_up`. True if the row under
-  /// way is among them. A row under way is driven to its end even if others report it as done, because nodes
-  /// lie along it before it is driven.
-  bool drop_lost(const MissionBoard& board, const RowSet& given_up, Stamp now);
+  /// Drops rows that are done, claimed by another robot with precedence, or `abandoned`. True if the row
+  /// under way is among them. A row under way is driven to its end even if others report it as done, because
+  /// nodes lie along it before it is driven.
+  bool drop_lost(const MissionBoard& board, const RowSet& abandoned, Stamp now);
   /// Claims orphans that fall to this robot by the common division, or that nobody took for too long.
-  void take_orphans(const MissionBoard& board, const RowSet& given_up, Stamp now);
+  void take_orphans(const MissionBoard& board, const RowSet& abandoned, Stamp now);
   /// Gives rows to idle robots if the fleet is done earlier by it. The robot sets out from `then` after
   /// `busy` s.
   void give_away(const MissionBoard& board, double busy, const Pose2& then, Stamp now);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 
 #include "graph/reduced_fleet.hpp"
 #include "graph/torn_fleet.hpp"
@@ -16,9 +17,12 @@ using testing::ReducedFleet;
 using testing::SimulatedFleet;
 
 TEST(JointHypotheses, TheQuantileIsThatOfChiSquared) {
-  EXPECT_NEAR(rare_chi_squared(6.0) / 33.11, 1.0, 0.03);
-  EXPECT_NEAR(rare_chi_squared(12.0) / 45.08, 1.0, 0.015);
-  EXPECT_NEAR(rare_chi_squared(30.0) / 75.02, 1.0, 0.01);
+  for (double freedom = 3.0; freedom <= 300.0; freedom += 3.0) {
+    const double exact =
+        boost::math::quantile(boost::math::complement(boost::math::chi_squared(freedom), 1e-5));
+    EXPECT_NEAR(rare_chi_squared(freedom) / exact, 1.0, freedom < 6.0 ? 0.055 : 0.03) << freedom;
+    if (freedom >= 30.0) EXPECT_NEAR(rare_chi_squared(freedom) / exact, 1.0, 0.006) << freedom;
+  }
 }
 
 /// The best hypothesis of each pair of robots, of which GPS alone contradicts none.

@@ -28,7 +28,7 @@ TEST(LinearisedCandidate, DistancesFollowTheChainRule) {
       e << candidates[a].e, candidates[b].e;
       const double alone = candidates[a].e.dot(candidates[a].S.ldlt().solve(candidates[a].e));
       const double both = e.dot(joint.ldlt().solve(e));
-      EXPECT_NEAR(residual_given(candidates[a], candidates[b], cross[b][a]).distance, both - alone,
+      EXPECT_NEAR(conditional_residual(candidates[a], candidates[b], cross[b][a]).distance, both - alone,
                   1e-6 * both);
     }
   }

@@ -23,7 +23,7 @@ RendezvousConfig settings() {
   config.efficiency = 1.0;
   config.map_bytes_per_metre = 10.0;
   config.sample_period = 1.0;
-  config.settle_time = 10.0;
+  config.stop_overhead = 10.0;
   return config;
 }
 
@@ -97,7 +97,7 @@ TEST(ExchangeForecast, WhoIsOutOfReachAtTheEndNeverCompletes) {
   EXPECT_THAT(forecast.arrivals, ElementsAre(DoubleEq(100.0), DoubleEq(90.0)));
 }
 
-TEST(ExchangeForecast, TwoAtAStopGoOnWhenTheyHoldTheSameAndHaveSettled) {
+TEST(ExchangeForecast, TwoAtAStopGoOnSomeTimeAfterTheyHoldTheSame) {
   RendezvousConfig config = settings();
   config.c_max = 0.5;
   config.bandwidth = 800.0;  // 100 B/s

@@ -96,8 +96,9 @@ TEST(ExchangePlan, WhoHasTimeFetchesMapsFromTheLastRobotAndPassesThemOn) {
   double saved = 0.0;
   for (const Detour& stop : plan.stops) {
     EXPECT_LE((stop.parts[0].place - stop.parts[1].place).norm(), config.c_max);
-    EXPECT_GE(stop.saving, config.least_gain);
-    EXPECT_GE(stop.leave, std::max(stop.parts[0].arrival, stop.parts[1].arrival) + config.settle_time - 0.1);
+    EXPECT_GE(stop.saving, config.min_gain);
+    EXPECT_GE(stop.leave,
+              std::max(stop.parts[0].arrival, stop.parts[1].arrival) + config.stop_overhead - 0.1);
     for (const Detour::Part& part : stop.parts) {
       EXPECT_GE(part.after, 1u);
       EXPECT_LE(part.after, field.routes[part.robot].visits.size());

@@ -23,8 +23,8 @@ TEST(RendezvousConfig, RatesAndLengthsArePositive) {
                              {&Config::spacing, "spacing"},
                              {&Config::sample_period, "sample_period"}});
   expect_not_negative(Config{}, {{&Config::map_bytes_per_metre, "map_bytes_per_metre"},
-                                 {&Config::settle_time, "settle_time"},
-                                 {&Config::least_gain, "least_gain"}});
+                                 {&Config::stop_overhead, "stop_overhead"},
+                                 {&Config::min_gain, "min_gain"}});
   expect_accepted(Config{}, &Config::efficiency, {0.01, 1.0});
   expect_refused(Config{}, &Config::efficiency, {0.0, 1.01, kNaN<double>}, "efficiency");
 }

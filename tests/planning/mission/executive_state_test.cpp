@@ -88,7 +88,7 @@ TEST_F(ExecutiveStateTest, AStuckRobotGivesItsRowsBackUntilItCanMove) {
   moved.pose.position += Eigen::Vector2d(5.0, 0.0);
   state_.follow_up(moved);
   EXPECT_EQ(state_.state, MissionState::kDriving);
-  EXPECT_TRUE(state_.attempts.given_up().none());
+  EXPECT_TRUE(state_.attempts.abandoned().none());
 }
 
 TEST_F(ExecutiveStateTest, ALowBatteryBringsItHome) {

@@ -23,11 +23,11 @@ TEST(RowAttempts, ABlockedRowIsTriedFromTheOtherEndAndThenGivenUp) {
   EXPECT_EQ(blocked(attempts, true, 30.0), Outcome::kRetry);
   EXPECT_TRUE(attempts.tried(1));
   EXPECT_FALSE(attempts.next_reversed(1, true));
-  EXPECT_TRUE(attempts.given_up().none());
-  EXPECT_EQ(blocked(attempts, false, 40.0), Outcome::kGivenUp);
-  EXPECT_TRUE(attempts.given_up().has(1));
-  EXPECT_EQ(attempts.given_up().count(), 1u);
-  EXPECT_EQ(attempts.times_given_up(), 1u);
+  EXPECT_TRUE(attempts.abandoned().none());
+  EXPECT_EQ(blocked(attempts, false, 40.0), Outcome::kAbandoned);
+  EXPECT_TRUE(attempts.abandoned().has(1));
+  EXPECT_EQ(attempts.abandoned().count(), 1u);
+  EXPECT_EQ(attempts.times_abandoned(), 1u);
   EXPECT_THAT(attempts.reason(1),
               HasSubstr("blocked near (12.0, 34.0) m; of 100 m it was driven 40 m from its "
                         "first and 30 m from its last waypoint"));
@@ -38,7 +38,7 @@ TEST(RowAttempts, ARowWhoseRestWasSeenFromBothEndsIsDriven) {
   RowAttempts attempts(3);
   EXPECT_EQ(blocked(attempts, false, 50.0), Outcome::kRetry);
   EXPECT_EQ(blocked(attempts, true, 43.0), Outcome::kDriven);  // 7 m are left
-  EXPECT_TRUE(attempts.given_up().none());
+  EXPECT_TRUE(attempts.abandoned().none());
 }
 
 TEST(RowAttempts, ARowThatIsDrivenToNineTenthsIsDriven) {
@@ -62,7 +62,7 @@ TEST(RowAttempts, ARowWithoutAWayIsGivenUpAtTheFourthTime) {
   RowAttempts attempts(3);
   for (int k = 0; k < 3; ++k) EXPECT_FALSE(attempts.unreachable(2, "no way"));
   EXPECT_TRUE(attempts.unreachable(2, "no way"));
-  EXPECT_TRUE(attempts.given_up().has(2));
+  EXPECT_TRUE(attempts.abandoned().has(2));
   EXPECT_EQ(attempts.reason(2), "no way");
 }
 
@@ -71,10 +71,10 @@ TEST(RowAttempts, ARobotThatCanMoveAgainTriesAnew) {
   blocked(attempts, false, 10.0);
   blocked(attempts, true, 10.0);
   attempts.reset();
-  EXPECT_TRUE(attempts.given_up().none());
+  EXPECT_TRUE(attempts.abandoned().none());
   EXPECT_EQ(attempts.reason(1), "");
   EXPECT_FALSE(attempts.tried(1));
-  EXPECT_EQ(attempts.times_given_up(), 1u);  // it counts what happened
+  EXPECT_EQ(attempts.times_abandoned(), 1u);  // it counts what happened
   EXPECT_EQ(blocked(attempts, false, 10.0), Outcome::kRetry);
 }
 

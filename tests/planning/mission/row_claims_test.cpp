@@ -65,10 +65,10 @@ TEST(RowClaims, RowsThatAreDoneOrGivenUpAreDropped) {
   Robot robot(2);
   const std::vector<std::size_t> before = robot.claims.queue();
   ASSERT_GE(before.size(), 3u);
-  RowSet given_up(robot.rows());
-  given_up.set(before[1]);
+  RowSet abandoned(robot.rows());
+  abandoned.set(before[1]);
   robot.board.set_done(before[0]);
-  EXPECT_FALSE(robot.claims.drop_lost(robot.board, given_up, at(1.0)));
+  EXPECT_FALSE(robot.claims.drop_lost(robot.board, abandoned, at(1.0)));
   EXPECT_EQ(robot.claims.queue(), std::vector<std::size_t>(before.begin() + 2, before.end()));
 }
 
@@ -109,12 +109,12 @@ TEST(RowClaims, RowsOfALostRobotAreTakenOver) {
 TEST(RowClaims, RowsThatItGaveUpItselfAreLeftToOthers) {
   Robot robot(2);
   robot.publish();
-  RowSet given_up(robot.rows());
+  RowSet abandoned(robot.rows());
   const RowId other = robot.plan->division.routes[1].visits.front().row;
   const auto row = std::ranges::find(robot.plan->mission.rows, other, &Row::id);
   const auto index = static_cast<std::size_t>(row - robot.plan->mission.rows.begin());
-  given_up.set(index);
-  robot.claims.take_orphans(robot.board, given_up, at(robot.plan->config.executive.lost_after + 1.0));
+  abandoned.set(index);
+  robot.claims.take_orphans(robot.board, abandoned, at(robot.plan->config.executive.lost_after + 1.0));
   EXPECT_FALSE(robot.claims.as_set().has(index));
   EXPECT_EQ(robot.claims.as_set().count(), robot.rows() - 1);
 }

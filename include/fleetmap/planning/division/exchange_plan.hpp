@@ -47,7 +47,7 @@ struct ExchangeRules {
 /// Forecasts what flows when if the fleet drives its routes and meets at `meeting` (one position a robot):
 /// robots within C_max exchange maps, others' maps too, over one channel that all share, under way, at stops,
 /// and at the meeting while they wait for the last. Stops are added one after another, each time the one by
-/// which the fleet, as forecast with those before it, completes soonest, as long as one saves `least_gain`,
+/// which the fleet, as forecast with those before it, completes soonest, as long as one saves `min_gain`,
 /// also if some robots are late.
 ExchangePlan plan_exchange(const RoutePlanner& planner, const Mission& mission,
                            std::span<const RobotAbility> fleet, std::span<const RobotRoute> routes,

@@ -11,8 +11,8 @@ struct RendezvousConfig {
   double map_bytes_per_metre = 6000.0;  ///< of submaps that a robot makes per metre driven
   double spacing = 4.0;                 ///< m between robots that wait
   double sample_period = 2.0;           ///< s, step of the forecast of who passes whom and what flows then
-  double settle_time = 10.0;            ///< s that a stop takes besides the transfer: find, stop, agree
-  double least_gain = 30.0;  ///< s by which a stop must make the fleet complete earlier to be worth it
+  double stop_overhead = 10.0;          ///< s that a stop takes besides the transfer: find, stop, agree
+  double min_gain = 30.0;  ///< s by which a stop must make the fleet complete earlier to be worth it
   Status validate() const;
 };
 

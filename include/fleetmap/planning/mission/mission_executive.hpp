@@ -55,7 +55,7 @@ struct MissionAction {
 /// - a row is driven if the robot that the plan gives it to says so, or if anyone does and the fleet's nodes
 /// lie along it;
 ///   what is known is passed on in every report;
-/// - two who claim a row settle it: who is under way on it keeps it, else the lower name;
+/// - a row that two claim stays with the one that is under way on it, else with the lower name;
 /// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
 /// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
 ///   of them takes which, and whoever still sees nobody at a row after a while takes it;

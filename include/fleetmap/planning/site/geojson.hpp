@@ -12,7 +12,7 @@ namespace fleetmap::planning {
 
 struct GeoJsonLimits {
   std::size_t file_bytes = 64u << 20;
-  /// m; a waypoint farther from the site's origin is taken for a mistake, not for a large site.
+  /// m; a waypoint farther from the site's origin is taken for an error, not for a large site.
   double reach = 10'000.0;
 };
 

@@ -1,4 +1,4 @@
-// Robots with keys over Fast DDS: who is known, who is not, and what is said of it.
+// Robots with keys: who is known by its greeting, who is not, and what is said of it.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <sys/socket.h>
@@ -9,6 +9,7 @@
 #include "bus/fleet.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
+#include "fleetmap/core/utc.hpp"
 #include "fleetmap/trust/datagram.hpp"
 #include "trust/fleet_of_keys.hpp"
 
@@ -29,7 +30,6 @@ constexpr FleetSettings kSettings{
     .wire_schema = 3, .fleet = 1, .submap_voxel = 1, .map_voxel = 1, .placement = 1};
 const Topic kTopic{Link::kLongRange, "note", "Note", "small"};
 
-Stamp now() { return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now()); }
 std::uint16_t port_of(int participant) {
   return static_cast<std::uint16_t>(7410 + 250 * static_cast<int>(first_test_domain()) + 2 * participant);
 }
@@ -149,7 +149,7 @@ class SealedRadio : public ::testing::Test {
   }
 
   CapturedLog log_;
-  FleetOfKeys fleet_{.made = now()};
+  FleetOfKeys fleet_{.made = system_now()};
   Credentials r1_ = fleet_.member("r1"), r2_ = fleet_.member("r2"), r3_ = fleet_.member("r3");
   std::vector<std::unique_ptr<Robot>> robots_;
   std::uint8_t seed_ = 1;
@@ -212,11 +212,11 @@ TEST_F(SealedRadio, WhatArrivesIsCountedWithItsSeal) {
 TEST_F(SealedRadio, ARobotWithoutKeysIsNamed) { expect_refused(std::nullopt, "r3 has no keys"); }
 
 TEST_F(SealedRadio, ARobotOfAnotherFleetIsNamed) {
-  expect_refused(FleetOfKeys{.made = now()}.member("r3"), "r3 has the keys of another fleet");
+  expect_refused(FleetOfKeys{.made = system_now()}.member("r3"), "r3 has the keys of another fleet");
 }
 
 TEST_F(SealedRadio, AnotherAuthoritysCertificateUnderThisFleetsKeyIsNamed) {
-  Credentials mixed = FleetOfKeys{.made = now()}.member("r3");
+  Credentials mixed = FleetOfKeys{.made = system_now()}.member("r3");
   mixed.authority = r1_.authority;
   mixed.fleet_keys = r1_.fleet_keys;
   expect_refused(mixed, "r3 is refused: its certificate was not signed by this fleet's authority");

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <variant>
+#include <vector>
+
+#include "exchange/recorded_loop_closer.hpp"
+#include "fleetmap/exchange/exchange.hpp"
+#include "store/items.hpp"
+
+namespace fleetmap::exchange::testing {
+
+inline const AgentId kSelf = fleetmap::testing::agent("r1"), kPeer = fleetmap::testing::agent("r2"),
+                     kThird = fleetmap::testing::agent("r3"), kStranger = fleetmap::testing::agent("x");
+inline constexpr Stamp kStart = stamp_from_ns(1'000'000'000'000);
+
+inline AgentStatus status_of(const AgentId& robot, bool busy) {
+  AgentStatus status;
+  status.from = robot;
+  status.busy = busy;
+  return status;
+}
+
+/// The exchange of r1, of a fleet of three, whose time and messages the test decides.
+class LoneExchange : public ::testing::Test {
+ protected:
+  static ExchangeConfig config() {
+    ExchangeConfig config;
+    config.fleet = {kSelf, kPeer, kThird};
+    config.payload_size = [](const Message&) { return std::size_t{10}; };
+    return config;
+  }
+  Exchange make() { return std::move(Exchange::make(config(), store_, closer_, kStart).value()); }
+  template <class Wanted>
+  std::vector<Wanted> taken() {
+    std::vector<Wanted> found;
+    for (const Event& event : exchange_.take_events()) {
+      if (const auto* wanted = std::get_if<Wanted>(&event)) found.push_back(*wanted);
+    }
+    return found;
+  }
+  /// Messages of one kind that a second of ticks from `from` on sends.
+  template <class Wanted>
+  std::vector<Outgoing> sent(Stamp from) {
+    std::vector<Outgoing> found;
+    for (int k = 0; k < 10; ++k) {
+      for (const Outgoing& outgoing : exchange_.tick(from + k * std::chrono::milliseconds(100))) {
+        if (std::holds_alternative<Wanted>(outgoing.message)) found.push_back(outgoing);
+      }
+    }
+    return found;
+  }
+
+  fleetmap::testing::ScratchFolder folder_;
+  store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
+  RecordedLoopCloser closer_;
+  Exchange exchange_ = make();
+};
+
+}  // namespace fleetmap::exchange::testing
