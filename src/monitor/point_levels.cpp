@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "points are sent as they lie in memory");
 
 constexpr float kSteps = 32'767.0f;  // of 16 bits, on either side of the centre
-constexpr int kLevels = 12;          // of grids; the finest has 1/2048 of the coarsest one's edge
+constexpr std::size_t kLevels = 12;  // of grids; the finest has 1/2048 of the coarsest one's edge
 
 struct Box {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max());
@@ -74,10 +74,10 @@ std::vector<Placed> along_curve(const cloud::PointCloud& cloud, const Box& box) 
 
 /// The coarsest level at which a point is the first of its voxel along the curve, given the code before it;
 /// kLevels if it is at none.
-int level_of(std::uint64_t code, std::uint64_t before) {
+std::size_t level_of(std::uint64_t code, std::uint64_t before) {
   if (code == before) return kLevels;
-  const int highest = 63 - std::countl_zero(code ^ before);  // bit that differs
-  return std::max(0, kLevels - 1 - highest / 3);
+  const auto highest = static_cast<std::size_t>(63 - std::countl_zero(code ^ before));  // bit that differs
+  return kLevels - 1 - std::min(highest / 3, kLevels - 1);
 }
 
 /// As kPointHeaderBytes describes it; without gaps.

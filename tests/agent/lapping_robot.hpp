@@ -44,6 +44,7 @@ class LappingRobot {
   void run_for(double seconds);
   agent::Agent& agent() { return *agent_; }
   bus::LocalNetwork& network() { return *network_; }
+  bus::Bus& bus() { return *bus_; }
   /// The errors of the scans of which G was known.
   const std::vector<Error>& errors() const { return errors_; }
   void forget_errors() { errors_.clear(); }
