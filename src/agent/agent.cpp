@@ -12,6 +12,7 @@
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/graph/frame_name.hpp"
+#include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "live_placement.hpp"
 
@@ -82,6 +83,8 @@ Agent::~Agent() = default;
 
 Status Agent::start() {
   if (const Status kept = output::keep_recipe(store_, config_.recipe()); !kept) return kept;
+  const Eigen::Vector3d lidar = config_.perception.odometry.T_base_lidar.translation();
+  if (const Status kept = output::keep_lidar_mount(store_, lidar); !kept) return kept;
   config_.exchange.payload_size = [](const messages::Message& message) {
     return fleet_codec::encode(message).size();
   };

@@ -26,6 +26,7 @@
 #include "fleetmap/run_evaluation/map_pictures.hpp"
 #include "fleetmap/store/thinned_map.hpp"
 #include "las_export.hpp"
+#include "map_subcommands.hpp"
 #include "options.hpp"
 #include "store_summary.hpp"
 #include "stored_map.hpp"
@@ -236,6 +237,8 @@ void add_map(CLI::App& app, int& exit_code) {
   tracks_command->callback([options, &exit_code] { exit_code = export_tracks(*options); });
   graph_command->add_option("--out", options->out, "FILE.g2o")->required()->check(ends_with({".g2o"}));
   graph_command->callback([options, &exit_code] { exit_code = export_graph(*options); });
+  add_map_merge(*command, exit_code);
+  add_map_diff(*command, exit_code);
 }
 
 }  // namespace fleetmap::apps

@@ -36,6 +36,7 @@ struct RunOptions {
   std::string record;
   std::optional<std::size_t> agents;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  std::uint16_t first_session = 0;
   std::vector<std::string> set;
   MonitorAccess monitor;
 };
@@ -129,7 +130,8 @@ int run(const RunOptions& options) {
   auto feed = feed_of(*config, options, setup);
   if (!feed) return report(feed.error(), config->twin ? kBadConfiguration : kFailed);
   const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
-  auto fleet = VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record);
+  auto fleet =
+      VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record, options.first_session);
   if (!fleet) return report(fleet.error(), kFailed);
   if (setup) {
     Status written = write_truth_cloud(options.out, *setup->world);
@@ -173,6 +175,10 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(whole_number(1));
   command->add_option("--threads", options->threads, "at most so many; no influence on the result")
       ->check(whole_number(1, 256));
+  command
+      ->add_option("--first-session", options->first_session,
+                   "number of the robots' first session: another one for each run to be merged")
+      ->check(whole_number(0, 60'000));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   add_page_options(*command, options->monitor, "while the run goes on");

@@ -25,16 +25,20 @@ constexpr Duration kReportEvery = std::chrono::seconds(30);
 
 }  // namespace
 
-Result<std::unique_ptr<VirtualFleet>> VirtualFleet::create(
-    config::FleetConfig config, std::unique_ptr<FleetFeed> feed, const std::filesystem::path& out,
-    const std::optional<std::filesystem::path>& record) {
+Result<std::unique_ptr<VirtualFleet>> VirtualFleet::create(config::FleetConfig config,
+                                                           std::unique_ptr<FleetFeed> feed,
+                                                           const std::filesystem::path& out,
+                                                           const std::optional<std::filesystem::path>& record,
+                                                           std::uint16_t first_session) {
   std::unique_ptr<VirtualFleet> fleet(new VirtualFleet(std::move(config), std::move(feed)));
-  if (const Status added = fleet->add_agents(out, record); !added) return tl::unexpected(added.error());
+  if (const Status added = fleet->add_agents(out, record, first_session); !added)
+    return tl::unexpected(added.error());
   return fleet;
 }
 
 Status VirtualFleet::add_agents(const std::filesystem::path& out,
-                                const std::optional<std::filesystem::path>& record) {
+                                const std::optional<std::filesystem::path>& record,
+                                std::uint16_t first_session) {
   config_.network.start = feed_->start();
   auto network = bus::LocalNetwork::create(config_.network);
   if (!network) return tl::unexpected(network.error());
@@ -46,7 +50,7 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     if (origin_) config.site_origin = origin_;
     // Sessions are numbered, so that the same run gives the same items; numbers that the store already has
     // are skipped.
-    config.draw_session = [session = std::uint16_t{0}]() mutable { return session++; };
+    config.draw_session = [session = first_session]() mutable { return session++; };
     if (is_there(config.directory / "store.db")) {
       return failure(config.directory.string() +
                      ": holds an earlier run, or what is left of one that was cut off; a run starts anew, "

@@ -61,11 +61,12 @@ struct FleetOutcome {
 class VirtualFleet {
  public:
   /// Agents keep their files in `out`/<id>, which must not hold an earlier run. With `record`, what each
-  /// agent's sensors gave goes to a bag in `record`/<id>.
+  /// agent's sensors gave goes to a bag in `record`/<id>. Sessions are numbered from `first_session`.
   static Result<std::unique_ptr<VirtualFleet>> create(config::FleetConfig config,
                                                       std::unique_ptr<FleetFeed> feed,
                                                       const std::filesystem::path& out,
-                                                      const std::optional<std::filesystem::path>& record);
+                                                      const std::optional<std::filesystem::path>& record,
+                                                      std::uint16_t first_session = 0);
 
   /// Publishes the fleet's live status there while it runs; `server` outlives this.
   void show_on(monitor::Server& server) { page_ = std::make_unique<VirtualPage>(*network_, server); }
@@ -86,7 +87,8 @@ class VirtualFleet {
   };
   VirtualFleet(config::FleetConfig config, std::unique_ptr<FleetFeed> feed)
       : config_(std::move(config)), feed_(std::move(feed)), origin_(feed_->origin()) {}
-  Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record);
+  Status add_agents(const std::filesystem::path& out, const std::optional<std::filesystem::path>& record,
+                    std::uint16_t first_session);
   /// Starts the member's agent on a bus of its own. It continues from its store.
   Status start_agent(std::size_t member);
   /// Passes the agent's commands to the feed, and the guide's poses to the agent.

@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"localization", {"geometry", "sensor"}},
     {"place", {"geometry"}},
     {"registration", {"cloud"}},
+    {"change", {"cloud"}},
     {"graph", {"geometry"}},
     {"messages", {"graph"}},
     {"store", {"cloud", "graph"}},
@@ -45,7 +46,7 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"fault_injection", {"agent"}},
     {"run_evaluation", {"config", "eval"}},
     {"experiment", {"config", "eval"}},
-    {"apps", {"run_evaluation", "experiment", "fault_injection", "monitor"}},
+    {"apps", {"run_evaluation", "experiment", "fault_injection", "monitor", "change"}},
 };
 
 /// Third-party headers that only the named places may include.

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "fleetmap/change/find_changes.hpp"
+#include "fleetmap/core/result.hpp"
+#include "fleetmap/geometry/geodesy.hpp"
+
+namespace fleetmap::change {
+
+/// A line a change: kind, size, position in the map, and, with the origin of the map's ENU, in WGS84 and UTM.
+std::string to_table(const Changes& changes, const std::optional<GeoPoint>& origin);
+
+/// Features of a point each, in WGS84 (RFC 7946), with the properties of the table. `origin` is that of ENU.
+std::string to_geojson(const Changes& changes, const GeoPoint& origin);
+
+/// Binary PLY of the cells in the map's frame, coloured: grey was there before, blue was not seen on the
+/// other day, red disappeared, green appeared.
+Status write_coloured(const std::filesystem::path& file, const Changes& changes);
+
+}  // namespace fleetmap::change

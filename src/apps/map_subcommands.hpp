@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace fleetmap::apps {
+
+/// Each adds its subcommand of map; when it is chosen, its exit code goes to `exit_code`.
+void add_map_merge(CLI::App& map, int& exit_code);
+void add_map_diff(CLI::App& map, int& exit_code);
+
+}  // namespace fleetmap::apps

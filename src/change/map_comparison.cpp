@@ -1,0 +1,95 @@
+#include "map_comparison.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "fleetmap/cloud/kd_tree.hpp"
+#include "ray_evidence.hpp"
+
+namespace fleetmap::change {
+namespace {
+
+/// Cells that the other day saw through are one object within this many cells: rays leave gaps.
+constexpr double kGap = 3.5;
+/// So far an object goes on, at most, where the other day did not see.
+constexpr float kHidden = 2.0f;  // m
+/// A cell as high as a surface of the other day within this distance is taken for more of that surface:
+/// ground between two rings of the LiDAR.
+constexpr float kSameSurface = 1.5f;  // m
+
+using Points = std::vector<Eigen::Vector3f>;
+
+std::vector<FreeCluster> clusters_of(const Points& free, const ChangeConfig& config) {
+  const cloud::KdTree tree(free);
+  const auto gap = static_cast<float>(kGap * config.cell_m);
+  std::vector<char> taken(free.size(), 0);
+  std::vector<FreeCluster> clusters;
+  for (std::size_t seed = 0; seed < free.size(); ++seed) {
+    if (taken[seed]) continue;
+    taken[seed] = 1;
+    FreeCluster cluster{{free[seed]}, 0};
+    for (std::size_t k = 0; k < cluster.points.size(); ++k) {
+      for (const cloud::Neighbor& near : tree.radius(cluster.points[k], gap)) {
+        if (std::exchange(taken[near.index], 1)) continue;
+        cluster.points.push_back(free[near.index]);
+      }
+    }
+    cluster.seen_through = cluster.points.size();
+    clusters.push_back(std::move(cluster));
+  }
+  return clusters;
+}
+
+/// Adds each cell that was not seen, and is no ground, to the cluster of the nearest cell that was seen
+/// through.
+void add_hidden(const Points& not_seen, const CellMap& other, const ChangeConfig& config,
+                std::vector<FreeCluster>& clusters) {
+  Points free;
+  std::vector<std::size_t> cluster_of;
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    free.insert(free.end(), clusters[k].points.begin(), clusters[k].points.end());
+    cluster_of.resize(free.size(), k);
+  }
+  const cloud::KdTree tree(free);
+  for (const Eigen::Vector3f& point : not_seen) {
+    const auto nearest = tree.nearest(point, kHidden);
+    if (!nearest || other.has_level(point, kSameSurface, 1.25f * static_cast<float>(config.cell_m))) continue;
+    clusters[cluster_of[nearest->index]].points.push_back(point);
+  }
+}
+
+}  // namespace
+
+MapComparison compare(const CellMap& map, const CellMap& other, const NoiseModel& noise,
+                      const ChangeConfig& config) {
+  MapComparison result;
+  Points suspects;
+  std::vector<std::uint32_t> hits;
+  const auto margin = static_cast<float>(2.0 * config.cell_m);
+  for (const CellMap::Cell& cell : map.cells()) {
+    if (cell.submaps < config.min_submaps) continue;
+    const float least = noise.least_distance(cell.centre);
+    if (other.distance(cell.centre, static_cast<float>(config.reach_m)) < least) {
+      result.same.push_back(cell.centre);
+    } else {
+      suspects.push_back(cell.centre);
+      hits.push_back(cell.submaps);
+    }
+  }
+  const RayEvidence evidence(suspects, config.cell_m, margin);
+  const std::vector<std::uint32_t> through = evidence.passes(other.submaps());
+  const std::vector<std::uint32_t> by_own_day = evidence.passes(map.submaps());
+  Points free;
+  for (std::size_t k = 0; k < suspects.size(); ++k) {
+    if (by_own_day[k] >= hits[k]) continue;  // it moved, or rays pass between its leaves
+    (through[k] >= config.min_submaps ? free : result.not_seen).push_back(suspects[k]);
+  }
+  result.seen_through = free.size();
+  result.free = clusters_of(free, config);
+  add_hidden(result.not_seen, other, config, result.free);
+  std::ranges::stable_sort(result.free, std::greater{}, &FreeCluster::seen_through);
+  return result;
+}
+
+}  // namespace fleetmap::change
