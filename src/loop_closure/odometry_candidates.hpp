@@ -25,7 +25,7 @@ class OdometryCandidates {
   UncertainPose odometry(std::size_t earlier, std::size_t later) const;
 
   OwnPathConfig config_;
-  /// What is needed of a node; a long drive has many.
+  /// The parts of a node that candidates need: a long drive has many nodes.
   struct Step {
     NodeId id;
     Pose T_odom_base = Pose::Identity();
