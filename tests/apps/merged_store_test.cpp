@@ -79,8 +79,8 @@ TEST_F(MergedStoreTest, TwoDaysFitEachOtherThoughGpsOfOneIsOff) {
 
 TEST_F(MergedStoreTest, WhatWasMergedIsMergedAgain) {
   drive("a.db", 0, {0.0, 0.0, 0.0});
-  drive("b.db", 1, {0.0, 1.5, 0.5});
-  drive("c.db", 2, {0.0, -1.0, 0.5});
+  drive("b.db", 3, {0.0, 1.5, 0.5});
+  drive("c.db", 4, {0.0, -1.0, 0.5});
   ASSERT_TRUE(merge_stores({path("a.db"), path("b.db")}, path("ab.db"), std::nullopt));
   ASSERT_TRUE(merge_stores({path("a.db"), path("c.db")}, path("ac.db"), std::nullopt));
   const MergedStore merged = merge({path("ab.db"), path("ac.db")});
