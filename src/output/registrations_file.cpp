@@ -15,7 +15,7 @@ namespace fleetmap::output {
 namespace {
 
 constexpr const char* kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
-/// Of former versions, without poses.
+/// Former versions wrote no poses.
 constexpr const char* kFormerHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason";
 constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
 

@@ -9,13 +9,14 @@
 
 namespace fleetmap::testing {
 
-/// A folder of one test, gone with it.
+/// A folder of one test, or of all tests of a suite, gone with its object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() / ("fleetmap_" + std::string(test->test_suite_name()) +
-                                                      "_" + test->name() + "_" + std::to_string(getpid()));
+    const auto& tests = *::testing::UnitTest::GetInstance();
+    std::string name = std::string("fleetmap_") + tests.current_test_suite()->name() + "_";
+    if (const auto* test = tests.current_test_info()) name += std::string(test->name()) + "_";
+    path_ = std::filesystem::temp_directory_path() / (name + std::to_string(getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
