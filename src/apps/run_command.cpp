@@ -70,7 +70,8 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
     config.network.background_time = kBackgroundTime;
     std::vector<sim::RobotTwinConfig> robots;
     for (const auto& member : config.members) robots.push_back(member.robot);
-    auto feed = TwinFeed::create(setup->world, setup->origin, robots, threads);
+    auto feed = TwinFeed::create(setup->world, setup->origin, robots, threads,
+                                 std::chrono::hours(options.first_session));
     if (!feed) return tl::unexpected(feed.error());
     twin = std::move(*setup);
     return std::unique_ptr<FleetFeed>(std::move(*feed));
@@ -176,8 +177,10 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "at most so many; no influence on the result")
       ->check(whole_number(1, 256));
   command
-      ->add_option("--first-session", options->first_session,
-                   "number of the robots' first session: another one for each run to be merged")
+      ->add_option(
+          "--first-session", options->first_session,
+          "number of the robots' first session, and hours by which the twin begins later: another one "
+          "for each run that is to be merged")
       ->check(whole_number(0, 60'000));
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);

@@ -15,10 +15,10 @@ constexpr Duration kTick = std::chrono::milliseconds(20);
 Result<std::unique_ptr<TwinFeed>> TwinFeed::create(std::shared_ptr<const sim::World> world,
                                                    const GeoPoint& origin,
                                                    const std::vector<sim::RobotTwinConfig>& robots,
-                                                   unsigned threads) {
+                                                   unsigned threads, Duration later) {
   auto scene = sim::Scene::create(world->mesh());
   if (!scene) return tl::unexpected(scene.error());
-  std::unique_ptr<TwinFeed> feed(new TwinFeed(std::move(*scene), origin, threads));
+  std::unique_ptr<TwinFeed> feed(new TwinFeed(std::move(*scene), origin, threads, later));
   for (const sim::RobotTwinConfig& config : robots) {
     auto twin = sim::RobotTwin::create(world, origin, config, feed->start_);
     if (!twin) return tl::unexpected(twin.error());

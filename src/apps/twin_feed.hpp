@@ -21,11 +21,12 @@ namespace fleetmap::apps {
 /// Robots of the digital twin, in virtual time: what they are commanded moves them, what they sense is given.
 class TwinFeed final : public FleetFeed {
  public:
-  /// `threads` cast rays beside the one that runs the events; they have no influence on what comes out.
+  /// `threads` cast rays beside the one that runs the events; they have no influence on what comes out. All
+  /// stamps are `later` than those of a first run: two runs at one time would share GPS's slow error.
   static Result<std::unique_ptr<TwinFeed>> create(std::shared_ptr<const sim::World> world,
                                                   const GeoPoint& origin,
                                                   const std::vector<sim::RobotTwinConfig>& robots,
-                                                  unsigned threads);
+                                                  unsigned threads, Duration later);
 
   Stamp start() const override { return start_; }
   std::optional<GeoPoint> origin() const override { return origin_; }
@@ -46,6 +47,7 @@ class TwinFeed final : public FleetFeed {
   const sim::RobotTwin& twin(std::size_t member) const { return robots_[member].twin; }
 
  private:
+  static constexpr Stamp kFirstStart{std::chrono::hours(24 * 365 * 50)};
   struct CastPart {
     std::vector<sensor::ScanPoint> points;
     double cpu_seconds = 0.0;
@@ -68,8 +70,8 @@ class TwinFeed final : public FleetFeed {
     bool on = true;
     Sweep sweep = {};  ///< of the scan under way
   };
-  TwinFeed(std::shared_ptr<const sim::Scene> scene, const GeoPoint& origin, unsigned threads)
-      : scene_(std::move(scene)), origin_(origin), pool_(threads) {}
+  TwinFeed(std::shared_ptr<const sim::Scene> scene, const GeoPoint& origin, unsigned threads, Duration later)
+      : scene_(std::move(scene)), origin_(origin), start_(kFirstStart + later), pool_(threads) {}
   void tick();
   void deliver_pending();
   void sense(std::size_t member);
@@ -78,7 +80,7 @@ class TwinFeed final : public FleetFeed {
 
   std::shared_ptr<const sim::Scene> scene_;
   GeoPoint origin_;
-  Stamp start_{std::chrono::hours(24 * 365 * 50)};
+  Stamp start_;
   std::vector<Robot> robots_;
   std::deque<Pending> pending_;
   bus::LocalNetwork* network_ = nullptr;
