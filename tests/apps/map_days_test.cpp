@@ -31,34 +31,31 @@ const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
 /// fence.
 class MapDays : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    twin_ = std::make_unique<testing::SmallTwin>();
-    drive("monday", 0.0, false, 0, {});
-    drive("tuesday", 0.0, false, 1000, {});
-    drive("changed", 0.2, true, 2000, {});
-    drive("elsewhere", 0.0, false, 3000,
-          {"--set", "site.origin=[39.02, -3.0, 600.0]", "--set", "max_time=30"});
-  }
-  static void TearDownTestSuite() { twin_.reset(); }
+  struct Day {
+    double missing_tables = 0.0;
+    bool fence = false;
+    int session = 0;
+    std::vector<std::string> more = {};
+  };
+  MapDays() { drive("monday", {}); }
 
-  static void drive(const std::string& day, double missing_tables, bool fence, int session,
-                    const std::vector<std::string>& more) {
-    twin_->write("world.yaml",
-                 "kind: solar_farm\nseed: 1\nsize: [50, 36]\nmargin: 8\nheadland: 6\nrow_pitch: 8\n"
-                 "table_length: 6\nroad_every: 0\ncabins: 1\ntrees: 8\nterrain_cell: 0.5\n"
-                 "terrain: {rolling_amplitude: 0.15, rolling_wavelength: 30}\n"
-                 "missing_tables: " +
-                     std::to_string(missing_tables) + "\nfence: {enabled: " + (fence ? "true" : "false") +
-                     "}\n");
-    fs::copy_file(twin_->path("world.yaml"), twin_->path(day + ".yaml"));
-    twin_->write_fleet("", {"robot: {seed: " + std::to_string(session + 7) + "}"});
-    std::vector<std::string> arguments{"--agents", "1", "--first-session", std::to_string(session)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto run = twin_->run(day, arguments);
-    ASSERT_EQ(run.exit_code, 0) << run.output;
+  void drive(const std::string& name, const Day& day) {
+    const std::string fence = day.fence ? "true" : "false";
+    twin_.write(
+        name + ".yaml",
+        "kind: solar_farm\nseed: 1\nsize: [50, 36]\nmargin: 8\nheadland: 6\nrow_pitch: 8\ntable_length: 6\n"
+        "road_every: 0\ncabins: 1\ntrees: 8\nterrain_cell: 0.5\n"
+        "terrain: {rolling_amplitude: 0.15, rolling_wavelength: 30}\nmissing_tables: " +
+            std::to_string(day.missing_tables) + "\nfence: {enabled: " + fence + "}\n");
+    fs::copy_file(twin_.path(name + ".yaml"), twin_.path("world.yaml"), fs::copy_options::overwrite_existing);
+    twin_.write_fleet("", {"robot: {seed: " + std::to_string(day.session + 7) + "}"});
+    std::vector<std::string> arguments{"--agents", "1", "--first-session", std::to_string(day.session)};
+    arguments.insert(arguments.end(), day.more.begin(), day.more.end());
+    const auto run = twin_.run(name, arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.output;
   }
 
-  static std::string store_of(const std::string& day) { return twin_->path(day + "/r1/store.db").string(); }
+  std::string store_of(const std::string& day) const { return twin_.path(day + "/r1/store.db").string(); }
 
   int map(const std::vector<std::string>& arguments) {
     std::vector<std::string> all{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "map"};
@@ -70,8 +67,8 @@ class MapDays : public ::testing::Test {
   }
 
   /// Mean over the nodes of a day of their place less the true one, m.
-  static Eigen::Vector2d error_of(const std::string& day, const std::map<NodeId, Pose>& T_enu_node) {
-    const auto truth = output::read_tum(twin_->path(day + "/r1/truth.tum")).value();
+  Eigen::Vector2d error_of(const std::string& day, const std::map<NodeId, Pose>& T_enu_node) const {
+    const auto truth = output::read_tum(twin_.path(day + "/r1/truth.tum")).value();
     const auto store = store::Store::open_read_only(store_of(day)).value();
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (const auto& [id, node] : store.nodes()) {
@@ -86,9 +83,9 @@ class MapDays : public ::testing::Test {
   }
 
   /// Surfaces of one day's world that the other one does not have.
-  static Points only_in(const std::string& day, const std::string& other) {
-    const auto surface = [](const std::string& name) {
-      const auto world = sim::build_world(config::load_world(twin_->path(name + ".yaml")).value()).value();
+  Points only_in(const std::string& day, const std::string& other) const {
+    const auto surface = [this](const std::string& name) {
+      const auto world = sim::build_world(config::load_world(twin_.path(name + ".yaml")).value()).value();
       return sim::ground_truth(*world, 100.0, 1, 5'000'000);
     };
     const cloud::KdTree tree(surface(other));
@@ -124,12 +121,13 @@ class MapDays : public ::testing::Test {
     return static_cast<double>(near) / static_cast<double>(of.size());
   }
 
-  static inline std::unique_ptr<testing::SmallTwin> twin_;
+  testing::SmallTwin twin_;
   std::string output_;
 };
 
-TEST_F(MapDays, MergedFitEachOtherThoughGpsDoesNot) {
-  const std::string merged = twin_->path("merged.db").string();
+TEST_F(MapDays, MergedFitEachOtherThoughGpsDoesNotAndNothingHasChanged) {
+  drive("tuesday", {.session = 1000});
+  const std::string merged = twin_.path("merged.db").string();
   ASSERT_EQ(map({"merge", store_of("monday"), store_of("tuesday"), "--out", merged}), 0) << output_;
   EXPECT_THAT(output_, AllOf(HasSubstr(": joined by "), Not(HasSubstr("NOT joined"))));
   const auto before = placed(store_of("monday")), after = placed(store_of("tuesday"));
@@ -146,17 +144,21 @@ TEST_F(MapDays, MergedFitEachOtherThoughGpsDoesNot) {
                                                               : ".ply";
     std::vector<std::string> arguments{what, merged};
     if (what != std::string("info"))
-      arguments.insert(arguments.end(), {"--out", twin_->path(what + format).string()});
+      arguments.insert(arguments.end(), {"--out", twin_.path(what + format).string()});
     EXPECT_EQ(map(arguments), 0) << what << output_;
   }
   const std::string hash = to_hex(file_hash(merged).value());
   ASSERT_EQ(map({"merge", store_of("monday"), store_of("tuesday"), "--out", merged}), 1);
   EXPECT_THAT(output_, HasSubstr("exists")) << "nothing is overwritten";
   EXPECT_EQ(to_hex(file_hash(merged).value()), hash);
+  ASSERT_EQ(map({"diff", store_of("monday"), store_of("tuesday")}), 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("\n0 changes: 0 appeared, 0 disappeared\n"));
 }
 
-TEST_F(MapDays, OfPlacesThatDoNotOverlapAreNotJoinedAndNotCompared) {
-  const fs::path merged = twin_->path("apart");
+TEST_F(MapDays, OfPlacesThatDoNotOverlapOrOfOneRunAreNotJoinedAndNotCompared) {
+  drive("elsewhere",
+        {.session = 3000, .more = {"--set", "site.origin=[39.02, -3.0, 600.0]", "--set", "max_time=30"}});
+  const fs::path merged = twin_.path("apart");
   ASSERT_EQ(map({"merge", store_of("monday"), store_of("elsewhere"), "--out", merged.string()}), 0)
       << output_;
   EXPECT_THAT(output_,
@@ -165,26 +167,19 @@ TEST_F(MapDays, OfPlacesThatDoNotOverlapAreNotJoinedAndNotCompared) {
   EXPECT_TRUE(fs::exists(merged / "store.db"));
   EXPECT_EQ(map({"diff", store_of("monday"), store_of("elsewhere")}), 1);
   EXPECT_THAT(output_, HasSubstr("cannot be aligned: they do not overlap"));
-}
-
-TEST_F(MapDays, OfOneRunTwiceShareTheirSessionAndAreNotCompared) {
   EXPECT_EQ(map({"diff", store_of("monday"), store_of("monday")}), 1);
   EXPECT_THAT(output_, HasSubstr("share an odometry session"));
 }
 
-TEST_F(MapDays, NothingChangedBetweenTwoDaysOfTheSameSite) {
-  ASSERT_EQ(map({"diff", store_of("monday"), store_of("tuesday")}), 0) << output_;
-  EXPECT_THAT(output_, HasSubstr("\n0 changes: 0 appeared, 0 disappeared\n"));
-}
-
 TEST_F(MapDays, TablesThatWentAndAFenceThatCameAreFound) {
-  const fs::path ply = twin_->path("changes.ply"), geojson = twin_->path("changes.geojson");
+  drive("changed", {.missing_tables = 0.2, .fence = true, .session = 2000});
+  const fs::path ply = twin_.path("changes.ply"), geojson = twin_.path("changes.geojson");
   ASSERT_EQ(map({"diff", store_of("monday"), store_of("changed"), "--ply", ply.string(), "--geojson",
                  geojson.string()}),
             0)
       << output_;
   // GPS has moved the map as a whole.
-  const std::string merged = twin_->path("with_changes.db").string();
+  const std::string merged = twin_.path("with_changes.db").string();
   ASSERT_EQ(map({"merge", store_of("monday"), store_of("changed"), "--out", merged}), 0) << output_;
   const Eigen::Vector2d moved = error_of("monday", placed(merged));
   const Points gone = moved_by(moved, only_in("monday", "changed"));
