@@ -152,9 +152,10 @@ int run_agent(const AgentOptions& options) {
   if ((*agent)->navigator() != nullptr) watchdog.emplace(**bus, stop_on_signals());
   std::optional<LivePublisher> live;
   if (*page) {
-    live.emplace(
-        **agent, **bus, (*page)->server(), who_may_join(config->dds.keys != nullptr),
-        [&bus](std::function<void()> work) { return (*bus)->post({"order of a viewer", std::move(work)}); });
+    live.emplace(**agent, **bus, (*page)->server(), who_may_join(config->dds.keys != nullptr),
+                 [&bus](std::function<void()> work) {
+                   return (*bus)->post({"order of a viewer", std::move(work)});
+                 });
   }
   run_until_done(**bus, **agent, *log, watchdog ? &*watchdog : nullptr, live ? &*live : nullptr,
                  options.exit_after_idle, stop_on_signals());
