@@ -75,7 +75,7 @@ TEST_F(AgentTest, MakesNodesOnItsWayAndOneOfTheRest) {
   EXPECT_EQ(nodes.size(), driven + 1);
   agent.freeze_rest();
   EXPECT_EQ(nodes.size(), driven + 1) << "nothing is left";
-  EXPECT_EQ(agent.scan_seconds().size(), agent.perception().odometry_counters().updates);
+  EXPECT_EQ(agent.scan_seconds().count(), agent.perception().odometry_counters().updates);
   EXPECT_GT(agent.work_seconds().odometry, 0.0);
 }
 

@@ -42,7 +42,7 @@ class MapComparisonTest : public ::testing::Test {
     for (const ObservedSubmap& submap : submaps) all.push_back(&submap);
     return all;
   }
-  const ChangeConfig config_;
+  const ChangeConfig config_{};
   const std::vector<ObservedSubmap> with_ = {view(-2, true), view(0, true), view(2, true)};
   const std::vector<ObservedSubmap> without_ = {view(-2, false), view(0, false), view(2, false)};
 };

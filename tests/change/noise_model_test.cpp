@@ -21,7 +21,7 @@ class NoiseModelTest : public ::testing::Test {
     return CellMap({&submap, &submap}, config_.cell_m);
   }
 
-  const ChangeConfig config_;
+  const ChangeConfig config_{};
   const ObservedSubmap here_ = plane({0.0f, 0.0f, 0.0f});
   const ObservedSubmap near_ = plane({0.0f, 0.0f, 0.05f});  // in the same cells
   const ObservedSubmap far_ = plane({0.0f, 0.0f, 0.5f});
