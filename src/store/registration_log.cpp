@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "database.hpp"
@@ -91,12 +92,16 @@ struct RegistrationLog::State {
   /// Drops the oldest until `room` (B) is free below the bound. To search all for the clouds that nobody uses
   /// any more takes long, so an eighth of the bound is freed at once.
   Status make_room(std::size_t room) {
+    std::optional<std::int64_t> before;
     for (std::uint64_t most = config.max_bytes;; most = config.max_bytes / 8 * 7) {
       const auto used = bytes_in_use();
       if (!used) return tl::unexpected(used.error());
       const auto left = db.integer("SELECT COUNT(*) FROM registration");
       if (!left) return tl::unexpected(left.error());
       if (*used + room <= most || *left == 0) return {};
+      if (before && *left >= *before)
+        return failure(file.string() + ": is damaged, its rows cannot be dropped; delete it");
+      before = *left;
       const std::string oldest = std::to_string(*left / 32 + 1);
       const Status dropped = db.execute(
           ("DELETE FROM registration WHERE id IN (SELECT id FROM registration ORDER BY id LIMIT " + oldest +
