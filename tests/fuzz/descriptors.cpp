@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const place::DescriptorMatch match = place::DescriptorQuery(*b).compare(*a);
   fuzz::require(match.similarity >= 0.0 && match.similarity <= 1.0, "a similarity beyond 0 to 1");
   fuzz::require(match.translation.allFinite(), "a translation that is not finite");
-  fuzz::require(match.overlap <= std::min(a->observed(), b->observed()),
-                "more cells overlap than are observed");
+  // A cell of b may lie in two of the turned grid.
+  fuzz::require(match.overlap <= a->observed(), "more cells overlap than are observed");
   return 0;
 }
