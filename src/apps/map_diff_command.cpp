@@ -1,6 +1,4 @@
 // `fleetmap map diff`: what changed on a site between two days.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iomanip>
@@ -8,12 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
 #include "fleetmap/change/change_files.hpp"
 #include "fleetmap/core/whole_file.hpp"
+#include "fleetmap/core/work_folder.hpp"
 #include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_parts.hpp"
 #include "fleetmap/output/placed_store.hpp"
@@ -30,24 +28,6 @@ namespace fs = std::filesystem;
 struct DiffOptions {
   std::string before, after;
   std::string geojson, ply;
-};
-
-/// A folder that goes with the object.
-class WorkFolder {
- public:
-  WorkFolder() : path_(fs::temp_directory_path() / ("fleetmap-diff-" + std::to_string(::getpid()))) {
-    fs::create_directories(path_);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  ~WorkFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  fs::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  fs::path path_;
 };
 
 /// The submaps of the nodes of `day` that `other` does not have, as placed.
@@ -87,8 +67,8 @@ struct Compared {
 };
 
 Result<Compared> compare(const DiffOptions& options) {
-  const WorkFolder folder;
-  const fs::path file = folder / "merged.db";
+  const WorkFolder folder("fleetmap_diff");
+  const fs::path file = folder.path() / "merged.db";
   const auto merged = merge_stores({options.before, options.after}, file, std::nullopt);
   if (!merged) return tl::unexpected(merged.error());
   const DayPair& pair = merged->pairs.front();
