@@ -51,6 +51,14 @@ void print_progress(const agent::Agent& agent, const bus::Bus& bus) {
       spdlog::warn("{}: row {} is abandoned: {}", agent.config().id.str(), row.row,
                    row.why.empty() ? "other robots gave it up" : row.why);
     }
+    // Nodes arrive after the reports, so while rows are driven some always lack them.
+    if (navigator->done()) {
+      for (const auto& row : mission.unconfirmed) {
+        spdlog::warn(
+            "{}: {} says that it drove row {}, but no nodes lie along it: look whether the map has it",
+            agent.config().id.str(), row.by.str(), row.row);
+      }
+    }
   }
   spdlog::info("{}: {} scans, {} nodes, {} alignments, {} of {} submaps, last sensor {:.1f} s ago",
                agent.config().id.str(), agent.perception().counters().scans, store.nodes().size(),

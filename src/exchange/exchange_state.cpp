@@ -55,8 +55,11 @@ bool Exchange::State::admit(const Message& message, Reach link, Stamp now) {
 
 void Exchange::State::on_message(const Message& message, const Delivery& delivery, Stamp now) {
   const auto name = sender_of(message);
-  if (name && delivery.from && *delivery.from != *name)
+  if (name && delivery.from && *delivery.from != *name) {
     report_misbehaviour(*name, delivery, SenderMisbehaved::Kind::kForeignName);
+    // Without keys the link's sender is as easily forged as the message's, and the message may be genuine.
+    if (items.verifier().has_keys()) return;
+  }
   if (!admit(message, delivery.link, now)) return;
   const auto before = refused();
   std::visit([&](const auto& m) { handle(m, delivery, now); }, message);

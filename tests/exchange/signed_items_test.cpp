@@ -201,6 +201,25 @@ TEST_F(SignedItems, an_item_of_the_running_session_that_another_machine_signed_i
   EXPECT_TRUE(events<ItemConflict>(fleet_.robot("r1"))[0].signed_twice);
 }
 
+TEST_F(SignedItems, a_message_in_the_name_of_another_member_is_told_of_and_has_no_effect) {
+  auto& r1 = fleet_.robot("r1");
+  const auto before = r1.exchange->statuses().at(agent("r2"));
+  messages::AgentStatus status = before;
+  status.nodes = 500;
+  status.stamp += std::chrono::seconds(1);
+  messages::MissionReport report;
+  report.from = agent("r2");
+  fleet_.forge("r1", status, agent("r3"));
+  fleet_.forge("r1", report, agent("r3"));
+  fleet_.forge("r1", messages::Digest{agent("r2"), {{agent("r2"), 9, 500}}, {}}, agent("r3"));
+  EXPECT_EQ(r1.exchange->statuses().at(agent("r2")).nodes, before.nodes);
+  EXPECT_TRUE(events<MissionHeard>(r1).empty());
+  EXPECT_TRUE(r1.exchange->complete()) << "nothing is waited for";
+  EXPECT_EQ(r1.exchange->stats().misbehaved.at(agent("r3")), 3u);
+  fleet_.forge("r1", status, agent("r2"));
+  EXPECT_EQ(r1.exchange->statuses().at(agent("r2")).nodes, 500u) << "so the link's sender decided";
+}
+
 TEST_F(SignedItems, items_of_a_maker_whose_certificate_is_to_come_are_asked_for_again) {
   fleet_.kill("r3");
   fleet_.lose_store("r3");

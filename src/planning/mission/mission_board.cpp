@@ -54,30 +54,41 @@ void MissionBoard::hear(const MissionReport& report, Stamp now) {
     peer.last = std::move(sound);
     peer.heard = now;
   }
-  resolve_done();
+  resolve_done(now);
 }
 
 void MissionBoard::set_done(std::size_t row) {
   driven_.set(row);
-  resolve_done();
+  done_.set(row);
 }
 
-void MissionBoard::set_surveyed(const RowSet& rows) {
-  if (rows == surveyed_) return;
+void MissionBoard::set_surveyed(const RowSet& rows, Stamp now) {
   surveyed_ = RowSet(this->rows(), rows.bytes());
-  resolve_done();
+  resolve_done(now);
 }
 
-void MissionBoard::resolve_done() {
+void MissionBoard::resolve_done(Stamp now) {
   done_ = reported_;
   done_ &= surveyed_;
   done_ |= driven_;
   for (std::size_t robot = 0; robot < peers_.size(); ++robot) {
-    if (!peers_[robot].last) continue;
+    if (!peers_[robot].last || lost(robot, now)) continue;
     RowSet own = peers_[robot].last->done;
     own &= planned_[robot];
     done_ |= own;
   }
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> MissionBoard::unconfirmed() const {
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  if (surveyed_.none()) return found;
+  for (std::size_t robot = 0; robot < robots(); ++robot) {
+    for (std::size_t row = 0; row < rows(); ++row) {
+      if (!planned_[robot].has(row) || !done_.has(row) || surveyed_.has(row) || driven_.has(row)) continue;
+      found.emplace_back(row, robot);
+    }
+  }
+  return found;
 }
 
 const MissionReport* MissionBoard::report_of(std::size_t robot) const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fleetmap/messages/mission_report.hpp"
@@ -25,14 +26,17 @@ class MissionBoard {
   void set_own(const MissionReport& report) { own_ = report; }
   void set_done(std::size_t row);
   /// Rows along which the fleet's nodes lie.
-  void set_surveyed(const RowSet& rows);
+  void set_surveyed(const RowSet& rows, Stamp now);
 
   std::size_t rows() const { return plan_->mission.rows.size(); }
   std::size_t robots() const { return plan_->fleet.size(); }
-  /// A row counts as driven if this robot drove it, if the last report of the robot that the plan gives it to
-  /// says so, or if any report said so and nodes lie along it. So a forged report lasts until the next one of
-  /// that robot, and nobody repeats for good what it says.
+  /// A row counts as driven if this robot drove it, if the robot that the plan gives it to says so in its
+  /// last report and is not lost, or if any report said so and nodes lie along it. So a forged report lasts
+  /// until the next one of that robot or until the robot is lost, and nobody repeats for good what it says.
   const RowSet& done() const { return done_; }
+  /// Rows that count as driven, but along which no nodes lie, and the robot that says that it drove them.
+  /// None as long as no row at all has nodes along it, as where nobody knows its place.
+  std::vector<std::pair<std::size_t, std::size_t>> unconfirmed() const;
   /// Heard of lately (or not yet missed), and able to take rows.
   bool available(std::size_t robot, Stamp now) const;
   bool lost(std::size_t robot, Stamp now) const;
@@ -71,7 +75,7 @@ class MissionBoard {
     std::optional<MissionReport> last;
     Stamp heard;
   };
-  void resolve_done();
+  void resolve_done(Stamp now);
 
   std::shared_ptr<const FleetPlan> plan_;
   std::size_t self_;

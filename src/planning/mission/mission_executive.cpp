@@ -35,7 +35,7 @@ MissionAction MissionExecutive::update(const MissionInput& input) {
     return {MissionAction::Kind::kHold, {}, s.path_number};
   }
   if (!s.begun) s.begin(input);
-  s.board.set_surveyed(input.surveyed);
+  s.board.set_surveyed(input.surveyed, input.now);
   s.follow_up(input);
   s.check_battery(input);
   s.update_claims(input.now);
@@ -77,6 +77,8 @@ MissionExecutive::Status MissionExecutive::status() const {
     if (!s.board.abandoned(row, now) && s.state != MissionState::kDone) continue;
     status.abandoned.push_back({s.plan->mission.rows[row].id, s.attempts.reason(row)});
   }
+  for (const auto& [row, robot] : s.board.unconfirmed())
+    status.unconfirmed.push_back({s.plan->mission.rows[row].id, s.plan->fleet[robot].id});
   for (std::size_t robot = 0; robot < s.board.robots(); ++robot) {
     if (robot == s.self) continue;
     if (s.board.lost(robot, now)) status.lost.push_back(s.plan->fleet[robot].id);

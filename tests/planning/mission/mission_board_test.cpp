@@ -53,8 +53,28 @@ TEST_F(MissionBoardTest, HearsayCountsOnlyWhereNodesLie) {
   EXPECT_FALSE(board_.done().has(row_of(2)));
   RowSet surveyed(rows());
   surveyed.set(row_of(2));
-  board_.set_surveyed(surveyed);
+  board_.set_surveyed(surveyed, at(1.0));
   EXPECT_TRUE(board_.done().has(row_of(2)));
+}
+
+TEST_F(MissionBoardTest, TheLastReportOfALostRobotCountsOnlyWhereNodesLie) {
+  MissionReport forged = report(0, 1.0);
+  forged.done.set(row_of(0, 0));
+  forged.done.set(row_of(0, 1));
+  board_.hear(forged, at(1.0));
+  RowSet surveyed(rows());
+  surveyed.set(row_of(0, 1));
+  const double lost_after = plan_->config.executive.lost_after;
+  board_.set_surveyed(surveyed, at(1.0 + lost_after));
+  EXPECT_TRUE(board_.done().has(row_of(0, 0)));
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  EXPECT_EQ(board_.unconfirmed(), (Pairs{{row_of(0, 0), 0}}));
+  board_.set_surveyed(surveyed, at(2.0 + lost_after));
+  EXPECT_FALSE(board_.done().has(row_of(0, 0)));
+  EXPECT_TRUE(board_.done().has(row_of(0, 1)));
+  EXPECT_EQ(board_.unconfirmed(), Pairs{});
+  const auto orphans = board_.orphans(at(2.0 + lost_after));
+  EXPECT_NE(std::ranges::find(orphans, row_of(0, 0)), orphans.end()) << "somebody else drives it";
 }
 
 TEST_F(MissionBoardTest, ReportsThatAreOwnUnknownOldOrBrokenAreIgnored) {

@@ -52,9 +52,9 @@ struct MissionAction {
 
 /// One robot's part in a mission that nobody leads. All start from the same division; from then on each robot
 /// acts on its own knowledge and what it heard:
-/// - a row is driven if the robot that the plan gives it to says so, or if anyone does and the fleet's nodes
-/// lie along it;
-///   what is known is passed on in every report;
+/// - a row is driven if the robot that the plan gives it to says so and is not lost, or if anyone does and
+/// the
+///   fleet's nodes lie along it; what is known is passed on in every report;
 /// - a row that two claim stays with the one that is under way on it, else with the lower name;
 /// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
 /// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
@@ -87,12 +87,18 @@ class MissionExecutive {
     RowId row = 0;
     std::string why;  ///< this robot gave it up; empty: only others did, or no robot is left to drive it
   };
+  struct Unconfirmed {
+    RowId row = 0;
+    AgentId by;
+  };
   struct Status {
     MissionState state = MissionState::kDriving;
     std::size_t rows = 0;
     std::size_t done = 0;              ///< by anyone, as far as is known
     std::size_t mine = 0;              ///< still claimed by this robot
     std::vector<Abandoned> abandoned;  ///< rows that are not driven any more
+    /// Rows that a robot says it drove, but along which no nodes lie.
+    std::vector<Unconfirmed> unconfirmed;
     std::vector<AgentId> lost;
     std::vector<AgentId> expected;  ///< others who are to come to the meeting
     std::uint64_t replans = 0;      ///< rows taken over or given away
