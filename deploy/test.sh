@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test through ctest: first what needs the program as it is shipped
 # (release build: fleets, and the drives whose accuracy is measured), then the unit tests under AddressSanitizer and
-# UndefinedBehaviorSanitizer, then those of core, bus, monitor and agent, where threads meet, under ThreadSanitizer.
+# UndefinedBehaviorSanitizer, then those of core, bus and monitor, where threads meet, under ThreadSanitizer.
 #   deploy/test.sh            all of these
 #   deploy/test.sh release    all tests and benchmarks in the release build; shipped, asan or tsan: one of the three parts
 set -euo pipefail
