@@ -51,7 +51,7 @@ for (const Camera of [OrthographicCamera, PerspectiveCamera]) {
   assert.deepEqual(covered(picture(above(Camera))), [[47, 39], [48, 39], [47, 40], [48, 40]].map(([x, y]) => kSize * y + x));
 }
 
-// Of two points at one pixel the nearer is seen, whichever comes first; depths are WebGL's.
+// The nearer of two points at one pixel is drawn, whichever comes first; depths are WebGL's.
 for (const order of [0, 1]) {
   const both = [{points: [[0, 0, 2]], colour: '#00ff00'}, {points: [[0, 0, -2]], colour: '#0000ff'}];
   const picture = mapOf(...(order ? both : both.reverse())).picture();
@@ -81,6 +81,6 @@ assert.deepEqual(covered(moved.picture()), first.map((k) => k - 8));
 assert.deepEqual(moved.pool.values, before);
 assert.ok(moved.submaps[0].point(0, new Vector3()).distanceTo(new Vector3(1, 1, 0)) < 1e-3);
 
-// What is behind the eye, or beside the picture, is not drawn.
+// Points behind the eye or beside the picture are not drawn.
 const beside = mapOf({points: [[7, 7, 0], [-7.9, 0, 0], [0, 0, 3]], at: [0, 0, 8]});
 assert.equal(covered(beside.picture(above(PerspectiveCamera))).length, 0);

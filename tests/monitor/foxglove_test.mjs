@@ -84,7 +84,7 @@ async function submapOf(url, hash) {
   return {count, point: (k) => centre.map((c, axis) => c + scale * steps[4 * k + axis]), intensity: (k) => steps[4 * k + 3]};
 }
 
-/** What the map should hold, by the page's data. */
+/** The expected points of the map, by the page's data. */
 async function expectedMap(url, state) {
   const sequence = (id) => Number(id.split('/')[1]), session = (id) => Number(id.match(/#(\d+)/)?.[1] ?? 0);
   const placed = state.nodes.filter((node) => node.T && node.submap);

@@ -44,7 +44,7 @@ for (const k of [0, 99, 100, 255, 256, 400, 999]) {
 submap.add(parsePart(buffer(encoded(500, 10, 5000))));  // an answer that was overtaken
 assert.equal(submap.loaded, 1000);
 
-// What is given back is used again; what is kept is unharmed.
+// Blocks that are freed are used again; those that are kept stay as they are.
 submap.trim(300);
 assert.equal(submap.loaded, 512);
 assert.equal(pool.used, 2);

@@ -17,7 +17,7 @@ export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected
 
 export type Hit = {node: string} | {edge: Edge};
 
-/** What the map tells of itself after each picture. */
+/** State of the map after each picture. */
 export interface Picture {
   drawn: number;
   total: number;
@@ -228,7 +228,7 @@ export class FleetMap {
     this.aim_(this.control_.target.clone(), (this.metresPerPixel() * this.canvas.clientHeight) / factor);
   }
 
-  /** Of a pixel at what is looked at. */
+  /** Size of a pixel at the target of the view. */
   metresPerPixel(): number {
     const height = Math.max(1, this.canvas.clientHeight);
     if (this.planar) return (this.plan.top - this.plan.bottom) / this.plan.zoom / height;
