@@ -100,8 +100,8 @@ void print(const Compared& compared) {
             << " m, each of them to itself to " << found.noise_m << " m\n"
             << std::setprecision(0) << 100.0 * static_cast<double>(found.compared) / whole
             << " % of the surfaces can be compared; of the others one day saw nothing\n"
-            << std::setprecision(2) << "surfaces count as different from " << found.least_m
-            << " m on (median), changes from " << found.least_cells << " cells on\n";
+            << std::setprecision(2) << "surfaces count as different from " << found.min_distance_m
+            << " m on (median), changes from " << found.min_cells << " cells on\n";
   const auto count = [&](change::Kind kind) {
     return std::ranges::count(found.changes, kind, &change::Change::kind);
   };

@@ -154,8 +154,8 @@ bool SensorHealth::correct_rate(Imu& imu) {
 
 bool SensorHealth::check(Wheel& wheel) {
   const std::optional<Wheel> before = std::exchange(last_wheel_, wheel);
-  const bool stands = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
-  if (!stands || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
+  const bool is_stationary = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
+  if (!is_stationary || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
   const Duration step = wheel.stamp - before->stamp;
   if (step <= Duration::zero() || step > kLongStep) return true;
   const Pose T_before_now = before->T_odom_base->inverse() * *wheel.T_odom_base;
