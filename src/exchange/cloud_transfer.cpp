@@ -167,7 +167,7 @@ CloudReceiver::Due CloudReceiver::tick(Stamp now) {
     if (now < it->second.deadline) {
       ++it;
     } else if (it->second.tries >= config_.max_tries || it->second.restarts > kMaxRestarts) {
-      ++stats_.given_up;
+      ++stats_.abandoned;
       due.abandoned.push_back(it->first);
       it = waiting_.erase(it);
     } else {

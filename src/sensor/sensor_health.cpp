@@ -78,8 +78,8 @@ bool SensorHealth::refuse() {
 }
 
 std::vector<std::string> SensorHealth::take_warnings() {
-  std::vector<std::string> news(findings_.begin() + static_cast<std::ptrdiff_t>(told_), findings_.end());
-  told_ = findings_.size();
+  std::vector<std::string> news(findings_.begin() + static_cast<std::ptrdiff_t>(reported_), findings_.end());
+  reported_ = findings_.size();
   return news;
 }
 

@@ -148,7 +148,7 @@ TEST(CloudTransfer, gives_up_on_a_silent_or_lying_sender_and_counts_it) {
   }
   EXPECT_EQ(abandoned, std::vector<NodeId>{kNode});
   EXPECT_EQ(receiver.stats().bad_hash, 3u);
-  EXPECT_EQ(receiver.stats().given_up, 2u);
+  EXPECT_EQ(receiver.stats().abandoned, 2u);
 }
 
 TEST(CloudTransfer, bounds_what_it_keeps_and_what_it_takes_on) {
