@@ -72,7 +72,7 @@ pids=()
 [ "$failed" -eq 0 ] || { echo "a process failed:" >&2; tail -n 3 "$out"/*.log >&2; exit 1; }
 "$fleetmap" eval "$out"
 
-# What each robot says last of the mission, and what its store holds.
+# Each robot's last line on the mission, and the content of its store.
 good=1
 echo
 for robot in "${robots[@]}"; do

@@ -27,7 +27,7 @@ trap 'rm -rf "$log" "$TMPDIR"' EXIT
 # Fast DDS deletes an object through a base without a virtual destructor; the programs of tests allow it as well.
 export ASAN_OPTIONS=new_delete_type_mismatch=0:detect_leaks=${FUZZ_LEAKS:-1}:${ASAN_OPTIONS:-}
 
-most_bytes=12288 most_files=24
+max_bytes=12288 max_files=24
 # Adds inputs of folder $1, of small to medium size, to folder $2 until it is full.
 keep_some() {
   local bytes files size file
@@ -35,11 +35,11 @@ keep_some() {
   files=$(find "$2" -type f | wc -l)
   while read -r size file; do
     [ ! -e "$2/$(basename "$file")" ] || continue
-    [ $((bytes + size)) -le "$most_bytes" ] && [ "$files" -lt "$most_files" ] || break
+    [ $((bytes + size)) -le "$max_bytes" ] && [ "$files" -lt "$max_files" ] || break
     cp "$file" "$2/"
     bytes=$((bytes + size)) files=$((files + 1))
   done < <(find "$1" -type f -size -2k -printf '%s %p\n' | sort -n |
-             awk -v most="$most_files" '{line[NR] = $0} END {for (k = 1; k <= NR; k += 1 + int(NR / most)) print line[k]}')
+             awk -v max="$max_files" '{line[NR] = $0} END {for (k = 1; k <= NR; k += 1 + int(NR / max)) print line[k]}')
 }
 
 failed=()

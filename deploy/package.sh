@@ -2,7 +2,7 @@
 # Makes build/release/fleetmap_VERSION_ARCH.deb from a release build.
 #   deploy/package.sh
 #   deploy/package.sh --test    also installs it into a clean Debian 12 (debootstrap, root), runs a fleet there, and has
-#                               systemd judge the service
+#                               systemd check the service
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -44,7 +44,7 @@ if command -v man > /dev/null; then  # by that of this machine
   [ ! -s "$debian/tmp/page.errors" ] || { cat "$debian/tmp/page.errors"; exit 1; }
 fi
 in_debian test -s /tmp/out/r1/map.ply -a -s /tmp/o.tum
-# systemd itself is not among the dependencies, so the service is judged by that of this machine.
+# systemd itself is not among the dependencies, so the service is checked by that of this machine.
 service=$debian/tmp/fleetmap-agent@r1.service
 sed "s#/usr/bin/fleetmap#$root/build/release/bin/fleetmap#" "$debian/usr/lib/systemd/system/fleetmap-agent@.service" > "$service"
 systemd-analyze verify --man=no "$service"

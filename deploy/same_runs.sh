@@ -20,7 +20,7 @@ paper           -c config/fleets/farm_small.yaml --agents 2 --set max_time=60 --
 without_imu     -c config/fleets/farm_small.yaml --agents 2 --set max_time=60 --set odometry.use_imu=false --set network.long_range.loss=0.2
 RUNS
 }
-# What a run left, a hash and a name a line, but for reports and registrations.csv, which hold times.
+# Hash and name of each file that a run left, but for reports and registrations.csv, which hold times.
 hashes() { # PROGRAM FOLDER
   local robot
   (cd "$2" && find . -type f \( -name '*.ply' -o -name '*.pcd' -o -name '*.tum' -o -name '*.csv' \) ! -name registrations.csv -print0 |

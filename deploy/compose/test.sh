@@ -132,7 +132,7 @@ flood() { # medium, NET, KBIT
   got=$(($(field r2 kbit_s) + $(field r4 kbit_s)))
   check "$1, $((2 * $3)) kbit/s offered by two pairs: $(field r2 kbit_s) + $(field r4 kbit_s) kbit/s arrive" \
     "got <= $3 * 102 / 100 && got >= $3 * 80 / 100"
-  # What robots receive besides is ARP, and IPv6 multicast of the devices that were just made.
+  # Robots also receive ARP, and IPv6 multicast of the devices that were just made.
   check "$1: $queued bytes left its queue, $received reached the robots" \
     "received <= queued * 101 / 100 + 8000 && received >= queued * 98 / 100"
 }

@@ -102,7 +102,7 @@ need_recordings() {
 # ---- what is waited for
 
 says() { grep -cE "$2" "$out/r$1.log" 2>/dev/null || true; } # robot number, pattern
-# How many others a robot knows by the radio since its log was begun anew: it heard them, or another introduced them.
+# Number of others that a robot knows by the radio since its log was begun anew: it heard them, or another introduced them.
 knows() { # robot number
   { grep -oE 'long_range: (heard|knows) r[0-9]+' "$out/r$1.log" 2>/dev/null || true; } | awk '{print $3}' | sort -u | wc -l
 }
@@ -406,7 +406,7 @@ sent_to_hub() { # bytes, of all robots
 
 # ---- mapping: recordings are replayed in real time, and all must end by themselves with the same whole map
 
-# What all stores hold, a line for each different content: how many, nodes, alignments, submaps.
+# Content of all stores, a line for each different one: number of stores, nodes, alignments, submaps.
 holdings() {
   local i
   for ((i = 1; i <= agents; ++i)); do
@@ -513,7 +513,7 @@ scenario_lidar_clock() { # one robot's LiDAR is 2 s behind its other sensors, an
   map_verdict
 }
 
-# What `fleetmap trial` measures: field.json, and no verdict on how good it is.
+# The measurements of `fleetmap trial`: field.json, and no verdict on how good it is.
 scenario_trial() { # the robots get to know each other, then map; all that has come of it goes into field.json
   local known ended held i
   need_recordings

@@ -28,7 +28,7 @@ bool moves_submaps(const messages::Message& message) {
 }
 
 /// Requests. The recipient may be gone, so repeating them is no progress.
-bool asks(const messages::Message& message) {
+bool is_request(const messages::Message& message) {
   return std::holds_alternative<messages::CloudRequest>(message) ||
          std::holds_alternative<messages::ProximityMatch>(message) ||
          std::holds_alternative<messages::ItemRequest>(message) ||
@@ -53,7 +53,7 @@ void FleetLink::tick() {
     exchange_.on_discovery(discovery_bytes - discovery_bytes_, bus_.now());
   discovery_bytes_ = discovery_bytes;
   for (const messages::Outgoing& outgoing : exchange_.tick(bus_.now())) {
-    if (!asks(outgoing.message)) {
+    if (!is_request(outgoing.message)) {
       if (moves_items(outgoing.message)) counters_.last_useful = bus_.now();
       if (moves_submaps(outgoing.message)) counters_.last_submap = bus_.now();
     }

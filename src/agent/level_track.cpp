@@ -80,7 +80,7 @@ GlobalPose levelled(const GlobalPose& G, const Eigen::Vector3d& up_in_base,
                     const std::optional<double>& variance) {
   const Eigen::Vector3d up = G.q_enu_base.conjugate() * Eigen::Vector3d::UnitZ();
   GlobalPose turned = G;
-  turned.q_enu_base = (G.q_enu_base * least_rotation(up_in_base, up)).normalized();
+  turned.q_enu_base = (G.q_enu_base * minimal_rotation(up_in_base, up)).normalized();
   if (variance) {
     turned.covariance.middleRows<2>(3).setZero();
     turned.covariance.middleCols<2>(3).setZero();

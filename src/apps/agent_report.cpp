@@ -26,7 +26,7 @@ json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::Loo
           {"candidates_by_transform", loops.by_transform},
           {"candidates_requested", loops.requested},
           {"clouds_received", stats.cloud_receiver.received},
-          {"clouds_given_up", stats.cloud_receiver.given_up},
+          {"clouds_abandoned", stats.cloud_receiver.abandoned},
           {"cloud_requests", stats.cloud_receiver.requests},
           {"submaps_received", stats.submap_receiver.submaps},
           {"submap_chunks_received", stats.submap_receiver.chunks},

@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
 #include "fleetmap/config/robot_file.hpp"
-#include "fleetmap/ros_codec/point_cloud2.hpp"
-#include "fleetmap/ros_codec/samples.hpp"
 #include "live_bus.hpp"
 #include "live_devices.hpp"
 #include "machine_check.hpp"
 #include "options.hpp"
-#include "sample_check.hpp"
-#include "sample_player.hpp"
-#include "stream_summary.hpp"
+#include "sensor_listener.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -28,51 +23,6 @@ struct DoctorOptions {
   std::string config;
   double seconds = 30.0;
   std::vector<std::string> set;
-};
-
-/// Hears all sensors of a robot.
-class Listener {
- public:
-  Listener(const agent::PerceptionConfig& config, bus::DdsBus& bus)
-      : bus_(bus), check_({}, config.odometry.T_base_lidar) {
-    const std::vector<bus::Topic> topics = sensor_topics(config.topics);
-    subscriptions_.push_back(bus.subscribe(topics[0], [this, name = topics[0].name](const Bytes& cdr) {
-      add(ros_codec::decode<sensor::Scan>(cdr), name);
-    }));
-    listen<sensor::Imu>(topics[1]);
-    listen<sensor::Fix>(topics[2]);
-    listen<sensor::Wheel>(topics[3]);
-  }
-  const StreamSummary& streams() const { return streams_; }
-  std::vector<std::string> findings() {
-    std::vector<std::string> all = check_.take_warnings();
-    for (const auto& [what, count] : refused_)
-      all.push_back(what + " (" + std::to_string(count) + " messages)");
-    return all;
-  }
-
- private:
-  template <class T>
-  void listen(const bus::Topic& topic) {
-    subscriptions_.push_back(bus_.subscribe(
-        topic, [this, name = topic.name](const Bytes& cdr) { add(ros_codec::decode<T>(cdr), name); }));
-  }
-  template <class T>
-  void add(Result<T> decoded, const std::string& topic) {
-    if (!decoded) {
-      ++refused_[topic + ": " + decoded.error().message];
-      return;
-    }
-    recording::Sample sample(std::move(*decoded));
-    streams_.add(sample);
-    check_.admit(sample, bus_.now());
-  }
-
-  bus::DdsBus& bus_;
-  SampleCheck check_;
-  StreamSummary streams_;
-  std::map<std::string, std::size_t> refused_;  ///< by reason
-  std::vector<bus::Handle> subscriptions_;
 };
 
 int examine(const DoctorOptions& options) {
@@ -85,7 +35,7 @@ int examine(const DoctorOptions& options) {
   dds.agent = free_name("doctor", robot->agent.exchange.fleet);
   auto bus = join_dds(dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
-  Listener listener(robot->agent.perception, **bus);
+  SensorListener listener(robot->agent.perception, **bus);
   // Its agent receives there if it runs, and publishes the scans.
   const auto lidar = publish_velodyne(robot->agent.perception, **bus);
   if (!lidar) spdlog::info("{}", lidar.error().message);

@@ -1,11 +1,9 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <atomic>
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -13,9 +11,8 @@
 
 #include "commands.hpp"
 #include "fleetmap/core/cpu_time.hpp"
-#include "fleetmap/core/thread_pool.hpp"
 #include "fleetmap/fault_injection/failure_report.hpp"
-#include "fleetmap/fault_injection/fleet_run.hpp"
+#include "fleetmap/fault_injection/seed_search.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -58,29 +55,6 @@ int replay(const Scenario& scenario, const FuzzOptions& options, RunConfig confi
   return outcome.violations.empty() ? kDone : kFailed;
 }
 
-/// Sums over all seeds.
-struct Totals {
-  std::mutex mutex;  ///< guards all below, and standard output
-  std::size_t failed = 0;
-  double longest = 0.0;  ///< s until convergence
-  double max_bytes_per_second = 0.0;
-  std::size_t nodes = 0, packets = 0;
-};
-
-void try_seed(const Scenario& scenario, const RunConfig& config, bool shrinks, Totals& totals) {
-  const Outcome outcome = run(scenario, config);
-  const std::string failure =
-      outcome.violations.empty() ? std::string() : failure_report(scenario, outcome, config, shrinks);
-  const std::lock_guard lock(totals.mutex);
-  totals.longest = std::max(totals.longest, to_seconds(outcome.converged_after));
-  totals.max_bytes_per_second = std::max(totals.max_bytes_per_second, outcome.max_bytes_per_second);
-  totals.nodes += outcome.nodes;
-  totals.packets += outcome.packets;
-  if (failure.empty()) return;
-  ++totals.failed;
-  std::cout << failure << std::flush;
-}
-
 int fuzz(const FuzzOptions& options) {
   const auto kinds = parse_fault_kinds(options.faults);
   if (!kinds) return report(kinds.error(), kUsage);
@@ -97,17 +71,12 @@ int fuzz(const FuzzOptions& options) {
     config.max_robots = *std::ranges::max_element(options.robots);
   }
   if (options.replay) return replay(make_scenario(*options.replay, config), options, run_config);
-  Totals totals;
-  {
-    ThreadPool threads(options.jobs);
-    for (std::uint64_t seed = options.from; seed < options.from + options.seeds; ++seed) {
-      threads.run(
-          [&, seed] { try_seed(make_scenario(seed, config), run_config, !options.no_shrink, totals); });
-    }
-  }
+  const SeedTotals totals =
+      try_seeds({options.from, options.seeds, options.jobs, !options.no_shrink}, config, run_config,
+                [](const std::string& failure) { std::cout << failure << std::flush; });
   std::cout << std::fixed << std::setprecision(1) << options.seeds << " seeds, " << totals.failed
             << " failed; " << totals.nodes << " nodes, " << totals.packets
-            << " packets; the slowest converged after " << totals.longest << " s, the busiest second had "
+            << " packets; the slowest converged after " << totals.longest_s << " s, the busiest second had "
             << totals.max_bytes_per_second << " B; CPU " << process_cpu_seconds() << " s\n";
   return totals.failed == 0 ? kDone : kFailed;
 }

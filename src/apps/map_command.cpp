@@ -1,10 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,20 +9,10 @@
 
 #include "commands.hpp"
 #include "fleetmap/core/text_list.hpp"
-#include "fleetmap/core/whole_file.hpp"
-#include "fleetmap/graph/contradictions.hpp"
-#include "fleetmap/graph/frame_name.hpp"
-#include "fleetmap/output/graph_file.hpp"
-#include "fleetmap/output/map_comments.hpp"
 #include "fleetmap/output/map_crs.hpp"
-#include "fleetmap/output/map_files.hpp"
-#include "fleetmap/output/map_parts.hpp"
-#include "fleetmap/output/map_recipe.hpp"
-#include "fleetmap/output/results.hpp"
-#include "fleetmap/output/track_files.hpp"
-#include "fleetmap/run_evaluation/map_pictures.hpp"
-#include "fleetmap/store/thinned_map.hpp"
 #include "las_export.hpp"
+#include "map_exports.hpp"
+#include "map_info.hpp"
 #include "map_subcommands.hpp"
 #include "options.hpp"
 #include "store_summary.hpp"
@@ -69,24 +56,13 @@ int info(const MapOptions& options) {
   if (options.json) return info_json(options);
   const auto map = open(options);
   if (!map) return report(map.error(), kFailed);
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const auto submaps = std::ranges::count_if(
-      map->items.nodes, [&](const graph::Node& node) { return map->store.has_submap(node.id); });
-  std::cout << "store of " << map->store.self().str() << '\n'
-            << "nodes " << map->items.nodes.size() << ", submaps held " << submaps << ", alignments "
-            << map->items.alignments.size() << " (" << map->placement.used.size() << " used)\n"
-            << std::setprecision(10) << "origin " << map->recipe.origin.latitude / kDegree << ", "
-            << map->recipe.origin.longitude / kDegree << " deg, " << map->recipe.origin.altitude << " m\n";
-  for (const auto& component : map->placement.components) {
-    std::cout << "aligned together:";
-    for (const graph::FrameId& frame : component) std::cout << ' ' << graph::to_string(frame);
-    std::cout << '\n';
-  }
-  const auto contradicting =
-      graph::contradict_the_fleet(map->placement, map->items.nodes, LocalFrame(map->recipe.origin));
-  for (const auto& [agent, contradiction] : contradicting)
-    std::cout << agent.str() << " contradicts the fleet: " << to_string(contradiction) << "; --without "
-              << agent.str() << " shows the map without it\n";
+  print_info(std::cout, *map);
+  return kDone;
+}
+
+int print(const Result<std::string>& written) {
+  if (!written) return report(written.error(), kFailed);
+  std::cout << *written << '\n';
   return kDone;
 }
 
@@ -97,65 +73,27 @@ int export_map(const MapOptions& options) {
   auto map = open(options);
   if (!map) return report(map.error(), kFailed);
   if (const Status valid = map->recipe.merge.validate(); !valid) return report(valid.error(), kUsage);
-  if (las) {
-    const Status written = export_las(*map, options.store, options.out, options.las);
-    return written ? kDone : report(written.error(), kFailed);
-  }
-  const std::array files{std::filesystem::path(options.out)};
-  const output::MapPart main = output::map_parts(map->items.nodes, map->placement).main;
-  const auto written = output::write_merged(map->store, main.T_map_node, map->recipe.merge, files,
-                                            output::map_comments(map->store, main, map->recipe.origin));
-  if (!written) return report(written.error(), kFailed);
-  name_unreadable(written->outline);
-  std::cout << options.out << ": " << written->points << " points from " << written->outline.submaps
-            << " submaps\n";
-  return kDone;
+  if (!las) return print(export_points(*map, options.out));
+  const Status written = export_las(*map, options.store, options.out, options.las);
+  return written ? kDone : report(written.error(), kFailed);
 }
 
-int export_tracks(const MapOptions& options) {
+int write_tracks(const MapOptions& options) {
   const auto map = open(options);
-  if (!map) return report(map.error(), kFailed);
-  const std::vector<graph::Node>& nodes = map->items.nodes;
-  const auto main = output::map_parts(nodes, map->placement).main;
-  if (!main.georeferenced) {
-    return report(
-        {options.store + ": no node of its map has GPS, so that nobody knows where on Earth its tracks are"},
-        kFailed);
-  }
-  const bool gpx = std::filesystem::path(options.out).extension() == ".gpx";
-  const std::string text = gpx ? output::to_gpx(nodes, main.T_map_node, map->recipe.origin)
-                               : output::to_geojson(nodes, main.T_map_node, map->recipe.origin);
-  if (const Status written = write_whole_file(options.out, text); !written)
-    return report(written.error(), kFailed);
-  std::cout << options.out << ": " << main.T_map_node.size() << " nodes\n";
-  return kDone;
+  return map ? print(export_tracks(*map, options.store, options.out)) : report(map.error(), kFailed);
 }
 
-int export_graph(const MapOptions& options) {
+int write_graph(const MapOptions& options) {
   const auto map = open(options);
-  if (!map) return report(map.error(), kFailed);
-  const output::GraphText text = output::to_g2o(map->items.nodes, map->placement);
-  const std::string names = options.out + ".csv";
-  if (const Status written = write_whole_file(options.out, text.graph); !written)
-    return report(written.error(), kFailed);
-  if (const Status written = write_whole_file(names, text.names); !written)
-    return report(written.error(), kFailed);
-  std::cout << options.out << ", names of its " << map->placement.T_enu_node.size() << " vertices: " << names
-            << '\n';
-  return kDone;
+  return map ? print(export_graph(*map, options.out)) : report(map.error(), kFailed);
 }
 
 int draw_map(const MapOptions& options) {
   auto map = open(options);
   if (!map) return report(map.error(), kFailed);
-  if (const Status writable = make_writable(options.out); !writable) return report(writable.error(), kFailed);
-  const auto pictures = pictures_of(*map);
-  if (!pictures) return report({options.store + ": " + pictures.error().message}, kFailed);
-  for (const run_evaluation::MapPicture& picture : *pictures) {
-    if (const Status written = run_evaluation::write_picture(options.out, picture); !written)
-      return report(written.error(), kFailed);
-    std::cout << (std::filesystem::path(options.out) / picture.file).string() << '\n';
-  }
+  const auto files = export_pictures(*map, options.store, options.out);
+  if (!files) return report(files.error(), kFailed);
+  for (const std::filesystem::path& file : *files) std::cout << file.string() << '\n';
   return kDone;
 }
 
@@ -234,9 +172,9 @@ void add_map(CLI::App& app, int& exit_code) {
   tracks_command->add_option("--out", options->out, "FILE.gpx or FILE.geojson")
       ->required()
       ->check(ends_with({".gpx", ".geojson"}));
-  tracks_command->callback([options, &exit_code] { exit_code = export_tracks(*options); });
+  tracks_command->callback([options, &exit_code] { exit_code = write_tracks(*options); });
   graph_command->add_option("--out", options->out, "FILE.g2o")->required()->check(ends_with({".g2o"}));
-  graph_command->callback([options, &exit_code] { exit_code = export_graph(*options); });
+  graph_command->callback([options, &exit_code] { exit_code = write_graph(*options); });
   add_map_merge(*command, exit_code);
   add_map_diff(*command, exit_code);
 }

@@ -1,119 +1,27 @@
 // `fleetmap map diff`: what changed on a site between two days.
-#include <algorithm>
-#include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "commands.hpp"
+#include "day_changes.hpp"
 #include "fleetmap/change/change_files.hpp"
 #include "fleetmap/core/whole_file.hpp"
-#include "fleetmap/core/work_folder.hpp"
-#include "fleetmap/output/lidar_mount.hpp"
-#include "fleetmap/output/map_parts.hpp"
-#include "fleetmap/output/placed_store.hpp"
-#include "fleetmap/store/submap_loader.hpp"
 #include "map_subcommands.hpp"
-#include "merged_store.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct DiffOptions {
   std::string before, after;
   std::string geojson, ply;
 };
 
-/// The submaps of the nodes of `day` that `other` does not have, as placed.
-std::vector<change::ObservedSubmap> observed(store::Store& store, const graph::Placement& placement,
-                                             const loop_closure::Day& day, const loop_closure::Day& other,
-                                             const Eigen::Vector3d& lidar) {
-  const store::SubmapLoader load = store::decoded_submaps(store);
-  std::vector<change::ObservedSubmap> submaps;
-  const graph::Node* previous = nullptr;
-  for (const auto& [id, node] : store.nodes()) {
-    const auto T = placement.T_enu_node.find(id);
-    if (!day.contains(node.frame()) || other.contains(node.frame()) || T == placement.T_enu_node.end())
-      continue;
-    const auto points = load(id);
-    if (points && !points->empty()) {
-      Eigen::Vector3d sensor = T->second * lidar;
-      // The points were seen on the way from the node before.
-      if (previous != nullptr && previous->frame() == node.frame())
-        sensor = 0.5 * (sensor + placement.T_enu_node.at(previous->id) * lidar);
-      submaps.push_back({cloud::transformed(*points, T->second), sensor.cast<float>()});
-    }
-    previous = &node;
-  }
-  return submaps;
-}
-
-Result<Eigen::Vector3d> lidar_of(const fs::path& file) {
-  const auto store = store::Store::open_read_only(file);
-  if (!store) return tl::unexpected(store.error());
-  return output::lidar_mount(*store).value_or(Eigen::Vector3d::Zero());
-}
-
-struct Compared {
-  change::Changes changes;
-  std::size_t alignments = 0;
-  std::optional<GeoPoint> origin;  ///< of ENU, if the maps lie on Earth
-};
-
-Result<Compared> compare(const DiffOptions& options) {
-  const WorkFolder folder("fleetmap_diff");
-  const fs::path file = folder.path() / "merged.db";
-  const auto merged = merge_stores({options.before, options.after}, file, std::nullopt);
-  if (!merged) return tl::unexpected(merged.error());
-  const DayPair& pair = merged->pairs.front();
-  if (!pair.joined || pair.used == 0) {
-    const std::string why =
-        pair.joined ? "they share an odometry session, so they are no two days" : pair.why_not;
-    return failure(options.before + " and " + options.after + " cannot be aligned: " + why);
-  }
-  const auto lidar_before = lidar_of(options.before), lidar_after = lidar_of(options.after);
-  if (!lidar_before) return tl::unexpected(lidar_before.error());
-  if (!lidar_after) return tl::unexpected(lidar_after.error());
-  auto store = store::Store::open_read_only(file);
-  if (!store) return tl::unexpected(store.error());
-  const loop_closure::Day &before = merged->days[0], &after = merged->days[1];
-  auto changes = change::find_changes(observed(*store, merged->placement, before, after, *lidar_before),
-                                      observed(*store, merged->placement, after, before, *lidar_after), {});
-  if (!changes) return failure(options.before + " and " + options.after + ": " + changes.error().message);
-  Compared compared{std::move(*changes), pair.used, std::nullopt};
-  if (output::map_parts(output::nodes_of(*store), merged->placement).main.georeferenced)
-    compared.origin = merged->recipe.origin;
-  return compared;
-}
-
-void print(const Compared& compared) {
-  const change::Changes& found = compared.changes;
-  const double whole = static_cast<double>(std::max<std::size_t>(1, found.compared + found.unknown));
-  std::cout << std::fixed << std::setprecision(2) << "aligned by " << compared.alignments
-            << " alignments of the two days, which fit to " << found.misfit_m
-            << " m, each of them to itself to " << found.noise_m << " m\n"
-            << std::setprecision(0) << 100.0 * static_cast<double>(found.compared) / whole
-            << " % of the surfaces can be compared; of the others one day saw nothing\n"
-            << std::setprecision(2) << "surfaces count as different from " << found.least_m
-            << " m on (median), changes from " << found.least_cells << " cells on\n";
-  const auto count = [&](change::Kind kind) {
-    return std::ranges::count(found.changes, kind, &change::Change::kind);
-  };
-  std::cout << found.changes.size() << " changes: " << count(change::Kind::appeared) << " appeared, "
-            << count(change::Kind::disappeared) << " disappeared\n";
-  if (!found.changes.empty()) std::cout << change::to_table(found, compared.origin);
-}
-
 int diff(const DiffOptions& options) {
-  const auto compared = compare(options);
+  const auto compared = changes_between(options.before, options.after);
   if (!compared) return report(compared.error(), kFailed);
-  print(*compared);
+  print_changes(std::cout, *compared);
   if (!options.ply.empty()) {
     if (const Status written = change::write_coloured(options.ply, compared->changes); !written)
       return report(written.error(), kFailed);

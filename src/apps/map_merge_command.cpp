@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "map_subcommands.hpp"
+#include "merge_summary.hpp"
 #include "merged_store.hpp"
 #include "options.hpp"
 
@@ -22,41 +23,6 @@ struct MergeOptions {
   std::string keys;
 };
 
-constexpr std::size_t kMaxNamed = 20;
-
-void print_union(const std::string& file, const exchange::StoreUnion& added) {
-  std::cout << file << ": " << added.nodes << " nodes, " << added.submaps << " submaps, " << added.alignments
-            << " alignments added, " << added.known << " items known\n";
-  if (added.unproven > 0)
-    std::cout << file << ": " << added.unproven << " items left out: their makers did not sign them\n";
-  if (added.unreadable > 0)
-    std::cout << file << ": " << added.unreadable << " submaps are damaged and left out\n";
-  for (std::size_t k = 0; k < std::min(kMaxNamed, added.contested.size()); ++k)
-    std::cout << file << ": " << added.contested[k] << " has two contents; neither is used\n";
-  if (added.contested.size() > kMaxNamed)
-    std::cout << file << ": and " << added.contested.size() - kMaxNamed << " more names\n";
-  if (!added.contested.empty())
-    std::cout << file
-              << ": two `fleetmap run` of one robot number their sessions alike; repeat one of them "
-                 "with --first-session 1000\n";
-}
-
-void print_pair(const DayPair& pair, const std::vector<std::string>& files) {
-  const std::string &earlier = files[pair.earlier], &later = files[pair.later];
-  std::size_t rejected = 0;
-  for (const auto& [reason, count] : pair.alignments.rejected) rejected += count;
-  if (pair.joined) {
-    std::cout << earlier << " and " << later << ": joined by " << pair.used << " alignments"
-              << (pair.frames_shared ? " and the sessions that both have" : "");
-  } else {
-    std::cout << earlier << " and " << later << ": NOT joined: " << pair.why_not;
-  }
-  std::cout << " (" << pair.alignments.candidates << " candidates: " << pair.alignments.accepted
-            << " accepted, " << pair.alignments.ambiguous << " ambiguous, " << rejected << " rejected)\n";
-  for (const auto& [reason, count] : pair.alignments.rejected)
-    std::cout << "  rejected " << count << " times: " << reason << '\n';
-}
-
 int merge(const MergeOptions& options) {
   fs::path out = options.out;
   if (out.extension() != ".db") {
@@ -68,11 +34,7 @@ int merge(const MergeOptions& options) {
   const std::vector<fs::path> files(options.stores.begin(), options.stores.end());
   const auto merged = merge_stores(files, out, keys);
   if (!merged) return report(merged.error(), kFailed);
-  for (std::size_t k = 0; k < files.size(); ++k) print_union(options.stores[k], merged->unions[k]);
-  for (const DayPair& pair : merged->pairs) print_pair(pair, options.stores);
-  std::cout << out.string() << ": " << merged->placement.T_enu_node.size() << " nodes, "
-            << merged->placement.used.size() << " alignments used, " << merged->placement.components.size()
-            << " parts that no alignment joins\n";
+  print_summary(std::cout, *merged, options.stores, out.string());
   return kDone;
 }
 

@@ -127,8 +127,8 @@ std::string why_not_joined(const DayPair& pair, const graph::Placement& placemen
   return std::to_string(tried.found.size()) + " alignments were found, but none is certain (" + why + ")";
 }
 
-void judge(DayPair& pair, const std::vector<Day>& days, const store::Store& store,
-           const graph::Placement& placement) {
+void check_pair(DayPair& pair, const std::vector<Day>& days, const store::Store& store,
+                const graph::Placement& placement) {
   const Day &earlier = days[pair.earlier], &later = days[pair.later];
   for (const graph::Alignment& used : placement.used) {
     const graph::Node *i = store.node(used.i), *j = store.node(used.j);
@@ -193,7 +193,7 @@ Result<MergedStore> merge_stores(const std::vector<fs::path>& stores, const fs::
   }
   if (const Status kept = put(store, merged.pairs); !kept) return tl::unexpected(kept.error());
   merged.placement = output::place(store, merged.recipe.origin, merged.recipe.placement);
-  for (DayPair& pair : merged.pairs) judge(pair, merged.days, store, merged.placement);
+  for (DayPair& pair : merged.pairs) check_pair(pair, merged.days, store, merged.placement);
   if (const Status finished = unfinished->finish(); !finished) return tl::unexpected(finished.error());
   return merged;
 }

@@ -45,13 +45,13 @@ Result<std::vector<config::Override>> parse_overrides(const std::vector<std::str
   return overrides;
 }
 
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
-  const bool bounded = most < std::numeric_limits<std::uint64_t>::max();
-  const std::string range = bounded ? "from " + std::to_string(least) + " to " + std::to_string(most)
-                                    : "of at least " + std::to_string(least);
+CLI::Validator whole_number(std::uint64_t min, std::uint64_t max) {
+  const bool bounded = max < std::numeric_limits<std::uint64_t>::max();
+  const std::string range = bounded ? "from " + std::to_string(min) + " to " + std::to_string(max)
+                                    : "of at least " + std::to_string(min);
   const auto check = [=](const std::string& text) {
     const auto value = whole(text);
-    if (value && *value >= least && *value <= most) return std::string();
+    if (value && *value >= min && *value <= max) return std::string();
     return "must be a whole number " + range + ", is " + text;
   };
   return {check, "", "whole number"};

@@ -17,8 +17,7 @@ namespace fleetmap::apps {
 Result<std::vector<config::Override>> parse_overrides(const std::vector<std::string>& texts);
 
 /// Accepts whole numbers only, checked before the conversion, which would wrap -1 round.
-CLI::Validator whole_number(std::uint64_t least,
-                            std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+CLI::Validator whole_number(std::uint64_t min, std::uint64_t max = std::numeric_limits<std::uint64_t>::max());
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
 /// Not empty, as it is when a script's variable is unset.

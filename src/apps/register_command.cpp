@@ -1,10 +1,7 @@
 #include <spdlog/spdlog.h>
 
-#include <array>
-#include <charconv>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +11,7 @@
 #include "fleetmap/registration/register_clouds.hpp"
 #include "fleetmap/registration/registration_method.hpp"
 #include "options.hpp"
+#include "registration_json.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -28,39 +26,6 @@ struct RegisterOptions {
   std::string config;
   std::vector<std::string> set;
 };
-
-template <class Matrix>
-nlohmann::json rows_of(const Matrix& matrix) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    nlohmann::json row = nlohmann::json::array();
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-nlohmann::json to_json(const registration::RegistrationResult& result, registration::Method method) {
-  nlohmann::json modes = nlohmann::json::array();
-  for (const registration::Mode& mode : result.modes) {
-    modes.push_back({{"T_target_source", rows_of(mode.T_target_source.matrix())},
-                     {"score", mode.score},
-                     {"rmse", mode.rmse},
-                     {"inlier_fraction", mode.inlier_fraction},
-                     {"overlap", mode.overlap},
-                     {"weight", mode.weight}});
-  }
-  return {{"method", registration::to_string(method)},
-          {"verdict", registration::to_string(result.verdict)},
-          {"reason", result.reason},
-          {"T_target_source", rows_of(result.T_target_source.matrix())},
-          {"rmse", result.rmse},
-          {"covariance", rows_of(result.covariance)},
-          {"inlier_fraction", result.inlier_fraction},
-          {"overlap", result.overlap},
-          {"inliers", result.inliers},
-          {"modes", modes}};
-}
 
 std::optional<registration::Prior> prior_of(const RegisterOptions& options) {
   if (options.prior.empty()) return std::nullopt;

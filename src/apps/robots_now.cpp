@@ -41,10 +41,10 @@ std::string words_of(const MissionReport& report, const std::vector<planning::Ro
   return "is lost";
 }
 
-std::string activity_now(const FleetNow& fleet, const AgentId& id, bool stands) {
+std::string activity_now(const FleetNow& fleet, const AgentId& id, bool is_held) {
   const auto report = fleet.reports.find(id);
   if (id == fleet.self && !fleet.stop_reason.empty()) return "stands still: " + fleet.stop_reason;
-  if (stands) return "stands still: an operator holds it";
+  if (is_held) return "stands still: an operator holds it";
   const auto status = fleet.statuses.find(id);
   if (report != fleet.reports.end())
     return activity_of(
@@ -82,9 +82,9 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
   const bool answered = driving != fleet.driving.end();
   // A robot that has not said yet what it does can be stopped, too.
   robot.driven = !answered || driving->second != Hold::Driving::kNoMission;
-  const bool stands = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
-  robot.activity = activity_now(fleet, id, stands);
-  if (robot.driven && robot.ordered_to_hold && !stands)
+  const bool is_held = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
+  robot.activity = activity_now(fleet, id, is_held);
+  if (robot.driven && robot.ordered_to_hold && !is_held)
     robot.problems.push_back("has not confirmed the order to stand still");
   if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
     robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 using Colour = std::array<std::uint8_t, 3>;
-constexpr Colour kSame{150, 150, 150}, kNotSeen{90, 120, 200}, kGone{220, 40, 40}, kNew{30, 170, 60};
+constexpr Colour kSame{150, 150, 150}, kUnobserved{90, 120, 200}, kGone{220, 40, 40}, kNew{30, 170, 60};
 constexpr std::size_t kPointBytes = 15;  // three float32 and three bytes
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
@@ -56,7 +56,7 @@ std::string to_table(const Changes& changes, const std::optional<GeoPoint>& orig
         << std::right << std::setprecision(1) << std::setw(7) << change.size.x() << std::setw(6)
         << change.size.y() << std::setw(7) << change.size.z() << "  " << std::setprecision(2) << std::setw(9)
         << change.centre.x() << std::setw(8) << change.centre.y() << std::setw(8) << change.centre.z()
-        << std::setw(15) << change.seen_share() << std::setw(12) << change.confidence;
+        << std::setw(15) << change.traversed_share() << std::setw(12) << change.confidence;
     if (origin) {
       const GeoPoint place = LocalFrame(*origin).to_geo(change.centre);
       out << std::setprecision(7) << std::setw(13) << place.latitude / kDegree << std::setw(13)
@@ -84,9 +84,9 @@ std::string to_geojson(const Changes& changes, const GeoPoint& origin) {
         // Clockwise from north, as on maps.
         {"azimuth_deg", rounded(std::fmod(450.0 - change.heading_rad / kDegree, 180.0), 0.1)},
         {"confidence", rounded(change.confidence, 0.001)},
-        {"seen_share", rounded(change.seen_share(), 0.001)},
+        {"traversed_share", rounded(change.traversed_share(), 0.001)},
         {"cells", change.cells},
-        {"seen_through", change.seen_through}};
+        {"traversed", change.traversed}};
     if (const auto utm = utm_of(place)) {
       properties["utm"] = {{"epsg", utm->epsg},
                            {"easting", rounded(utm->point.x(), 0.01)},
@@ -106,7 +106,7 @@ std::string to_geojson(const Changes& changes, const GeoPoint& origin) {
 Status write_coloured(const std::filesystem::path& file, const Changes& changes) {
   Bytes bytes;
   append(bytes, changes.same, kSame);
-  append(bytes, changes.not_seen, kNotSeen);
+  append(bytes, changes.unobserved, kUnobserved);
   for (const Change& change : changes.changes)
     append(bytes, change.points, change.kind == Kind::appeared ? kNew : kGone);
   const std::string header =

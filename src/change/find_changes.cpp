@@ -57,7 +57,7 @@ std::size_t largest_false_change(const Halves& halves, const TileDistances& with
   for (const auto& [map, other] :
        {std::pair(&halves.one, &halves.other), std::pair(&halves.other, &halves.one)}) {
     const MapComparison compared = compare(*map, *other, noise, config);
-    if (!compared.free.empty()) largest = std::max(largest, compared.free.front().seen_through);
+    if (!compared.free.empty()) largest = std::max(largest, compared.free.front().traversed);
   }
   return largest;
 }
@@ -66,7 +66,7 @@ Change change_of(Kind kind, const FreeCluster& cluster, double cell_m) {
   Change change;
   change.kind = kind;
   change.cells = cluster.points.size();
-  change.seen_through = cluster.seen_through;
+  change.traversed = cluster.traversed;
   change.points = cluster.points;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& point : cluster.points) mean += point.cast<double>();
@@ -95,22 +95,23 @@ Change change_of(Kind kind, const FreeCluster& cluster, double cell_m) {
 
 void add(Kind kind, MapComparison&& compared, const ChangeConfig& config, Changes& result) {
   for (const FreeCluster& cluster : compared.free) {
-    if (cluster.seen_through < result.least_cells) continue;
+    if (cluster.traversed < result.min_cells) continue;
     Change& change = result.changes.emplace_back(change_of(kind, cluster, config.cell_m));
     change.confidence =
-        1.0 - static_cast<double>(result.least_cells - 1) / static_cast<double>(change.seen_through);
+        1.0 - static_cast<double>(result.min_cells - 1) / static_cast<double>(change.traversed);
   }
-  result.compared += compared.same.size() + compared.seen_through;
-  result.unknown += compared.not_seen.size();
+  result.compared += compared.same.size() + compared.traversed;
+  result.unknown += compared.unobserved.size();
   if (kind == Kind::appeared) result.same = std::move(compared.same);
-  result.not_seen.insert(result.not_seen.end(), compared.not_seen.begin(), compared.not_seen.end());
+  result.unobserved.insert(result.unobserved.end(), compared.unobserved.begin(), compared.unobserved.end());
 }
 
-double median_least(const NoiseModel& noise, const std::vector<Eigen::Vector3f>& points) {
-  std::vector<float> least;
-  for (const Eigen::Vector3f& point : points) least.push_back(noise.least_distance(point));
-  std::ranges::nth_element(least, least.begin() + static_cast<std::ptrdiff_t>(least.size() / 2));
-  return least[least.size() / 2];
+double median_min_distance(const NoiseModel& noise, const std::vector<Eigen::Vector3f>& points) {
+  std::vector<float> min_distances;
+  for (const Eigen::Vector3f& point : points) min_distances.push_back(noise.min_distance(point));
+  std::ranges::nth_element(min_distances,
+                           min_distances.begin() + static_cast<std::ptrdiff_t>(min_distances.size() / 2));
+  return min_distances[min_distances.size() / 2];
 }
 
 }  // namespace
@@ -123,7 +124,7 @@ Result<Changes> find_changes(std::span<const ObservedSubmap> all_before,
   const auto before = thinned(all_before, config.cell_m), after = thinned(all_after, config.cell_m);
   TileDistances within(config.tile_m), between(config.tile_m);
   Changes result;
-  result.least_cells = config.min_cells;
+  result.min_cells = config.min_cells;
   const Halves alternating_before = alternating(before, config.cell_m),
                alternating_after = alternating(after, config.cell_m);
   for (const Halves* halves : {&alternating_before, &alternating_after}) {
@@ -134,18 +135,18 @@ Result<Changes> find_changes(std::span<const ObservedSubmap> all_before,
                successive_after = successive(after, config.cell_m);
   for (const Halves* halves :
        {&alternating_before, &alternating_after, &successive_before, &successive_after})
-    result.least_cells = std::max(result.least_cells, largest_false_change(*halves, within, config) + 1);
+    result.min_cells = std::max(result.min_cells, largest_false_change(*halves, within, config) + 1);
   const CellMap map_before(every(before, 1, 0), config.cell_m), map_after(every(after, 1, 0), config.cell_m);
   between.add(map_before, map_after, config);
   between.add(map_after, map_before, config);
   const NoiseModel noise(within, &between, config);
   MapComparison gone = compare(map_before, map_after, noise, config);
   MapComparison come = compare(map_after, map_before, noise, config);
-  if (come.same.empty() && gone.seen_through + come.seen_through == 0)
+  if (come.same.empty() && gone.traversed + come.traversed == 0)
     return failure("no place was seen on both days, so that nothing can be compared");
   result.noise_m = within.quantile(0.5).value_or(0.0f);
   result.misfit_m = between.quantile(0.5).value_or(0.0f);
-  result.least_m = come.same.empty() ? config.reach_m : median_least(noise, come.same);
+  result.min_distance_m = come.same.empty() ? config.reach_m : median_min_distance(noise, come.same);
   add(Kind::disappeared, std::move(gone), config, result);
   add(Kind::appeared, std::move(come), config, result);
   std::ranges::stable_sort(result.changes, std::greater{}, &Change::cells);

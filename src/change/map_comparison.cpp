@@ -35,7 +35,7 @@ std::vector<FreeCluster> clusters_of(const Points& free, const ChangeConfig& con
         cluster.points.push_back(free[near.index]);
       }
     }
-    cluster.seen_through = cluster.points.size();
+    cluster.traversed = cluster.points.size();
     clusters.push_back(std::move(cluster));
   }
   return clusters;
@@ -43,7 +43,7 @@ std::vector<FreeCluster> clusters_of(const Points& free, const ChangeConfig& con
 
 /// Adds each cell that was not seen, and is no ground, to the cluster of the nearest cell that was seen
 /// through.
-void add_hidden(const Points& not_seen, const CellMap& other, const ChangeConfig& config,
+void add_hidden(const Points& unobserved, const CellMap& other, const ChangeConfig& config,
                 std::vector<FreeCluster>& clusters) {
   Points free;
   std::vector<std::size_t> cluster_of;
@@ -52,7 +52,7 @@ void add_hidden(const Points& not_seen, const CellMap& other, const ChangeConfig
     cluster_of.resize(free.size(), k);
   }
   const cloud::KdTree tree(free);
-  for (const Eigen::Vector3f& point : not_seen) {
+  for (const Eigen::Vector3f& point : unobserved) {
     const auto nearest = tree.nearest(point, kHidden);
     if (!nearest || other.has_level(point, kSameSurface, 1.25f * static_cast<float>(config.cell_m))) continue;
     clusters[cluster_of[nearest->index]].points.push_back(point);
@@ -64,31 +64,31 @@ void add_hidden(const Points& not_seen, const CellMap& other, const ChangeConfig
 MapComparison compare(const CellMap& map, const CellMap& other, const NoiseModel& noise,
                       const ChangeConfig& config) {
   MapComparison result;
-  Points suspects;
+  Points unmatched;
   std::vector<std::uint32_t> hits;
   const auto margin = static_cast<float>(2.0 * config.cell_m);
   for (const CellMap::Cell& cell : map.cells()) {
     if (cell.submaps < config.min_submaps) continue;
-    const float least = noise.least_distance(cell.centre);
-    if (other.distance(cell.centre, static_cast<float>(config.reach_m)) < least) {
+    const float min_distance = noise.min_distance(cell.centre);
+    if (other.distance(cell.centre, static_cast<float>(config.reach_m)) < min_distance) {
       result.same.push_back(cell.centre);
     } else {
-      suspects.push_back(cell.centre);
+      unmatched.push_back(cell.centre);
       hits.push_back(cell.submaps);
     }
   }
-  const RayEvidence evidence(suspects, config.cell_m, margin);
+  const RayEvidence evidence(unmatched, config.cell_m, margin);
   const std::vector<std::uint32_t> through = evidence.passes(other.submaps());
   const std::vector<std::uint32_t> by_own_day = evidence.passes(map.submaps());
   Points free;
-  for (std::size_t k = 0; k < suspects.size(); ++k) {
+  for (std::size_t k = 0; k < unmatched.size(); ++k) {
     if (by_own_day[k] >= hits[k]) continue;  // it moved, or rays pass between its leaves
-    (through[k] >= config.min_submaps ? free : result.not_seen).push_back(suspects[k]);
+    (through[k] >= config.min_submaps ? free : result.unobserved).push_back(unmatched[k]);
   }
-  result.seen_through = free.size();
+  result.traversed = free.size();
   result.free = clusters_of(free, config);
-  add_hidden(result.not_seen, other, config, result.free);
-  std::ranges::stable_sort(result.free, std::greater{}, &FreeCluster::seen_through);
+  add_hidden(result.unobserved, other, config, result.free);
+  std::ranges::stable_sort(result.free, std::greater{}, &FreeCluster::traversed);
   return result;
 }
 

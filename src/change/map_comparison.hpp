@@ -14,14 +14,14 @@ namespace fleetmap::change {
 /// see.
 struct FreeCluster {
   std::vector<Eigen::Vector3f> points;  ///< one a cell
-  std::size_t seen_through = 0;         ///< the first so many of them
+  std::size_t traversed = 0;            ///< the first so many of them
 };
 
 /// Cells of a map by what the other day says of them.
 struct MapComparison {
-  std::vector<Eigen::Vector3f> same, not_seen;
+  std::vector<Eigen::Vector3f> same, unobserved;
   std::vector<FreeCluster> free;  ///< largest first
-  std::size_t seen_through = 0;   ///< cells
+  std::size_t traversed = 0;      ///< cells
 };
 
 /// Compares the surfaces of `map`, that several of its submaps saw, with the other day.

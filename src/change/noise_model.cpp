@@ -43,7 +43,7 @@ std::optional<float> TileDistances::quantile(const Tile& tile, double share) con
 
 std::optional<float> TileDistances::quantile(double share) const { return quantile_of(all_, share); }
 
-float NoiseModel::least_distance(const Eigen::Vector3f& point) const {
+float NoiseModel::min_distance(const Eigen::Vector3f& point) const {
   const TileDistances::Tile tile = within_.tile_of(point);
   const auto known = tiles_.find(tile);
   return known != tiles_.end() ? known->second : tiles_.emplace(tile, of_tile(tile)).first->second;

@@ -39,7 +39,7 @@ class NoiseModel {
   NoiseModel(const TileDistances& within, const TileDistances* between, const ChangeConfig& config)
       : within_(within), between_(between), config_(config) {}
   /// m; at least a cell, at most ChangeConfig::reach_m.
-  float least_distance(const Eigen::Vector3f& point) const;
+  float min_distance(const Eigen::Vector3f& point) const;
 
  private:
   float of_tile(const TileDistances::Tile& tile) const;

@@ -60,7 +60,7 @@ void append(Fields& fields, const VariableRecord& record) {
 /// In the header's order: x, y, z.
 void append_bounds(Fields& fields, const LasDescription& description, const LasTotals& totals) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const Eigen::Vector3i* steps : {&totals.greatest, &totals.least}) {
+    for (const Eigen::Vector3i* steps : {&totals.max, &totals.min}) {
       const double bound = (*steps)[axis] * kLasStep + description.offset[axis];
       fields.number(totals.points > 0 ? bound : 0.0);
     }
@@ -79,8 +79,8 @@ std::optional<Eigen::Vector3i> las_steps(const Eigen::Vector3d& position, const 
 }
 
 void LasTotals::add(const Eigen::Vector3i& steps) {
-  least = points > 0 ? least.cwiseMin(steps).eval() : steps;
-  greatest = points > 0 ? greatest.cwiseMax(steps).eval() : steps;
+  min = points > 0 ? min.cwiseMin(steps).eval() : steps;
+  max = points > 0 ? max.cwiseMax(steps).eval() : steps;
   ++points;
 }
 

@@ -143,13 +143,13 @@ bool read_quick(Section& section, Study& study, bool apply) {
 }
 
 void check_agents(Section& section, const Study& study, std::size_t available) {
-  std::size_t most = study.agents;
+  std::size_t max_agents = study.agents;
   const auto axis = std::ranges::find(study.axes, kAgentsAxis, &Axis::name);
   if (axis != study.axes.end())
-    for (const AxisValue& value : axis->values) most = std::max(most, value.agents.value_or(0));
-  if (available > 0 && most > available) {
+    for (const AxisValue& value : axis->values) max_agents = std::max(max_agents, value.agents.value_or(0));
+  if (available > 0 && max_agents > available) {
     section.problem(axis == study.axes.end() ? "agents" : "axes",
-                    std::to_string(most) + " robots are wanted, the fleet's file lists " +
+                    std::to_string(max_agents) + " robots are wanted, the fleet's file lists " +
                         std::to_string(available) + "; list more there");
   }
 }

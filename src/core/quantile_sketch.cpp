@@ -6,27 +6,27 @@
 namespace fleetmap {
 namespace {
 
-/// Bin k holds values in (kLeast g^(k-1), kLeast g^k]; bin 0 what is less, the last bin what is more.
+/// Bin k holds values in (kMin g^(k-1), kMin g^k]; bin 0 what is less, the last bin what is more.
 const double kLogGrowth =
     std::log((1.0 + QuantileSketch::kRelativeError) / (1.0 - QuantileSketch::kRelativeError));
 
 std::size_t bin_of(double value) {
   const double bin = std::ceil(
-      std::log(std::clamp(value, QuantileSketch::kLeast, QuantileSketch::kMost) / QuantileSketch::kLeast) /
+      std::log(std::clamp(value, QuantileSketch::kMin, QuantileSketch::kMax) / QuantileSketch::kMin) /
       kLogGrowth);
   return static_cast<std::size_t>(bin);
 }
 
 /// Differs from every value of the bin by at most kRelativeError.
 double value_of(std::size_t bin) {
-  return QuantileSketch::kLeast * std::exp(kLogGrowth * static_cast<double>(bin)) *
+  return QuantileSketch::kMin * std::exp(kLogGrowth * static_cast<double>(bin)) *
          (1.0 - QuantileSketch::kRelativeError);
 }
 
 }  // namespace
 
 void QuantileSketch::add(double value) {
-  if (counts_.empty()) counts_.resize(bin_of(kMost) + 1);
+  if (counts_.empty()) counts_.resize(bin_of(kMax) + 1);
   ++counts_[bin_of(value)];
   min_ = count_ == 0 ? value : std::min(min_, value);
   max_ = count_ == 0 ? value : std::max(max_, value);

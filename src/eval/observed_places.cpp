@@ -17,7 +17,7 @@ struct ObservedPlaces::Cubes {
     std::size_t robots = 0;             ///< that saw it
   };
   double edge;
-  std::uint32_t least;
+  std::uint32_t min_points;
   std::unordered_map<std::uint64_t, Cube> cubes;
 
   bool key_of(const Eigen::Vector3f& point, std::uint64_t& key) const {
@@ -32,8 +32,8 @@ struct ObservedPlaces::Cubes {
   }
 };
 
-ObservedPlaces::ObservedPlaces(double edge, std::uint32_t least)
-    : cubes_(std::make_unique<Cubes>(Cubes{edge, least, {}})) {}
+ObservedPlaces::ObservedPlaces(double edge, std::uint32_t min_points)
+    : cubes_(std::make_unique<Cubes>(Cubes{edge, min_points, {}})) {}
 ObservedPlaces::~ObservedPlaces() = default;
 ObservedPlaces::ObservedPlaces(ObservedPlaces&&) noexcept = default;
 ObservedPlaces& ObservedPlaces::operator=(ObservedPlaces&&) noexcept = default;
@@ -44,7 +44,7 @@ void ObservedPlaces::add(std::size_t robot, const cloud::PointCloud& points) {
     if (!cubes_->key_of(point, key)) continue;
     Cubes::Cube& cube = cubes_->cubes[key];
     if (cube.points.size() <= robot) cube.points.resize(robot + 1, 0);
-    if (++cube.points[robot] == cubes_->least) ++cube.robots;
+    if (++cube.points[robot] == cubes_->min_points) ++cube.robots;
   }
 }
 

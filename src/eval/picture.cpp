@@ -107,11 +107,11 @@ class Camera {
       });
       distance_ = std::max(1.0, needed.high);
       for (const Eigen::Index axis : {0, 1}) {
-        const Extent seen = extent_of(samples, [&](const Eigen::Vector3d& p) {
+        const Extent extent = extent_of(samples, [&](const Eigen::Vector3d& p) {
           const Eigen::Vector3d d = p - middle_;
           return d[axis] / std::max(0.1 * distance_, distance_ - d.z());
         });
-        middle_[axis] += 0.8 * distance_ * seen.middle();
+        middle_[axis] += 0.8 * distance_ * extent.middle();
       }
     }
   }

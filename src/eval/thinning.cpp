@@ -22,11 +22,11 @@ cloud::PointCloud thinned(const cloud::PointCloud& cloud, double voxel) {
   return merger.cloud();
 }
 
-cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::size_t most) {
+cloud::PointCloud thinned_to(const cloud::PointCloud& cloud, double voxel, std::size_t max_points) {
   while (true) {
     cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
     merger.add(cloud);
-    if (merger.voxels() <= most || voxel > kFarthest) return merger.cloud();  // eight voxels may stay
+    if (merger.voxels() <= max_points || voxel > kFarthest) return merger.cloud();  // eight voxels may stay
     voxel *= 1.5;
   }
 }
@@ -46,8 +46,8 @@ std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen:
   return points;
 }
 
-std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, std::size_t most) {
-  const std::size_t step = points.size() / most + (points.size() % most != 0 ? 1u : 0u);
+std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, std::size_t max_points) {
+  const std::size_t step = points.size() / max_points + (points.size() % max_points != 0 ? 1u : 0u);
   if (step <= 1) return points;
   std::vector<Eigen::Vector3f> chosen;
   chosen.reserve(points.size() / step + 1);

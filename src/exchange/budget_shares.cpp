@@ -91,8 +91,8 @@ std::map<AgentId, double> BudgetShares::lent(Stamp now) const {
   for (const Grant& grant : grants_) {
     if (now >= grant.until) continue;
     for (const Loan& loan : grant.loans) {
-      double& most = lent[loan.borrower];
-      most = std::max<double>(most, loan.bytes_per_second);
+      double& max_rate = lent[loan.borrower];
+      max_rate = std::max<double>(max_rate, loan.bytes_per_second);
     }
   }
   return lent;

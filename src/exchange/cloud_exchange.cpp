@@ -71,7 +71,7 @@ void CloudExchange::tick(bool radio_has_room, Stamp now) {
   }
   auto due = receiver_.tick(now);
   for (CloudRequest& request : due.requests) queue_.push(Priority::kControl, std::move(request));
-  for (const NodeId& node : due.given_up) loop_closer_.on_cloud_lost(node, now);
+  for (const NodeId& node : due.abandoned) loop_closer_.on_cloud_lost(node, now);
 }
 
 }  // namespace fleetmap::exchange

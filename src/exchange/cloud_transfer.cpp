@@ -167,8 +167,8 @@ CloudReceiver::Due CloudReceiver::tick(Stamp now) {
     if (now < it->second.deadline) {
       ++it;
     } else if (it->second.tries >= config_.max_tries || it->second.restarts > kMaxRestarts) {
-      ++stats_.given_up;
-      due.given_up.push_back(it->first);
+      ++stats_.abandoned;
+      due.abandoned.push_back(it->first);
       it = waiting_.erase(it);
     } else {
       due.requests.push_back(request(it->first, it->second, now));

@@ -57,7 +57,7 @@ class CloudReceiver {
   std::optional<Bytes> add(const CloudFragment& fragment, Stamp now);
   struct Due {
     std::vector<CloudRequest> requests;
-    std::vector<NodeId> given_up;
+    std::vector<NodeId> abandoned;
   };
   Due tick(Stamp now);
 

@@ -100,7 +100,7 @@ void Reconcile::on_digest(const Digest& digest, const store::Store& store, Stamp
   if (lacking && !peer.offer.lacking) peer.offer.since = now;
   peer.offer.lacking = lacking;
   peer.resting_until = now;
-  // Whoever lacks something hears our digest soon.
+  // A robot that lacks something receives our digest soon.
   if (!peer.offer.nodes.includes(store.node_set()) || !peer.offer.alignments.includes(store.alignment_set()))
     hurry(now);
 }
@@ -207,8 +207,9 @@ std::optional<ItemRequest> Reconcile::ask(const AgentId& name, Peer& peer, const
     known_alignments = joined(std::move(known_alignments), other_peer.pending->alignments);
   }
   ItemRequest request{self_, name, {}, {}};
-  const auto some = [&](const SeqSet& offered, const SeqSet& known, std::uint64_t most) {
-    return next_part(first_items(rotated(offered.minus(known), peer.barren), most), 0, config_.max_ranges);
+  const auto some = [&](const SeqSet& offered, const SeqSet& known, std::uint64_t max_items) {
+    return next_part(first_items(rotated(offered.minus(known), peer.barren), max_items), 0,
+                     config_.max_ranges);
   };
   request.nodes = some(offer.nodes, known_nodes, config_.max_items);
   request.alignments = some(offer.alignments, known_alignments, config_.max_items - count(request.nodes));

@@ -119,7 +119,7 @@ class Runner {
       const CaseGroup& group = *waiting_[next_++];
       const Case& one = cases_[group.cases.front()];
       progress_.running.push_back(one.name);
-      tell(nullptr);
+      report_progress(nullptr);
       lock.unlock();
       const CaseRecord record = run_in_folder(config_, one, group.hash, engine_, stop_);
       lock.lock();
@@ -127,12 +127,12 @@ class Runner {
       if (!record.done() && stop_) return;  // ended by the interrupt, not by a fault of its own
       finish_group(group, record);
       weight_done_ += static_cast<double>(one.agents);
-      tell(&record);
+      report_progress(&record);
     }
   }
 
   /// A case takes about as long as it has agents.
-  void tell(const CaseRecord* ended) {
+  void report_progress(const CaseRecord* ended) {
     progress_.ended = ended;
     if (weight_done_ > 0.0) {
       const double left = std::accumulate(

@@ -59,8 +59,8 @@ const char* to_string(CompromisedRobot::Scheme scheme) {
   return kNames.at(static_cast<std::size_t>(scheme));
 }
 
-Pose CompromisedRobot::random_displacement(double least, double most) {
-  const double length = least * std::pow(most / least, draws_.uniform());
+Pose CompromisedRobot::random_displacement(double min_length, double max_length) {
+  const double length = min_length * std::pow(max_length / min_length, draws_.uniform());
   const double direction = draws_.between(0.0, 2.0 * std::numbers::pi);
   return make_pose(Eigen::Matrix3d::Identity(), {length * std::cos(direction), length * std::sin(direction),
                                                  0.2 * length * draws_.normal()});

@@ -48,7 +48,7 @@ class CompromisedRobot {
  private:
   /// Displacement in ENU of its clouds against the map of `peer`.
   Pose displacement(const AgentId& peer);
-  Pose random_displacement(double least, double most);
+  Pose random_displacement(double min_length, double max_length);
 
   Draws draws_;
   AgentId self_;

@@ -3,14 +3,14 @@
 #include <memory>
 #include <string>
 
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 
 namespace fleetmap::fault_injection {
 
 exchange::ExchangeConfig exchange_config_of(const Scenario& scenario, bool signatures) {
   exchange::ExchangeConfig config;
-  if (signatures) config.authenticator = std::make_shared<StandInSignatures>(scenario.seed);
+  if (signatures) config.authenticator = std::make_shared<SimulatedSignatures>(scenario.seed);
   for (std::size_t k = 0; k < scenario.robots; ++k)
     config.fleet.push_back(AgentId::parse(std::string("r").append(std::to_string(k + 1))).value());
   config.long_range.max_small = 24;

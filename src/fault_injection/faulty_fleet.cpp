@@ -225,7 +225,7 @@ Outcome FaultyFleet::run() {
   const auto converged = [&] {
     return why_not_converged().empty() && (!completes || why_incomplete(robots(), now()).empty());
   };
-  while (now() - last_fault < run_.settling && !converged()) one();
+  while (now() - last_fault < run_.convergence_timeout && !converged()) one();
   Outcome outcome;
   outcome.converged_after = now() - last_fault;
   check_end(outcome);

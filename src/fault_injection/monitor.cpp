@@ -148,10 +148,10 @@ void Monitor::on_conflict(const AgentId& robot, const exchange::ItemConflict& co
 }
 
 void Monitor::check_bounds(const AgentId& name, const ExchangeFleet::Robot& robot, Stamp now) {
-  const auto bound = [&](const std::string& what, std::size_t size, std::size_t most) {
-    if (size <= most) return;
+  const auto bound = [&](const std::string& what, std::size_t size, std::size_t max_size) {
+    if (size <= max_size) return;
     note(Invariant::kBounded, name, now,
-         std::to_string(size) + ' ' + what + ", bound " + std::to_string(most));
+         std::to_string(size) + ' ' + what + ", bound " + std::to_string(max_size));
   };
   const exchange::LongRangeConfig& config = config_->long_range;
   const std::size_t peers = config_->fleet.size() - 1;

@@ -122,9 +122,9 @@ void SurveyingFleet::reissue(const AgentId& name, Robot& robot) {
   const exchange::NewNames names{
       robot.session, [&] { return draw_session(*robot.store, draws_); },
       [](const graph::Alignment& alignment) { return fleet_codec::quantised(alignment); }};
-  const auto told = exchange::reissue_contested(*robot.exchange, *robot.store, names, clock(robot));
+  const auto reissued = exchange::reissue_contested(*robot.exchange, *robot.store, names, clock(robot));
   trace(name.str() +
-        (told ? " names " + std::to_string(*told) + " items anew" : ": " + told.error().message));
+        (reissued ? " names " + std::to_string(*reissued) + " items anew" : ": " + reissued.error().message));
 }
 
 void SurveyingFleet::on_event(const AgentId& name, Robot& robot, const exchange::Event& event) {

@@ -125,7 +125,7 @@ Bytes encode(const messages::CloudRequest& request) {
   out.sender(agent_name(request.from));
   out.recipient(agent_name(request.to));
   out.node(node_ref(request.node));
-  out.worth(request.information);
+  out.information(request.information);
   out.missing({request.missing.begin(), request.missing.begin() + static_cast<std::ptrdiff_t>(std::min(
                                                                       request.missing.size(), kMaxMissing))});
   return bus::to_cdr(out);
@@ -140,8 +140,8 @@ Result<messages::CloudRequest> decode(ByteView cdr) {
   request.from = check.agent(in->sender(), "sender");
   request.to = check.agent(in->recipient(), "recipient");
   request.node = check.node(in->node(), "node");
-  check.size(static_cast<double>(in->worth()), 1e3, "worth");
-  request.information = in->worth();
+  check.size(static_cast<double>(in->information()), 1e3, "information");
+  request.information = in->information();
   check.require(in->missing().size() <= kMaxMissing, "missing has more than 256 entries");
   request.missing = std::move(in->missing());
   return check.finish(std::move(request));

@@ -102,14 +102,14 @@ Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
           portable::atan2(R(1, 0), R(0, 0))};
 }
 
-Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+Eigen::Quaterniond minimal_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   const auto has_direction = [](const Eigen::Vector3d& v) { return v.allFinite() && v.norm() >= 1e-9; };
   if (!has_direction(from) || !has_direction(to)) return Eigen::Quaterniond::Identity();
   return Eigen::Quaterniond::FromTwoVectors(from, to);
 }
 
 Eigen::Matrix3d levelling(const Eigen::Vector3d& up) {
-  return least_rotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return minimal_rotation(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
 }
 
 double wrap_angle(double radians) {

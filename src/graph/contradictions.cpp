@@ -115,13 +115,13 @@ std::map<AgentId, Contradiction> contradict_the_fleet(const Placement& placement
   std::map<AgentId, Contradiction> found;
   for (auto left = disputes(placement); !left.empty();) {
     const auto by_agent = parties(left);
-    const auto most = std::ranges::max_element(by_agent, {}, [](const auto& one) {
+    const auto worst = std::ranges::max_element(by_agent, {}, [](const auto& one) {
       return std::pair(one.second.with.size(), one.second.alignments);
     });
-    if (most->second.with.size() < kMinPeers) break;
-    found.insert(*most);
+    if (worst->second.with.size() < kMinPeers) break;
+    found.insert(*worst);
     std::erase_if(left, [&](const auto& one) {
-      return one.first.first == most->first || one.first.second == most->first;
+      return one.first.first == worst->first || one.first.second == worst->first;
     });
   }
   if (placement.contradicting) add_left_out(*placement.contradicting, placement, found);

@@ -219,9 +219,9 @@ std::vector<double> InformationGain::of(std::span<const Pair> pairs, std::span<c
     for (const std::size_t k : open) gains[k] = part.gain(pairs[k]);
     if (part.whole() || nodes >= kMaxNodes || !part.factorise(Neighbourhood::Border::kGrounded)) break;
     std::erase_if(open, [&](std::size_t k) {
-      const double least = part.gain(pairs[k]);
-      if (gains[k] - least > kTolerance) return false;
-      gains[k] = 0.5 * (gains[k] + least);
+      const double lower_bound = part.gain(pairs[k]);
+      if (gains[k] - lower_bound > kTolerance) return false;
+      gains[k] = 0.5 * (gains[k] + lower_bound);
       return true;
     });
   }

@@ -20,12 +20,12 @@ bool CandidateSelection::clouds_complete(const NodePair& pair, const ScheduledCa
 
 std::vector<NodePair> CandidateSelection::ready(const std::function<bool(const AgentId&)>& is_heard,
                                                 Stamp now) {
-  std::vector<NodePair> ready, obsolete, hopeless;
+  std::vector<NodePair> ready, obsolete, exhausted;
   for (const auto& [pair, candidate] : candidates_.all()) {
     // The cheap conditions are tested first: the others search around the pair.
     if (!is_heard(pair.theirs.agent) || !clouds_complete(pair, candidate, now)) continue;
     if (candidate.phase != Phase::kWaiting && !candidates_.retryable(pair, candidate)) {
-      if (candidates_.hopeless(pair, candidate)) hopeless.push_back(pair);
+      if (candidates_.is_exhausted(pair, candidate)) exhausted.push_back(pair);
       continue;
     }
     // The spacing grows with the first good alignment.
@@ -33,7 +33,7 @@ std::vector<NodePair> CandidateSelection::ready(const std::function<bool(const A
         candidate.phase == Phase::kWaiting && !candidate.known_to_peer && candidates_.redundant(pair);
     (is_obsolete ? obsolete : ready).push_back(pair);
   }
-  for (const NodePair& pair : hopeless) candidates_.give_up(pair);
+  for (const NodePair& pair : exhausted) candidates_.abandon(pair);
   for (const NodePair& pair : obsolete) {
     // Two candidates may make each other redundant: the second one stays.
     if (candidates_.redundant(pair)) {

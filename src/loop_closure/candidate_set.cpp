@@ -8,7 +8,7 @@ namespace fleetmap::loop_closure {
 using Origin = LoopCandidate::Origin;
 
 ScheduledCandidate* CandidateSet::find(const NodePair& pair) {
-  for (Candidates* some : {&candidates_, &done_, &given_up_}) {
+  for (Candidates* some : {&candidates_, &done_, &abandoned_}) {
     if (const auto found = some->find(pair); found != some->end()) return &found->second;
   }
   return nullptr;
@@ -18,21 +18,21 @@ const ScheduledCandidate& CandidateSet::held(const NodePair& pair) const {
   for (const Candidates* some : {&candidates_, &done_}) {
     if (const auto found = some->find(pair); found != some->end()) return found->second;
   }
-  return given_up_.at(pair);
+  return abandoned_.at(pair);
 }
 
 void CandidateSet::conclude(const NodePair& pair) {
-  Candidates& from = given_up_.contains(pair) ? given_up_ : candidates_;
+  Candidates& from = abandoned_.contains(pair) ? abandoned_ : candidates_;
   done_.insert(from.extract(pair)).position->second.phase = Phase::kDone;
 }
 
-bool CandidateSet::hopeless(const NodePair& pair, const ScheduledCandidate& candidate) const {
+bool CandidateSet::is_exhausted(const NodePair& pair, const ScheduledCandidate& candidate) const {
   return candidate.phase == Phase::kFailed &&
          (candidate.attempts >= config_.max_attempts || !too_near(pair, 1, true).empty());
 }
 
 void CandidateSet::set_known_to_peer(const NodeId& ours, const AgentId& peer) {
-  for (Candidates* some : {&candidates_, &given_up_}) {
+  for (Candidates* some : {&candidates_, &abandoned_}) {
     for (auto it = some->lower_bound({ours, {peer, 0}});
          it != some->end() && it->first.ours == ours && it->first.theirs.agent == peer; ++it)
       it->second.known_to_peer = true;
@@ -40,16 +40,16 @@ void CandidateSet::set_known_to_peer(const NodeId& ours, const AgentId& peer) {
 }
 
 void CandidateSet::reopen() {
-  for (auto it = given_up_.begin(); it != given_up_.end();) {
+  for (auto it = abandoned_.begin(); it != abandoned_.end();) {
     const auto current = it++;
-    if (current->second.attempts < config_.max_attempts) candidates_.insert(given_up_.extract(current));
+    if (current->second.attempts < config_.max_attempts) candidates_.insert(abandoned_.extract(current));
   }
 }
 
 void CandidateSet::erase(const NodePair& pair) {
   candidates_.erase(pair);
   grid_.erase(pair);
-  if (given_up_.erase(pair) > 0) reopen();
+  if (abandoned_.erase(pair) > 0) reopen();
 }
 
 ScheduledCandidate& CandidateSet::find_or_make(const NodePair& pair) {

@@ -44,28 +44,28 @@ class CandidateSet {
   CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes)
       : config_(config), nodes_(nodes), grid_(largest_spacing(config), nodes) {}
 
-  /// Those that are neither done nor given up. A long drive has many of these, and they only keep others
+  /// Those that are neither done nor abandoned. A long drive has many of these, and they only keep others
   /// away.
   const Candidates& all() const { return candidates_; }
   bool contains(const NodePair& pair) const {
-    return candidates_.contains(pair) || done_.contains(pair) || given_up_.contains(pair);
+    return candidates_.contains(pair) || done_.contains(pair) || abandoned_.contains(pair);
   }
   /// The node was added to the index.
   void on_node(const NodeId& node) { grid_.on_node(node); }
   /// The node was removed from the index: its candidates no longer keep others away.
   void on_removed_node() { reopen(); }
-  /// Null: there is none. One that is done or given up is not in all().
+  /// Null: there is none. One that is done or abandoned is not in all().
   ScheduledCandidate* find(const NodePair& pair);
   ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
   /// Makes it if there is none.
   ScheduledCandidate& find_or_make(const NodePair& pair);
   /// The candidate is aligned.
   void conclude(const NodePair& pair);
-  /// A failed candidate that has had its attempts, or that one which is done or given up makes redundant.
+  /// A failed candidate that has had its attempts, or that one which is done or abandoned makes redundant.
   /// Only another one that is erased, or a node that is removed, can make it retryable().
-  bool hopeless(const NodePair& pair, const ScheduledCandidate& candidate) const;
-  /// Takes a hopeless candidate out of all().
-  void give_up(const NodePair& pair) { given_up_.insert(candidates_.extract(pair)); }
+  bool is_exhausted(const NodePair& pair, const ScheduledCandidate& candidate) const;
+  /// Takes an exhausted candidate out of all().
+  void abandon(const NodePair& pair) { abandoned_.insert(candidates_.extract(pair)); }
   /// The peer has all candidates of our node `ours` with it.
   void set_known_to_peer(const NodeId& ours, const AgentId& peer);
   /// Those in all().
@@ -80,11 +80,11 @@ class CandidateSet {
   /// Adds it in any case, unless a node is unknown. The oldest one waiting is dropped if too many wait.
   void add(const LoopCandidate& candidate, Stamp found, bool known_to_peer);
   void erase(const NodePair& pair);
-  /// Visits those that are given up, too.
+  /// Visits abandoned ones, too.
   template <class Predicate>
   void erase_if(Predicate predicate) {
     std::vector<NodePair> erased;
-    for (const Candidates* some : {&candidates_, &given_up_}) {
+    for (const Candidates* some : {&candidates_, &abandoned_}) {
       for (const auto& [pair, candidate] : *some) {
         if (predicate(pair, candidate)) erased.push_back(pair);
       }
@@ -116,9 +116,9 @@ class CandidateSet {
   }
   const ScheduledCandidate& held(const NodePair& pair) const;
   /// Candidates with the same agent that are nearer to `pair` than the spacing, `max` of them; with
-  /// `closed_only` of those that are done or given up.
+  /// `closed_only` of those that are done or abandoned.
   std::vector<NodePair> too_near(const NodePair& pair, std::size_t max, bool closed_only = false) const;
-  /// Puts those given up that have attempts left back into all().
+  /// Puts abandoned ones that have attempts left back into all().
   void reopen();
   double spacing(const ScheduledCandidate& other, const AgentId& peer) const;
   /// Drops a rival that is worse than `candidate`. Returns since when a candidate of this place has waited.
@@ -131,7 +131,7 @@ class CandidateSet {
   const NodeIndex& nodes_;
   Candidates candidates_;
   Candidates done_;
-  Candidates given_up_;
+  Candidates abandoned_;
   CandidateGrid grid_;  ///< of all three
   std::set<AgentId> aligned_;
   std::uint64_t redundant_ = 0;

@@ -26,7 +26,7 @@ void PointCache::keep(const std::string& hash, std::shared_ptr<const QuantisedCl
   bytes_ += bytes_of(*cloud);
   entries_.push_front({hash, std::move(cloud)});
   by_hash_[hash] = entries_.begin();
-  while (bytes_ > most_bytes_ && entries_.size() > 1) {
+  while (bytes_ > max_bytes_ && entries_.size() > 1) {
     bytes_ -= bytes_of(*entries_.back().cloud);
     by_hash_.erase(entries_.back().hash);
     entries_.pop_back();

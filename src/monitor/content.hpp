@@ -27,7 +27,7 @@ struct Reply {
 /// Submaps ready to be sent, those asked for last: at most so many bytes, but at least one.
 class PointCache {
  public:
-  explicit PointCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  explicit PointCache(std::size_t max_bytes) : max_bytes_(max_bytes) {}
   std::shared_ptr<const QuantisedCloud> find(const std::string& hash);
   void keep(const std::string& hash, std::shared_ptr<const QuantisedCloud> cloud);
 
@@ -36,7 +36,7 @@ class PointCache {
     std::string hash;
     std::shared_ptr<const QuantisedCloud> cloud;
   };
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   std::size_t bytes_ = 0;
   std::list<Entry> entries_;  ///< the one used last in front
   std::map<std::string, std::list<Entry>::iterator> by_hash_;

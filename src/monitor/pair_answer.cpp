@@ -78,16 +78,16 @@ Facts facts_of(const FleetView& view) {
 }
 
 void find_nearest(const std::vector<Placed>& a, const std::vector<Placed>& b, PairAnswer& answer) {
-  double least = std::numeric_limits<double>::infinity();
+  double min_squared = std::numeric_limits<double>::infinity();
   for (const Placed& one : a) {
     for (const Placed& other : b) {
       const double squared = (one.p_enu - other.p_enu).squaredNorm();
-      if (squared >= least) continue;
-      least = squared;
+      if (squared >= min_squared) continue;
+      min_squared = squared;
       answer.nearest = std::pair(one.id, other.id);
     }
   }
-  if (answer.nearest) answer.nearest_m = std::sqrt(least);
+  if (answer.nearest) answer.nearest_m = std::sqrt(min_squared);
 }
 
 /// "0.34 of ... 0.45" -> "# of ... #": reasons that differ in their numbers alone are one reason.

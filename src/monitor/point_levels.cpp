@@ -34,7 +34,7 @@ Box box_of(const cloud::PointCloud& cloud) {
   return box;
 }
 
-constexpr float kMostSteps = 0x1fffff;  // 21 bits an axis
+constexpr float kMaxSteps = 0x1fffff;  // 21 bits an axis
 
 /// Every third bit, from the lowest on, is one of `axis` (Morton 1966).
 std::uint64_t spread(std::uint32_t axis) {
@@ -63,7 +63,7 @@ std::vector<Placed> along_curve(const cloud::PointCloud& cloud, const Box& box) 
     if (!p.allFinite()) continue;
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const float steps = std::fmin(std::fmax((p[axis] - box.low[axis]) * per_metre, 0.0f), kMostSteps);
+      const float steps = std::fmin(std::fmax((p[axis] - box.low[axis]) * per_metre, 0.0f), kMaxSteps);
       code |= spread(static_cast<std::uint32_t>(steps)) << axis;
     }
     placed.push_back({code, k});
@@ -127,8 +127,9 @@ QuantisedCloud quantised(const cloud::PointCloud& cloud) {
     for (int axis = 0; axis < 3; ++axis)
       result.values.push_back(
           static_cast<std::int16_t>(std::lround(std::clamp(steps[axis], -kSteps, kSteps))));
-    const bool seen = cloud.has_intensities() && strongest > 0.0f && std::isfinite(cloud.intensities[k]);
-    const float share = seen ? cloud.intensities[k] / strongest : 0.0f;
+    const bool has_intensity =
+        cloud.has_intensities() && strongest > 0.0f && std::isfinite(cloud.intensities[k]);
+    const float share = has_intensity ? cloud.intensities[k] / strongest : 0.0f;
     result.values.push_back(static_cast<std::int16_t>(std::lround(kSteps * std::clamp(share, 0.0f, 1.0f))));
   }
   return result;

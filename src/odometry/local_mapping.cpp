@@ -47,11 +47,11 @@ void LocalMapping::prune() {
     map_.prune(keyframe_.translation(), config_.map_radius);
     pruned_at_ = keyframe_;
   }
-  const auto most = static_cast<std::size_t>(config_.max_map_windows);
-  if (map_.size().windows <= most) return;
+  const auto max_windows = static_cast<std::size_t>(config_.max_map_windows);
+  if (map_.size().windows <= max_windows) return;
   ++overflows_;
   double radius = config_.map_radius;
-  while (static_cast<double>(map_.size().windows) > kShrinkTo * static_cast<double>(most)) {
+  while (static_cast<double>(map_.size().windows) > kShrinkTo * static_cast<double>(max_windows)) {
     radius *= kShrinkFactor;
     map_.prune(keyframe_.translation(), radius);
   }

@@ -114,8 +114,8 @@ Matrix12d PoseUncertainty::error_at_reference(const Matched& scan) {
 void PoseUncertainty::remember(const Matrix12d& at_reference) {
   Vector12d scale = Vector12d::Ones();
   for (int i = 6; i < 12; ++i) {
-    const double most = square(i < 9 ? config_.initial_speed : config_.initial_turn_rate);
-    if (at_reference(i, i) > most) scale[i] = std::sqrt(most / at_reference(i, i));
+    const double max_variance = square(i < 9 ? config_.initial_speed : config_.initial_turn_rate);
+    if (at_reference(i, i) > max_variance) scale[i] = std::sqrt(max_variance / at_reference(i, i));
   }
   const Matrix12d capped = scale.asDiagonal() * at_reference * scale.asDiagonal();
   covariance_ = 0.5 * (capped + capped.transpose());

@@ -21,8 +21,8 @@ bool parse(const std::string& line, GlobalPose& G) {
   const int fields =
       std::sscanf(line.c_str(), "%lld.%9lld,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &seconds,
                   &nanoseconds, &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &v[7], &v[8], &v[9], &v[10]);
-  constexpr long long kMostSeconds = 9'000'000'000;  // in 64 bits of nanoseconds
-  if (fields != 13 || seconds > kMostSeconds || seconds < -kMostSeconds) return false;
+  constexpr long long kMaxSeconds = 9'000'000'000;  // in 64 bits of nanoseconds
+  if (fields != 13 || seconds > kMaxSeconds || seconds < -kMaxSeconds) return false;
   G.stamp = stamp_from_ns(seconds * 1'000'000'000 + nanoseconds);
   G.position = geo_point_from_degrees(v[0], v[1], v[2]);
   G.q_enu_base = Eigen::Quaterniond(v[6], v[3], v[4], v[5]).normalized();
@@ -40,7 +40,8 @@ Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& 
   const bool goes_on = is_there(file) && std::filesystem::file_size(file, error) > 0;
   Result<LineFile> lines = LineFile::open(file, std::ios::app, {kMaxTrackBytes, kHeader});
   if (!lines) return tl::unexpected(lines.error());
-  // A line that a kill cut off stays a line of its own, and the empty one behind it says why.
+  // LineFile ends a line that a kill cut off; the empty one behind it marks that line as cut off, not
+  // damaged.
   if (const Status ended = goes_on ? lines->add("") : Status(); !ended) return tl::unexpected(ended.error());
   return GlobalTrackFile(std::move(*lines));
 }

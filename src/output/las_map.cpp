@@ -110,9 +110,9 @@ Result<WrittenLas> stream(store::TiledMerge& merge, const MapCrs& crs, Result<Fi
 
 double las_intensity_gain(float max_intensity) {
   constexpr double kMaxOf8Bits = 255.0;
-  const auto greatest = static_cast<double>(max_intensity);
-  if (greatest <= 1.0) return kMaxLasIntensity;
-  return greatest <= kMaxOf8Bits ? kMaxLasIntensity / kMaxOf8Bits : 1.0;
+  const auto max = static_cast<double>(max_intensity);
+  if (max <= 1.0) return kMaxLasIntensity;
+  return max <= kMaxOf8Bits ? kMaxLasIntensity / kMaxOf8Bits : 1.0;
 }
 
 Result<WrittenLas> write_las(store::Store& store, const std::map<NodeId, Pose>& T_map_node,

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "fleetmap/output/line_file.hpp"
+#include "pose_text.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -32,29 +31,12 @@ std::vector<std::string_view> cells_of(std::string_view line, std::size_t count)
   return cells;
 }
 
-std::optional<double> finite(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-/// "x y z qx qy qz qw"
-std::string text_of(const Pose& T) {
-  const Eigen::Vector3d& t = T.translation();
-  const Eigen::Quaterniond q(T.rotation());
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "%.4f %.4f %.4f %.7f %.7f %.7f %.7f", t.x(), t.y(), t.z(), q.x(),
-                q.y(), q.z(), q.w());
-  return text.data();
-}
-
 /// Empty unless it is seven finite numbers of which the last four are a rotation.
 std::optional<Pose> pose_of(std::string_view text) {
   std::array<double, 7> numbers{};
   for (double& number : numbers) {
     const std::string_view word = text.substr(0, text.find(' '));
-    const auto value = finite(word);
+    const auto value = finite_number(word);
     if (!value) return std::nullopt;
     number = *value;
     text.remove_prefix(std::min(word.size() + 1, text.size()));
@@ -95,10 +77,10 @@ class Columns {
     return RegistrationRow{*target,
                            *source,
                            std::string(verdict),
-                           finite(cell("rmse_m")),
-                           finite(cell("inlier_fraction")),
-                           finite(cell("overlap")),
-                           finite(cell("cpu_s")).value_or(0.0),
+                           finite_number(cell("rmse_m")),
+                           finite_number(cell("inlier_fraction")),
+                           finite_number(cell("overlap")),
+                           finite_number(cell("cpu_s")).value_or(0.0),
                            std::string(reason),
                            pose_of(cell("pose"))};
   }
@@ -121,7 +103,7 @@ Status append_registration(const std::filesystem::path& file, const Registration
     out << ',';
   }
   out << row.cpu_seconds << ',';
-  if (with_pose) out << (row.T_target_source ? text_of(*row.T_target_source) : "") << ',';
+  if (with_pose) out << (row.T_target_source ? pose_text(*row.T_target_source, 4, 7) : "") << ',';
   out << '"' << row.reason << '"';
   return lines->add(out.str());
 }

@@ -11,17 +11,11 @@
 #include <sstream>
 
 #include "fleetmap/core/paths.hpp"
+#include "pose_text.hpp"
 
 namespace fleetmap::output {
 
 namespace {
-
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 std::optional<std::int64_t> integer_of(const std::string& text) {
   std::int64_t value = 0;
@@ -32,10 +26,10 @@ std::optional<std::int64_t> integer_of(const std::string& text) {
 
 /// Seconds to nanoseconds without a detour over double, which cannot hold a Unix time to the nanosecond.
 std::optional<Stamp> stamp_of(const std::string& text) {
-  if (const auto value = number_of(text); !value || std::abs(*value) > 9e9) return std::nullopt;
+  if (const auto value = finite_number(text); !value || std::abs(*value) > 9e9) return std::nullopt;
   const std::size_t dot = text.find('.');
   if (text.find_first_of("eE") != std::string::npos || dot == std::string::npos)
-    return Stamp{from_seconds(*number_of(text))};
+    return Stamp{from_seconds(*finite_number(text))};
   std::string digits = text.substr(0, dot) + text.substr(dot + 1, 9);
   digits.append(9 - std::min<std::size_t>(9, text.size() - dot - 1), '0');
   const auto ns = integer_of(digits);
@@ -51,7 +45,7 @@ std::optional<StampedPose> pose_of(const std::string& line) {
   fields >> stamp_text;
   for (double& value : v) {
     if (!(fields >> text)) return std::nullopt;
-    const auto number = number_of(text);
+    const auto number = finite_number(text);
     if (!number) return std::nullopt;
     value = *number;
   }
@@ -100,16 +94,13 @@ std::filesystem::path odometry_file(const std::filesystem::path& directory, std:
 }
 
 std::string tum_line(const StampedPose& pose) {
-  const Eigen::Quaterniond q(pose.T_w_base.linear());
-  const Eigen::Vector3d t = pose.T_w_base.translation();
   const std::int64_t ns = to_ns(pose.stamp);
-  std::array<char, 256> text{};
+  std::array<char, 64> stamp{};
   // The stamp is written from its integer: a double would round a Unix time to 100 ns.
-  std::snprintf(text.data(), text.size(), "%s%lld.%09lld %.6f %.6f %.6f %.9f %.9f %.9f %.9f",
-                ns < 0 ? "-" : "", static_cast<long long>(std::abs(ns) / 1'000'000'000),
-                static_cast<long long>(std::abs(ns) % 1'000'000'000), t.x(), t.y(), t.z(), q.x(), q.y(),
-                q.z(), q.w());
-  return text.data();
+  std::snprintf(stamp.data(), stamp.size(), "%s%lld.%09lld ", ns < 0 ? "-" : "",
+                static_cast<long long>(std::abs(ns) / 1'000'000'000),
+                static_cast<long long>(std::abs(ns) % 1'000'000'000));
+  return stamp.data() + pose_text(pose.T_w_base, 6, 9);
 }
 
 Result<Trajectory> read_tum(const std::filesystem::path& file) { return read_parts(file, true); }

@@ -42,13 +42,13 @@ Floor floor_of(const std::vector<Eigen::Vector3f>& points, const Bounds& bounds,
   floor.heights.assign(cells, kNan);
   for (int y = 0; y < floor.size.y(); ++y) {
     for (int x = 0; x < floor.size.x(); ++x) {
-      float least = high;
+      float lowest = high;
       for (int v = std::max(0, y - 1); v <= std::min(floor.size.y() - 1, y + 1); ++v) {
         for (int u = std::max(0, x - 1); u <= std::min(floor.size.x() - 1, x + 1); ++u) {
-          least = std::min(least, lows[at(floor.size, u, v)]);
+          lowest = std::min(lowest, lows[at(floor.size, u, v)]);
         }
       }
-      if (least < high) floor.heights[at(floor.size, x, y)] = least;
+      if (lowest < high) floor.heights[at(floor.size, x, y)] = lowest;
     }
   }
   return floor;

@@ -45,8 +45,8 @@ struct Sums {
   /// Adds the part of `plane` that shifts of cell (x, y) reach; values are at most 2.
   void add(const std::uint8_t* plane, const Eigen::Vector2i& size, int x, int y) {
     for (int dy = std::max(-half, -y); dy <= std::min(half, size.y() - 1 - y); ++dy) {
-      const int most = reach[static_cast<std::size_t>(dy + half)];
-      const int from = std::max(-most, -x), to = std::min(most, size.x() - 1 - x);
+      const int max_dx = reach[static_cast<std::size_t>(dy + half)];
+      const int from = std::max(-max_dx, -x), to = std::min(max_dx, size.x() - 1 - x);
       if (from > to) continue;
       const auto count = static_cast<std::size_t>(to - from + 1);
       const std::uint8_t* in = plane + static_cast<std::ptrdiff_t>(y + dy) * size.x() + x + from;
@@ -118,7 +118,7 @@ class Search {
 
   void keep(Sector& sector, float yaw) {
     const auto all = static_cast<float>(source_.cells.size());
-    const float least = static_cast<float>(window_.min_overlap) * all;
+    const float min_overlap = static_cast<float>(window_.min_overlap) * all;
     const int reach2 = half_ * half_;
     for (int y = -half_; y <= half_; ++y) {
       const int sy =
@@ -129,7 +129,7 @@ class Search {
             (x + half_ * kObservedCells + kObservedCells / 2) / kObservedCells - half_ + observed_half_;
         const auto overlap =
             static_cast<float>(observed_.words[static_cast<std::size_t>(sy * observed_.width + sx)]);
-        if (overlap < least) continue;
+        if (overlap < min_overlap) continue;
         const auto at = static_cast<std::size_t>((y + half_) * sums_.width + x + half_);
         const float agreement = 0.5f * static_cast<float>(sums_.words[at]) / overlap;
         const float value = agreement * std::sqrt(std::min(1.0f, overlap / all + 0.5f));

@@ -127,7 +127,7 @@ class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::Point
         source_(source),
         target_(target),
         partner_(source->size(), 0),
-        least_ratio2_(static_cast<float>(min_ratio * min_ratio)) {
+        min_ratio2_(static_cast<float>(min_ratio * min_ratio)) {
     for (const pcl::Correspondence& match : matches) {
       partner_[static_cast<std::size_t>(match.index_query)] = static_cast<std::size_t>(match.index_match);
     }
@@ -162,12 +162,12 @@ class SimilarTriangles : public pcl::SampleConsensusModelRegistration<pcl::Point
     const float in_source = ((*source_)[i].getVector3fMap() - (*source_)[j].getVector3fMap()).squaredNorm();
     const float in_target =
         ((*target_)[partner_[i]].getVector3fMap() - (*target_)[partner_[j]].getVector3fMap()).squaredNorm();
-    return std::min(in_source, in_target) >= least_ratio2_ * std::max(in_source, in_target);
+    return std::min(in_source, in_target) >= min_ratio2_ * std::max(in_source, in_target);
   }
 
   Points::ConstPtr source_, target_;
   std::vector<std::size_t> partner_;  ///< index in the target of each point of the source
-  float least_ratio2_;
+  float min_ratio2_;
 };
 
 /// T_target_source by RANSAC over the features' correspondences; empty where no three of them agree.

@@ -16,11 +16,11 @@ constexpr float kMinHeightAboveFloor = 0.35f;  // m above the floor
 std::vector<Eigen::Vector3f> levelled(const cloud::PointCloud& cloud, const Eigen::Matrix3d& R_level_cloud,
                                       const RegistrationConfig& config) {
   const Eigen::Matrix3f R = R_level_cloud.cast<float>();
-  const float most = config.max_range_m * config.max_range_m;
+  const float max_squared = config.max_range_m * config.max_range_m;
   cloud::PointCloud near;
   near.points.reserve(cloud.size());
   for (const auto& p : cloud.points) {
-    if (p.squaredNorm() <= most) near.points.push_back(R * p);
+    if (p.squaredNorm() <= max_squared) near.points.push_back(R * p);
   }
   return voxel_downsample(near, config.voxel_m).points;
 }

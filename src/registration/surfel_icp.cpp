@@ -236,8 +236,8 @@ Matrix6d drift_of(const System& system, const MovingPoints& source, const Pose& 
 
 Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever, const IcpConfig& config) {
   const Vector6d scale = scale_of(lever), inverse = scale.cwiseInverse();
-  const double most = config.max_stddev_m * config.max_stddev_m;
-  const Matrix6d unknown = most * Matrix6d(inverse.array().square().matrix().asDiagonal());
+  const double max_variance = config.max_stddev_m * config.max_stddev_m;
+  const Matrix6d unknown = max_variance * Matrix6d(inverse.array().square().matrix().asDiagonal());
   double used = 0.0;
   Matrix6d spread = Matrix6d::Zero();
   for (const Vector6d& gradient : block_gradients(system)) {
@@ -256,7 +256,7 @@ Matrix6d covariance_of(const System& system, const Matrix6d& drift, double lever
     if (eigen.values[k] > floor) {
       inverse_values[k] = 1.0 / eigen.values[k];
     } else {
-      C += most * eigen.vectors.col(k) * eigen.vectors.col(k).transpose();
+      C += max_variance * eigen.vectors.col(k) * eigen.vectors.col(k).transpose();
     }
   }
   const Matrix6d pseudo = eigen.vectors * inverse_values.asDiagonal() * eigen.vectors.transpose();

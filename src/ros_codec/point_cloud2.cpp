@@ -131,29 +131,29 @@ Result<Layout> read_layout(const PointCloud2_& in) {
 
 /// Point times as read, in the field's own unit, become seconds after the stamp.
 void resolve_times(std::vector<double>& times, const Field& field, Stamp stamp, DecodedScan& out) {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  double earliest = std::numeric_limits<double>::infinity(), latest = -earliest;
   for (const double time : times) {
     if (!std::isfinite(time)) return;  // no time at all is better than some that are not
-    least = std::min(least, time);
-    most = std::max(most, time);
+    earliest = std::min(earliest, time);
+    latest = std::max(latest, time);
   }
   const bool nanoseconds =
-      !field.is_float() || std::max(std::abs(least), std::abs(most)) > kNanosecondsBeyond;
+      !field.is_float() || std::max(std::abs(earliest), std::abs(latest)) > kNanosecondsBeyond;
   // A sweep takes 5 ms to 1 s, which is less than 1 ms if microseconds are taken for nanoseconds.
-  const double span = most - least;
+  const double span = latest - earliest;
   out.times_in_microseconds = !field.is_float() && span >= kMinSweep && span < kShortestInNanoseconds;
   const double unit = out.times_in_microseconds ? 1e-6 : nanoseconds ? 1e-9 : 1.0;
   double zero = 0.0;
-  if (times.size() > 1 && most == least) return;  // a driver that leaves the field at a constant
-  if (std::max(std::abs(least), std::abs(most)) * unit > kMaxScanSeconds) {
+  if (times.size() > 1 && latest == earliest) return;  // a driver that leaves the field at a constant
+  if (std::max(std::abs(earliest), std::abs(latest)) * unit > kMaxScanSeconds) {
     if (field.datatype == kFloat32) return;  // cannot resolve a scan in absolute time
     // Absolute. The stamp in the field's unit has the field's own rounding, so the difference is exact
     // enough. Microseconds of 32 bits cannot count from 1970.
     const double start = nanoseconds ? static_cast<double>(to_ns(stamp)) : to_seconds(stamp);
-    out.foreign_clock = out.times_in_microseconds || std::abs(least - start) * unit > kMaxScanSeconds;
-    zero = out.foreign_clock ? least : start;
+    out.foreign_clock = out.times_in_microseconds || std::abs(earliest - start) * unit > kMaxScanSeconds;
+    zero = out.foreign_clock ? earliest : start;
   }
-  if ((most - least) * unit > kMaxScanSeconds) return;  // not the time within one scan
+  if ((latest - earliest) * unit > kMaxScanSeconds) return;  // not the time within one scan
   for (std::size_t k = 0; k < times.size(); ++k) {
     out.scan.points[k].time = static_cast<float>((times[k] - zero) * unit);
   }

@@ -139,12 +139,12 @@ Result<MapPicture> picture_of_density(const cloud::PointCloud& shown,
   std::vector<std::uint32_t> sorted = counts;
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), at, sorted.end());
-  const double most = rounded_up(std::max(1.0, static_cast<double>(*at)));
+  const double max_count = rounded_up(std::max(1.0, static_cast<double>(*at)));
   std::vector<eval::Rgb> colours;
   colours.reserve(counts.size());
-  for (const std::uint32_t count : counts) colours.push_back(eval::viridis(count / most));
+  for (const std::uint32_t count : counts) colours.push_back(eval::viridis(count / max_count));
   eval::View view;
-  view.bar = {"points within " + std::to_string(static_cast<int>(std::lround(radius))) + " m", 0.0, most,
+  view.bar = {"points within " + std::to_string(static_cast<int>(std::lround(radius))) + " m", 0.0, max_count,
               true};
   return drawn("map_density.png", "Density of the map", shown, colours, view);
 }

@@ -95,15 +95,16 @@ std::optional<double> ClockOffsets::right_lag() const {
   if (known < 2 || lags.empty()) return std::nullopt;
   std::ranges::sort(lags);
   std::optional<double> right;
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t max_count = 0;
   bool tie = false;
   for (const double lag : lags) {
     // The least of a clock's lags is the one that drivers added least to.
     const auto together =
         std::ranges::count_if(lags, [lag](double other) { return other >= lag && other - lag < kTogether; });
-    tie = together == most || (tie && together < most);
-    if (together > most || (tie && together == most && std::abs(lag) < std::abs(*right))) right = lag;
-    most = std::max(most, together);
+    tie = together == max_count || (tie && together < max_count);
+    if (together > max_count || (tie && together == max_count && std::abs(lag) < std::abs(*right)))
+      right = lag;
+    max_count = std::max(max_count, together);
   }
   // Those that are heard since a moment decide soon.
   return tie && learning > 0 ? std::nullopt : right;
@@ -127,12 +128,12 @@ std::optional<ClockDrift::Line> ClockOffsets::right_rate() const {
   }
   if (lines.size() < 2) return std::nullopt;
   std::optional<ClockDrift::Line> right;
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t max_count = 0;
   for (const ClockDrift::Line& line : lines) {
     const auto together = std::ranges::count_if(
         lines, [&](const auto& other) { return std::abs(other.slope - line.slope) < kSameRate; });
-    if (together > most || (together == most && std::abs(line.slope) < std::abs(right->slope))) {
-      most = together;
+    if (together > max_count || (together == max_count && std::abs(line.slope) < std::abs(right->slope))) {
+      max_count = together;
       right = line;
     }
   }
@@ -179,8 +180,8 @@ void ClockOffsets::check(Source source, double right, Duration since, Stamp arri
     own.correction = wanted;
     if (leaps) own.forget_drift();
   } else if (std::abs(change) > kDeadBand) {
-    const double most = kSlew * to_seconds(since);
-    own.correction += std::clamp(change, -most, most);
+    const double max_change = kSlew * to_seconds(since);
+    own.correction += std::clamp(change, -max_change, max_change);
   }
   report_offset(source, offset, arrival);
 }

@@ -10,7 +10,7 @@ namespace fleetmap::sensor {
 namespace {
 
 constexpr double kNearest = 1.5, kFarthest = 12.0;  // m: the robot itself; ground bends
-constexpr std::size_t kMaxPoints = 1500, kFewestPoints = 200;
+constexpr std::size_t kMaxPoints = 1500, kMinPoints = 200;
 constexpr int kTries = 100;
 constexpr double kThickness = 0.12;    // m on either side
 constexpr double kBelow = 0.35;        // m under a plane that is not the ground
@@ -72,10 +72,10 @@ Eigen::Vector3d refined(const Plane& plane, const Points& points) {
 
 std::optional<Eigen::Vector3d> ground_normal(const Scan& scan, const Pose& T_base_lidar) {
   const Points points = near_points(scan, T_base_lidar);
-  if (points.size() < kFewestPoints) return std::nullopt;
+  if (points.size() < kMinPoints) return std::nullopt;
   std::mt19937 random(1);
   Plane best{Eigen::Vector3d::UnitZ()};
-  std::size_t most = 0;
+  std::size_t max_inliers = 0;
   for (int k = 0; k < kTries; ++k) {
     const Eigen::Vector3d &a = points[random() % points.size()], &b = points[random() % points.size()],
                           &c = points[random() % points.size()];
@@ -85,12 +85,13 @@ std::optional<Eigen::Vector3d> ground_normal(const Scan& scan, const Pose& T_bas
     if (normal.z() < kMinUp) continue;
     const Plane plane{normal, normal.dot(a)};
     const std::size_t on = support(plane, points);
-    if (on > most) {
-      most = on;
+    if (on > max_inliers) {
+      max_inliers = on;
       best = plane;
     }
   }
-  if (static_cast<double>(most) < kShareOfPlane * static_cast<double>(points.size())) return std::nullopt;
+  if (static_cast<double>(max_inliers) < kShareOfPlane * static_cast<double>(points.size()))
+    return std::nullopt;
   return refined(best, points);
 }
 

@@ -77,7 +77,7 @@ class Fields {
   bool malformed() const { return malformed_; }
 
  private:
-  static bool within(double value, double most) { return value >= 0.0 && value <= most; }
+  static bool within(double value, double max) { return value >= 0.0 && value <= max; }
   template <class T>
   std::optional<T> malformed() {
     malformed_ = true;

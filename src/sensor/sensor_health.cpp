@@ -78,8 +78,8 @@ bool SensorHealth::refuse() {
 }
 
 std::vector<std::string> SensorHealth::take_warnings() {
-  std::vector<std::string> news(findings_.begin() + static_cast<std::ptrdiff_t>(told_), findings_.end());
-  told_ = findings_.size();
+  std::vector<std::string> news(findings_.begin() + static_cast<std::ptrdiff_t>(reported_), findings_.end());
+  reported_ = findings_.size();
   return news;
 }
 
@@ -154,8 +154,8 @@ bool SensorHealth::correct_rate(Imu& imu) {
 
 bool SensorHealth::check(Wheel& wheel) {
   const std::optional<Wheel> before = std::exchange(last_wheel_, wheel);
-  const bool stands = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
-  if (!stands || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
+  const bool is_stationary = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
+  if (!is_stationary || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
   const Duration step = wheel.stamp - before->stamp;
   if (step <= Duration::zero() || step > kLongStep) return true;
   const Pose T_before_now = before->T_odom_base->inverse() * *wheel.T_odom_base;

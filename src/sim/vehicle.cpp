@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kStanding = 0.02;  // m/s
 
-double towards(double value, double target, double most) {
-  return value + std::clamp(target - value, -most, most);
+double towards(double value, double target, double max_change) {
+  return value + std::clamp(target - value, -max_change, max_change);
 }
 
 }  // namespace

@@ -187,14 +187,15 @@ class CellReader {
     const std::uint64_t usable = pages_.usable();
     const bool fits = size && *size <= pages_.count() * usable;
     if (!fits || (kind == PageKind::kTableLeaf && !cell.varint())) return;
-    const std::uint64_t most = kind == PageKind::kTableLeaf ? usable - 35 : (usable - 12) * 64 / 255 - 23;
-    if (*size <= most) {
+    const std::uint64_t max_local =
+        kind == PageKind::kTableLeaf ? usable - 35 : (usable - 12) * 64 / 255 - 23;
+    if (*size <= max_local) {
       if (const auto payload = cell.take(*size)) give(*payload);
       return;
     }
-    const std::uint64_t least = (usable - 12) * 32 / 255 - 23;
-    const std::uint64_t wanted = least + (*size - least) % (usable - 4);
-    const auto local = cell.take(wanted <= most ? wanted : least);
+    const std::uint64_t min_local = (usable - 12) * 32 / 255 - 23;
+    const std::uint64_t wanted = min_local + (*size - min_local) % (usable - 4);
+    const auto local = cell.take(wanted <= max_local ? wanted : min_local);
     const auto next = local ? cell.take(4) : std::nullopt;
     if (!next) return;
     Bytes payload(local->begin(), local->end());
@@ -203,9 +204,9 @@ class CellReader {
 
   /// Appends the overflow pages from `page` on until `payload` has `size` bytes.
   bool follow(std::uint64_t page, std::size_t size, Bytes& payload) {
-    std::set<std::uint64_t> seen;  // a damaged chain may be a circle
+    std::set<std::uint64_t> visited;  // a damaged chain may be a circle
     while (payload.size() < size) {
-      const Bytes bytes = seen.insert(page).second ? pages_.read(page) : Bytes{};
+      const Bytes bytes = visited.insert(page).second ? pages_.read(page) : Bytes{};
       if (bytes.empty()) return false;
       const std::size_t piece = std::min(size - payload.size(), pages_.usable() - 4);
       payload.insert(payload.end(), bytes.begin() + 4,

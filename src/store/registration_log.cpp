@@ -93,12 +93,12 @@ struct RegistrationLog::State {
   /// any more takes long, so an eighth of the bound is freed at once.
   Status make_room(std::size_t room) {
     std::optional<std::int64_t> before;
-    for (std::uint64_t most = config.max_bytes;; most = config.max_bytes / 8 * 7) {
+    for (std::uint64_t max_bytes = config.max_bytes;; max_bytes = config.max_bytes / 8 * 7) {
       const auto used = bytes_in_use();
       if (!used) return tl::unexpected(used.error());
       const auto left = db.integer("SELECT COUNT(*) FROM registration");
       if (!left) return tl::unexpected(left.error());
-      if (*used + room <= most || *left == 0) return {};
+      if (*used + room <= max_bytes || *left == 0) return {};
       if (before && *left >= *before)
         return failure(file.string() + ": is damaged, its rows cannot be dropped; delete it");
       before = *left;

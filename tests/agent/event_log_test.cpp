@@ -43,14 +43,14 @@ TEST(EventLog, AnItemOfAnUnknownMakerIsAWarningAndAForgedOneAnError) {
 }
 
 TEST(EventLog, ASenderThatMisbehavesIsNamedByTheLinkAndNotByTheMessage) {
-  exchange::SenderMisbehaved seen{kR2, kR3, exchange::SenderMisbehaved::Kind::kForeignName};
-  EXPECT_THAT(logged(seen), HasSubstr("r1: r3 sent a message of another robot under the name r2"));
-  seen = {kR3, kR3, exchange::SenderMisbehaved::Kind::kDigest};
-  EXPECT_THAT(logged(seen), HasSubstr("r3 sent a digest or a request that contradicts the rules: it is"));
-  seen = {kR2, std::nullopt, exchange::SenderMisbehaved::Kind::kSubmap};
-  EXPECT_THAT(logged(seen), HasSubstr("an unknown robot sent a submap digest or chunk"));
-  EXPECT_THAT(logged(seen), HasSubstr("under the name r2"));
-  EXPECT_THAT(logged(seen), HasSubstr("or the message is forged"));
+  exchange::SenderMisbehaved event{kR2, kR3, exchange::SenderMisbehaved::Kind::kForeignName};
+  EXPECT_THAT(logged(event), HasSubstr("r1: r3 sent a message of another robot under the name r2"));
+  event = {kR3, kR3, exchange::SenderMisbehaved::Kind::kDigest};
+  EXPECT_THAT(logged(event), HasSubstr("r3 sent a digest or a request that contradicts the rules: it is"));
+  event = {kR2, std::nullopt, exchange::SenderMisbehaved::Kind::kSubmap};
+  EXPECT_THAT(logged(event), HasSubstr("an unknown robot sent a submap digest or chunk"));
+  EXPECT_THAT(logged(event), HasSubstr("under the name r2"));
+  EXPECT_THAT(logged(event), HasSubstr("or the message is forged"));
 }
 
 TEST(EventLog, WhatTheAgentHandlesItselfIsNotLoggedHere) {

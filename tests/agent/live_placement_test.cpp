@@ -78,7 +78,7 @@ class LivePlacementTest : public ::testing::Test {
 
   GeoPoint origin_ = geo_point_from_degrees(39.0, -3.0, 600.0);
   Pose T_enu_odom_ = make_pose(rotation_from_rpy(0.0, 0.0, 2.0), Eigen::Vector3d(-80.0, 30.0, 1.0));
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
   store::Store store_ = std::move(
       store::Store::open(folder_ / "store.db", kSelf, {.power_safe = false, .file_system = {}}).value());
   AgentConfig config_;

@@ -55,7 +55,7 @@ class NavigatorTest : public ::testing::Test {
     return perceived;
   }
   /// Scans and ticks at one place for `seconds`; `told`: what who leads the robot tells it.
-  void stand(const Perceived& perceived, int seconds, const Bytes& told = {}) {
+  void stay(const Perceived& perceived, int seconds, const Bytes& told = {}) {
     for (int k = 0; k < 10 * seconds; ++k) {
       if (!told.empty()) bus_->publish(fleet_codec::topics::guide_pose(), told);
       network_->run_until(network_->now() + std::chrono::milliseconds(100));
@@ -96,27 +96,27 @@ class NavigatorTest : public ::testing::Test {
 };
 
 TEST_F(NavigatorTest, DrivesAlongItsRow) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_FALSE(commands_.empty());
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
   EXPECT_NEAR(commands_.back().yaw_rate, 0.0, 0.3);
 }
 
 TEST_F(NavigatorTest, TurnsTowardsItsRow) {
-  stand(at({0.0, 0.0}, -1.57), 2);
+  stay(at({0.0, 0.0}, -1.57), 2);
   ASSERT_FALSE(commands_.empty());
   EXPECT_GT(commands_.back().yaw_rate, 0.2) << "the row lies to the left";
   commands_.clear();
-  stand(at({0.0, 0.0}, 1.57), 2);
+  stay(at({0.0, 0.0}, 1.57), 2);
   EXPECT_LT(commands_.back().yaw_rate, -0.2) << "the row lies to the right";
 }
 
 TEST_F(NavigatorTest, StandsStillWithoutAPose) {
-  stand({}, 3);
+  stay({}, 3);
   ASSERT_FALSE(commands_.empty()) << "it says so";
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   commands_.clear();
-  stand({}, 1);
+  stay({}, 1);
   ASSERT_FALSE(commands_.empty());
   for (const auto& command : commands_) {
     EXPECT_EQ(command.forward_speed, 0.0) << "the pose was lost on the way";
@@ -128,39 +128,39 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   const auto led_at = [&](const Eigen::Vector2d& p) {
     GlobalPose pose = *at(p, 0.0).G;
     pose.stamp = network_->now();
-    stand({}, 1, fleet_codec::encode(pose));
+    stay({}, 1, fleet_codec::encode(pose));
   };
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
   ASSERT_FALSE(told_.empty());
   EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
 
-  stand(at({30.0, 30.0}, 0.0), 1);
+  stay(at({30.0, 30.0}, 0.0), 1);
   bus_->publish(fleet_codec::topics::guide_pose(), Bytes(7, 0xff));
   GlobalPose nowhere = *at({0.0, 0.0}, 0.0).G;
   nowhere.position.latitude = std::numeric_limits<double>::quiet_NaN();
   bus_->publish(fleet_codec::topics::guide_pose(), fleet_codec::encode(nowhere));
-  stand({}, 1);
+  stay({}, 1);
   commands_.clear();
-  stand({}, 2);
+  stay({}, 2);
   ASSERT_FALSE(commands_.empty());
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0) << "who led it fell silent";
 }
 
 TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
   for (int k = 0; k < 8; ++k) {
-    stand(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
+    stay(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
   ASSERT_FALSE(told_.empty());
   EXPECT_NEAR(told_.back().position.x(), 1.0, 0.01);
-  stand(at({9.0, 4.0}, 0.0), 8);
+  stay(at({9.0, 4.0}, 0.0), 8);
   EXPECT_NEAR(told_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
   Perceived broken = at({0.0, 0.0}, 0.0);
   broken.G->position.latitude = std::numeric_limits<double>::quiet_NaN();
-  stand(broken, 2);
+  stay(broken, 2);
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0);
   EXPECT_TRUE(told_.empty());
 }
@@ -170,15 +170,15 @@ TEST_F(NavigatorTest, StopsInFrontOfAWall) {
   for (float y = -8.0f; y <= 8.0f; y += 0.05f) {
     for (float z = 0.2f; z < 1.0f; z += 0.1f) perceived.odometry.points.points.emplace_back(0.55f, y, z);
   }
-  stand(perceived, 3);
+  stay(perceived, 3);
   ASSERT_FALSE(commands_.empty());
   for (const auto& command : commands_) EXPECT_LE(command.forward_speed, 0.11);
 }
 
 TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
-  stand({}, 6);
+  stay({}, 6);
   EXPECT_TRUE(told_.empty()) << "there is nothing to tell without a pose";
-  stand(at({0.0, 0.0}, 0.0), 16);
+  stay(at({0.0, 0.0}, 0.0), 16);
   ASSERT_GE(told_.size(), 3u);
   EXPECT_LE(told_.size(), 4u);
   EXPECT_EQ(told_.back().from, self_);
@@ -193,16 +193,16 @@ TEST_F(NavigatorTest, HearsOfItsBattery) {
   network_->run_until(network_->now());
   ASSERT_TRUE(navigator_->battery());
   EXPECT_NEAR(*navigator_->battery(), 0.25, 1e-6);
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_FALSE(told_.empty());
   EXPECT_NEAR(told_.back().battery, 0.25, 1e-6);
 }
 
 TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   EXPECT_FALSE(navigator_->all_rows_driven());
   navigator_->on_report(report_of("r2", {0b11}));
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   EXPECT_FALSE(navigator_->all_rows_driven()) << "one of the two is this robot's, and no node lies along it";
   for (double east = 2.0; east <= 22.0; east += 4.0) {
     graph::Node node;
@@ -210,12 +210,12 @@ TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
     node.G->position = LocalFrame(site_).to_geo({east, 0.0, 0.0});
     navigator_->on_node(node);
   }
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   EXPECT_TRUE(navigator_->all_rows_driven());
 }
 
 TEST_F(NavigatorTest, ReportsThatCannotBeAreHarmless) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   const auto before = navigator_->status();
   messages::MissionReport beyond = report_of("r2", Bytes(128, 0xfc));
   beyond.claimed = beyond.failed = beyond.done;
@@ -225,24 +225,24 @@ TEST_F(NavigatorTest, ReportsThatCannotBeAreHarmless) {
   navigator_->on_report(beyond);
   navigator_->on_report(report_of("r9", {0b11}));
   navigator_->on_report(report_of("r1", {0b11}));
-  stand(at({0.0, 0.0}, 0.0), 8);
+  stay(at({0.0, 0.0}, 0.0), 8);
   EXPECT_EQ(navigator_->status().rows, before.rows);
   EXPECT_EQ(navigator_->status().done, 0u) << "rows beyond the mission, a stranger's and its own word";
   EXPECT_GT(commands_.back().forward_speed, 0.2);
 }
 
 TEST_F(NavigatorTest, OnceStoppedItStandsForGood) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   commands_.clear();
   navigator_->stop();
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kStopping);
 }
 
 TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   network_->run_until(network_->now() + std::chrono::milliseconds(300));
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoScan);
   commands_.clear();
@@ -252,69 +252,69 @@ TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
 }
 
 TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   Perceived uncertain = at({0.0, 0.0}, 0.0);
   uncertain.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
   commands_.clear();
-  stand(uncertain, 1);
+  stay(uncertain, 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "it still knows its lane";
   uncertain.G->covariance = 5.1 * 5.1 * Matrix6d::Identity();
   commands_.clear();
-  stand(uncertain, 1);
+  stay(uncertain, 1);
   expect_zeros();
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
   uncertain.G->covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
-  stand(uncertain, 1);
+  stay(uncertain, 1);
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoPose);
-  stand(at({0.0, 0.0}, 0.0), 1);
+  stay(at({0.0, 0.0}, 0.0), 1);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
 }
 
 TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   Perceived lost = at({0.0, 0.0}, 0.0);
   lost.odometry.lost = true;
   commands_.clear();
-  stand(lost, 1);
+  stay(lost, 1);
   ASSERT_FALSE(commands_.empty());
   expect_zeros();
   EXPECT_EQ(navigator_->stop_reason(), StopReason::kNoOdometry);
   commands_.clear();
-  stand(lost, 1, fleet_codec::encode(*at({0.0, 0.0}, 0.0).G));
+  stay(lost, 1, fleet_codec::encode(*at({0.0, 0.0}, 0.0).G));
   expect_zeros();  // whoever leads it does not see what is in the way
 }
 
 TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
   const Bytes told = fleet_codec::encode(*at({0.0, 0.0}, 0.0).G);
-  stand({}, 2, told);
+  stay({}, 2, told);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
   navigator_->obey(order(true));
   network_->run_until(network_->now());
   commands_.clear();
-  stand({}, 2, told);
+  stay({}, 2, told);
   expect_zeros();
 }
 
 TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   navigator_->obey(order(true));
   network_->run_until(network_->now());
   commands_.clear();
-  stand(at({0.0, 0.0}, 0.0), 50);
+  stay(at({0.0, 0.0}, 0.0), 50);
   expect_zeros();
   EXPECT_EQ(navigator_->status().state, messages::MissionState::kDriving);
   EXPECT_EQ(navigator_->status().mine, 1u);
   EXPECT_EQ(navigator_->status().replans, 0u);
   EXPECT_FALSE(told_.empty()) << "the others hear of it";
   navigator_->obey(order(false));
-  stand(at({0.0, 0.0}, 0.0), 5);
+  stay(at({0.0, 0.0}, 0.0), 5);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
   EXPECT_EQ(navigator_->status().mine, 1u) << "the time that it was held does not count";
 }
 
 TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
-  stand(at({0.0, 0.0}, 0.0), 2);
+  stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   for (int k = 0; k < 60; ++k) {
     network_->run_until(network_->now() + std::chrono::milliseconds(500));

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::agent {
@@ -35,17 +36,12 @@ loop_closure::Registration failed() {
   return one;
 }
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(RegistrationRecorder, KeepsALineOfEachAndTheCloudsOfThoseWithAResult) {
   const testing::TemporaryFolder folder;
   RegistrationRecorder recorder(kSelf, folder.path());
   recorder.add(accepted());
   recorder.add(failed());
-  const std::string text = text_of(folder.path() / "registrations.csv");
+  const std::string text = testing::file_text(folder.path() / "registrations.csv");
   EXPECT_NE(text.find(",accepted,0.05,0.75,0.5,1.5,1.0000 2.0000 3.0000 "
                       "0.0000000 0.0000000 0.0000000 1.0000000,\"\"\n"),
             std::string::npos)
@@ -81,7 +77,7 @@ TEST(RegistrationRecorder, GoesOnWithoutCloudsWhereTheirFileIsNone) {
   std::filesystem::create_directory(folder.path() / store::kRegistrationLogFile);
   RegistrationRecorder recorder(kSelf, folder.path());
   recorder.add(accepted());
-  EXPECT_NE(text_of(folder.path() / "registrations.csv").find(",accepted,"), std::string::npos);
+  EXPECT_NE(testing::file_text(folder.path() / "registrations.csv").find(",accepted,"), std::string::npos);
 }
 
 }  // namespace

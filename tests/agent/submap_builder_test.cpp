@@ -27,15 +27,15 @@ Pose at(double x, double yaw = 0.0) {
 TEST(SubmapBuilder, PointsComeBackInTheNodesFrameWithinVoxelAndRounding) {
   const SubmapConfig config{.voxel = 0.1, .resolution = 0.02};
   SubmapBuilder builder(config);
-  const cloud::PointCloud seen = wall(1, 3000);
-  builder.add(seen, at(2.0, 0.3));
+  const cloud::PointCloud scan = wall(1, 3000);
+  builder.add(scan, at(2.0, 0.3));
   const Pose T_odom_node = at(5.0, -0.4);
   const auto frozen = builder.freeze(T_odom_node);
   ASSERT_TRUE(frozen) << frozen.error().message;
   const auto submap = cloud::decode(frozen->encoded);
   ASSERT_TRUE(submap);
   EXPECT_EQ(submap->size(), frozen->points);
-  const cloud::PointCloud expected = cloud::transformed(seen, T_odom_node.inverse() * at(2.0, 0.3));
+  const cloud::PointCloud expected = cloud::transformed(scan, T_odom_node.inverse() * at(2.0, 0.3));
   const cloud::KdTree tree(expected);
   for (const Eigen::Vector3f& p : submap->points) {
     EXPECT_LT(std::sqrt(tree.nearest(p)->squared_distance), 0.5 * 0.02 * std::sqrt(3.0) + 1e-3);

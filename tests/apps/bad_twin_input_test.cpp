@@ -8,6 +8,8 @@
 
 #include "fleetmap/config/world_file.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
+#include "support/file_content.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -22,8 +24,7 @@ class BadTwinInput : public ::testing::Test {
   /// `fleetmap run` and `fleetmap check-config` both refuse it.
   void refused(const std::vector<std::string>& says) {
     const auto run = twin_.run("out", {"--threads", "1"});
-    testing::Process check({std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "check-config",
-                            twin_.path("fleet.yaml").string()});
+    testing::Process check({testing::kProgram, "check-config", twin_.path("fleet.yaml").string()});
     EXPECT_EQ(run.exit_code, kBadConfiguration) << run.output;
     EXPECT_EQ(check.wait(), kBadConfiguration) << check.output();
     for (const std::string& text : says) {
@@ -36,10 +37,7 @@ class BadTwinInput : public ::testing::Test {
     twin_.write(name, content);
     twin_.write("world.yaml", "kind: mesh\npath: " + name + "\naisles: [[[0, 1], [20, 1]]]\n");
   }
-  std::string text_of(const std::string& name) const {
-    std::ifstream in(twin_.path(name));
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text_of(const std::string& name) const { return testing::file_text(twin_.path(name)); }
   void mission(const std::string& geojson) const {
     twin_.write("rows.geojson", geojson);
     replace("fleet.yaml", "mission: \\{every", "mission: {file: rows.geojson, every");
@@ -187,8 +185,7 @@ TEST_F(BadTwinInput, ARadioThatIsSilentForAStranger) {
 
 TEST_F(BadTwinInput, CheckConfigSaysWhatAFileIs) {
   const auto says = [&](const std::filesystem::path& file) {
-    testing::Process process(
-        {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "check-config", file.string()});
+    testing::Process process({testing::kProgram, "check-config", file.string()});
     EXPECT_EQ(process.wait(), 0) << process.output();
     return process.output();
   };

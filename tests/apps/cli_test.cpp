@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/command_line.hpp"
+#include "support/file_content.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -12,20 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class CommandLine : public ::testing::Test {
- protected:
-  void run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
-    testing::Process process(arguments);
-    exit_code_ = process.wait();
-    output_ = process.output();
-  }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-
-  testing::TemporaryFolder folder_;
-  int exit_code_ = -1;
-  std::string output_;
-};
+using CommandLine = testing::CommandLineTest;
 
 TEST_F(CommandLine, UsageErrorsExitWith2) {
   run({});
@@ -254,8 +243,7 @@ TEST_F(CommandLine, EvalSaysWhatItMeasuredAndWhatIsMissing) {
   EXPECT_THAT(output_, HasSubstr("no true surface"));
   for (const char* file : {"evaluation.json", "evaluation.html", "map_top.png", "map_density.png"})
     EXPECT_TRUE(std::filesystem::exists(path("run") + "/" + file)) << file;
-  std::ifstream report(path("run/report.json"));
-  const std::string content{std::istreambuf_iterator<char>(report), {}};
+  const std::string content = testing::file_text(path("run/report.json"));
   EXPECT_THAT(content, HasSubstr("\"evaluation\""));
   EXPECT_THAT(content, HasSubstr("\"long_range_bytes_per_m2\": 2.0"));
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -17,8 +18,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 json evaluated(const fs::path& run) {
-  testing::Process eval({std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", run.string(),
-                         "--no-pictures", "--no-overlap"});
+  testing::Process eval({testing::kProgram, "eval", run.string(), "--no-pictures", "--no-overlap"});
   EXPECT_EQ(eval.wait(), 0) << eval.output();
   std::ifstream file(run / "evaluation.json");
   return json::parse(file, nullptr, false);

@@ -10,6 +10,7 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/store/store.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/shared_data.hpp"
@@ -18,7 +19,6 @@
 namespace fleetmap {
 namespace {
 
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
 constexpr auto kPatience = std::chrono::minutes(5);
 
@@ -51,11 +51,11 @@ class DdsFleet : public ::testing::Test {
   std::string config(const std::string& id) const { return (folder_.path() / (id + ".yaml")).string(); }
   std::unique_ptr<testing::Process> agent(const std::string& id) {
     return std::make_unique<testing::Process>(
-        std::vector<std::string>{kFleetmap, "agent", "-c", config(id), "--exit-after-idle", "5"});
+        std::vector<std::string>{testing::kProgram, "agent", "-c", config(id), "--exit-after-idle", "5"});
   }
   std::unique_ptr<testing::Process> replay(const std::string& id, const std::string& rate = "1") {
-    return std::make_unique<testing::Process>(
-        std::vector<std::string>{kFleetmap, "replay", "-c", config(id), "--wait", "60", "--rate", rate});
+    return std::make_unique<testing::Process>(std::vector<std::string>{
+        testing::kProgram, "replay", "-c", config(id), "--wait", "60", "--rate", rate});
   }
   std::size_t own_nodes(const std::string& id) const {
     const auto store = store::Store::open_read_only(folder_.path() / id / "store.db");

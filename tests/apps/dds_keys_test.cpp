@@ -12,7 +12,9 @@
 
 #include "bus/dds_domains.hpp"
 #include "monitor/browser.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
+#include "support/file_content.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,14 +32,13 @@ class FleetWithKeys : public ::testing::Test {
     const std::string folder = (folder_.path() / "keys").string();
     for (const std::vector<std::string>& arguments : std::initializer_list<std::vector<std::string>>{
              {"keys", "init"}, {"keys", "add", "r1"}, {"keys", "add", "r2"}}) {
-      std::vector<std::string> command{program()};
+      std::vector<std::string> command{testing::kProgram};
       command.insert(command.end(), arguments.begin(), arguments.end());
       command.insert(command.end(), {"--dir", folder});
       testing::Process process(command);
       ASSERT_EQ(process.wait(), 0) << process.output();
     }
   }
-  static std::string program() { return std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap"; }
   std::string file(int robot, bool with_keys) const {
     const std::string name = std::string("r").append(std::to_string(robot));
     const std::uint32_t domain = bus::testing::first_test_domain();
@@ -51,8 +52,8 @@ class FleetWithKeys : public ::testing::Test {
     return folder_.write(name + ".yaml", text.str()).string();
   }
   void start(int robot, bool with_keys) {
-    agents_.push_back(std::make_unique<testing::Process>(
-        std::vector<std::string>{program(), "agent", "-c", file(robot, with_keys), "--monitor", "0"}));
+    agents_.push_back(std::make_unique<testing::Process>(std::vector<std::string>{
+        testing::kProgram, "agent", "-c", file(robot, with_keys), "--monitor", "0"}));
   }
   /// `radio.who_may_join` on the agent's page; empty until it has published.
   std::string who_may_join_of_page(std::size_t agent) const {
@@ -71,8 +72,7 @@ class FleetWithKeys : public ::testing::Test {
                                kPatience);
   }
   std::string report_of(const char* robot) const {
-    std::ifstream in(folder_.path() / robot / "report.json");
-    return {std::istreambuf_iterator<char>(in), {}};
+    return testing::file_text(folder_.path() / robot / "report.json");
   }
 
   testing::TemporaryFolder folder_;
@@ -106,11 +106,11 @@ TEST_F(FleetWithKeys, AnOperatorsProgramsUseTheRobotsKeys) {
   start(1, true);
   start(2, true);
   ASSERT_TRUE(says(0, "heard r2 at") && says(1, "heard r1 at"));
-  testing::Process check({program(), "check-config", "--network", "--seconds", "3", file(1, true)});
+  testing::Process check({testing::kProgram, "check-config", "--network", "--seconds", "3", file(1, true)});
   EXPECT_EQ(check.wait(), 0) << check.output();
-  testing::Process hold({program(), "hold", "-c", file(1, true)});
+  testing::Process hold({testing::kProgram, "hold", "-c", file(1, true)});
   EXPECT_EQ(hold.wait(), 0) << hold.output();
-  testing::Process stranger({program(), "hold", "--timeout", "3", "-c", file(1, false)});
+  testing::Process stranger({testing::kProgram, "hold", "--timeout", "3", "-c", file(1, false)});
   EXPECT_EQ(stranger.wait(), 1) << "who has no keys orders nobody: " << stranger.output();
 }
 

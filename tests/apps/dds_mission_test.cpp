@@ -14,6 +14,7 @@
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/planning/site/geojson.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 
@@ -22,7 +23,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr auto kPatience = std::chrono::minutes(6);
 /// Lanes lie 7 m apart; GPS errs by some 1 m, the drawing by 0.5 m, so the ends of a row may be missed.
 constexpr double kBesideRow = 2.5, kMinShare = 0.8;
@@ -45,7 +45,7 @@ class DdsMission : public ::testing::Test {
  protected:
   void SetUp() override {
     twin_.write_fleet("dds: {base_domain: " + std::to_string(domain(0)) + ", qos: " + qos() + "}\n");
-    testing::Process world({kFleetmap, "world", twin_.path("world.yaml").string(), "--out",
+    testing::Process world({testing::kProgram, "world", twin_.path("world.yaml").string(), "--out",
                             twin_.path("site").string(), "--density", "1"});
     ASSERT_EQ(world.wait(), 0) << world.output();
     for (const std::uint32_t k : {1u, 2u}) {
@@ -83,9 +83,9 @@ class DdsMission : public ::testing::Test {
 };
 
 TEST_F(DdsMission, AgentsDriveAllRowsOfADrawing) {
-  testing::Process sim({kFleetmap, "sim", "-c", file("fleet.yaml"), "--out", file("truth")});
-  testing::Process r1({kFleetmap, "agent", "-c", file("r1.yaml")});
-  testing::Process r2({kFleetmap, "agent", "-c", file("r2.yaml")});
+  testing::Process sim({testing::kProgram, "sim", "-c", file("fleet.yaml"), "--out", file("truth")});
+  testing::Process r1({testing::kProgram, "agent", "-c", file("r1.yaml")});
+  testing::Process r2({testing::kProgram, "agent", "-c", file("r2.yaml")});
   const auto is_done = [](const testing::Process& agent, const std::string& id) {
     return agent.output().find(id + ": done, 3 of 3 rows driven by the fleet, 0 to go") != std::string::npos;
   };
@@ -108,7 +108,7 @@ TEST_F(DdsMission, AgentsDriveAllRowsOfADrawing) {
 
 TEST_F(DdsMission, CheckConfigPlansAnAgentsMission) {
   const auto check = [&](const std::vector<std::string>& more, int code) {
-    std::vector<std::string> arguments{kFleetmap, "check-config", file("r1.yaml")};
+    std::vector<std::string> arguments{testing::kProgram, "check-config", file("r1.yaml")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     testing::Process process(arguments);
     EXPECT_EQ(process.wait(), code) << process.output();
@@ -120,8 +120,8 @@ TEST_F(DdsMission, CheckConfigPlansAnAgentsMission) {
 }
 
 TEST_F(DdsMission, APlanIsDrawnBeforeAnyoneDrives) {
-  testing::Process plan({kFleetmap, "plan", file("site/site.geojson"), "-c", file("fleet.yaml"), "--agents",
-                         "2", "--out", file("plan.geojson")});
+  testing::Process plan({testing::kProgram, "plan", file("site/site.geojson"), "-c", file("fleet.yaml"),
+                         "--agents", "2", "--out", file("plan.geojson")});
   ASSERT_EQ(plan.wait(), 0) << plan.output();
   EXPECT_THAT(plan.output(), AllOf(HasSubstr("r1: "), HasSubstr("r2: "), HasSubstr("all meet at 39.00"),
                                    Not(HasSubstr("r3: "))));
@@ -132,11 +132,11 @@ TEST_F(DdsMission, APlanIsDrawnBeforeAnyoneDrives) {
   EXPECT_EQ(routes, 2);
   EXPECT_GT(std::filesystem::file_size(twin_.path("plan.png")), 1000u);
   // The same division as the agents of these robots compute from their own files.
-  testing::Process own({kFleetmap, "plan", file("site/site.geojson"), "-c", file("r2.yaml")});
+  testing::Process own({testing::kProgram, "plan", file("site/site.geojson"), "-c", file("r2.yaml")});
   ASSERT_EQ(own.wait(), 0) << own.output();
   EXPECT_EQ(own.output(), plan.output().substr(0, own.output().size()));
   testing::Process many(
-      {kFleetmap, "plan", file("site/site.geojson"), "-c", file("r2.yaml"), "--agents", "3"});
+      {testing::kProgram, "plan", file("site/site.geojson"), "-c", file("r2.yaml"), "--agents", "3"});
   EXPECT_EQ(many.wait(), 2);
   EXPECT_THAT(many.output(), HasSubstr("has only 2 robots"));
 }

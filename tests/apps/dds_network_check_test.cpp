@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/dds_domains.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -40,7 +41,6 @@ class NetworkCheck : public ::testing::Test {
     int exit_code;
     std::string output;
   };
-  static std::string program() { return std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap"; }
 
   std::string file(int robot, const Other& other = {}) const {
     const std::uint32_t onboard = domain_of_fleet() + static_cast<std::uint32_t>(robot);
@@ -58,12 +58,12 @@ class NetworkCheck : public ::testing::Test {
   void start(int robot, const Other& other = {}) {
     const std::string path = file(robot, other);
     agents_.push_back(
-        std::make_unique<testing::Process>(std::vector<std::string>{program(), "agent", "-c", path}));
+        std::make_unique<testing::Process>(std::vector<std::string>{testing::kProgram, "agent", "-c", path}));
   }
   /// Seen from r1.
   Checked check() const {
     const std::uint32_t domain = domain_of_fleet();
-    testing::Process process({program(), "check-config", "--network", "--seconds", "3", "--domains",
+    testing::Process process({testing::kProgram, "check-config", "--network", "--seconds", "3", "--domains",
                               std::to_string(domain + 4), std::to_string(domain + 5), file(1)});
     const int exit_code = process.wait();
     return {exit_code, process.output()};
@@ -140,8 +140,8 @@ TEST_F(NetworkCheck, TwinsAndStrangersAreNamed) {
   const std::string path = file(2);
   // A second r2 with its own folder.
   agents_.push_back(std::make_unique<testing::Process>(std::vector<std::string>{
-      program(), "agent", "-c", path, "--set", "directory=" + (folder_.path() / "twin").string(), "--set",
-      "dds.onboard.domain=" + std::to_string(domain_of_fleet() + 4)}));
+      testing::kProgram, "agent", "-c", path, "--set", "directory=" + (folder_.path() / "twin").string(),
+      "--set", "dds.onboard.domain=" + std::to_string(domain_of_fleet() + 4)}));
   ASSERT_TRUE(heard(2, "is named r2, too"));
   ASSERT_TRUE(heard(1, "heard r2"));
   const Checked checked = check();
@@ -152,7 +152,7 @@ TEST_F(NetworkCheck, TwinsAndStrangersAreNamed) {
 
 TEST_F(NetworkCheck, AnAddressThatThisMachineHasNotIsNamed) {
   const std::string path = file(1);
-  testing::Process process({program(), "check-config", "--network", "--seconds", "1", "--set",
+  testing::Process process({testing::kProgram, "check-config", "--network", "--seconds", "1", "--set",
                             "dds.long_range.address=192.0.2.77", "--set", "dds.long_range.peers=[192.0.2.78]",
                             path});
   EXPECT_EQ(process.wait(), 1);
@@ -162,8 +162,8 @@ TEST_F(NetworkCheck, AnAddressThatThisMachineHasNotIsNamed) {
 
 TEST_F(NetworkCheck, FewerPeersThanRobotsAreAWarning) {
   const std::string path = file(1, {.fleet = "[r1, r2, r3]"});
-  testing::Process process({program(), "check-config", "--set", "dds.long_range.address=192.0.2.77", "--set",
-                            "dds.long_range.peers=[192.0.2.78]", path});
+  testing::Process process({testing::kProgram, "check-config", "--set", "dds.long_range.address=192.0.2.77",
+                            "--set", "dds.long_range.peers=[192.0.2.78]", path});
   EXPECT_EQ(process.wait(), 0);
   EXPECT_THAT(process.output(), HasSubstr("dds.long_range.peers names 1 of the 2 other robots"));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bus/dds_domains.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -42,8 +43,8 @@ class DdsRestart : public ::testing::Test {
                         << "  long_range: {domain: " << domain
                         << ", peers: [127.0.0.1], address: 127.0.0.1}\n"
                         << "  short_range: {enabled: false}\n";
-    return std::make_unique<testing::Process>(std::vector<std::string>{
-        std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "agent", "-c", file.string()});
+    return std::make_unique<testing::Process>(
+        std::vector<std::string>{testing::kProgram, "agent", "-c", file.string()});
   }
   /// Counts the lines of `by` that it heard `robot` on the radio.
   static std::size_t heard(const testing::Process& by, int robot) {

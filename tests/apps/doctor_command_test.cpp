@@ -10,6 +10,7 @@
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -30,8 +31,7 @@ class Doctor : public ::testing::Test {
                          << ", peers: [127.0.0.1]}\n";
   }
   testing::Process doctor(const std::string& seconds) const {
-    return testing::Process({std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "doctor", "-c",
-                             file_.string(), "--seconds", seconds});
+    return testing::Process({testing::kProgram, "doctor", "-c", file_.string(), "--seconds", seconds});
   }
 
   const std::uint32_t kDomain = bus::testing::first_test_domain();

@@ -14,6 +14,7 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -24,7 +25,6 @@ using bus::testing::first_test_domain;
 using ::testing::HasSubstr;
 
 constexpr Duration kPromise = 300ms;
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 
 /// Hears one robot's cmd_vel.
 class CommandLog {
@@ -114,7 +114,7 @@ class DriveStop : public ::testing::Test {
   }
   std::string file() const { return twin_.path("two.yaml").string(); }
   std::unique_ptr<testing::Process> start(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), kFleetmap);
+    arguments.insert(arguments.begin(), testing::kProgram);
     return std::make_unique<testing::Process>(arguments);
   }
   std::unique_ptr<testing::Process> sim() const { return start({"sim", "-c", file()}); }

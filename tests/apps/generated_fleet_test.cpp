@@ -12,6 +12,8 @@
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/command_line.hpp"
+#include "support/file_content.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
 #include "support/synthetic_lidar.hpp"
@@ -20,22 +22,15 @@
 namespace fleetmap {
 namespace {
 
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The recording of the run gives the same odometry as its input.
 void expect_same_odometry_of_recorded(const std::filesystem::path& folder) {
   for (const char* bags : {"bags", "recorded"}) {
-    testing::Process odometry({kFleetmap, "odometry", (folder / bags / "r1").string(), "--out",
+    testing::Process odometry({testing::kProgram, "odometry", (folder / bags / "r1").string(), "--out",
                                (folder / bags / "r1.tum").string()});
     ASSERT_EQ(odometry.wait(), 0) << odometry.output();
   }
-  EXPECT_FALSE(text_of(folder / "bags/r1.tum").empty());
-  EXPECT_TRUE(text_of(folder / "bags/r1.tum") == text_of(folder / "recorded/r1.tum"));
+  EXPECT_FALSE(testing::file_text(folder / "bags/r1.tum").empty());
+  EXPECT_TRUE(testing::file_text(folder / "bags/r1.tum") == testing::file_text(folder / "recorded/r1.tum"));
 }
 
 /// The graph corrects a rotation by the positions of several alignments, so each is compared alone, too.
@@ -53,10 +48,11 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
   const auto fleet = testing::write_generated_fleet(folder.path() / "bags");
   ASSERT_TRUE(fleet) << fleet.error().message;
   const std::filesystem::path out = folder.path() / "out";
-  testing::Process process({kFleetmap, "run", "--recording", "r1=" + (folder.path() / "bags/r1").string(),
-                            "--recording", "r2=" + (folder.path() / "bags/r2").string(), "--out",
-                            out.string(), "--set", "lidar.translation=[0,0,0.8]", "--set", "nodes.spacing=4",
-                            "--record", (folder.path() / "recorded").string()});
+  testing::Process process({testing::kProgram, "run", "--recording",
+                            "r1=" + (folder.path() / "bags/r1").string(), "--recording",
+                            "r2=" + (folder.path() / "bags/r2").string(), "--out", out.string(), "--set",
+                            "lidar.translation=[0,0,0.8]", "--set", "nodes.spacing=4", "--record",
+                            (folder.path() / "recorded").string()});
   ASSERT_EQ(process.wait(), 0) << process.output();
   std::ifstream file(out / "report.json");
   const auto report = nlohmann::json::parse(file);
@@ -122,7 +118,7 @@ void write_carried_robot(const std::filesystem::path& folder) {
 TEST(OdometryCommand, ALostWayIsSaidAndFails) {
   const testing::TemporaryFolder folder;
   write_carried_robot(folder.path() / "bag");
-  testing::Process odometry({kFleetmap, "odometry", (folder.path() / "bag").string(), "--out",
+  testing::Process odometry({testing::kProgram, "odometry", (folder.path() / "bag").string(), "--out",
                              (folder.path() / "o.tum").string(), "--set", "lidar.translation=[0,0,0.8]"});
   EXPECT_EQ(odometry.wait(), 1);
   EXPECT_THAT(odometry.output(),
@@ -134,8 +130,8 @@ TEST(OdometryCommand, ALostWayIsSaidAndFails) {
 TEST(RunCommand, ALostWayIsInTheLogAndInTheLastLines) {
   const testing::TemporaryFolder folder;
   write_carried_robot(folder.path() / "bag");
-  testing::Process run({kFleetmap, "run", "--recording", "r1=" + (folder.path() / "bag").string(), "--out",
-                        (folder.path() / "out").string(), "--set", "lidar.translation=[0,0,0.8]"});
+  testing::Process run({testing::kProgram, "run", "--recording", "r1=" + (folder.path() / "bag").string(),
+                        "--out", (folder.path() / "out").string(), "--set", "lidar.translation=[0,0,0.8]"});
   EXPECT_EQ(run.wait(), 0) << run.output();
   EXPECT_THAT(run.output(), ::testing::HasSubstr("poses are predictions until scans fit again"));
   EXPECT_THAT(run.output(),

@@ -9,6 +9,7 @@
 
 #include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/command_line.hpp"
 #include "support/generated_fleet.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
@@ -16,8 +17,6 @@
 
 namespace fleetmap {
 namespace {
-
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 
 class GpsFreeFleet : public ::testing::Test {
  protected:
@@ -31,7 +30,7 @@ class GpsFreeFleet : public ::testing::Test {
                                     "defaults:\n  lidar: {translation: [0, 0, 0.8]}\n  nodes: {spacing: 4}\n"
                                     "agents:\n  - id: r1\n    recording: {path: bags/r1}\n"
                                     "  - id: r2\n    recording: {path: bags/r2}\n");
-    testing::Process process({kFleetmap, "run", "-c", file.string(), "--out", out_.string()});
+    testing::Process process({testing::kProgram, "run", "-c", file.string(), "--out", out_.string()});
     EXPECT_EQ(process.wait(), 0) << process.output();
     std::ifstream report(out_ / "report.json");
     return nlohmann::json::parse(report, nullptr, false);

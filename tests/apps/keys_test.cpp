@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -15,14 +16,8 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class KeysCommand : public ::testing::Test {
+class KeysCommand : public testing::CommandLineTest {
  protected:
-  void run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
-    testing::Process process(arguments);
-    exit_code_ = process.wait();
-    output_ = process.output();
-  }
   void keys(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "keys");
     arguments.insert(arguments.end(), {"--dir", folder().string()});
@@ -43,10 +38,6 @@ class KeysCommand : public ::testing::Test {
     run({"check-config", file.string()});
   }
   fs::path folder() const { return folder_.path() / "keys"; }
-
-  testing::TemporaryFolder folder_;
-  int exit_code_ = -1;
-  std::string output_;
 };
 
 TEST_F(KeysCommand, MakesShowsAndRevokes) {

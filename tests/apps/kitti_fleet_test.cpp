@@ -10,6 +10,7 @@
 
 #include "fleetmap/output/trajectory_file.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/command_line.hpp"
 #include "support/generated_fleet.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
@@ -19,7 +20,6 @@
 namespace fleetmap {
 namespace {
 
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 constexpr const char* kDrive = "kitti_raw_2011_09_26_drive_0005";
 
 std::vector<Pose> poses_of(const std::filesystem::path& file) {
@@ -42,7 +42,7 @@ class KittiFleet : public ::testing::Test {
   }
   /// Runs the program to its end and returns what it printed.
   std::string run(std::vector<std::string> arguments, int expected_exit_code = 0) {
-    arguments.insert(arguments.begin(), kFleetmap);
+    arguments.insert(arguments.begin(), testing::kProgram);
     testing::Process process(arguments);
     EXPECT_EQ(process.wait(), expected_exit_code) << process.output();
     return process.output();

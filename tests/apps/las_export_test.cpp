@@ -13,6 +13,7 @@
 #include "cloud/las_reader.hpp"
 #include "fleetmap/cloud/file_io.hpp"
 #include "geometry/geoid_file.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 #include "support/scene_store.hpp"
 #include "support/temporary_folder.hpp"
@@ -26,7 +27,7 @@ using ::testing::HasSubstr;
 using testing::LasFile;
 using testing::read_las;
 
-class LasExport : public ::testing::Test {
+class LasExport : public testing::CommandLineTest {
  protected:
   std::string store(bool located) {
     const std::string file = path(located ? "located.db" : "lost.db");
@@ -34,26 +35,11 @@ class LasExport : public ::testing::Test {
     testing::add_scene(*store, located);
     return file;
   }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   /// `fleetmap map export` with the origin of the scene.
-  void run(const std::string& store, const std::string& out, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap",
-                                       "map",
-                                       "export",
-                                       store,
-                                       "--origin",
-                                       "49.0,8.4,110",
-                                       "--out",
-                                       path(out)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    testing::Process process(arguments);
-    exit_code_ = process.wait();
-    output_ = process.output();
+  void export_map(const std::string& store, const std::string& out, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"map", "export", store, "--origin", "49.0,8.4,110", "--out", path(out)});
+    run(std::move(more));
   }
-
-  testing::TemporaryFolder folder_;
-  int exit_code_ = -1;
-  std::string output_;
 };
 
 /// Easting, northing and ellipsoidal height by GeographicLib alone.
@@ -69,12 +55,12 @@ Eigen::Vector3d expected(int zone, const Eigen::Vector3f& p) {
 
 TEST_F(LasExport, PointsAreThoseOfThePlyAtTheirPlaceOnEarth) {
   const std::string located = store(true);
-  run(located, "map.ply");
+  export_map(located, "map.ply");
   ASSERT_EQ(exit_code_, 0) << output_;
   const auto ply = cloud::read_cloud(path("map.ply"));
   ASSERT_TRUE(ply);
   for (const std::string crs : {"utm", "EPSG:32631"}) {
-    run(located, "map.las", {"--crs", crs});
+    export_map(located, "map.las", {"--crs", crs});
     ASSERT_EQ(exit_code_, 0) << output_;
     const int zone = crs == "utm" ? 32 : 31;
     EXPECT_THAT(output_, AllOf(HasSubstr("EPSG:326" + std::to_string(zone)), HasSubstr("from 6 submaps"),
@@ -90,38 +76,38 @@ TEST_F(LasExport, PointsAreThoseOfThePlyAtTheirPlaceOnEarth) {
 
 TEST_F(LasExport, TilesAddUpToTheWhole) {
   const std::string located = store(true);
-  run(located, "map.las");
+  export_map(located, "map.las");
   ASSERT_EQ(exit_code_, 0) << output_;
   const LasFile whole = read_las(path("map.las"));
-  run(located, "tiles", {"--tile", "50"});
+  export_map(located, "tiles", {"--tile", "50"});
   ASSERT_EQ(exit_code_, 0) << output_;
   std::uint64_t points = 0, files = 0;
-  Eigen::Vector3d least = whole.greatest, greatest = whole.least;
+  Eigen::Vector3d min = whole.max, max = whole.min;
   for (const auto& entry : fs::directory_iterator(path("tiles"))) {
     const LasFile tile = read_las(entry.path());
     points += tile.count;
-    least = least.cwiseMin(tile.least);
-    greatest = greatest.cwiseMax(tile.greatest);
+    min = min.cwiseMin(tile.min);
+    max = max.cwiseMax(tile.max);
     ++files;
   }
   EXPECT_GT(files, 3u);
   EXPECT_EQ(points, whole.count);
-  EXPECT_EQ(least, whole.least);
-  EXPECT_EQ(greatest, whole.greatest);
+  EXPECT_EQ(min, whole.min);
+  EXPECT_EQ(max, whole.max);
   EXPECT_THAT(output_, HasSubstr(std::to_string(files) + " files of 50 m"));
-  run(located, "tiles", {"--tile", "50"});
+  export_map(located, "tiles", {"--tile", "50"});
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, HasSubstr("tiles: is there already and not empty"));
 }
 
 TEST_F(LasExport, AMapThatIsNotGeoreferencedStaysInItsOwnFrame) {
   const std::string lost = store(false);
-  run(lost, "map.las");
+  export_map(lost, "map.las");
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_,
               AllOf(HasSubstr("lost.db"), HasSubstr("no node of its map has GPS"), HasSubstr("--crs enu")));
   EXPECT_FALSE(fs::exists(path("map.las")));
-  run(lost, "map.las", {"--crs", "enu"});
+  export_map(lost, "map.las", {"--crs", "enu"});
   EXPECT_EQ(exit_code_, 0) << output_;
   EXPECT_THAT(output_, HasSubstr("nobody knows where to lay them: r2"));
   const LasFile las = read_las(path("map.las"));
@@ -144,15 +130,15 @@ TEST_F(LasExport, WhatCannotBeWrittenIsRefusedWithASentence) {
            {{"--crs", "EPSG:32701"}, 1, "its own zone is EPSG:32632"},
            {{"--crs", "enu", "--geoid", "none-1"}, 1, "geographiclib-get-geoids none-1"},
            {{"--geoid", "../x"}, 1, "no name of a geoid"}}) {
-    run(located, "map.las", wrong.more);
+    export_map(located, "map.las", wrong.more);
     EXPECT_EQ(exit_code_, wrong.exit_code) << wrong.says;
     EXPECT_THAT(output_, HasSubstr(wrong.says));
   }
-  run(located, "map.ply", {"--crs", "utm"});
+  export_map(located, "map.ply", {"--crs", "utm"});
   EXPECT_EQ(exit_code_, 2);
   EXPECT_THAT(output_, HasSubstr("map.ply: --crs and --geoid are of LAS"));
   fs::create_symlink("/dev/full", path("map.las.part"));
-  run(located, "map.las");
+  export_map(located, "map.las");
   EXPECT_EQ(exit_code_, 1);
   EXPECT_THAT(output_, AllOf(HasSubstr("map.las: cannot be written"), HasSubstr("No space left")));
   for (const char* file : {"map.las", "map.ply"}) EXPECT_FALSE(fs::exists(path(file))) << file;
@@ -161,10 +147,10 @@ TEST_F(LasExport, WhatCannotBeWrittenIsRefusedWithASentence) {
 TEST_F(LasExport, HeightsAreAboveTheGeoidThatIsAskedFor) {
   const std::string located = store(true);
   testing::write_sloped_geoid(folder_.path(), "egm96-15");
-  run(located, "map.las");
+  export_map(located, "map.las");
   const LasFile ellipsoidal = read_las(path("map.las"));
   setenv("GEOGRAPHICLIB_GEOID_PATH", folder_.path().c_str(), 1);
-  run(located, "map.las", {"--geoid", "egm96-15"});
+  export_map(located, "map.las", {"--geoid", "egm96-15"});
   unsetenv("GEOGRAPHICLIB_GEOID_PATH");
   ASSERT_EQ(exit_code_, 0) << output_;
   const LasFile above_geoid = read_las(path("map.las"));
@@ -199,8 +185,8 @@ std::vector<Eigen::Vector3d> by_gdal(const fs::path& folder, const LasFile& las,
 
 TEST_F(LasExport, GdalFindsThePointsWhereTheyAre) {
   const std::string located = store(true);
-  run(located, "map.las");
-  run(located, "map.ply");
+  export_map(located, "map.las");
+  export_map(located, "map.ply");
   const auto ply = cloud::read_cloud(path("map.ply"));
   ASSERT_TRUE(ply);
   constexpr std::size_t kEvery = 50;

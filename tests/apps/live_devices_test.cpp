@@ -14,6 +14,7 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/store/store.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/mavlink_packets.hpp"
 #include "support/process.hpp"
@@ -139,7 +140,7 @@ TEST(LiveDevices, TheJackalMakesAGeoreferencedNode) {
   const Autopilot autopilot;
   const std::uint16_t port = free_udp_port();
   const std::uint32_t domain = bus::testing::first_test_domain();
-  std::vector<std::string> command{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "agent", "-c",
+  std::vector<std::string> command{testing::kProgram, "agent", "-c",
                                    FLEETMAP_SOURCE_DIR "/config/robots/jackal_vlp16.yaml"};
   for (const std::string& set :
        {"directory=" + folder.path().string(), "mavlink.device=" + autopilot.path(),

@@ -6,6 +6,7 @@
 #include "fleetmap/store/store.hpp"
 #include "monitor/browser.hpp"
 #include "store/items.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 
@@ -30,14 +31,14 @@ class LiveMonitor : public ::testing::Test {
     return state.is_object() && state.contains("nodes") ? state["nodes"].size() : 0;
   }
 
-  testing::ScratchFolder folder_;
-  const std::string program_ = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
   auto store = store::Store::open(folder_ / "store.db", agent("r1")).value();
   put_node(store, 0);
-  testing::Process monitor({program_, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
+  testing::Process monitor(
+      {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
   ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
       << monitor.output();
   const std::uint16_t port = testing::announced_port(monitor.output());
@@ -52,7 +53,8 @@ TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
 
 TEST_F(LiveMonitor, keeps_what_it_showed_when_the_store_is_taken_away) {
   put_node(*std::make_unique<store::Store>(store::Store::open(folder_ / "store.db", agent("r1")).value()), 0);
-  testing::Process monitor({program_, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
+  testing::Process monitor(
+      {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
   ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
       << monitor.output();
   std::filesystem::remove(folder_ / "store.db");

@@ -6,6 +6,7 @@
 
 #include "bus/dds_domains.hpp"
 #include "monitor/browser.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -38,7 +39,7 @@ class LivePublisher : public ::testing::Test {
     return std::to_string(bus::testing::first_test_domain() + offset);
   }
   std::unique_ptr<testing::Process> agent(const std::string& id, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "agent", "-c",
+    std::vector<std::string> arguments{testing::kProgram, "agent", "-c",
                                        (folder_.path() / (id + ".yaml")).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return std::make_unique<testing::Process>(arguments);

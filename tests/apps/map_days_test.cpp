@@ -14,6 +14,8 @@
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/sim/ground_truth.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
+#include "support/file_content.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -58,7 +60,7 @@ class MapDays : public ::testing::Test {
   std::string store_of(const std::string& day) const { return twin_.path(day + "/r1/store.db").string(); }
 
   int map(const std::vector<std::string>& arguments) {
-    std::vector<std::string> all{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "map"};
+    std::vector<std::string> all{testing::kProgram, "map"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     testing::Process process(all);
     const int exit_code = process.wait();
@@ -97,8 +99,7 @@ class MapDays : public ::testing::Test {
   }
   /// Points of the coloured map with this much green or red.
   static Points coloured(const fs::path& ply, bool appeared) {
-    std::ifstream file(ply, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::string bytes = testing::file_text(ply);
     const std::string end = "end_header\n";
     Points points;
     for (std::size_t at = bytes.find(end) + end.size(); at + 15 <= bytes.size(); at += 15) {

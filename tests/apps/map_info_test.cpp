@@ -5,6 +5,7 @@
 
 #include "fleetmap/store/store.hpp"
 #include "store/items.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap {
@@ -30,7 +31,7 @@ struct Items {
   }
 };
 
-class MapInfo : public ::testing::Test {
+class MapInfo : public testing::CommandLineTest {
  protected:
   /// Writes the store of a robot that received the items in this order, without the submap of the last one if
   /// `lacks_a_submap`.
@@ -47,14 +48,12 @@ class MapInfo : public ::testing::Test {
     for (std::size_t k = 0; k < alignments; ++k) EXPECT_TRUE(store.put_alignment(items_.alignments[k]));
     return file.string();
   }
-  static nlohmann::json info(const std::string& file) {
-    testing::Process process(
-        {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "map", "info", "--json", file});
-    EXPECT_EQ(process.wait(), 0) << process.output();
-    return nlohmann::json::parse(process.output(), nullptr, false);
+  nlohmann::json info(const std::string& file) {
+    run({"map", "info", "--json", file});
+    EXPECT_EQ(exit_code_, 0) << output_;
+    return nlohmann::json::parse(output_, nullptr, false);
   }
 
-  testing::ScratchFolder folder_;
   Items items_;
   int stores_ = 0;
 };
@@ -88,26 +87,28 @@ TEST_F(MapInfo, WhatOneLacksChangesItsHash) {
   EXPECT_EQ(without_alignment.at("alignments"), 1);
 }
 
-/// Standard output of the program.
-std::string output_of(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap");
-  testing::Process process(arguments);
-  process.wait();
-  return process.output();
+TEST_F(MapInfo, CountsWhatIsHeldAndNamesFramesThatAlignmentsJoin) {
+  run({"map", "info", write_store("r1", false, 2, true)});
+  EXPECT_EQ(exit_code_, 0) << output_;
+  EXPECT_NE(output_.find("store of r1\nnodes 6, submaps held 5, alignments 2 ("), std::string::npos)
+      << output_;
+  EXPECT_NE(output_.find("\norigin "), std::string::npos) << output_;
+  EXPECT_NE(output_.find("\naligned together: r1"), std::string::npos) << output_;
 }
 
 TEST_F(MapInfo, NamesTheRobotThatContradictsTheFleet) {
   for (int seed = 1; seed < 40; ++seed) {
     const std::string stores = (folder_ / std::to_string(seed)).string();
-    const std::string trace = output_of({"fuzz-fleet", "--replay", std::to_string(seed), "--robots", "4",
-                                         "--faults", "compromised", "--mapping", "80", "--stores", stores});
+    run({"fuzz-fleet", "--replay", std::to_string(seed), "--robots", "4", "--faults", "compromised",
+         "--mapping", "80", "--stores", stores});
+    const std::string trace = output_;
     const std::string deceives = " deceives by scheme garbage";
     const std::size_t at = trace.find(deceives);
     if (at == std::string::npos) continue;
     const std::string robot = trace.substr(at - 2, 2);
-    const std::string info = output_of({"map", "info", stores + (robot == "r1" ? "/r2.db" : "/r1.db")});
-    EXPECT_NE(info.find(robot + " contradicts the fleet: "), std::string::npos) << info;
-    EXPECT_NE(info.find("--without " + robot), std::string::npos) << info;
+    run({"map", "info", stores + (robot == "r1" ? "/r2.db" : "/r1.db")});
+    EXPECT_NE(output_.find(robot + " contradicts the fleet: "), std::string::npos) << output_;
+    EXPECT_NE(output_.find("--without " + robot), std::string::npos) << output_;
     return;
   }
   FAIL() << "a quarter of the seeds should send garbage";

@@ -7,6 +7,7 @@
 
 #include "fleetmap/cloud/file_io.hpp"
 #include "support/bent_store.hpp"
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -16,20 +17,15 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class MapWithout : public ::testing::Test {
+class MapWithout : public testing::CommandLineTest {
  protected:
   MapWithout() {
     auto store = store::Store::open(path("store.db"), testing::bent_robot(1)).value();
     testing::add_bent_fleet(store);
   }
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
   void map(const std::string& what, std::vector<std::string> more) {
-    std::vector<std::string> arguments{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "map", what,
-                                       path("store.db")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    testing::Process process(arguments);
-    exit_code_ = process.wait();
-    output_ = process.output();
+    more.insert(more.begin(), {"map", what, path("store.db")});
+    run(std::move(more));
   }
   /// North of r1's nodes to north of r2's, m, in an exported map, whose origin is r1's first node.
   double apart(const std::string& file) const {
@@ -41,10 +37,6 @@ class MapWithout : public ::testing::Test {
     }
     return of_r2 - of_r1;
   }
-
-  testing::TemporaryFolder folder_;
-  int exit_code_ = 0;
-  std::string output_;
 };
 
 TEST_F(MapWithout, IsStraightWhereAMemberHadBentIt) {

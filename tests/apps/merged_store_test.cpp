@@ -3,9 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fleetmap/cloud/codec.hpp"
-#include "registration/made_world.hpp"
-#include "support/temporary_folder.hpp"
+#include "driven_days.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -13,35 +11,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const GeoPoint kOrigin = geo_point_from_degrees(39.0, -3.0, 600.0);
-
-/// Stores of r1, who drove 24 m through a made-up place on several days.
 class MergedStoreTest : public ::testing::Test {
  protected:
-  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
-  /// `gps_error` (m) is that of the day.
+  std::string path(const std::string& name) const { return days_.path(name); }
   void drive(const std::string& name, std::uint16_t session, const Eigen::Vector3d& gps_error) const {
-    const AgentId r1 = AgentId::parse("r1").value();
-    auto store = store::Store::open(path(name), r1).value();
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const Pose T_world_base =
-          make_pose(rotation_from_rpy(0, 0, 0.1 + session), {-12.0 + 8.0 * k, 0.5 * session, 0.0});
-      graph::Node node;
-      node.id = {r1, first_seq(session) + k};
-      node.session = session;
-      node.stamp = stamp_from_ns(1'000'000'000LL * (k + 1));
-      node.T_odom_base = make_pose(rotation_from_rpy(0, 0, 1.0), {50.0, 9.0 * session, 0.0}) * T_world_base;
-      node.odom_covariance = Vector6d(1e-4, 1e-4, 1e-4, 1e-6, 1e-6, 1e-6).asDiagonal();
-      GlobalPose& G = node.G.emplace();
-      G.position = LocalFrame(kOrigin).to_geo(T_world_base.translation() + gps_error);
-      G.q_enu_base = Eigen::Quaterniond(T_world_base.linear());
-      G.covariance.diagonal() << 2.0, 2.0, 2.0, 1e-4, 1e-4, 1e-2;
-      const Bytes submap =
-          cloud::encode(world_.scan(T_world_base, 15'000, 0.02, 10 * session + k + 1), {}).value();
-      node.submap_hash = content_hash(submap);
-      node.submap_bytes = static_cast<std::uint32_t>(submap.size());
-      ASSERT_EQ(store.put_node_with_submap(node, submap).value(), store::Put::kAdded);
-    }
+    days_.drive(name, session, gps_error);
   }
   MergedStore merge(const std::vector<std::filesystem::path>& stores) const {
     auto merged = merge_stores(stores, path("merged.db"), std::nullopt);
@@ -56,8 +30,7 @@ class MergedStoreTest : public ::testing::Test {
     return std::abs((b - a).head<2>().norm() - 0.5 * other);
   }
 
-  registration::testing::MadeWorld world_{7};
-  testing::TemporaryFolder folder_;
+  DrivenDays days_;
 };
 
 TEST_F(MergedStoreTest, TwoDaysFitEachOtherThoughGpsOfOneIsOff) {

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -12,14 +13,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
-
 TEST(RecordingInput, FailsWithTheCodeOfWhatIsWrong) {
   const testing::TemporaryFolder folder;
   const std::string file = (folder.path() / "bad.yaml").string();
   std::ofstream(file) << "lidar: {model: fish}\n";
   const auto exit_code = [](std::vector<std::string> arguments, const char* named) {
-    arguments.insert(arguments.begin(), {kFleetmap, "inspect"});
+    arguments.insert(arguments.begin(), {testing::kProgram, "inspect"});
     testing::Process process(arguments);
     const int code = process.wait();
     EXPECT_THAT(process.output(), HasSubstr(named));

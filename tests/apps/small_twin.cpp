@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "support/command_line.hpp"
 #include "support/process.hpp"
 
 namespace fleetmap::testing {
@@ -38,12 +39,8 @@ void SmallTwin::write_fleet(const std::string& top_keys, const std::vector<std::
 }
 
 SmallTwin::Run SmallTwin::run(const std::string& name, const std::vector<std::string>& more) const {
-  std::vector<std::string> arguments{std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap",
-                                     "run",
-                                     "-c",
-                                     path("fleet.yaml").string(),
-                                     "--out",
-                                     path(name).string()};
+  std::vector<std::string> arguments{testing::kProgram,           "run",   "-c",
+                                     path("fleet.yaml").string(), "--out", path(name).string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   Process process(arguments);
   Run run;

@@ -18,6 +18,7 @@
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
 #include "odometry/trajectory_error.hpp"
+#include "support/command_line.hpp"
 #include "support/generated_fleet.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -29,7 +30,6 @@ using recording::Sample;
 using ::testing::HasSubstr;
 
 constexpr double kG = 9.80665, kDegree = std::numbers::pi / 180.0;
-const std::string kFleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
 
 struct Spoilt {
   const char* name;
@@ -130,11 +130,11 @@ TEST_F(SpoiltRecording, IsCorrectedOrNamed) {
     SCOPED_TRACE(spoilt.name);
     const std::filesystem::path tum = folder_->path() / (std::string(spoilt.name) + ".tum");
     const std::filesystem::path bag = write(spoilt);
-    testing::Process inspect({kFleetmap, "inspect", bag.string()});
+    testing::Process inspect({testing::kProgram, "inspect", bag.string()});
     EXPECT_EQ(inspect.wait(), *spoilt.named == '\0' ? 0 : 1) << inspect.output();
     EXPECT_THAT(inspect.output(), HasSubstr(spoilt.named));
-    testing::Process odometry(
-        {kFleetmap, "odometry", bag.string(), "--out", tum.string(), "--set", "lidar.translation=[0,0,0.8]"});
+    testing::Process odometry({testing::kProgram, "odometry", bag.string(), "--out", tum.string(), "--set",
+                               "lidar.translation=[0,0,0.8]"});
     const int exit_code = odometry.wait();
     EXPECT_THAT(odometry.output(), HasSubstr(spoilt.named));
     ASSERT_EQ(exit_code, 0) << odometry.output();
@@ -157,8 +157,8 @@ TEST_F(SpoiltRecording, FixesWithoutAltitudeAreNamedInLogAndReport) {
                     }),
                     "fixes have no altitude"};
   const std::filesystem::path out = folder_->path() / "out";
-  testing::Process run({kFleetmap, "run", "--recording", "r1=" + write(flat).string(), "--out", out.string(),
-                        "--set", "lidar.translation=[0,0,0.8]"});
+  testing::Process run({testing::kProgram, "run", "--recording", "r1=" + write(flat).string(), "--out",
+                        out.string(), "--set", "lidar.translation=[0,0,0.8]"});
   run.wait();
   EXPECT_THAT(run.output(), HasSubstr(flat.named));
   std::ifstream file(out / "report.json");

@@ -36,7 +36,7 @@ class StoreSummary : public ::testing::Test {
   }
   static constexpr std::size_t kWhole = 3 * kChunk;
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
 };
 
 TEST_F(StoreSummary, OfAnEmptyStoreIsZero) {

@@ -13,7 +13,9 @@
 #include "fleetmap/eval/trajectory.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
+#include "support/file_content.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
 
@@ -24,8 +26,7 @@ namespace fs = std::filesystem;
 
 /// Content hash of a file's bytes; empty if there is none.
 std::string hash_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  const Bytes bytes = testing::file_bytes(file);
   return bytes.empty() ? "" : to_hex(content_hash(bytes));
 }
 
@@ -39,8 +40,7 @@ double share_touching(const output::Trajectory& truth, const sim::World& world, 
 
 /// The result of `fleetmap eval`.
 nlohmann::json evaluated(const fs::path& out) {
-  testing::Process evaluation(
-      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
+  testing::Process evaluation({testing::kProgram, "eval", out.string(), "--no-pictures"});
   EXPECT_EQ(evaluation.wait(), 0) << evaluation.output();
   std::ifstream file(out / "evaluation.json");
   return nlohmann::json::parse(file, nullptr, false);
@@ -194,11 +194,10 @@ TEST(TwinFleet, OverDdsTheTwinSensesForAnAgentAndObeysIt) {
   const testing::SmallTwin twin;
   twin.write_fleet("dds: {base_domain: " + std::to_string(bus::testing::first_test_domain()) +
                    ", qos: " + FLEETMAP_SOURCE_DIR + "/qos}\n");
-  const std::string fleetmap = std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap";
   const std::string config = twin.path("fleet.yaml").string();
-  testing::Process sim({fleetmap, "sim", "-c", config, "--out", twin.path("truth").string()});
+  testing::Process sim({testing::kProgram, "sim", "-c", config, "--out", twin.path("truth").string()});
   testing::Process agent(
-      {fleetmap, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()});
+      {testing::kProgram, "agent", "-c", config, "--as", "r1", "--out", twin.path("agents").string()});
   const bool drove = testing::eventually(
       [&] {
         const auto poses = output::read_growing_tum(twin.path("agents/r1/odometry.tum"));

@@ -9,6 +9,7 @@
 #include "fleetmap/output/trajectory_file.hpp"
 #include "fleetmap/store/store.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
 #include "support/measured.hpp"
 #include "support/process.hpp"
 
@@ -21,8 +22,7 @@ using ::testing::SizeIs;
 constexpr const char* kLed = "robot: {guided: true, gps: {fitted: false}}";
 
 nlohmann::json evaluation_of(const std::filesystem::path& out) {
-  testing::Process evaluation(
-      {std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "eval", out.string(), "--no-pictures"});
+  testing::Process evaluation({testing::kProgram, "eval", out.string(), "--no-pictures"});
   EXPECT_EQ(evaluation.wait(), 0) << evaluation.output();
   std::ifstream file(out / "evaluation.json");
   return nlohmann::json::parse(file, nullptr, false);

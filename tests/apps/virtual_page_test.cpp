@@ -6,6 +6,7 @@
 
 #include "monitor/browser.hpp"
 #include "small_twin.hpp"
+#include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/process.hpp"
 
@@ -24,9 +25,8 @@ class VirtualPage : public ::testing::Test {
   VirtualPage() { twin_.write("token", "0123456789abcdef"); }
   std::unique_ptr<testing::Process> run() const {
     return std::make_unique<testing::Process>(std::vector<std::string>{
-        std::string(FLEETMAP_BINARY_DIR) + "/bin/fleetmap", "run", "-c", twin_.path("fleet.yaml").string(),
-        "--agents", "2", "--out", twin_.path("out").string(), "--monitor", "0", "--monitor-token-file",
-        twin_.path("token").string()});
+        testing::kProgram, "run", "-c", twin_.path("fleet.yaml").string(), "--agents", "2", "--out",
+        twin_.path("out").string(), "--monitor", "0", "--monitor-token-file", twin_.path("token").string()});
   }
   /// Null until the fleet has published.
   json live() const {

@@ -47,7 +47,7 @@ double slope(const std::vector<Row>& rows, Value value) {
 }
 
 void measure(std::size_t nodes, double minutes) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   LappingRobot robot({.scan_rate = 1.0, .columns = 300, .folder = folder / "r1"});
   std::printf(
       "| own nodes | hours | CPU ms a node: all, odometry, placement | RSS MB | store, its log MB | tracks "

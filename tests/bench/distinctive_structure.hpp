@@ -35,14 +35,14 @@ class SelfSimilarity {
     source_ = standing(moved);
   }
 
-  double up_to(double most_m) const {
+  double up_to(double max_m) const {
     const double none = share({0.0F, 0.0F});
     double best = 0.0;
-    const int steps = static_cast<int>(most_m / kStep);
+    const int steps = static_cast<int>(max_m / kStep);
     for (int x = -steps; x <= steps; ++x) {
       for (int y = -steps; y <= steps; ++y) {
         const Eigen::Vector2f shift = kStep * Eigen::Vector2f(static_cast<float>(x), static_cast<float>(y));
-        if (shift.norm() < 1.5F || static_cast<double>(shift.norm()) > most_m) continue;
+        if (shift.norm() < 1.5F || static_cast<double>(shift.norm()) > max_m) continue;
         best = std::max(best, share(shift));
       }
     }
@@ -52,7 +52,7 @@ class SelfSimilarity {
  private:
   using Key = Eigen::Vector3i;
   static constexpr float kVoxel = 0.4F, kStep = 0.5F, kStanding = 0.5F, kGroundCell = 3.0F;
-  static constexpr std::size_t kFewest = 100, kLooked = 1500;
+  static constexpr std::size_t kMin = 100, kSampled = 1500;
 
   static Key key(const Eigen::Vector3f& p) { return (p / kVoxel).array().floor().cast<int>(); }
   static long code(const Key& k) {
@@ -67,8 +67,8 @@ class SelfSimilarity {
                    static_cast<int>(std::floor(p.y() / kGroundCell)) + dy, 0});
     };
     for (const Eigen::Vector3f& p : points) {
-      float& least = lowest.try_emplace(cell(p, 0, 0), p.z()).first->second;
-      least = std::min(least, p.z());
+      float& lowest_z = lowest.try_emplace(cell(p, 0, 0), p.z()).first->second;
+      lowest_z = std::min(lowest_z, p.z());
     }
     std::vector<Eigen::Vector3f> found;
     for (const Eigen::Vector3f& p : points) {
@@ -84,7 +84,7 @@ class SelfSimilarity {
 
   double share(const Eigen::Vector2f& shift) const {
     std::size_t within = 0, hits = 0;
-    const std::size_t stride = 1 + source_.size() / kLooked;
+    const std::size_t stride = 1 + source_.size() / kSampled;
     for (std::size_t k = 0; k < source_.size(); k += stride) {
       Eigen::Vector3f p = source_[k];
       p.head<2>() += shift;
@@ -92,7 +92,7 @@ class SelfSimilarity {
       ++within;
       hits += occupied_.contains(code(key(p)));
     }
-    return within < kFewest ? 0.0 : static_cast<double>(hits) / static_cast<double>(within);
+    return within < kMin ? 0.0 : static_cast<double>(hits) / static_cast<double>(within);
   }
 
   std::unordered_set<long> occupied_;

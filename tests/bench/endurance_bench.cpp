@@ -210,7 +210,7 @@ class Endurance : private fault_injection::ExchangeFleet {
 };
 
 void measure(std::size_t robots, std::uint32_t nodes) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   Endurance fleet(robots, nodes, folder / "");
   const auto count = static_cast<double>(robots);
   std::printf(

@@ -45,8 +45,8 @@ double peak_mb() {
 }
 
 /// Nodes of lanes driven to and fro over a square of about kStep x kLane metres a node.
-std::map<NodeId, Pose> poses(const store::Store& store, std::size_t most) {
-  const std::size_t count = std::min(most, store.nodes().size());
+std::map<NodeId, Pose> poses(const store::Store& store, std::size_t max_nodes) {
+  const std::size_t count = std::min(max_nodes, store.nodes().size());
   const auto per_lane =
       static_cast<std::uint32_t>(std::sqrt(static_cast<double>(count) * kStep * kLane) / kStep);
   std::map<NodeId, Pose> T_enu_node;
@@ -90,9 +90,10 @@ int make(const std::filesystem::path& file, std::uint32_t submaps) {
   return 0;
 }
 
-int tiled(store::Store& store, const std::filesystem::path& out, std::size_t most) {
+int tiled(store::Store& store, const std::filesystem::path& out, std::size_t max_nodes) {
   const Cost cost;
-  auto merge = store::TiledMerge::plan(poses(store, most), store::decoded_submaps(store), kConfig).value();
+  auto merge =
+      store::TiledMerge::plan(poses(store, max_nodes), store::decoded_submaps(store), kConfig).value();
   const double planned = cost.seconds();
   auto writer = cloud::CloudWriter::create(out, merge.outline().has_intensities).value();
   const Status streamed = merge.stream([&](const store::MapTile& tile) { return writer.add(tile.cloud); });
@@ -109,9 +110,9 @@ int tiled(store::Store& store, const std::filesystem::path& out, std::size_t mos
   return 0;
 }
 
-int whole(store::Store& store, const std::filesystem::path& out, std::size_t most) {
+int whole(store::Store& store, const std::filesystem::path& out, std::size_t max_nodes) {
   const Cost cost;
-  const store::MergedMap map = store::merge(poses(store, most), store::decoded_submaps(store), kConfig);
+  const store::MergedMap map = store::merge(poses(store, max_nodes), store::decoded_submaps(store), kConfig);
   auto writer = cloud::CloudWriter::create(out, map.cloud.has_intensities()).value();
   if (!writer.add(map.cloud) || !writer.finish()) return 1;
   std::printf("whole: %zu submaps, %zu points in, %zu out; CPU %.1f s; peak %.0f MB\n", map.submaps,
@@ -132,8 +133,8 @@ int run(const std::vector<std::string>& arguments) {
     std::cerr << store.error().message << '\n';
     return 1;
   }
-  const std::size_t most = arguments.size() == 4 ? number(3) : store->nodes().size();
-  return what == "tiled" ? tiled(*store, arguments[2], most) : whole(*store, arguments[2], most);
+  const std::size_t max_nodes = arguments.size() == 4 ? number(3) : store->nodes().size();
+  return what == "tiled" ? tiled(*store, arguments[2], max_nodes) : whole(*store, arguments[2], max_nodes);
 }
 
 }  // namespace

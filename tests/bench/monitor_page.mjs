@@ -1,4 +1,4 @@
-// What the page of `fleetmap monitor` costs on a large site, in headless Chromium with software GL:
+// Cost of the page of `fleetmap monitor` on a large site, in headless Chromium with software GL:
 //   bench_monitor_store DIR 2000 15000
 //   node tests/bench/monitor_page.mjs FLEETMAP build/release/monitor_page DIR [BUDGET [WIDTHxHEIGHT]]
 // Prints for a first and a second visit: seconds until points are seen and until every submap in view is drawn (the first picture),
@@ -62,10 +62,10 @@ function memory(root, kind) {
 /** ms of CPU that the browser has used; a tick is 10 ms. */
 const cpu = (root) => 10 * [...processes(root).values()].reduce((sum, stat) => sum + stat[10] + stat[11], 0);
 
-const drawn = (page, least, loaded) => page.waitForFunction(([least, loaded]) => {
+const drawn = (page, min, loaded) => page.waitForFunction(([min, loaded]) => {
   const {drawn, loading} = document.getElementById('canvas').dataset;
-  return Number(drawn) >= least && (!loaded || loading === 'false');
-}, [least, loaded], {timeout: 300_000, polling: 20});
+  return Number(drawn) >= min && (!loaded || loading === 'false');
+}, [min, loaded], {timeout: 300_000, polling: 20});
 
 /** While the pointer drags: frames/s, the 95th percentile of the time between two frames, and CPU a frame, both ms. */
 async function move(page, root, button) {

@@ -114,9 +114,9 @@ void print(const char* name, const Robot::Times& times, int pairs) {
 }
 
 int measure(int pairs) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   Robot robot(folder / "r1");
-  Robot::Times warm_up, alone, seen;
+  Robot::Times warm_up, alone, watched;
   std::vector<double> ratios;  // of the medians of a pair of blocks
   for (int block = 0; block < 4; ++block) robot.run_block(warm_up);
   for (int pair = 0; pair < pairs; ++pair) {
@@ -125,7 +125,7 @@ int measure(int pairs) {
     for (std::size_t k = 0; k < kViewers; ++k)
       pages.push_back(std::make_unique<OpenPage>(robot.page->server().port()));
     while (robot.page->server().stats().viewers < kViewers) std::this_thread::yield();
-    ratios.push_back(robot.run_block(seen) / before);
+    ratios.push_back(robot.run_block(watched) / before);
     // Each page ends with the next status that it reads.
     std::thread closing([&] { pages.clear(); });
     while (robot.page->server().stats().viewers > 0) robot.publisher->publish({}, {});
@@ -133,10 +133,10 @@ int measure(int pairs) {
   }
   std::printf("| viewers | ms a scan, p50 | p99 | CPU ms of the robot's thread |\n|---|---|---|---|\n");
   print("0", alone, pairs);
-  print("10", seen, pairs);
+  print("10", watched, pairs);
   std::printf("ratio: p50 %.3f, p99 %.3f, CPU %.3f; of the pairs' medians, quartiles: %.3f, %.3f, %.3f\n",
-              quantile(seen.wall, 0.5) / quantile(alone.wall, 0.5),
-              quantile(seen.wall, 0.99) / quantile(alone.wall, 0.99), seen.cpu / alone.cpu,
+              quantile(watched.wall, 0.5) / quantile(alone.wall, 0.5),
+              quantile(watched.wall, 0.99) / quantile(alone.wall, 0.99), watched.cpu / alone.cpu,
               quantile(ratios, 0.25), quantile(ratios, 0.5), quantile(ratios, 0.75));
   std::printf("the viewers read %lu statuses, %lu states and %lu submaps\n", OpenPage::statuses.load(),
               OpenPage::states.load(), OpenPage::submaps.load());

@@ -144,7 +144,7 @@ Scenario false_pair(unsigned seed, double gps_sigma) {
     }
     Pose T_enu_j = scenario.fleet.truth.at(a.j);
     T_enu_j.pretranslate(Eigen::Vector3d(kPitch, 0, 0));
-    a.modes = {scenario.fleet.seen_at(a.i, T_enu_j)};
+    a.modes = {scenario.fleet.observed_at(a.i, T_enu_j)};
   }
   return scenario;
 }
@@ -158,7 +158,7 @@ Scenario ambiguous(unsigned seed) {
     for (const double rows : {-1.0, 1.0, 2.0}) {
       Pose T_enu_j = scenario.fleet.truth.at(a.j);
       T_enu_j.pretranslate(Eigen::Vector3d(rows * kPitch, 0, 0));
-      a.modes.insert(a.modes.begin(), scenario.fleet.seen_at(a.i, T_enu_j));
+      a.modes.insert(a.modes.begin(), scenario.fleet.observed_at(a.i, T_enu_j));
       ++right;
     }
   }

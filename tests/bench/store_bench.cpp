@@ -17,7 +17,7 @@ StoreConfig no_sync() {
 }
 
 void put_node_of_a_peer(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf, no_sync()).value();
   std::uint32_t seq = 0;
   for (auto _ : state) {
@@ -27,7 +27,7 @@ void put_node_of_a_peer(benchmark::State& state) {
 BENCHMARK(put_node_of_a_peer)->Unit(benchmark::kMicrosecond);
 
 void put_own_node_with_disk_sync(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   const Bytes submap = testing::random_bytes(50'000, 1);
   std::uint32_t seq = 0;
@@ -39,7 +39,7 @@ void put_own_node_with_disk_sync(benchmark::State& state) {
 BENCHMARK(put_own_node_with_disk_sync)->Unit(benchmark::kMicrosecond);
 
 void put_submap_chunks(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf, no_sync()).value();
   constexpr std::uint32_t kChunks = 64;
   const Bytes submap = testing::random_bytes(kChunks * Store::kChunkBytes, 1);
@@ -57,7 +57,7 @@ void put_submap_chunks(benchmark::State& state) {
 BENCHMARK(put_submap_chunks)->Unit(benchmark::kMillisecond)->Iterations(100);
 
 void open_and_look_up(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   const auto nodes = static_cast<std::uint32_t>(state.range(0));
   {
     auto store = Store::open(folder / "store.db", kSelf, no_sync()).value();
@@ -74,7 +74,7 @@ BENCHMARK(open_and_look_up)->Arg(1000)->Arg(50'000)->Unit(benchmark::kMillisecon
 
 /// Opens a store of so many nodes with submaps of 60 kB, all of which is read and checked.
 void open_and_check_all(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   const auto nodes = static_cast<std::uint32_t>(state.range(0));
   const Bytes submap = testing::random_bytes(60'000, 1);
   {
@@ -90,7 +90,7 @@ BENCHMARK(open_and_check_all)->Arg(500)->Arg(5000)->Unit(benchmark::kMillisecond
 
 /// Cost of a digest after so many chunks of submaps came since the last one.
 void sync_before_a_digest(benchmark::State& state) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   const auto chunks = static_cast<std::uint32_t>(state.range(0));
   const Bytes submap = testing::random_bytes((chunks + 1) * Store::kChunkBytes, 1);

@@ -59,11 +59,11 @@ TEST(Cdr, OtherEncapsulationsAreRefusedByNumber) {
 }
 
 TEST(Cdr, WhoLooksFirstChangesNothingAndMayRefuse) {
-  std::uint32_t seen = 0;
-  const auto note = from_cdr<Note>(kBig, "Note", [&](Cdr& cdr) { cdr >> seen; });
+  std::uint32_t number = 0;
+  const auto note = from_cdr<Note>(kBig, "Note", [&](Cdr& cdr) { cdr >> number; });
   ASSERT_TRUE(note);
-  EXPECT_EQ(seen, 0x01020304u);
-  EXPECT_EQ(note->number, seen);
+  EXPECT_EQ(number, 0x01020304u);
+  EXPECT_EQ(note->number, number);
   EXPECT_EQ(note->text, "ab");
   const auto refused =
       from_cdr<Note>(kBig, "Note", [](Cdr&) { throw std::runtime_error("longer than allowed"); });

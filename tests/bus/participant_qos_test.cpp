@@ -127,9 +127,9 @@ TEST(ApplyOnboard, TheLoopbackAndItsGroupAreAlwaysSought) {
 
 TEST(ApplyOnboard, PeersOfTheProfileStayUnlessOthersAreGiven) {
   Profile profile;
-  eprosima::fastrtps::rtps::Locator_t given;
-  given.port = 9000;
-  profile.qos.wire_protocol().builtin.initialPeersList.push_back(given);
+  eprosima::fastrtps::rtps::Locator_t peer;
+  peer.port = 9000;
+  profile.qos.wire_protocol().builtin.initialPeersList.push_back(peer);
   apply_onboard({}, agent(), profile.qos);
   EXPECT_THAT(texts(profile.qos.wire_protocol().builtin.initialPeersList), ElementsAre(HasSubstr(":9000")));
 }

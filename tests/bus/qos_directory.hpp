@@ -12,6 +12,7 @@
 
 #include "bus/dds_domains.hpp"
 #include "fleetmap/bus/dds_bus.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::bus::testing {
 
@@ -34,8 +35,7 @@ class QosDirectory : public ::testing::Test {
   void TearDown() override { fs::remove_all(directory_); }
 
   void replace(const std::string& file, const std::string& from, const std::string& to) {
-    std::ifstream in(directory_ / file);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::string text = fleetmap::testing::file_text(directory_ / file);
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);

@@ -85,10 +85,10 @@ TEST_F(StuckBus, ATimerIsNamedAndCounted) {
 TEST(WorkWatchdog, SeesWhatExecutorAndWorkersDo) {
   const auto executor = std::make_shared<Executor>();
   Worker worker(executor, 1h);
-  std::promise<std::string> seen;
+  std::promise<std::string> name;
   ASSERT_TRUE(
-      worker.add({"registration", [&] { seen.set_value(worker.record()->take().under_way->name); }}, [] {}));
-  EXPECT_EQ(seen.get_future().get(), "registration");
+      worker.add({"registration", [&] { name.set_value(worker.record()->take().under_way->name); }}, [] {}));
+  EXPECT_EQ(name.get_future().get(), "registration");
   std::string after;
   executor->post([&] { after = executor->record()->take().under_way->name; });
   while (after.empty()) ASSERT_TRUE(executor->run_one(Executor::Clock::time_point::max()));

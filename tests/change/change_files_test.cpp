@@ -25,7 +25,7 @@ Changes one_table_gone() {
   gone.size = {9.0, 4.0, 2.0};
   gone.heading_rad = std::numbers::pi / 2.0;  // north
   gone.cells = 400;
-  gone.seen_through = 100;
+  gone.traversed = 100;
   gone.confidence = 0.75;
   gone.points = {{100.0f, 200.0f, 1.0f}, {101.0f, 200.0f, 1.0f}};
   changes.same = {{0.0f, 0.0f, 0.0f}};
@@ -46,7 +46,7 @@ TEST(ChangeFiles, GeoJsonHasThePlaceInWgs84AndUtm) {
   EXPECT_EQ(properties["length_m"], 9.0);
   EXPECT_EQ(properties["azimuth_deg"], 0.0);
   EXPECT_EQ(properties["confidence"], 0.75);
-  EXPECT_EQ(properties["seen_share"], 0.25);
+  EXPECT_EQ(properties["traversed_share"], 0.25);
   EXPECT_EQ(properties["utm"]["epsg"], 32630);
   EXPECT_NEAR(properties["utm"]["easting"].get<double>(), 500'100.0, 0.2) << "the origin is on the meridian";
 }

@@ -111,7 +111,7 @@ TEST(FindChanges, NamesAThingThatCameAndOneThatWentWithPlaceAndSize) {
   EXPECT_NEAR(std::abs(std::cos(went.heading_rad)), 1.0, 0.05) << "along x";
   EXPECT_LT((came.centre.head<2>() - Eigen::Vector2d(-23.5, 7.5)).norm(), 0.6);
   for (const Change& change : changes.changes) {
-    EXPECT_GT(change.seen_share(), 0.3);
+    EXPECT_GT(change.traversed_share(), 0.3);
     EXPECT_GT(change.confidence, 0.5);
   }
 }
@@ -141,7 +141,7 @@ TEST(FindChanges, TheDistanceThatCountsGrowsWithTheMisfit) {
   const Changes fine = found({}, {}), off = found({}, shifted);
   EXPECT_THAT(off.changes, IsEmpty());
   EXPECT_GT(off.misfit_m, 1.3 * off.noise_m);
-  EXPECT_GT(off.least_m, 1.2 * fine.least_m);
+  EXPECT_GT(off.min_distance_m, 1.2 * fine.min_distance_m);
 }
 
 TEST(FindChanges, LeavesOfABushAreNoChanges) {

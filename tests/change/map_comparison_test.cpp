@@ -50,7 +50,7 @@ class MapComparisonTest : public ::testing::Test {
 TEST_F(MapComparisonTest, AThingIsOneClusterThatWasSeenThrough) {
   const MapComparison gone = compared(with_, without_);
   ASSERT_EQ(gone.free.size(), 1u);
-  EXPECT_GE(gone.free.front().seen_through, 40u);
+  EXPECT_GE(gone.free.front().traversed, 40u);
   EXPECT_LE(gone.free.front().points.size(), 70u);
   EXPECT_TRUE(compared(without_, with_).free.empty()) << "the wall behind it is hidden at most";
 }
@@ -59,7 +59,7 @@ TEST_F(MapComparisonTest, AThingBeforeWhichNothingWasSeenIsUnknown) {
   const std::vector<ObservedSubmap> blind(3, view(0, false, -10.0f, 10.0f));
   const MapComparison unknown = compared(with_, blind);
   EXPECT_TRUE(unknown.free.empty());
-  EXPECT_GE(unknown.not_seen.size(), 40u);
+  EXPECT_GE(unknown.unobserved.size(), 40u);
 }
 
 TEST_F(MapComparisonTest, OneSubmapAloneIsNoEvidence) {

@@ -17,7 +17,7 @@ ObservedSubmap plane(const Eigen::Vector3f& shift) {
 
 class NoiseModelTest : public ::testing::Test {
  protected:
-  CellMap seen_twice(const ObservedSubmap& submap) const {
+  CellMap observed_twice(const ObservedSubmap& submap) const {
     return CellMap({&submap, &submap}, config_.cell_m);
   }
 
@@ -29,24 +29,24 @@ class NoiseModelTest : public ::testing::Test {
 
 TEST_F(NoiseModelTest, SurfacesDifferFromTheirNoiseOnTimesTheMisfitOfTheDays) {
   TileDistances within(config_.tile_m), between(config_.tile_m);
-  within.add(seen_twice(here_), seen_twice(near_), config_);
-  between.add(seen_twice(here_), seen_twice(far_), config_);
+  within.add(observed_twice(here_), observed_twice(near_), config_);
+  between.add(observed_twice(here_), observed_twice(far_), config_);
   const Eigen::Vector3f inside(10.0f, 10.0f, 0.0f);
   EXPECT_NEAR(within.quantile(0.5).value(), 0.05f, 1e-4f);
-  EXPECT_FLOAT_EQ(NoiseModel(within, nullptr, config_).least_distance(inside), 0.2f) << "a cell at least";
-  EXPECT_NEAR(NoiseModel(within, &between, config_).least_distance(inside), 0.5f, 0.01f);
+  EXPECT_FLOAT_EQ(NoiseModel(within, nullptr, config_).min_distance(inside), 0.2f) << "a cell at least";
+  EXPECT_NEAR(NoiseModel(within, &between, config_).min_distance(inside), 0.5f, 0.01f);
 }
 
 TEST_F(NoiseModelTest, WhereTooLittleWasSeenNothingDiffers) {
   TileDistances within(config_.tile_m);
-  within.add(seen_twice(here_), seen_twice(near_), config_);
-  EXPECT_FLOAT_EQ(NoiseModel(within, nullptr, config_).least_distance({500.0f, 0.0f, 0.0f}), 3.0f);
-  EXPECT_FLOAT_EQ(NoiseModel(within, &within, config_).least_distance({500.0f, 0.0f, 0.0f}), 3.0f);
+  within.add(observed_twice(here_), observed_twice(near_), config_);
+  EXPECT_FLOAT_EQ(NoiseModel(within, nullptr, config_).min_distance({500.0f, 0.0f, 0.0f}), 3.0f);
+  EXPECT_FLOAT_EQ(NoiseModel(within, &within, config_).min_distance({500.0f, 0.0f, 0.0f}), 3.0f);
 }
 
 TEST_F(NoiseModelTest, WhatOneSubmapAloneSawDoesNotCount) {
   TileDistances within(config_.tile_m);
-  within.add(CellMap({&here_}, config_.cell_m), seen_twice(far_), config_);
+  within.add(CellMap({&here_}, config_.cell_m), observed_twice(far_), config_);
   EXPECT_FALSE(within.quantile(0.5));
 }
 

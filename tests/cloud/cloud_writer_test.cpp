@@ -10,6 +10,7 @@
 
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "support/file_content.hpp"
 #include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -18,12 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::string content(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::size_t files_in(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}));
@@ -55,9 +50,9 @@ TEST(CloudWriter, PiecesMakeTheFileOfTheWhole) {
       EXPECT_EQ(back->intensities, cloud.intensities);
       const fs::path whole = folder.path() / ("whole" + extension);
       ASSERT_TRUE(write_cloud(whole, cloud));
-      EXPECT_TRUE(content(streamed) == content(whole)) << extension;
+      EXPECT_TRUE(fleetmap::testing::file_text(streamed) == fleetmap::testing::file_text(whole)) << extension;
       const std::string count = extension == ".ply" ? "\nelement vertex 70000\n" : "\nPOINTS 70000\n";
-      EXPECT_THAT(content(streamed).substr(0, 400), HasSubstr(count));
+      EXPECT_THAT(fleetmap::testing::file_text(streamed).substr(0, 400), HasSubstr(count));
       fs::remove(streamed);
       fs::remove(whole);
     }
@@ -72,7 +67,8 @@ TEST(CloudWriter, CommentsAreLinesOfTheHeaderThatReadersSkip) {
     auto writer = CloudWriter::create(folder.path() / name, true, {"DATA of one place", "element 2"});
     ASSERT_TRUE(writer && writer->add(cloud) && writer->finish());
     const std::string mark = name == "map.ply" ? "\ncomment " : "\n# ";
-    EXPECT_THAT(content(folder.path() / name), HasSubstr(mark + "DATA of one place" + mark + "element 2\n"));
+    EXPECT_THAT(fleetmap::testing::file_text(folder.path() / name),
+                HasSubstr(mark + "DATA of one place" + mark + "element 2\n"));
     const auto back = read_cloud(folder.path() / name);
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(back->points, cloud.points);
@@ -83,13 +79,13 @@ TEST(CloudWriter, AFullDiskIsAnErrorThatNamesTheFile) {
   const fleetmap::testing::TemporaryFolder folder;
   const fs::path file = folder.path() / "map.ply";
   ASSERT_TRUE(write_cloud(file, testing::street_scene(10, 2)));
-  const std::string before = content(file);
+  const std::string before = fleetmap::testing::file_text(file);
   for (const int points : {10, 100'000}) {  // fails in finish(), and in add()
     fs::create_symlink("/dev/full", folder.path() / "map.ply.part");
     const Status written = write_cloud(file, testing::street_scene(points, 3));
     ASSERT_FALSE(written);
     EXPECT_THAT(written.error().message, AllOf(HasSubstr("map.ply"), HasSubstr("No space left")));
-    EXPECT_TRUE(content(file) == before);
+    EXPECT_TRUE(fleetmap::testing::file_text(file) == before);
     EXPECT_EQ(files_in(folder.path()), 1u);
   }
 }

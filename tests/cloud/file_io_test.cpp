@@ -10,7 +10,9 @@
 #include <string>
 
 #include "cloud/scenes.hpp"
+#include "support/file_content.hpp"
 #include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
 namespace {
@@ -20,27 +22,10 @@ using ::testing::HasSubstr;
 
 class CloudFile : public ::testing::Test {
  protected:
-  CloudFile()
-      : folder_(fs::temp_directory_path() /
-                ("fleetmap_cloud_file_" +
-                 std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + "_" +
-                 std::to_string(std::random_device{}()))) {
-    fs::create_directories(folder_);
-  }
-  ~CloudFile() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   fs::path file(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return folder_ / name;
+    return folder_.write(name, content);
   }
-  static std::string content(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    return text.str();
-  }
-  fs::path folder_;
+  const fleetmap::testing::TemporaryFolder folder_;
 };
 
 TEST_F(CloudFile, WhatIsWrittenIsReadBack) {
@@ -55,7 +40,8 @@ TEST_F(CloudFile, WhatIsWrittenIsReadBack) {
       EXPECT_EQ(back->intensities, cloud.intensities) << name;
     }
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}), 3);  // no .part left
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator{}),
+            3);  // no .part left
 }
 
 TEST_F(CloudFile, AnEmptyCloudIsAFileToo) {
@@ -138,7 +124,7 @@ TEST_F(CloudFile, EveryTruncationIsAnError) {
   const PointCloud cloud = testing::street_scene(40, 2);
   for (const char* name : {"t.ply", "t.pcd"}) {
     ASSERT_TRUE(write_cloud(folder_ / name, cloud));
-    const std::string whole = content(folder_ / name);
+    const std::string whole = fleetmap::testing::file_text(folder_ / name);
     for (std::size_t size = 0; size < whole.size(); ++size) {
       EXPECT_FALSE(read_cloud(file(name, whole.substr(0, size)))) << name << " cut at " << size;
     }
@@ -151,7 +137,7 @@ TEST_F(CloudFile, DamagedFilesNeverCrash) {
   int refused = 0;
   for (const char* name : {"d.ply", "d.pcd"}) {
     ASSERT_TRUE(write_cloud(folder_ / name, cloud));
-    const std::string whole = content(folder_ / name);
+    const std::string whole = fleetmap::testing::file_text(folder_ / name);
     for (int round = 0; round < 700; ++round) {
       std::string damaged = whole;
       const std::size_t reach = round % 2 == 0 ? std::min<std::size_t>(400, whole.size()) : whole.size();

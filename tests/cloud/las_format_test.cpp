@@ -55,10 +55,10 @@ TEST(LasSteps, AreWithinHalfAStepHoweverFarTheOffset) {
 
 TEST(LasSteps, RefusesWhatDoesNotFit) {
   const Eigen::Vector3i offset(1'000'000, 0, 0);
-  const double most = 2'147'483.647;
-  EXPECT_EQ(las_steps({1'000'000 + most, -most, most}, offset),
+  const double limit = 2'147'483.647;
+  EXPECT_EQ(las_steps({1'000'000 + limit, -limit, limit}, offset),
             Eigen::Vector3i(2147483647, -2147483647, 2147483647));
-  for (const double wrong : {kNan, kInfinity, -kInfinity, most + 0.001, -most - 0.001, 1e300}) {
+  for (const double wrong : {kNan, kInfinity, -kInfinity, limit + 0.001, -limit - 0.001, 1e300}) {
     for (int axis = 0; axis < 3; ++axis) {
       Eigen::Vector3d p = offset.cast<double>();
       p[axis] += wrong;
@@ -99,7 +99,7 @@ TEST(LasFormat, HeaderAndPointsAreReadBackByTheSpecification) {
   EXPECT_EQ(file.offset, Eigen::Vector3d(499'000, 4'316'000, -7));
   EXPECT_EQ(file.wkt(), description().wkt);
   EXPECT_EQ(file.text(), description().text);
-  Eigen::Vector3d least = file.points[0].position, greatest = least;
+  Eigen::Vector3d min = file.points[0].position, max = min;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const LasFile::Point& point = file.points[k];
     EXPECT_EQ(point.position, (points[k].first.cast<double>() * 0.001 + file.offset).eval());
@@ -108,19 +108,19 @@ TEST(LasFormat, HeaderAndPointsAreReadBackByTheSpecification) {
     EXPECT_EQ(point.returns, 0x11) << "the first of one";
     EXPECT_EQ(point.flags + point.classification, 0);
     EXPECT_EQ(point.gps_time, 0.0);
-    least = least.cwiseMin(point.position);
-    greatest = greatest.cwiseMax(point.position);
+    min = min.cwiseMin(point.position);
+    max = max.cwiseMax(point.position);
   }
-  EXPECT_EQ(file.least, least);
-  EXPECT_EQ(file.greatest, greatest);
+  EXPECT_EQ(file.min, min);
+  EXPECT_EQ(file.max, max);
 }
 
 TEST(LasFormat, AFileWithoutPointsHasNoBounds) {
   const LasFile file = read_back(las_header(description(), {}));
   EXPECT_EQ(file.count, 0u);
   EXPECT_TRUE(file.points.empty());
-  EXPECT_EQ(file.least, Eigen::Vector3d::Zero());
-  EXPECT_EQ(file.greatest, Eigen::Vector3d::Zero());
+  EXPECT_EQ(file.min, Eigen::Vector3d::Zero());
+  EXPECT_EQ(file.max, Eigen::Vector3d::Zero());
 }
 
 TEST(LasFormat, TextsThatAreTooLongAreCut) {

@@ -28,7 +28,7 @@ struct LasFile {
   std::array<std::uint8_t, 16> project{};
   int major = 0, minor = 0, format = 0;
   std::uint32_t legacy_points = 0;
-  Eigen::Vector3d scale, offset, least, greatest;
+  Eigen::Vector3d scale, offset, min, max;
   std::uint64_t count = 0, first_returns = 0;
   std::map<std::pair<std::string, int>, std::string>
       records;  ///< by user ID and record ID, without their zero
@@ -77,8 +77,8 @@ class LasReader {
       const auto k = static_cast<Eigen::Index>(axis);
       file_.scale[k] = at<double>(131 + 8 * axis);
       file_.offset[k] = at<double>(155 + 8 * axis);
-      file_.greatest[k] = at<double>(179 + 16 * axis);
-      file_.least[k] = at<double>(187 + 16 * axis);
+      file_.max[k] = at<double>(179 + 16 * axis);
+      file_.min[k] = at<double>(187 + 16 * axis);
     }
     file_.count = at<std::uint64_t>(247);
     file_.first_returns = at<std::uint64_t>(255);

@@ -60,16 +60,16 @@ TEST_F(LasWriterTest, PiecesMakeTheFileOfTheWhole) {
   ASSERT_EQ(back.points.size(), points.size());
   EXPECT_EQ(back.count, points.size());
   EXPECT_EQ(streamed->points(), points.size());
-  Eigen::Vector3d least = back.points[0].position, greatest = least;
+  Eigen::Vector3d min = back.points[0].position, max = min;
   for (std::size_t k = 0; k < points.size(); ++k) {
     EXPECT_LT((back.points[k].position - points[k].position).cwiseAbs().maxCoeff(), 0.000501);
     EXPECT_EQ(back.points[k].intensity, points[k].intensity);
     EXPECT_EQ(back.points[k].source, points[k].source);
-    least = least.cwiseMin(back.points[k].position);
-    greatest = greatest.cwiseMax(back.points[k].position);
+    min = min.cwiseMin(back.points[k].position);
+    max = max.cwiseMax(back.points[k].position);
   }
-  EXPECT_EQ(back.least, least);
-  EXPECT_EQ(back.greatest, greatest);
+  EXPECT_EQ(back.min, min);
+  EXPECT_EQ(back.max, max);
   auto whole = LasWriter::create(folder_.path() / "whole.las", description_);
   ASSERT_TRUE(whole && whole->add(points) && whole->finish());
   EXPECT_TRUE(read_las(folder_.path() / "whole.las").bytes == back.bytes);
@@ -87,7 +87,7 @@ TEST_F(LasWriterTest, APointThatIsNoneIsLeftOutAndCounted) {
   ASSERT_EQ(back.points.size(), 2u);
   EXPECT_EQ(back.count, 2u);
   EXPECT_EQ(back.points[1].intensity, points[3].intensity);
-  EXPECT_LT(back.greatest.z(), 500.0);
+  EXPECT_LT(back.max.z(), 500.0);
 }
 
 TEST_F(LasWriterTest, AnEmptyMapIsAFileWithoutPoints) {

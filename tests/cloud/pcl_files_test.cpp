@@ -9,6 +9,7 @@
 
 #include "cloud/scenes.hpp"
 #include "fleetmap/cloud/file_io.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::cloud {
 namespace {
@@ -18,20 +19,13 @@ namespace fs = std::filesystem;
 /// Law: PCL and we read each other's files.
 class PclFiles : public ::testing::Test {
  protected:
-  PclFiles()
-      : folder_(fs::temp_directory_path() /
-                ("fleetmap_pcl_files_" + std::to_string(std::random_device{}()))) {
-    fs::create_directories(folder_);
+  PclFiles() {
     for (std::size_t i = 0; i < cloud_.size(); ++i) {
       pcl::PointXYZI point;
       point.getVector3fMap() = cloud_.points[i];
       point.intensity = cloud_.intensities[i];
       pcl_cloud_.push_back(point);
     }
-  }
-  ~PclFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   std::string path(const char* name) const { return (folder_ / name).string(); }
   void expect_same(const char* name, float tolerance) const {
@@ -44,7 +38,7 @@ class PclFiles : public ::testing::Test {
       EXPECT_EQ(back->intensities[i], cloud_.intensities[i]) << name;
     }
   }
-  fs::path folder_;
+  const fleetmap::testing::TemporaryFolder folder_;
   PointCloud cloud_ = testing::street_scene(3'000, 1);
   pcl::PointCloud<pcl::PointXYZI> pcl_cloud_;
 };

@@ -64,14 +64,14 @@ TEST(ColumnCode, GoesOnAcrossTheOrigin) {
 
 TEST(VoxelTiles, HoldNoMoreThanTheBoundAndWasteLittle) {
   const std::vector<Voxel> voxels = slab(20'000, 2);
-  for (const std::size_t most : {std::size_t{300}, std::size_t{1'999}, std::size_t{100'000}}) {
-    const VoxelTiles tiles(sample_of(voxels, 1'000'000), most);
+  for (const std::size_t max_count : {std::size_t{300}, std::size_t{1'999}, std::size_t{100'000}}) {
+    const VoxelTiles tiles(sample_of(voxels, 1'000'000), max_count);
     const auto counts = contents(tiles, voxels);
     for (const std::size_t count : counts) {
-      EXPECT_LE(count, most);
+      EXPECT_LE(count, max_count);
       EXPECT_GT(count, 0u);
     }
-    EXPECT_LE(tiles.size(), 1 + voxels.size() / (most - 40)) << "a column holds at most 31";
+    EXPECT_LE(tiles.size(), 1 + voxels.size() / (max_count - 40)) << "a column holds at most 31";
   }
 }
 

@@ -54,9 +54,9 @@ TEST(QuantileSketch, ItsMemoryDoesNotGrowWithTheNumberOfValues) {
 TEST(QuantileSketch, ValuesBeyondItsRangeCountAtItsEnds) {
   QuantileSketch sketch;
   for (const double value : {0.0, 1e-9, 0.5, 1e6, 1e7}) sketch.add(value);
-  EXPECT_LE(sketch.quantile(0.25), QuantileSketch::kLeast);
+  EXPECT_LE(sketch.quantile(0.25), QuantileSketch::kMin);
   EXPECT_NEAR(sketch.quantile(0.5), 0.5, 0.5 * QuantileSketch::kRelativeError);
-  EXPECT_GE(sketch.quantile(0.75), QuantileSketch::kMost * (1.0 - QuantileSketch::kRelativeError));
+  EXPECT_GE(sketch.quantile(0.75), QuantileSketch::kMax * (1.0 - QuantileSketch::kRelativeError));
   EXPECT_EQ(sketch.min(), 0.0);
   EXPECT_EQ(sketch.max(), 1e7);
 }

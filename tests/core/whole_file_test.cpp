@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "support/file_content.hpp"
 #include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -16,11 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 class WholeFileTest : public ::testing::Test {
  protected:
@@ -41,7 +37,7 @@ TEST_F(WholeFileTest, AppearsWithItsPiecesWhenItIsFinished) {
   ASSERT_TRUE(moved.overwrite("5"));
   EXPECT_FALSE(fs::exists(file_));
   ASSERT_TRUE(moved.finish());
-  EXPECT_EQ(content_of(file_), std::string("5 points: ab\0cd", 15));
+  EXPECT_EQ(testing::file_text(file_), std::string("5 points: ab\0cd", 15));
   EXPECT_EQ(files(), 1u);
 }
 
@@ -51,12 +47,12 @@ TEST_F(WholeFileTest, ReplacesAnotherAsAWholeOrNotAtAll) {
   {
     auto file = WholeFile::create(file_);
     ASSERT_TRUE(file && file->append("new"));
-    EXPECT_EQ(content_of(file_), "old and longer");
+    EXPECT_EQ(testing::file_text(file_), "old and longer");
   }
-  EXPECT_EQ(content_of(file_), "old and longer");
+  EXPECT_EQ(testing::file_text(file_), "old and longer");
   EXPECT_EQ(files(), 1u) << "what was not finished is gone";
   ASSERT_TRUE(write_whole_file(file_, "new"));
-  EXPECT_EQ(content_of(file_), "new");
+  EXPECT_EQ(testing::file_text(file_), "new");
 }
 
 TEST_F(WholeFileTest, WhatLacksBytesIsNotFinishedThoughThereIsRoomAgain) {

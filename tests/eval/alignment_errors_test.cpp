@@ -153,19 +153,19 @@ TEST(ObservedPlaces, AreThoseThatEnoughRobotsSawOftenEnough) {
     for (int k = 0; k < count; ++k) cloud.points.emplace_back(x + 0.1f * static_cast<float>(k), 0.5f, -0.5f);
     return cloud;
   };
-  ObservedPlaces seen(1.0, 3);
-  seen.add(0, points(0.1f, 5));
-  seen.add(0, points(-2.9f, 5));
-  seen.add(1, points(0.1f, 2));
-  EXPECT_EQ(seen.count(1), 2u);
-  EXPECT_EQ(seen.count(2), 0u);
-  seen.add(1, points(0.5f, 1));
-  seen.add(1, points(std::numeric_limits<float>::quiet_NaN(), 4));
-  EXPECT_EQ(seen.count(2), 1u);
+  ObservedPlaces places(1.0, 3);
+  places.add(0, points(0.1f, 5));
+  places.add(0, points(-2.9f, 5));
+  places.add(1, points(0.1f, 2));
+  EXPECT_EQ(places.count(1), 2u);
+  EXPECT_EQ(places.count(2), 0u);
+  places.add(1, points(0.5f, 1));
+  places.add(1, points(std::numeric_limits<float>::quiet_NaN(), 4));
+  EXPECT_EQ(places.count(2), 1u);
   cloud::PointCloud queries = points(0.05f, 3);
   cloud::append(queries, points(-2.95f, 4));
-  EXPECT_EQ(seen.within(queries, 2).size(), 3u);
-  EXPECT_EQ(seen.indices_within(queries, 1).size(), 7u);
+  EXPECT_EQ(places.within(queries, 2).size(), 3u);
+  EXPECT_EQ(places.indices_within(queries, 1).size(), 7u);
 }
 
 }  // namespace

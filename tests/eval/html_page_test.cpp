@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::eval {
@@ -62,8 +63,7 @@ TEST(HtmlPage, AFileHoldsThePageOrTheErrorNamesIt) {
   HtmlPage page("t");
   page.paragraph("p");
   ASSERT_TRUE(page.write(file));
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_EQ((std::string{std::istreambuf_iterator<char>(in), {}}), page.str());
+  EXPECT_EQ(testing::file_text(file), page.str());
   const auto none = folder.path() / "none" / "a.html";
   const Status status = page.write(none);
   ASSERT_FALSE(status);

@@ -63,9 +63,9 @@ TEST(Thinning, VoxelsGrowUntilFewEnoughAreLeft) {
 TEST(Thinning, EvenStepsBeginWithTheFirstPoint) {
   Points row;
   for (int k = 0; k < 10; ++k) row.emplace_back(static_cast<float>(k), 0.0f, 0.0f);
-  const auto xs = [&](std::size_t most) {
+  const auto xs = [&](std::size_t max_points) {
     std::vector<float> found;
-    for (const auto& p : evenly(row, most)) found.push_back(p.x());
+    for (const auto& p : evenly(row, max_points)) found.push_back(p.x());
     return found;
   };
   EXPECT_THAT(xs(10), SizeIs(10));

@@ -84,7 +84,7 @@ class Fleet {
 };
 
 TEST(BudgetShares, the_sum_never_exceeds_the_budget_whatever_is_lost_and_whoever_has_need) {
-  double most = 0.0;
+  double max_rate = 0.0;
   for (std::uint32_t seed = 0; seed < 40; ++seed) {
     const std::size_t robots = 2 + seed % 9;
     Fleet fleet(robots, seed, 0.05 * (seed % 10));
@@ -94,10 +94,10 @@ TEST(BudgetShares, the_sum_never_exceeds_the_budget_whatever_is_lost_and_whoever
       fleet.set_backlog(name, needs ? 60'000 : 0, needs ? 9'000 : fleet.random()() % 4'000);
       fleet.run_for(std::chrono::milliseconds(fleet.random()() % 20'000),
                     [&] { ASSERT_LE(fleet.sum(), kBudget * 1.000001) << "seed " << seed; });
-      most = std::max(most, fleet.rate(name));
+      max_rate = std::max(max_rate, fleet.rate(name));
     }
   }
-  EXPECT_GT(most, 0.5 * kBudget) << "something was lent";
+  EXPECT_GT(max_rate, 0.5 * kBudget) << "something was lent";
 }
 
 TEST(BudgetShares, who_has_need_gets_most_of_what_the_others_leave_and_gives_it_back) {

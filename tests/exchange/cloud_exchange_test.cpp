@@ -25,7 +25,7 @@ class CloudExchangeTest : public ::testing::Test {
     EXPECT_TRUE(store_.put_node_with_submap(fleetmap::testing::make_node(kSelf, 0, submap), submap));
   }
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   testing::RecordedLoopCloser closer_;
   SendQueue queue_{{}, kOthers, [](const Message&) { return std::size_t{10}; }};

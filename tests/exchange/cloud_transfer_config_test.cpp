@@ -21,10 +21,10 @@ TEST(CloudTransferConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); 
 
 TEST(CloudTransferConfig, FragmentsCanCarryTheLargestCloud) {
   // A request can name as many pieces as are missing.
-  const auto most =
+  const auto max_bytes =
       static_cast<std::uint32_t>(messages::CloudRequest::kMaxMissing * messages::CloudFragment::kMaxPayload);
-  expect_accepted(Config{}, &Config::max_cloud_bytes, {1u, most});
-  expect_refused(Config{}, &Config::max_cloud_bytes, {0u, most + 1, UINT32_MAX}, "max_cloud_bytes");
+  expect_accepted(Config{}, &Config::max_cloud_bytes, {1u, max_bytes});
+  expect_refused(Config{}, &Config::max_cloud_bytes, {0u, max_bytes + 1, UINT32_MAX}, "max_cloud_bytes");
 }
 
 TEST(CloudTransferConfig, CountsAreAtLeastOne) {

@@ -124,31 +124,31 @@ TEST(CloudTransfer, gives_up_on_a_silent_or_lying_sender_and_counts_it) {
   CloudReceiver receiver(kSelf, {});
   ASSERT_TRUE(receiver.want(kNode, kStart));
   std::size_t requests = 0;
-  std::vector<NodeId> given_up;
+  std::vector<NodeId> abandoned;
   Stamp now = kStart;
-  for (; given_up.empty() && now < kStart + std::chrono::minutes(10); now += kTick) {
+  for (; abandoned.empty() && now < kStart + std::chrono::minutes(10); now += kTick) {
     auto due = receiver.tick(now);
     requests += due.requests.size();
-    given_up = due.given_up;
+    abandoned = due.abandoned;
   }
-  EXPECT_EQ(given_up, std::vector<NodeId>{kNode});
+  EXPECT_EQ(abandoned, std::vector<NodeId>{kNode});
   EXPECT_EQ(requests, 8u);
   EXPECT_TRUE(receiver.idle());
   // A sender whose clouds never match their hash.
   ASSERT_TRUE(receiver.want(kNode, now));
-  given_up.clear();
-  for (const Stamp end = now + std::chrono::minutes(10); given_up.empty() && now < end; now += kTick) {
+  abandoned.clear();
+  for (const Stamp end = now + std::chrono::minutes(10); abandoned.empty() && now < end; now += kTick) {
     auto due = receiver.tick(now);
-    given_up = due.given_up;
+    abandoned = due.abandoned;
     for (std::size_t k = 0; k < due.requests.size(); ++k) {
       auto fragment = split_cloud(kPeer, kSelf, kNode, Bytes(100, 7))[0];
       fragment.payload[0] ^= 1;
       EXPECT_FALSE(receiver.add(fragment, now));
     }
   }
-  EXPECT_EQ(given_up, std::vector<NodeId>{kNode});
+  EXPECT_EQ(abandoned, std::vector<NodeId>{kNode});
   EXPECT_EQ(receiver.stats().bad_hash, 3u);
-  EXPECT_EQ(receiver.stats().given_up, 2u);
+  EXPECT_EQ(receiver.stats().abandoned, 2u);
 }
 
 TEST(CloudTransfer, bounds_what_it_keeps_and_what_it_takes_on) {

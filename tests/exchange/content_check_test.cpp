@@ -29,7 +29,7 @@ struct Robot {
   }
 
   AgentId name;
-  testing::ScratchFolder folder;
+  testing::TemporaryFolder folder;
   store::Store store = std::move(store::Store::open(folder / "store.db", name).value());
   ContentCheck check;
 };

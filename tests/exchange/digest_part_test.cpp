@@ -79,15 +79,15 @@ TEST(DigestPart, OnePartCorrectsNothingBesideIt) {
 TEST(DigestPart, AHostileRobotFillsNoMemoryWithHoles) {
   constexpr std::uint32_t kInADigest = 25;
   SeqSet offered;
-  std::size_t most = 0;
+  std::size_t max_ranges = 0;
   for (std::uint32_t k = 0; k < 9000; k += kInADigest) {
     std::vector<SeqRange> part;
     for (std::uint32_t i = k; i < k + kInADigest; ++i) part.push_back({kA, 2 * i, 2 * i + 1});
     offered = offered_after(offered, part);
-    most = std::max(most, offered.ranges().size());
+    max_ranges = std::max(max_ranges, offered.ranges().size());
   }
-  EXPECT_LE(most, 8192u);
-  EXPECT_GT(most, 8000u) << "or no limit was reached";
+  EXPECT_LE(max_ranges, 8192u);
+  EXPECT_GT(max_ranges, 8000u) << "or no limit was reached";
 }
 
 TEST(DigestPart, ARangeStaysInOneSession) {

@@ -265,7 +265,7 @@ TEST(Fleet, takes_no_items_of_its_own_session_from_others) {
 }
 
 TEST(Fleet, configuration_names_what_is_wrong) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   auto store = store::Store::open(folder / "store.db", agent("r1")).value();
   ExchangeConfig config;
   config.payload_size = testing::payload_size;

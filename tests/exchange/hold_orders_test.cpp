@@ -38,14 +38,14 @@ TEST(HoldOrders, TheLatestOrderThatConcernsARobotIsInForce) {
 }
 
 TEST(HoldOrders, OrdersMayComeInAnyOrderAndAnyNumberOfTimes) {
-  const std::vector<HoldOrder> given{order("", true, 1s), order("r1", false, 2s), order("", false, 3s),
-                                     order("r1", true, 4s), order("r1", false, 4s)};
+  const std::vector<HoldOrder> received{order("", true, 1s), order("r1", false, 2s), order("", false, 3s),
+                                        order("r1", true, 4s), order("r1", false, 4s)};
   std::vector<std::size_t> turn{0, 1, 2, 3, 4};
   std::optional<std::vector<HoldOrder>> first;
   do {
     HoldOrders orders(agent("r1"), kFleet);
-    for (const std::size_t k : turn) orders.add(given[k]);
-    for (const std::size_t k : turn) EXPECT_FALSE(orders.add(given[k])) << "it is known";
+    for (const std::size_t k : turn) orders.add(received[k]);
+    for (const std::size_t k : turn) EXPECT_FALSE(orders.add(received[k])) << "it is known";
     EXPECT_TRUE(orders.held()) << "of two at one time the one to stand";
     if (!first) first = orders.all();
     EXPECT_EQ(orders.all(), *first);

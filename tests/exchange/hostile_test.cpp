@@ -334,14 +334,14 @@ TEST_F(Hostile, whoever_sends_under_another_name_or_against_the_rules_is_named) 
   for (int k = 0; k < 5; ++k) fleet_.forge("r1", report, agent("r3"));
   fleet_.forge("r1", Digest{agent("r3"), {{agent("r2"), 9, 5}}, {}}, agent("r3"));
   fleet_.forge("r1", SubmapChunk{agent("r2"), agent("r1"), made_.front().id, 0, 4000, Bytes(4000)});
-  const auto seen = events<SenderMisbehaved>(r1);
-  ASSERT_EQ(seen.size(), 3u);
+  const auto misbehaved = events<SenderMisbehaved>(r1);
+  ASSERT_EQ(misbehaved.size(), 3u);
   const auto is = [&](const SenderMisbehaved& one, const char* name, std::optional<AgentId> from, Kind kind) {
     return one.name == agent(name) && one.from == from && one.kind == kind;
   };
-  EXPECT_TRUE(is(seen[0], "r2", agent("r3"), Kind::kForeignName));
-  EXPECT_TRUE(is(seen[1], "r3", agent("r3"), Kind::kDigest));
-  EXPECT_TRUE(is(seen[2], "r2", std::nullopt, Kind::kSubmap));
+  EXPECT_TRUE(is(misbehaved[0], "r2", agent("r3"), Kind::kForeignName));
+  EXPECT_TRUE(is(misbehaved[1], "r3", agent("r3"), Kind::kDigest));
+  EXPECT_TRUE(is(misbehaved[2], "r2", std::nullopt, Kind::kSubmap));
   const std::map<AgentId, std::uint64_t> counts{{agent("r2"), 1}, {agent("r3"), 6}};
   EXPECT_EQ(r1.exchange->stats().misbehaved, counts);
 }

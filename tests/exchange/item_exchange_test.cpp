@@ -33,7 +33,7 @@ class ItemExchangeTest : public ::testing::Test {
   }
 
   ExchangeConfig config_ = config();
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   testing::RecordedLoopCloser closer_;
   Membership members_{kSelf, config_.fleet};

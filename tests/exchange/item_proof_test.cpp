@@ -4,13 +4,13 @@
 
 #include <set>
 
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using fault_injection::StandInSignatures;
+using fault_injection::SimulatedSignatures;
 using store::Put;
 using testing::agent;
 using testing::make_alignment;
@@ -36,7 +36,7 @@ class AdoptedItemsTest : public ::testing::Test {
     EXPECT_TRUE(adopted) << adopted.error().message;
     return adopted ? std::pair(adopted->signed_own, adopted->dropped) : std::pair<std::size_t, std::size_t>();
   }
-  bool all_genuine(const StandInSignatures& keys) const {
+  bool all_genuine(const SimulatedSignatures& keys) const {
     for (const auto& [id, node] : store_.nodes())
       if (keys.verify(node) != ItemProof::kGenuine) return false;
     for (const auto& [id, alignment] : store_.alignments())
@@ -44,9 +44,9 @@ class AdoptedItemsTest : public ::testing::Test {
     return true;
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   store::Store store_ = store::Store::open(folder_ / "store.db", kSelf).value();
-  const StandInSignatures keys_{17};
+  const SimulatedSignatures keys_{17};
   const Bytes submap_ = testing::random_bytes(700, 1);
 };
 
@@ -86,7 +86,7 @@ TEST_F(AdoptedItemsTest, KeysOfAnotherFleetReplaceThoseOfTheFirst) {
   graph::Node theirs = make_node(kPeer, 0, submap_);
   theirs.signature = keys_.sign(theirs);
   put(theirs);
-  const StandInSignatures others(18);
+  const SimulatedSignatures others(18);
   EXPECT_EQ(adopt(others), std::pair(std::size_t{1}, std::size_t{1}));
   EXPECT_TRUE(all_genuine(others));
   EXPECT_FALSE(store_.node({kPeer, 0}));

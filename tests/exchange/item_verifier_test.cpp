@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -25,7 +25,7 @@ TEST(ItemVerifier, WithoutKeysItemsAreAcceptedAndKeepNoSignature) {
 }
 
 TEST(ItemVerifier, WithKeysEveryResultIsCounted) {
-  ItemVerifier verifier(std::make_shared<fault_injection::StandInSignatures>(1));
+  ItemVerifier verifier(std::make_shared<fault_injection::SimulatedSignatures>(1));
   const graph::Node made = testing::make_node(kMaker, 0, {});
   const graph::Node node = verifier.with_signature(made);
   EXPECT_EQ(verifier.verify(node), ItemProof::kGenuine);

@@ -80,11 +80,11 @@ class CloudShare {
         all += piece.bytes;
         clouds += piece.cloud ? piece.bytes : 0.0;
       }
-      least_ = std::min(least_, clouds / all);
+      min_ = std::min(min_, clouds / all);
       ++windows_;
     }
   }
-  double least() const { return least_; }
+  double min() const { return min_; }
   std::size_t windows() const { return windows_; }
 
  private:
@@ -97,7 +97,7 @@ class CloudShare {
   std::size_t looked_at_ = 0, windows_ = 0;
   std::map<AgentId, std::deque<Piece>> sent_;
   std::map<AgentId, Stamp> waiting_since_;
-  double least_ = 1.0;
+  double min_ = 1.0;
 };
 
 TEST(LargeFleets, clouds_that_wait_get_half_of_what_control_leaves_however_many_robots) {
@@ -116,7 +116,7 @@ TEST(LargeFleets, clouds_that_wait_get_half_of_what_control_leaves_however_many_
       });
     }
     EXPECT_GT(share.windows(), 100u) << robots << " robots: this is no test of clouds that nobody wants";
-    EXPECT_GE(share.least(), 0.5) << robots << " robots";
+    EXPECT_GE(share.min(), 0.5) << robots << " robots";
   }
 }
 

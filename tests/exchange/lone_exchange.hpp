@@ -53,7 +53,7 @@ class LoneExchange : public ::testing::Test {
     return found;
   }
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   RecordedLoopCloser closer_;
   Exchange exchange_ = make();

@@ -30,7 +30,7 @@ class MissingSubmapsTest : public ::testing::Test {
   }
 
   Bytes submap_ = testing::random_bytes(100, 1);
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   Membership members_{kSelf, kFleet};
   NeighbourTable neighbours_{kSelf, {}};

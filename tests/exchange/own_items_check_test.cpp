@@ -29,7 +29,7 @@ class OwnItemsCheckTest : public ::testing::Test {
   }
 
   std::uint32_t first_ = first_seq(kSession);
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
   store::Store store_ = std::move(store::Store::open(folder_ / "store.db", kSelf).value());
   OwnItemsCheck check_{kSelf};
 };

@@ -39,7 +39,7 @@ struct Acknowledged {
       nodes.insert(kSelf, node->id.seq);
       submaps.insert(kSelf, node->id.seq);
     } else if (const auto* hold = std::get_if<Hold>(&message)) {
-      for (const HoldOrder& given : hold->orders) order = std::max(order.value_or(given.stamp), given.stamp);
+      for (const HoldOrder& one : hold->orders) order = std::max(order.value_or(one.stamp), one.stamp);
     }
   }
 };

@@ -29,7 +29,7 @@ class ReconcileTest : public ::testing::Test {
   }
 
   ReconcileConfig config_;
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
   store::Store store_ = open("r1.db", kSelf);
   store::Store peers_ = open("r2.db", kPeer);
 };

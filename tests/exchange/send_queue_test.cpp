@@ -84,8 +84,9 @@ TEST(SendQueue, sends_first_the_cloud_that_is_worth_most_a_byte) {
   LongRangeConfig config;
   config.max_fragments = 30;
   SendQueue queue(config, kOne, testing::payload_size);
-  const auto push = [&](std::uint32_t seq, std::size_t bytes, float worth) {
-    for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(bytes, 1))) queue.push_fragment(f, worth);
+  const auto push = [&](std::uint32_t seq, std::size_t bytes, float information) {
+    for (auto& f : split_cloud(kSelf, kPeer, {kSelf, seq}, Bytes(bytes, 1)))
+      queue.push_fragment(f, information);
   };
   push(0, 22'000, 1.0f);
   push(1, 22'000, 2.0f);
@@ -165,7 +166,7 @@ TEST(SendQueue, an_order_goes_to_all_at_once_since_operators_hear_it_too) {
 
 /// The least share of clouds in any ten seconds while all of these kinds wait, and what went altogether.
 struct Shares {
-  double least_clouds = 1.0;
+  double min_clouds = 1.0;
   double news = 0.0, backfill = 0.0, clouds = 0.0;  ///< B
 };
 Shares shares_of(bool news, bool backfill, double rate = 4000.0) {
@@ -194,7 +195,7 @@ Shares shares_of(bool news, bool backfill, double rate = 4000.0) {
     if (now - kStart < std::chrono::seconds(10)) continue;
     double all = 0.0, clouds = 0.0;
     for (const auto& [at, sent] : window) (sent.first ? clouds : all) += sent.second;
-    shares.least_clouds = std::min(shares.least_clouds, clouds / (all + clouds));
+    shares.min_clouds = std::min(shares.min_clouds, clouds / (all + clouds));
   }
   return shares;
 }
@@ -202,7 +203,7 @@ Shares shares_of(bool news, bool backfill, double rate = 4000.0) {
 TEST(SendQueue, clouds_get_half_of_the_bytes_of_any_ten_seconds_whatever_else_waits) {
   for (const auto& [news, backfill] : {std::pair{true, false}, {false, true}, {true, true}}) {
     const Shares shares = shares_of(news, backfill);
-    EXPECT_GE(shares.least_clouds, 0.5) << news << backfill;
+    EXPECT_GE(shares.min_clouds, 0.5) << news << backfill;
     const double all = shares.news + shares.backfill + shares.clouds;
     EXPECT_GT(shares.news + shares.backfill, 0.4 * all) << news << backfill;
     EXPECT_GT(all, 0.9 * 4000.0 * 120.0) << news << backfill;
@@ -213,7 +214,7 @@ TEST(SendQueue, clouds_get_half_of_the_bytes_of_any_ten_seconds_whatever_else_wa
 TEST(SendQueue, news_have_their_part_where_a_fragment_takes_most_of_a_second) {
   const Shares shares = shares_of(true, false, 1500.0);
   EXPECT_GT(shares.news, 0.4 * (shares.news + shares.clouds));
-  EXPECT_GE(shares.least_clouds, 0.5);
+  EXPECT_GE(shares.min_clouds, 0.5);
   EXPECT_GT(shares.news + shares.clouds, 0.7 * 1500.0 * 120.0);
 }
 

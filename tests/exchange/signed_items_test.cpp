@@ -5,12 +5,12 @@
 #include <set>
 
 #include "exchange/sim_fleet.hpp"
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-using fault_injection::StandInSignatures;
+using fault_injection::SimulatedSignatures;
 using testing::agent;
 using testing::events;
 using testing::make_alignment;
@@ -38,7 +38,7 @@ class KnownMakers final : public ItemAuthenticator {
   }
 
  private:
-  StandInSignatures signatures_;
+  SimulatedSignatures signatures_;
 
  public:
   std::set<AgentId> known;
@@ -83,7 +83,7 @@ class SignedItems : public ::testing::Test {
     return fleet_.all([&](const SimFleet::Robot& robot) { return robot.store->is_contested(id); });
   }
 
-  std::shared_ptr<const StandInSignatures> signatures_ = std::make_shared<StandInSignatures>(17);
+  std::shared_ptr<const SimulatedSignatures> signatures_ = std::make_shared<SimulatedSignatures>(17);
   SimFleet fleet_{kThree, {.loss = 0.1}, 5, {}, testing::no_candidates};
   std::vector<graph::Node> made_;
   int east_ = 0;
@@ -254,7 +254,7 @@ TEST(SignedItemsLater, a_fleet_that_gets_keys_signs_its_items_and_drops_what_nob
   ASSERT_TRUE(fleet.robot("r1").store->is_contested(made[1].id));
   for (const auto& name : kThree) fleet.kill(name);
 
-  const auto signatures = std::make_shared<StandInSignatures>(17);
+  const auto signatures = std::make_shared<SimulatedSignatures>(17);
   fleet.authenticate(signatures);
   for (const auto& name : kThree) fleet.start(name, 8);
   fleet.run_for(std::chrono::minutes(5), [&] { return fleet.equal_sets(6); });
@@ -269,7 +269,7 @@ TEST(SignedItemsLater, a_fleet_that_gets_keys_signs_its_items_and_drops_what_nob
   }
   // Keys of another fleet: the same again.
   for (const auto& name : kThree) fleet.kill(name);
-  fleet.authenticate(std::make_shared<StandInSignatures>(18));
+  fleet.authenticate(std::make_shared<SimulatedSignatures>(18));
   for (const auto& name : kThree) fleet.start(name, 9);
   fleet.run_for(std::chrono::minutes(5), [&] { return fleet.equal_sets(6); });
   EXPECT_TRUE(fleet.equal_sets(6));

@@ -16,7 +16,7 @@ std::size_t payload_size(const Message& message) { return fleet_codec::encode(me
 SimFleet::SimFleet(const std::vector<std::string>& names, const Network& network, std::uint32_t seed,
                    const std::function<void(exchange::ExchangeConfig&)>& adjust,
                    const std::function<void(loop_closure::LoopClosureConfig&)>& adjust_loops)
-    : ExchangeFleet(static_cast<const ScratchFolder&>(*this) / "", {}, std::chrono::milliseconds(20)),
+    : ExchangeFleet(static_cast<const TemporaryFolder&>(*this) / "", {}, std::chrono::milliseconds(20)),
       network_(network),
       random_(seed) {
   for (const auto& name : names) config_.fleet.push_back(agent(name));

@@ -23,7 +23,7 @@ using messages::Message;
 std::size_t payload_size(const Message& message);
 
 /// A fleet of exchanges on a network that loses, delays, reorders and doubles messages, in virtual time.
-class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
+class SimFleet : private TemporaryFolder, public fault_injection::ExchangeFleet {
  public:
   struct Network {
     double loss = 0.0;
@@ -61,7 +61,7 @@ class SimFleet : private ScratchFolder, public fault_injection::ExchangeFleet {
   void put_back_store(const std::string& name) { ExchangeFleet::put_back_store(agent(name), ".kept"); }
   void lose_store(const std::string& name) { ExchangeFleet::lose_store(agent(name)); }
   std::filesystem::path store_file(const std::string& name) const {
-    return static_cast<const ScratchFolder&>(*this) / (name + ".db");
+    return static_cast<const TemporaryFolder&>(*this) / (name + ".db");
   }
   Robot& robot(const std::string& name) { return ExchangeFleet::robot(agent(name)); }
 

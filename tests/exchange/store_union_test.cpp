@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::exchange {
@@ -38,8 +38,8 @@ class StoreUnionTest : public ::testing::Test {
     return added.value_or(StoreUnion{});
   }
 
-  const testing::ScratchFolder folder_;
-  const fault_injection::StandInSignatures keys_{17};
+  const testing::TemporaryFolder folder_;
+  const fault_injection::SimulatedSignatures keys_{17};
   bool sign_ = false;
   store::Store merged_ = open("merged.db", "merged");
   store::Store a_ = open("a.db", "r1"), b_ = open("b.db", "r1");

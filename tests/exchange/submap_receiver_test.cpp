@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "store/items.hpp"
-#include "submap_sender.hpp"
 #include "support/full_disk.hpp"
 
 namespace fleetmap::exchange {
@@ -15,213 +14,159 @@ namespace {
 
 using testing::agent;
 
-TEST(SubmapReceiver, turns_from_a_peer_that_sends_wrong_content) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), liar = agent("r2"), honest = agent("r3");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(20'000, 1);
-  const NodeId id{agent("r4"), 0};
-  ASSERT_TRUE(store.put_node(testing::make_node(id.agent, 0, submap)));
-  SubmapReceiver receiver(self, {});
-  Stamp now = stamp_from_ns(1'000'000'000);
+const AgentId kSelf = agent("r1"), kPeer = agent("r2"), kOther = agent("r3");
+constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
+
+/// A robot that has a node of kPeer and lacks its submap of `bytes` bytes.
+class SubmapReceiverTest : public ::testing::Test {
+ protected:
+  explicit SubmapReceiverTest(std::uint32_t bytes = 20'000) : submap_(testing::random_bytes(bytes, 1)) {
+    EXPECT_TRUE(store_.put_node(testing::make_node(kPeer, 0, submap_)));
+  }
+  /// `from` holds the submap and hears this robot.
+  void offer(SubmapReceiver& receiver, const AgentId& from) {
+    receiver.on_digest({from, {{kPeer, 0, 1}}, {kSelf}}, now_);
+  }
+  SubmapChunk chunk_of(const AgentId& from, std::uint32_t offset) const {
+    SubmapChunk chunk{from, kSelf, id_, offset, static_cast<std::uint32_t>(submap_.size()), {}};
+    const ByteView part = ByteView(submap_).subspan(offset);
+    chunk.payload.assign(part.begin(), part.begin() + std::min<std::ptrdiff_t>(kChunk, std::ssize(part)));
+    return chunk;
+  }
+  std::vector<SubmapChunk> chunks_of(const SubmapRequest& request) const {
+    std::vector<SubmapChunk> chunks;
+    for (std::uint32_t offset = request.offset; offset < request.offset + request.length; offset += kChunk)
+      chunks.push_back(chunk_of(request.to, offset));
+    return chunks;
+  }
+
+  const testing::TemporaryFolder folder_;
+  store::Store store_ = store::Store::open(folder_ / "store.db", kSelf).value();
+  const Bytes submap_;
+  const NodeId id_{kPeer, 0};
+  Stamp now_ = stamp_from_ns(1'000'000'000);
+};
+
+TEST_F(SubmapReceiverTest, turns_from_a_peer_that_sends_wrong_content) {
+  SubmapReceiver receiver(kSelf, {});
   const auto serve = [&](const SubmapRequest& request) {
-    for (std::uint32_t offset = request.offset; offset < request.offset + request.length;
-         offset += SubmapChunk::kMaxPayload) {
-      SubmapChunk chunk{request.to, self, id, offset, 20'000, {}};
-      const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
-      chunk.payload.assign(part.begin(), part.end());
-      if (request.to == liar) chunk.payload[5] ^= 1;
-      ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
+    for (SubmapChunk& chunk : chunks_of(request)) {
+      if (request.to == kPeer) chunk.payload[5] ^= 1;
+      ASSERT_TRUE(receiver.on_chunk(chunk, store_, now_));
     }
   };
-  receiver.on_digest({liar, {{id.agent, 0, 1}}, {self}}, now);
-  for (const auto& request : receiver.tick(store, now)) serve(request);
+  offer(receiver, kPeer);
+  for (const auto& request : receiver.tick(store_, now_)) serve(request);
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
-  EXPECT_TRUE(receiver.tick(store, now).empty());  // not from this one again soon
-  receiver.on_digest({honest, {{id.agent, 0, 1}}, {self}}, now);
-  for (const auto& request : receiver.tick(store, now)) serve(request);
-  EXPECT_EQ(store.submap(id).value(), submap);
-  EXPECT_TRUE(receiver.idle(store, now));
+  EXPECT_TRUE(receiver.tick(store_, now_).empty());  // not from this one again soon
+  offer(receiver, kOther);
+  for (const auto& request : receiver.tick(store_, now_)) serve(request);
+  EXPECT_EQ(store_.submap(id_).value(), submap_);
+  EXPECT_TRUE(receiver.idle(store_, now_));
 }
 
-TEST(SubmapReceiver, one_damaged_chunk_does_not_bar_its_source_for_ever) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), maker = agent("r2"), forger = agent("r3");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(20'000, 1);
-  const NodeId id{maker, 0};
-  ASSERT_TRUE(store.put_node(testing::make_node(maker, 0, submap)));
-  SubmapReceiver receiver(self, {});
-  Stamp now = stamp_from_ns(1'000'000'000);
-  const auto chunk_of = [&](const AgentId& from, std::uint32_t offset) {
-    SubmapChunk chunk{from, self, id, offset, 20'000, {}};
-    const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
-    chunk.payload.assign(part.begin(), part.end());
-    return chunk;
-  };
-  SubmapChunk damaged = chunk_of(maker, 0);
+TEST_F(SubmapReceiverTest, one_damaged_chunk_does_not_bar_its_source_for_ever) {
+  SubmapReceiver receiver(kSelf, {});
+  SubmapChunk damaged = chunk_of(kPeer, 0);
   damaged.payload[7] ^= 1;
-  ASSERT_TRUE(receiver.on_chunk(damaged, store, now)) << "before anything was asked for";
+  ASSERT_TRUE(receiver.on_chunk(damaged, store_, now_)) << "before anything was asked for";
   EXPECT_EQ(receiver.stats().unasked, 1u);
-  EXPECT_EQ(store.missing_chunks(id).size(), 3u);
+  EXPECT_EQ(store_.missing_chunks(id_).size(), 3u);
 
-  receiver.on_digest({maker, {{maker, 0, 1}}, {self}}, now);
-  ASSERT_FALSE(receiver.tick(store, now).empty());
-  ASSERT_TRUE(receiver.on_chunk(chunk_of(forger, 0), store, now)) << "of one who was not asked";
+  offer(receiver, kPeer);
+  ASSERT_FALSE(receiver.tick(store_, now_).empty());
+  ASSERT_TRUE(receiver.on_chunk(chunk_of(kOther, 0), store_, now_)) << "of one who was not asked";
   EXPECT_EQ(receiver.stats().unasked, 2u);
-  ASSERT_TRUE(receiver.on_chunk(damaged, store, now)) << "in the maker's name";
-  for (const std::uint32_t offset : {8192u, 16384u}) {
-    ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
-  }
+  ASSERT_TRUE(receiver.on_chunk(damaged, store_, now_)) << "in the maker's name";
+  for (const std::uint32_t offset : {kChunk, 2 * kChunk})
+    ASSERT_TRUE(receiver.on_chunk(chunk_of(kPeer, offset), store_, now_));
   EXPECT_EQ(receiver.stats().bad_hash, 1u);
-  EXPECT_TRUE(receiver.tick(store, now).empty());
-  now += std::chrono::seconds(11);
-  receiver.on_digest({maker, {{maker, 0, 1}}, {self}}, now);
-  ASSERT_FALSE(receiver.tick(store, now).empty()) << "it is asked again";
-  for (const std::uint32_t offset : {0u, 8192u, 16384u}) {
-    ASSERT_TRUE(receiver.on_chunk(chunk_of(maker, offset), store, now));
-  }
-  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_TRUE(receiver.tick(store_, now_).empty());
+  now_ += std::chrono::seconds(11);
+  offer(receiver, kPeer);
+  ASSERT_FALSE(receiver.tick(store_, now_).empty()) << "it is asked again";
+  for (const std::uint32_t offset : {0u, kChunk, 2 * kChunk})
+    ASSERT_TRUE(receiver.on_chunk(chunk_of(kPeer, offset), store_, now_));
+  EXPECT_EQ(store_.submap(id_).value(), submap_);
 }
 
-TEST(SubmapReceiver, a_stuck_download_leaves_its_peer_for_another) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), stuck = agent("r2"), other = agent("r3");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(20'000, 1);
-  const NodeId id{agent("r4"), 0};
-  ASSERT_TRUE(store.put_node(testing::make_node(id.agent, 0, submap)));
-  SubmapReceiver receiver(self, {});
-  const Stamp begun = stamp_from_ns(1'000'000'000);
+TEST_F(SubmapReceiverTest, a_stuck_download_leaves_its_peer_for_another) {
+  SubmapReceiver receiver(kSelf, {});
+  const Stamp begun = now_;
   std::map<AgentId, Stamp> first_asked;
   int asked_of_stuck_later = 0;
-  for (Stamp now = begun; !store.has_submap(id) && now - begun < std::chrono::seconds(60);
-       now += std::chrono::milliseconds(100)) {
+  for (; !store_.has_submap(id_) && now_ - begun < std::chrono::seconds(60);
+       now_ += std::chrono::milliseconds(100)) {
     // Both are there all the time; the first sends digests and no chunk.
-    receiver.on_digest({stuck, {{id.agent, 0, 1}}, {self}}, now);
-    if (now - begun >= std::chrono::seconds(1)) receiver.on_digest({other, {{id.agent, 0, 1}}, {self}}, now);
-    for (const SubmapRequest& request : receiver.tick(store, now)) {
-      first_asked.try_emplace(request.to, now);
-      if (request.to == stuck) {
-        asked_of_stuck_later += first_asked.contains(other) ? 1 : 0;
+    offer(receiver, kPeer);
+    if (now_ - begun >= std::chrono::seconds(1)) offer(receiver, kOther);
+    for (const SubmapRequest& request : receiver.tick(store_, now_)) {
+      first_asked.try_emplace(request.to, now_);
+      if (request.to == kPeer) {
+        asked_of_stuck_later += first_asked.contains(kOther) ? 1 : 0;
         continue;
       }
-      for (std::uint32_t offset = request.offset; offset < request.offset + request.length; offset += 8192) {
-        SubmapChunk chunk{other, self, id, offset, 20'000, {}};
-        const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 20'000 - offset));
-        chunk.payload.assign(part.begin(), part.end());
-        ASSERT_TRUE(receiver.on_chunk(chunk, store, now));
-      }
+      for (const SubmapChunk& chunk : chunks_of(request)) ASSERT_TRUE(receiver.on_chunk(chunk, store_, now_));
     }
   }
-  ASSERT_TRUE(first_asked.contains(stuck));
-  ASSERT_TRUE(first_asked.contains(other)) << "it stays with the one that sends nothing";
-  EXPECT_LE(first_asked[other] - first_asked[stuck], std::chrono::seconds(10));
+  ASSERT_TRUE(first_asked.contains(kPeer));
+  ASSERT_TRUE(first_asked.contains(kOther)) << "it stays with the one that sends nothing";
+  EXPECT_LE(first_asked[kOther] - first_asked[kPeer], std::chrono::seconds(10));
   EXPECT_EQ(asked_of_stuck_later, 0);
-  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_EQ(store_.submap(id_).value(), submap_);
 }
 
-TEST(SubmapReceiver, completes_what_it_holds_when_the_full_disk_has_room_again) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), peer = agent("r2");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(100'000, 1);
-  const NodeId id{peer, 0};
-  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
+class LargeSubmap : public SubmapReceiverTest {
+ protected:
+  LargeSubmap() : SubmapReceiverTest(100'000) {}
+};
+
+TEST_F(LargeSubmap, is_completed_when_the_full_disk_has_room_again) {
   SubmapTransferConfig config;
   config.window.first_bytes = config.window.max_bytes;
-  SubmapReceiver receiver(self, config);
-  Stamp now = stamp_from_ns(1'000'000'000);
-  receiver.on_digest({peer, {{peer, 0, 1}}, {self}}, now);
-  ASSERT_FALSE(receiver.tick(store, now).empty());
-  const auto hear = [&](std::uint32_t offset) {
-    SubmapChunk chunk{peer, self, id, offset, 100'000, {}};
-    const ByteView part = ByteView(submap).subspan(offset, std::min<std::size_t>(8192, 100'000 - offset));
-    chunk.payload.assign(part.begin(), part.end());
-    return receiver.on_chunk(chunk, store, now);
+  SubmapReceiver receiver(kSelf, config);
+  offer(receiver, kPeer);
+  ASSERT_FALSE(receiver.tick(store_, now_).empty());
+  const auto receive = [&](std::uint32_t chunk) {
+    return receiver.on_chunk(chunk_of(kPeer, chunk * kChunk), store_, now_);
   };
-  for (std::uint32_t offset = 0; offset + 8192 < 100'000; offset += 8192) ASSERT_TRUE(hear(offset));
+  for (std::uint32_t chunk = 0; chunk < 12; ++chunk) ASSERT_TRUE(receive(chunk));
   {
     // The last chunk still fits, the whole does not.
-    const testing::FullDisk full(std::filesystem::file_size(folder / "store.db-wal") + 50'000);
-    EXPECT_FALSE(hear(12 * 8192));
-    EXPECT_TRUE(store.missing_chunks(id).empty());
-    EXPECT_FALSE(store.has_submap(id));
-    now += std::chrono::seconds(6);
-    EXPECT_TRUE(receiver.finish_downloads(store, now).failure) << "still full";
-    EXPECT_FALSE(receiver.finish_downloads(store, now).failure) << "not before a pause";
-    EXPECT_TRUE(receiver.tick(store, now).empty());
+    const testing::FullDisk full(std::filesystem::file_size(folder_ / "store.db-wal") + 50'000);
+    EXPECT_FALSE(receive(12));
+    EXPECT_TRUE(store_.missing_chunks(id_).empty());
+    EXPECT_FALSE(store_.has_submap(id_));
+    now_ += std::chrono::seconds(6);
+    EXPECT_TRUE(receiver.finish_downloads(store_, now_).failure) << "still full";
+    EXPECT_FALSE(receiver.finish_downloads(store_, now_).failure) << "not before a pause";
+    EXPECT_TRUE(receiver.tick(store_, now_).empty());
   }
-  now += std::chrono::seconds(6);
-  const auto finished = receiver.finish_downloads(store, now);
+  now_ += std::chrono::seconds(6);
+  const auto finished = receiver.finish_downloads(store_, now_);
   ASSERT_FALSE(finished.failure) << finished.failure->message;
-  EXPECT_EQ(finished.submaps, std::vector<NodeId>{id});
-  EXPECT_EQ(store.submap(id).value(), submap);
+  EXPECT_EQ(finished.submaps, std::vector<NodeId>{id_});
+  EXPECT_EQ(store_.submap(id_).value(), submap_);
 }
 
-TEST(SubmapReceiver, refuses_and_counts_hostile_chunks) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), peer = agent("r2");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(20'000, 1);
-  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
-  ASSERT_TRUE(store.put_node_with_submap(testing::make_node(self, 0, submap), submap));
-  SubmapReceiver receiver(self, {});
-  const Stamp now = stamp_from_ns(1'000'000'000);
-  const NodeId id{peer, 0};
-  const Bytes piece(8192, 1);
+TEST_F(SubmapReceiverTest, refuses_and_counts_hostile_chunks) {
+  ASSERT_TRUE(store_.put_node_with_submap(testing::make_node(kSelf, 0, submap_), submap_));
+  SubmapReceiver receiver(kSelf, {});
+  const Bytes piece(kChunk, 1);
   const auto offer = [&](const NodeId& node, std::uint32_t offset, std::uint32_t total,
                          const Bytes& payload) {
-    SubmapChunk chunk;
-    chunk.from = peer;
-    chunk.to = self;
-    chunk.node = node;
-    chunk.offset = offset;
-    chunk.total_bytes = total;
-    chunk.payload = payload;
-    EXPECT_EQ(receiver.on_chunk(chunk, store, now).value(), std::nullopt);
+    const SubmapChunk chunk{kPeer, kSelf, node, offset, total, payload};
+    EXPECT_EQ(receiver.on_chunk(chunk, store_, now_).value(), std::nullopt);
   };
-  offer(id, 1, 20'000, piece);
-  offer(id, 8192, 20'001, piece);
-  offer(id, 16'384, 20'000, piece);
-  offer(id, 4'294'959'104u, 20'000, piece);
-  offer(id, 0, 20'000, {});
-  offer({peer, 9}, 0, 20'000, piece);
-  offer({self, 1}, 0, 20'000, piece);
+  offer(id_, 1, 20'000, piece);
+  offer(id_, kChunk, 20'001, piece);
+  offer(id_, 2 * kChunk, 20'000, piece);
+  offer(id_, 4'294'959'104u, 20'000, piece);
+  offer(id_, 0, 20'000, {});
+  offer({kPeer, 9}, 0, 20'000, piece);
+  offer({kSelf, 1}, 0, 20'000, piece);
   EXPECT_EQ(receiver.stats().hostile, 7u);
-  EXPECT_EQ(store.missing_chunks(id).size(), 3u);
-}
-
-TEST(SubmapSender, refuses_and_counts_hostile_requests) {
-  const testing::ScratchFolder folder;
-  const AgentId self = agent("r1"), peer = agent("r2");
-  auto store = store::Store::open(folder / "store.db", self).value();
-  const Bytes submap = testing::random_bytes(20'000, 1);
-  ASSERT_TRUE(store.put_node(testing::make_node(peer, 0, submap)));
-  ASSERT_TRUE(store.put_node_with_submap(testing::make_node(self, 0, submap), submap));
-  const Stamp now = stamp_from_ns(1'000'000'000);
-  SubmapSender sender(self, {});
-  const NodeId own{self, 0};
-  const auto ask = [&](const NodeId& node, std::uint32_t offset, std::uint32_t length) {
-    SubmapRequest request;
-    request.from = peer;
-    request.to = self;
-    request.node = node;
-    request.offset = offset;
-    request.length = length;
-    sender.on_request(request, store);
-  };
-  ask({peer, 0}, 0, 8192);
-  ask(own, 20'000, 8192);
-  ask(own, 3, 8192);
-  ask(own, 4'294'959'104u, 8192);
-  ask(own, 0, 0);
-  EXPECT_EQ(sender.stats().refused, 5u);
-  EXPECT_TRUE(sender.idle());
-  ask(own, 8192, UINT32_MAX);
-  const auto chunks = sender.tick(store, now);
-  ASSERT_EQ(chunks.size(), 2u);
-  EXPECT_EQ(chunks[1].payload.size(), 20'000u - 16'384u);
+  EXPECT_EQ(store_.missing_chunks(id_).size(), 3u);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class SubmapSenderTest : public ::testing::Test {
     return {from, kSelf, {kSelf, seq}, offset, length};
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   store::Store store_ = store::Store::open(folder_ / "store.db", kSelf).value();
   std::vector<Bytes> submaps_;
   SubmapTransferConfig config_;
@@ -187,6 +187,15 @@ TEST_F(SubmapSenderTest, ANodeWhoseNameBecameContestedIsLeftOut) {
   EXPECT_EQ(chunks[0].node, (NodeId{kSelf, 1}));
   EXPECT_EQ(sender.stats().refused, 1u);
   EXPECT_TRUE(sender.idle());
+}
+
+TEST_F(SubmapSenderTest, ARequestBeyondTheEndIsAnsweredToTheEnd) {
+  SubmapSender sender(kSelf, config_);
+  sender.on_request(request(kSecond, 0, kChunk, UINT32_MAX), store_);
+  const auto chunks = sender.tick(store_, at(0.0));
+  ASSERT_THAT(chunks, SizeIs(2));
+  EXPECT_THAT(chunks[1].payload, SizeIs(100));
+  EXPECT_EQ(sender.stats().refused, 0u);
 }
 
 }  // namespace

@@ -9,11 +9,6 @@
 
 namespace fleetmap::experiment {
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 Engine FakeTwin::engine() {
   return [this](const Case& one, const std::filesystem::path& directory) { return run(one, directory); };
 }

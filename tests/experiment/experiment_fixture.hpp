@@ -10,11 +10,10 @@
 #include <string>
 
 #include "fleetmap/experiment/experiment.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::experiment {
-
-std::string text_of(const std::filesystem::path& file);
 
 /// Stands for a twin: a fleet's RMSE and time fall as the square root of its size, and seeds scatter a
 /// little.

@@ -42,7 +42,7 @@ TEST_F(ExperimentTest, LeavesItsTablesPlotsAndReport) {
   EXPECT_TRUE(result.good());
   ASSERT_THAT(result.checks, SizeIs(2));
   for (const char* file : {"results.json", "results.csv", "tables.md", "report.html"})
-    EXPECT_FALSE(text_of(out() / file).empty()) << file;
+    EXPECT_FALSE(testing::file_text(out() / file).empty()) << file;
   EXPECT_FALSE(std::filesystem::is_empty(out() / "plots"));
   EXPECT_THAT(said_.str(), HasSubstr("map.rmse falls over agents: holds"));
   EXPECT_THAT(said_.str(), HasSubstr("report: " + (out() / "report.html").string()));
@@ -55,15 +55,16 @@ TEST_F(ExperimentTest, TheReportAloneIsThatOfTheRuns) {
   ASSERT_FALSE(nothing);
   EXPECT_THAT(nothing.error().message, HasSubstr("holds no cases"));
   run(runner());
-  const std::string page = text_of(out() / "report.html"), tables = text_of(out() / "tables.md");
+  const std::string page = testing::file_text(out() / "report.html"),
+                    tables = testing::file_text(out() / "tables.md");
   std::filesystem::remove(out() / "report.html");
   twin_.forget();
   const auto again = report_experiment(*config, runner(), said_);
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_TRUE(again->good());
   EXPECT_TRUE(twin_.ran().empty());
-  EXPECT_EQ(text_of(out() / "report.html"), page);
-  EXPECT_EQ(text_of(out() / "tables.md"), tables);
+  EXPECT_EQ(testing::file_text(out() / "report.html"), page);
+  EXPECT_EQ(testing::file_text(out() / "tables.md"), tables);
 }
 
 TEST_F(ExperimentTest, AFailureIsPrintedAndSpoilsTheResult) {

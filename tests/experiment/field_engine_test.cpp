@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::experiment {
@@ -40,10 +41,7 @@ class FieldEngineTest : public ::testing::Test {
     return FieldEngine(script, folder_.path(), stop_)(one_, directory());
   }
   std::string leave_files() const { return "cp -r " + (folder_.path() / "left").string() + "/. $out\n"; }
-  std::string read(const std::string& name) const {
-    std::ifstream in(directory() / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string read(const std::string& name) const { return testing::file_text(directory() / name); }
 
   testing::TemporaryFolder folder_;
   Case one_;

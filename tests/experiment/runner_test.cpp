@@ -30,11 +30,11 @@ TEST_F(ExperimentTest, EveryPointRunsOnceASeedWithItsKeys) {
 TEST_F(ExperimentTest, FinishedCasesAreNotRunAgain) {
   EXPECT_TRUE(run(runner()).good());
   EXPECT_THAT(twin_.ran(), SizeIs(6));
-  const std::string results = text_of(out() / "results.json");
+  const std::string results = testing::file_text(out() / "results.json");
   twin_.forget();
   EXPECT_TRUE(run(runner(1)).good());
   EXPECT_THAT(twin_.ran(), IsEmpty());
-  EXPECT_EQ(text_of(out() / "results.json"), results);
+  EXPECT_EQ(testing::file_text(out() / "results.json"), results);
   EXPECT_THAT(said_.str(), HasSubstr("6 of 6 cases were finished by an earlier start"));
 }
 
@@ -47,7 +47,7 @@ TEST_F(ExperimentTest, AnInterruptLosesOnlyWhatWasUnderWay) {
   EXPECT_FALSE(first.good());
   EXPECT_THAT(first.outcome.records, SizeIs(2));  // of the three first seeds, the largest fleets came first
   EXPECT_FALSE(std::filesystem::exists(out() / "cases" / twin_.stop_at / "result.json"));
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("Incomplete: 4 runs"));
+  EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr("Incomplete: 4 runs"));
 
   stop_ = false;
   twin_.stop_at.clear();
@@ -79,7 +79,7 @@ TEST_F(ExperimentTest, ACutOffResultOrALostPictureRunsAgain) {
   run(runner());
   twin_.forget();
   const auto cases = out() / "cases";
-  const std::string whole = text_of(cases / "size.agents=1.seed=01/result.json");
+  const std::string whole = testing::file_text(cases / "size.agents=1.seed=01/result.json");
   std::ofstream(cases / "size.agents=1.seed=01/result.json") << whole.substr(0, whole.size() / 2);
   std::filesystem::remove(cases / "size.agents=2.seed=01/map_error.png");
   EXPECT_TRUE(run(runner()).good());
@@ -95,8 +95,9 @@ TEST_F(ExperimentTest, AFailedCaseIsReportedAndRunAgainByTheNextStart) {
   EXPECT_THAT(result.outcome.records, SizeIs(6));
   EXPECT_THAT(said_.str(), HasSubstr("size.agents=2.seed=01: robot r1 is inside a panel"));
   EXPECT_THAT(said_.str(), HasSubstr("size.agents=3.seed=02: out of memory"));
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("robot r1 is inside a panel"));
-  const auto kept = nlohmann::json::parse(text_of(out() / "cases/size.agents=2.seed=01/result.json"));
+  EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr("robot r1 is inside a panel"));
+  const auto kept =
+      nlohmann::json::parse(testing::file_text(out() / "cases/size.agents=2.seed=01/result.json"));
   EXPECT_EQ(kept["status"], "failed");
   EXPECT_EQ(kept["reason"], "robot r1 is inside a panel\nmove it");
 
@@ -169,7 +170,7 @@ TEST_F(ExperimentTest, ProgressCountsUpAndNamesWhatRuns) {
 TEST_F(ExperimentTest, ResultsHoldCasesSpreadsAndVerdicts) {
   twin_.failing = {"size.agents=2.seed=02"};
   run(runner());
-  const auto json = nlohmann::json::parse(text_of(out() / "results.json"));
+  const auto json = nlohmann::json::parse(testing::file_text(out() / "results.json"));
   EXPECT_EQ(json["cases"].size(), 6u);
   EXPECT_EQ(json["cases_planned"], 6);
   const auto& rmse = json["studies"][0]["points"][0]["metrics"]["map.rmse"];
@@ -181,7 +182,7 @@ TEST_F(ExperimentTest, ResultsHoldCasesSpreadsAndVerdicts) {
   EXPECT_EQ(json["shapes"][0]["seeds"], 1);  // the seed that failed once is left out everywhere
   EXPECT_EQ(json["shapes"][0]["seeds_planned"], 2);
 
-  std::istringstream csv(text_of(out() / "results.csv"));
+  std::istringstream csv(testing::file_text(out() / "results.csv"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   ASSERT_THAT(lines, SizeIs(7));
@@ -191,7 +192,7 @@ TEST_F(ExperimentTest, ResultsHoldCasesSpreadsAndVerdicts) {
   EXPECT_THAT(lines[4], ::testing::EndsWith(",,"));
   EXPECT_THAT(lines[4], HasSubstr(",2,failed,"));
 
-  const std::string tables = text_of(out() / "tables.md");
+  const std::string tables = testing::file_text(out() / "tables.md");
   EXPECT_THAT(tables, HasSubstr("| runs | 2 of 2 | 1 of 2 | 2 of 2 |\n"));
   EXPECT_THAT(tables, HasSubstr("| 0.203 [0.202, 0.204] | "));
 }
@@ -202,7 +203,7 @@ TEST_F(ExperimentTest, AMetricThatNoCaseGaveIsNamed) {
   EXPECT_TRUE(run(runner()).good());
   EXPECT_THAT(said_.str(), HasSubstr("! a: no case gave the metric map.rms;"));
   EXPECT_THAT(said_.str(), Not(HasSubstr("metric time")));
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("no case gave the metric map.rms"));
+  EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr("no case gave the metric map.rms"));
 }
 
 TEST_F(ExperimentTest, KeysThatNoFleetHasAreNamedOnceWithTheExperimentsLine) {
@@ -241,7 +242,7 @@ TEST_F(ExperimentTest, PlotsAreFilesOfTheirOwn) {
     EXPECT_LT(entry.file_size(), 300'000u);
   }
   EXPECT_THAT(files, ElementsAre("alone_time.svg", "size_map.density_histogram.svg", "size_map.rmse.svg"));
-  const std::string svg = text_of(out() / "plots/size_map.rmse.svg");
+  const std::string svg = testing::file_text(out() / "plots/size_map.rmse.svg");
   for (const char* text : {">Number of robots<", ">Error of the map [m]<", ">all, rate=5 Hz<",
                            ">all, rate=10 Hz<", ">other, rate=5 Hz<"})
     EXPECT_THAT(svg, HasSubstr(text));
@@ -252,12 +253,12 @@ TEST_F(ExperimentTest, PlotsAreFilesOfTheirOwn) {
     return count;
   };
   EXPECT_EQ(bands(svg), 4u);  // min to max of either metric at either rate
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr(svg));
+  EXPECT_THAT(testing::file_text(out() / "report.html"), HasSubstr(svg));
 }
 
 TEST_F(ExperimentTest, TheReportNeedsNoOtherFile) {
   run(runner());
-  const std::string page = text_of(out() / "report.html");
+  const std::string page = testing::file_text(out() / "report.html");
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
   EXPECT_THAT(page, HasSubstr("falls_less_than_linearly over agents"));

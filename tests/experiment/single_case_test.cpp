@@ -88,8 +88,9 @@ TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
   EXPECT_EQ(result.outcome.records[1].reason, "robot r1 is inside a panel\nmove it");
   EXPECT_THAT(said_.str(), HasSubstr("? size.agents=2.seed=02: not run\n"));
   EXPECT_THAT(said_.str(), Not(HasSubstr("? size.agents=3.seed=01")));
-  EXPECT_THAT(text_of(out() / "report.html"), HasSubstr("Incomplete: 3 runs are still to be made"));
-  const auto json = nlohmann::json::parse(text_of(out() / "results.json"));
+  EXPECT_THAT(testing::file_text(out() / "report.html"),
+              HasSubstr("Incomplete: 3 runs are still to be made"));
+  const auto json = nlohmann::json::parse(testing::file_text(out() / "results.json"));
   EXPECT_EQ(json["missing"].size(), 3u);
   EXPECT_EQ(json["cases_planned"], 6);
 }
@@ -97,11 +98,11 @@ TEST_F(SingleCase, TheReportIsOfWhatThereIsAndListsTheRest) {
 /// An archive of results holds no pictures.
 TEST_F(SingleCase, TheReportNeedsNoPictures) {
   ASSERT_TRUE(run(runner()).good());
-  const std::string before = text_of(out() / "tables.md");
+  const std::string before = testing::file_text(out() / "tables.md");
   for (const auto& folder : std::filesystem::directory_iterator(out() / "cases"))
     std::filesystem::remove(folder.path() / "map_error.png");
   EXPECT_TRUE(report().good());
-  EXPECT_EQ(text_of(out() / "tables.md"), before);
+  EXPECT_EQ(testing::file_text(out() / "tables.md"), before);
 }
 
 TEST_F(SingleCase, ARunOfAnotherCaseWithEqualInputsServes) {

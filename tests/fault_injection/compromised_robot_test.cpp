@@ -39,8 +39,8 @@ class CompromisedRobotTest : public ::testing::Test {
   }
   /// Displacement in ENU of node j as the alignment sees it.
   Eigen::Vector3d displacement(const graph::Alignment& a) const {
-    const Pose seen = *survey_.T_enu_node(a.i) * a.best().T_i_j;
-    return seen.translation() - survey_.T_enu_node(a.j)->translation();
+    const Pose observed = *survey_.T_enu_node(a.i) * a.best().T_i_j;
+    return observed.translation() - survey_.T_enu_node(a.j)->translation();
   }
   std::vector<graph::Alignment> invented(CompromisedRobot& robot, int count) const {
     std::vector<graph::Alignment> all;
@@ -49,24 +49,24 @@ class CompromisedRobotTest : public ::testing::Test {
     return all;
   }
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   SyntheticSurvey survey_{5, 3};
   store::Store store_ = store::Store::open(folder_ / "r3.db", agent("r3"), {}).value();
 };
 
 TEST_F(CompromisedRobotTest, ATearingOneDisplacesItsCloudsAlikeForOnePeerAndOtherwiseForAnother) {
   CompromisedRobot robot = with(Scheme::kTear);
-  std::map<AgentId, std::vector<Eigen::Vector3d>> seen;
+  std::map<AgentId, std::vector<Eigen::Vector3d>> observed;
   for (const graph::Alignment& a : invented(robot, 40)) {
     EXPECT_EQ(a.computed_by, agent("r3"));
     EXPECT_EQ(a.i.agent, agent("r3"));
     EXPECT_LT(a.best().covariance.diagonal().head<3>().maxCoeff(), 1e-3) << "claims to be certain";
-    seen[a.j.agent].push_back(displacement(a));
+    observed[a.j.agent].push_back(displacement(a));
   }
-  ASSERT_EQ(seen.size(), 2u);
-  for (const auto& [peer, all] : seen)
+  ASSERT_EQ(observed.size(), 2u);
+  for (const auto& [peer, all] : observed)
     for (const auto& one : all) EXPECT_LT((one - all[0]).norm(), 0.1) << peer.str();
-  EXPECT_GT((seen.at(agent("r1"))[0] - seen.at(agent("r2"))[0]).norm(), 1.0);
+  EXPECT_GT((observed.at(agent("r1"))[0] - observed.at(agent("r2"))[0]).norm(), 1.0);
 }
 
 TEST_F(CompromisedRobotTest, APullingOneDisplacesItsCloudsAlikeForAllAndClaimsCertainFixes) {
@@ -82,18 +82,18 @@ TEST_F(CompromisedRobotTest, APullingOneDisplacesItsCloudsAlikeForAllAndClaimsCe
 
 TEST_F(CompromisedRobotTest, GarbageIsMetresToHundredsOfMetresOff) {
   CompromisedRobot robot = with(Scheme::kGarbage);
-  double least = 1e9, most = 0.0;
+  double min = 1e9, max = 0.0;
   for (const auto& [id, node] : store_.nodes()) {
     const graph::Node garbage = robot.falsified(node, survey_.site());
     const double off =
         (survey_.site().to_enu(garbage.G->position) - survey_.site().to_enu(node.G->position)).norm();
-    least = std::min(least, off);
-    most = std::max(most, off);
+    min = std::min(min, off);
+    max = std::max(max, off);
     EXPECT_EQ(garbage.id, id);
     EXPECT_EQ(fleet_codec::encode(fleet_codec::quantised(garbage).value()), fleet_codec::encode(garbage));
   }
-  EXPECT_LT(least, 10.0);
-  EXPECT_GT(most, 150.0);
+  EXPECT_LT(min, 10.0);
+  EXPECT_GT(max, 150.0);
   EXPECT_TRUE(robot.is_gross());
 }
 

@@ -11,7 +11,7 @@ namespace fleetmap::fault_injection {
 namespace {
 
 using fleetmap::testing::agent;
-using fleetmap::testing::ScratchFolder;
+using fleetmap::testing::TemporaryFolder;
 using std::chrono::seconds;
 using ::testing::IsEmpty;
 
@@ -62,7 +62,7 @@ class Convergence : public ::testing::Test {
     return all;
   }
 
-  ScratchFolder folder_;
+  TemporaryFolder folder_;
   SyntheticSurvey survey_{5, 1};
   std::uint32_t made_ = 0;
   Robots robots_;

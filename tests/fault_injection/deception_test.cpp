@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 #include "store/items.hpp"
 
 namespace fleetmap::fault_injection {
@@ -13,13 +13,13 @@ using fleetmap::testing::agent;
 exchange::ExchangeConfig config() {
   exchange::ExchangeConfig config;
   config.fleet = {agent("r1"), agent("r2"), agent("r3")};
-  config.authenticator = std::make_shared<StandInSignatures>(42);
+  config.authenticator = std::make_shared<SimulatedSignatures>(42);
   return config;
 }
 
 TEST(Deception, RequestsEverythingAndClaimsWhatNobodyHolds) {
   const auto fleet = config();
-  const fleetmap::testing::ScratchFolder folder;
+  const fleetmap::testing::TemporaryFolder folder;
   auto store = store::Store::open(folder / "r3.db", agent("r3"), {}).value();
   SyntheticSurvey survey(1, 3);
   for (std::size_t robot = 0; robot < 2; ++robot) {

@@ -71,7 +71,7 @@ class EndChecks : public ::testing::Test {
     return outcome.violations;
   }
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   SyntheticSurvey survey_{5, 3};
   Robots robots_;
   std::uint32_t next_ = first_seq(7);

@@ -8,6 +8,7 @@
 #include "exchange_config.hpp"
 #include "fleetmap/fault_injection/scenario.hpp"
 #include "store/items.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
@@ -24,7 +25,7 @@ exchange::ExchangeConfig pair_config() {
 }
 
 /// Two robots whose packets on the radio arrive after `delays`.
-class PairFleet : private testing::ScratchFolder, public ExchangeFleet {
+class PairFleet : private testing::TemporaryFolder, public ExchangeFleet {
  public:
   PairFleet() : ExchangeFleet(folder(), pair_config(), kTick) {}
   ~PairFleet() override { close_stores(); }
@@ -50,7 +51,7 @@ class PairFleet : private testing::ScratchFolder, public ExchangeFleet {
   std::filesystem::path database(const AgentId& name) const { return folder() / (name.str() + ".db"); }
 
  private:
-  std::filesystem::path folder() const { return static_cast<const ScratchFolder&>(*this) / ""; }
+  std::filesystem::path folder() const { return static_cast<const TemporaryFolder&>(*this) / ""; }
   void on_sent(const Packet& packet) override { sent.push_back(packet); }
   std::vector<Duration> arrivals(const Packet& packet, const AgentId&) override {
     return packet.outgoing.reach == messages::Reach::kLongRange ? delays : std::vector<Duration>{};
@@ -127,10 +128,7 @@ TEST(ExchangeFleet, DamageIsOnePageOfTheDatabase) {
   for (std::uint32_t k = 0; k < 40; ++k) fleet.add_node(fleet.r1, k);
   ASSERT_TRUE(fleet.robot(fleet.r1).store->sync());
   fleet.kill(fleet.r1);
-  const auto bytes = [&] {
-    std::ifstream in(fleet.database(fleet.r1), std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(in), {}};
-  };
+  const auto bytes = [&] { return fleetmap::testing::file_text(fleet.database(fleet.r1)); };
   const std::string before = bytes();
   ASSERT_GT(before.size(), 4096u);
   fleet.damage_store(fleet.r1, 0.5);

@@ -11,7 +11,7 @@ namespace {
 using testing::agent;
 
 TEST(FaultyFileSystem, a_store_on_a_full_disk_refuses_items_and_goes_on_when_there_is_room) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   FaultyFileSystem disk;
   store::StoreConfig config;
   config.file_system = disk.name();
@@ -35,7 +35,7 @@ TEST(FaultyFileSystem, a_store_on_a_full_disk_refuses_items_and_goes_on_when_the
 }
 
 TEST(FaultyFileSystem, a_store_on_a_disk_that_becomes_read_only_says_so_and_keeps_what_it_has) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   FaultyFileSystem disk;
   store::StoreConfig config;
   config.file_system = disk.name();

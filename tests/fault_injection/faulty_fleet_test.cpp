@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 Outcome run_with(std::vector<Fault> faults, Duration mapping = 60s) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   const Scenario scenario{5, 3, mapping, std::move(faults)};
   RunConfig config;
   config.invariants = parse_invariants("all").value();

@@ -63,7 +63,7 @@ TEST(FleetRun, does_not_converge_in_less_time_than_a_partition_lasts) {
   partition.robots = {0};
   scenario.faults = {partition};
   RunConfig config = checking("converges");
-  config.settling = std::chrono::milliseconds(50);
+  config.convergence_timeout = std::chrono::milliseconds(50);
   const Outcome outcome = run(scenario, config);
   ASSERT_EQ(outcome.violations.size(), 1u);
   EXPECT_EQ(outcome.violations[0].invariant, Invariant::kConverges);

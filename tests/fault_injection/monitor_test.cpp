@@ -42,7 +42,7 @@ class MonitorTest : public ::testing::Test {
     monitor_.on_sent({kNow + after, agent(from), {messages::Reach::kLongRange, {}, hold}, bytes}, hearers);
   }
 
-  fleetmap::testing::ScratchFolder folder_;
+  fleetmap::testing::TemporaryFolder folder_;
   store::Store store_ = store::Store::open(folder_ / "r1.db", agent("r1"), {}).value();
   exchange::ExchangeConfig config_;
   Monitor monitor_{kNow, config_, parse_invariants("all").value()};

@@ -11,10 +11,10 @@ namespace fleetmap::fault_injection {
 namespace {
 
 using fleetmap::testing::agent;
-using fleetmap::testing::ScratchFolder;
+using fleetmap::testing::TemporaryFolder;
 
 TEST(SessionDraw, BeginsASessionThatTheStoreRemembers) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::vector<std::uint16_t> sessions;
   {
     auto store = store::Store::open(folder / "r1.db", agent("r1")).value();
@@ -28,7 +28,7 @@ TEST(SessionDraw, BeginsASessionThatTheStoreRemembers) {
 }
 
 TEST(SessionDraw, IsTheSameForTheSameDrawsUnlessTheNumberWasUsed) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto first = store::Store::open(folder / "1.db", agent("r1")).value();
   auto second = store::Store::open(folder / "2.db", agent("r1")).value();
   Draws a(1, 9), b(1, 9), again(1, 9);

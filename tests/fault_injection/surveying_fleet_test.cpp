@@ -53,7 +53,7 @@ class Fleet final : public SurveyingFleet {
 };
 
 TEST(SurveyingFleet, RobotsMapRegisterAndShareWhatTheyMake) {
-  const fleetmap::testing::ScratchFolder folder;
+  const fleetmap::testing::TemporaryFolder folder;
   Fleet fleet(folder / "");
   fleet.go(seconds(80));
   ASSERT_EQ(fleet.robots().size(), 2u);
@@ -65,7 +65,7 @@ TEST(SurveyingFleet, RobotsMapRegisterAndShareWhatTheyMake) {
 }
 
 TEST(SurveyingFleet, ANewOriginOfTheOdometryBeginsASessionOnceTheDiskWrites) {
-  const fleetmap::testing::ScratchFolder folder;
+  const fleetmap::testing::TemporaryFolder folder;
   Fleet fleet(folder / "");
   fleet.go(seconds(20));
   EXPECT_EQ(fleet.sessions_of(agent("r1")).size(), 1u);
@@ -79,7 +79,7 @@ TEST(SurveyingFleet, ANewOriginOfTheOdometryBeginsASessionOnceTheDiskWrites) {
 }
 
 TEST(SurveyingFleet, ARobotMayStartHundredsOfTimes) {
-  const fleetmap::testing::ScratchFolder folder;
+  const fleetmap::testing::TemporaryFolder folder;
   Fleet fleet(folder / "");
   fleet.go(seconds(10));
   fleet.kill_robot(agent("r1"));

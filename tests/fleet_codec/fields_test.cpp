@@ -63,8 +63,8 @@ TEST(FieldCheck, NumbersOfItemsAndRangesHaveAnEnd) {
   EXPECT_EQ(broken([](FieldCheck& c) { EXPECT_EQ(c.seq(kEndOfSeqs - 1, "seq"), kEndOfSeqs - 1); }), "none");
   EXPECT_EQ(broken([](FieldCheck& c) { c.seq(kEndOfSeqs, "seq"); }),
             "Some: seq: sequence number 4294901760 is too large");
-  const auto refusal = [](const std::vector<SeqRange>& given, std::size_t limit) {
-    return broken([&](FieldCheck& c) { c.ranges(ranges(given, 100), limit, "nodes"); });
+  const auto refusal = [](const std::vector<SeqRange>& input, std::size_t limit) {
+    return broken([&](FieldCheck& c) { c.ranges(ranges(input, 100), limit, "nodes"); });
   };
   const SeqRange one{id("r1"), 3, 9}, all{id("r2"), 0, kEndOfSeqs}, none{id("r3"), 5, 5};
   FieldCheck check("Some");

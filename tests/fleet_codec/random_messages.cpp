@@ -73,8 +73,8 @@ Matrix6d RandomMessages::covariance() {
   return A * A.transpose() + 1e-3 * Matrix6d::Identity();
 }
 
-std::vector<SeqRange> RandomMessages::ranges(std::uint32_t most) {
-  std::vector<SeqRange> out(integer(0, most));
+std::vector<SeqRange> RandomMessages::ranges(std::uint32_t max) {
+  std::vector<SeqRange> out(integer(0, max));
   for (auto& range : out) {
     const std::uint32_t first = integer(0, 1000);
     range = {agent(), first, first + integer(0, 1000)};

@@ -36,7 +36,7 @@ class RandomMessages {
   Eigen::Matrix3d rotation();
   Pose pose();
   Matrix6d covariance();
-  std::vector<SeqRange> ranges(std::uint32_t most);
+  std::vector<SeqRange> ranges(std::uint32_t max);
 
   graph::Node node();
   graph::Alignment alignment();

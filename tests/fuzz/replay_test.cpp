@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "fleetmap/core/cpu_time.hpp"
 #include "fuzz_targets.hpp"
+#include "support/file_content.hpp"
 
 namespace {
 
@@ -37,8 +37,7 @@ TEST_P(Replay, EveryInputIsReadOrRefused) {
   EXPECT_EQ(GetParam().run(nullptr, 0), 0);
   for (const fs::path& file : files) {
     std::cout << file.filename().string() << std::endl;  // the last one is the one that stopped the program
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const fleetmap::Bytes bytes = fleetmap::testing::file_bytes(file);
     // On the heap and of just this size, so that AddressSanitizer sees a read beyond the end.
     const std::vector<std::uint8_t> copy(bytes.begin(), bytes.end());
     const double start = fleetmap::process_cpu_seconds();

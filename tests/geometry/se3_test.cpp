@@ -85,11 +85,11 @@ TEST(Se3, RollPitchYawRoundTrip) {
   }
 }
 
-TEST(Se3, LeastRotationTurnsOneDirectionIntoTheOtherAndNoFurther) {
+TEST(Se3, MinimalRotationTurnsOneDirectionIntoTheOtherAndNoFurther) {
   Random random(6);
   for (int k = 0; k < 100; ++k) {
     const Eigen::Vector3d from = random.tangent(3.0).head<3>(), to = random.tangent(3.0).head<3>();
-    const Eigen::Quaterniond q = least_rotation(from, to);
+    const Eigen::Quaterniond q = minimal_rotation(from, to);
     EXPECT_LT((q * from.normalized() - to.normalized()).norm(), 1e-9);
     const double between = std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0));
     EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()), between, 1e-6);

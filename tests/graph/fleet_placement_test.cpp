@@ -55,7 +55,7 @@ TEST(FleetPlacement, SameSetSameBitsWhateverTheOrder) {
   for (const auto& [i, j] : fleet.near_pairs(kR1, kR2, 5)) fleet.align(i, j, kR1, kOneRow);
   for (const auto& [i, j] : fleet.near_pairs(kR2, kR3, 7)) {
     Alignment& a = fleet.align(i, j, kR3, kOneRow);
-    a.modes.push_back(fleet.seen_at(i, fleet.truth.at(j)));
+    a.modes.push_back(fleet.observed_at(i, fleet.truth.at(j)));
   }
   std::vector<NodeId> all;
   for (const Node& node : fleet.nodes) all.push_back(node.id);

@@ -41,10 +41,10 @@ Alignment alignment(const NodeId& i, const NodeId& j, double variance = kStep) {
   return alignment;
 }
 
-double worth(const InformationGain& worth, const NodeId& i, const NodeId& j,
-             const std::vector<InformationGain::Pair>& expected = {}) {
+double gain_of(const InformationGain& gain_of, const NodeId& i, const NodeId& j,
+               const std::vector<InformationGain::Pair>& expected = {}) {
   const InformationGain::Pair pair{i, j};
-  return worth.of(std::span(&pair, 1), expected).front();
+  return gain_of.of(std::span(&pair, 1), expected).front();
 }
 
 double of_variance(double variance) { return 0.5 * std::log1p(variance / kExpectedVariance); }
@@ -57,9 +57,9 @@ TEST(InformationGain, IsThatOfTheWayBetweenTheTwo) {
   }
   graph.add(alignment({kA, 3}, {kB, 4}));
   // Seven steps of a, the alignment, six of b.
-  EXPECT_NEAR(worth(graph, {kA, 10}, {kB, 10}), of_variance(14 * scalar(kStep)), 1e-4);
-  EXPECT_NEAR(worth(graph, {kB, 10}, {kA, 10}), worth(graph, {kA, 10}, {kB, 10}), 1e-9);
-  EXPECT_NEAR(worth(graph, {kA, 3}, {kB, 4}), of_variance(scalar(kStep)), 1e-4) << "the same once more";
+  EXPECT_NEAR(gain_of(graph, {kA, 10}, {kB, 10}), of_variance(14 * scalar(kStep)), 1e-4);
+  EXPECT_NEAR(gain_of(graph, {kB, 10}, {kA, 10}), gain_of(graph, {kA, 10}, {kB, 10}), 1e-9);
+  EXPECT_NEAR(gain_of(graph, {kA, 3}, {kB, 4}), of_variance(scalar(kStep)), 1e-4) << "the same once more";
 }
 
 TEST(InformationGain, TwoWaysLeaveLessOpenThanEither) {
@@ -70,13 +70,13 @@ TEST(InformationGain, TwoWaysLeaveLessOpenThanEither) {
   }
   graph.use(std::vector{alignment({kA, 0}, {kB, 0}), alignment({kA, 20}, {kB, 20})});
   // Each way 10 steps, an alignment and 10 steps; half of that side by side.
-  EXPECT_NEAR(worth(graph, {kA, 10}, {kB, 10}), of_variance(21.0 / 2.0 * scalar(kStep)), 1e-4);
-  EXPECT_LT(worth(graph, {kA, 19}, {kB, 19}), worth(graph, {kA, 10}, {kB, 10}));
-  const double before = worth(graph, {kA, 11}, {kB, 11});
-  const double after = worth(graph, {kA, 11}, {kB, 11}, {{{kA, 10}, {kB, 10}}});
+  EXPECT_NEAR(gain_of(graph, {kA, 10}, {kB, 10}), of_variance(21.0 / 2.0 * scalar(kStep)), 1e-4);
+  EXPECT_LT(gain_of(graph, {kA, 19}, {kB, 19}), gain_of(graph, {kA, 10}, {kB, 10}));
+  const double before = gain_of(graph, {kA, 11}, {kB, 11});
+  const double after = gain_of(graph, {kA, 11}, {kB, 11}, {{{kA, 10}, {kB, 10}}});
   EXPECT_LT(after, 0.7 * before) << "what is asked for already counts";
   graph.use({});
-  EXPECT_GT(worth(graph, {kA, 10}, {kB, 10}), 9.0) << "nothing is known";
+  EXPECT_GT(gain_of(graph, {kA, 10}, {kB, 10}), 9.0) << "nothing is known";
 }
 
 TEST(InformationGain, GoesThroughThirdRobotsAndGps) {
@@ -86,36 +86,36 @@ TEST(InformationGain, GoesThroughThirdRobotsAndGps) {
       graph.add(node(agent, seq, agent == kC ? std::nullopt : std::optional(seq == 2 ? 1.0 : 3.0)));
   }
   // Only the best fix of each track counts, because errors of GPS last for minutes.
-  EXPECT_NEAR(worth(graph, {kA, 2}, {kB, 2}), of_variance(2.0), 1e-3);
-  EXPECT_GT(worth(graph, {kA, 2}, {kC, 2}), 9.0);
+  EXPECT_NEAR(gain_of(graph, {kA, 2}, {kB, 2}), of_variance(2.0), 1e-3);
+  EXPECT_GT(gain_of(graph, {kA, 2}, {kC, 2}), 9.0);
   graph.add(alignment({kA, 2}, {kC, 2}));
   graph.add(alignment({kB, 2}, {kC, 2}));
   const double through_c = 2 * scalar(kStep), by_gps = 2.0;
-  EXPECT_NEAR(worth(graph, {kA, 2}, {kB, 2}), of_variance(1.0 / (1.0 / through_c + 1.0 / by_gps)), 1e-4);
+  EXPECT_NEAR(gain_of(graph, {kA, 2}, {kB, 2}), of_variance(1.0 / (1.0 / through_c + 1.0 / by_gps)), 1e-4);
 }
 
 TEST(InformationGain, SessionsOfARobotAreTracksOfTheirOwnAndLostNodesCountAsTheNextOne) {
   InformationGain graph;
   graph.add(node(kA, 0));
   graph.add(node(kA, 1, {}, 1));
-  EXPECT_GT(worth(graph, {kA, 0}, {kA, 1}), 9.0);
+  EXPECT_GT(gain_of(graph, {kA, 0}, {kA, 1}), 9.0);
   graph.add(node(kB, 0));
   graph.add(node(kB, 4));
-  EXPECT_NEAR(worth(graph, {kB, 0}, {kB, 4}), of_variance(4 * scalar(kStep)), 1e-4);
+  EXPECT_NEAR(gain_of(graph, {kB, 0}, {kB, 4}), of_variance(4 * scalar(kStep)), 1e-4);
 }
 
 TEST(InformationGain, WhatIsUnknownOrAmbiguousOrAbsurdTellsNothing) {
   InformationGain graph;
   graph.add(node(kA, 0));
   graph.add(node(kB, 0));
-  EXPECT_EQ(worth(graph, {kA, 0}, {kC, 7}), 0.0);
-  EXPECT_EQ(worth(graph, {kA, 0}, {kA, 0}), 0.0);
+  EXPECT_EQ(gain_of(graph, {kA, 0}, {kC, 7}), 0.0);
+  EXPECT_EQ(gain_of(graph, {kA, 0}, {kA, 0}), 0.0);
   Alignment two = alignment({kA, 0}, {kB, 0});
   two.modes.resize(2);
   graph.add(two);
   graph.add(alignment({kA, 0}, {kC, 7}));
   graph.add(alignment({kA, 0}, {kB, 0}, std::nan("")));
-  EXPECT_GT(worth(graph, {kA, 0}, {kB, 0}), 9.0);
+  EXPECT_GT(gain_of(graph, {kA, 0}, {kB, 0}), 9.0);
 }
 
 /// Three robots on the same way, and the conductances between all of their nodes at once.
@@ -182,18 +182,18 @@ TEST_F(WholeNetwork, GivesTheSameAsTheNeighbourhoods) {
   }
   const Eigen::LDLT<Eigen::MatrixXd> whole(laplacian_);
   const auto gains = graph.of(pairs, expected);
-  double least = 100.0, most = 0.0;
+  double min = 100.0, max = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     Eigen::VectorXd current = Eigen::VectorXd::Zero(laplacian_.rows());
     current[index(pairs[k].first)] += 1.0;
     current[index(pairs[k].second)] -= 1.0;
     EXPECT_NEAR(gains[k], of_variance(current.dot(whole.solve(current))), InformationGain::kTolerance)
         << to_string(pairs[k].first) << " and " << to_string(pairs[k].second);
-    least = std::min(least, gains[k]);
-    most = std::max(most, gains[k]);
+    min = std::min(min, gains[k]);
+    max = std::max(max, gains[k]);
   }
-  EXPECT_LT(least, 1.5);
-  EXPECT_GT(most, 2.5) << "near and far ones were compared";
+  EXPECT_LT(min, 1.5);
+  EXPECT_GT(max, 2.5) << "near and far ones were compared";
 }
 
 /// Two long tracks that are not aligned: no neighbourhood of a few nodes decides.
@@ -207,7 +207,7 @@ TEST(InformationGain, OfTracksThatAreNotAlignedIsLargeHoweverLongTheyAre) {
   const auto gains = graph.of(pairs, {});
   EXPECT_GT(gains[0], 5.0);
   EXPECT_LT(gains[1], 1.0);
-  EXPECT_LT(worth(graph, {kA, 2900}, {kC, 2900}, {{{kA, 2890}, {kC, 2890}}}), 2.0);
+  EXPECT_LT(gain_of(graph, {kA, 2900}, {kC, 2900}, {{{kA, 2890}, {kC, 2890}}}), 2.0);
 }
 
 }  // namespace

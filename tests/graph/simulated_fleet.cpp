@@ -41,7 +41,7 @@ Matrix6d SimulatedFleet::alignment_covariance() const {
   return variance.asDiagonal();
 }
 
-AlignmentMode SimulatedFleet::seen_at(const NodeId& i, const Pose& T_enu_j) {
+AlignmentMode SimulatedFleet::observed_at(const NodeId& i, const Pose& T_enu_j) {
   // The graph's noise floor covers the errors that registration does not state.
   Vector6d error;
   for (int k = 0; k < 6; ++k)
@@ -55,7 +55,7 @@ Alignment& SimulatedFleet::align(const NodeId& i, const NodeId& j, const AgentId
   Alignment a{i, j, by, next_seq_[by]++, {}};
   Pose T_enu_j = truth.at(j);
   T_enu_j.pretranslate(shift);
-  a.modes.push_back(seen_at(i, T_enu_j));
+  a.modes.push_back(observed_at(i, T_enu_j));
   alignments.push_back(a);
   return alignments.back();
 }

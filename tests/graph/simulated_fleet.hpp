@@ -63,7 +63,7 @@ class SimulatedFleet {
   Matrix6d alignment_covariance() const;
 
   /// A registration that saw node j at T_enu_j.
-  AlignmentMode seen_at(const NodeId& i, const Pose& T_enu_j);
+  AlignmentMode observed_at(const NodeId& i, const Pose& T_enu_j);
 
   Alignment& align(const NodeId& i, const NodeId& j, const AgentId& by,
                    const Eigen::Vector3d& shift = Eigen::Vector3d::Zero());

@@ -15,7 +15,7 @@ inline void displace(SimulatedFleet& fleet, const AgentId& first, const AgentId&
     if (std::set{a.i.agent, a.j.agent} != std::set{first, second}) continue;
     Pose T = fleet.truth.at(a.j);
     T.pretranslate(a.j.agent == second ? shift : Eigen::Vector3d(-shift));
-    a.modes = {fleet.seen_at(a.i, T)};
+    a.modes = {fleet.observed_at(a.i, T)};
   }
 }
 

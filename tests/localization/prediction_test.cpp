@@ -11,7 +11,7 @@ namespace fleetmap::localization {
 namespace {
 
 using Eigen::Vector3d;
-using testing::least_eigenvalue;
+using testing::min_eigenvalue;
 using testing::tracking_filter;
 using testing::wheel_at;
 const Vector3d kZero = Vector3d::Zero();
@@ -25,7 +25,7 @@ TEST(Prediction, ALevelImuAtRestStaysWhereItIs) {
   EXPECT_LT(filter.v.norm(), 1e-9);
   EXPECT_TRUE(filter.R.isApprox(Eigen::Matrix3d::Identity(), 1e-12));
   EXPECT_GT(filter.P(kPos, kPos), 0.01);
-  EXPECT_GT(least_eigenvalue(filter.P), 0.0);
+  EXPECT_GT(min_eigenvalue(filter.P), 0.0);
 }
 
 TEST(Prediction, ConstantAccelerationIsIntegratedTwice) {
@@ -123,7 +123,7 @@ TEST(Prediction, SlopesLevelOutWithoutAnImu) {
   EXPECT_NEAR(rpy.x(), 0.2 / std::numbers::e, 1e-9);
   EXPECT_NEAR(rpy.y(), -0.1 / std::numbers::e, 1e-9);
   EXPECT_NEAR(rpy.z(), 1.0, 1e-9);
-  EXPECT_GT(least_eigenvalue(filter.P), 0.0);
+  EXPECT_GT(min_eigenvalue(filter.P), 0.0);
 }
 
 TEST(Prediction, AnOldWheelSampleIsNotUsed) {

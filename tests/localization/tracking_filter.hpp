@@ -24,7 +24,7 @@ inline sensor::Wheel wheel_at(Stamp stamp, double speed, std::optional<double> y
   return wheel;
 }
 
-inline double least_eigenvalue(const Covariance& P) {
+inline double min_eigenvalue(const Covariance& P) {
   return Eigen::SelfAdjointEigenSolver<Covariance>(P).eigenvalues().minCoeff();
 }
 

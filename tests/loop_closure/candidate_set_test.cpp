@@ -96,7 +96,7 @@ TEST_F(CandidateSetTest, ADoneCandidateKeepsOthersAwayAndIsVisitedNoMore) {
   EXPECT_EQ(set_.all().size(), 1u);
 }
 
-TEST_F(CandidateSetTest, AFailedCandidateIsHopelessAfterItsAttemptsOrBesideOneThatIsDone) {
+TEST_F(CandidateSetTest, AFailedCandidateIsExhaustedAfterItsAttemptsOrBesideOneThatIsDone) {
   const auto fail = [&](std::uint32_t seq, int attempts) {
     set_.offer(candidate(seq, seq, 1.0), kStart);
     ScheduledCandidate& failed = set_.at(candidate(seq, seq, 1.0).pair());
@@ -104,23 +104,23 @@ TEST_F(CandidateSetTest, AFailedCandidateIsHopelessAfterItsAttemptsOrBesideOneTh
     failed.attempts = attempts;
     return candidate(seq, seq, 1.0).pair();
   };
-  const auto hopeless = [&](const NodePair& pair) { return set_.hopeless(pair, *set_.find(pair)); };
-  EXPECT_TRUE(hopeless(fail(40, config_.max_attempts)));
+  const auto is_exhausted = [&](const NodePair& pair) { return set_.is_exhausted(pair, *set_.find(pair)); };
+  EXPECT_TRUE(is_exhausted(fail(40, config_.max_attempts)));
   const NodePair once = fail(0, 1), neighbour = candidate(3, 3, 1.0).pair();  // 6 m on
-  EXPECT_FALSE(hopeless(once));
+  EXPECT_FALSE(is_exhausted(once));
   set_.offer(candidate(3, 3, 1.0), kStart);
   EXPECT_TRUE(set_.redundant(once));
-  EXPECT_FALSE(hopeless(once)) << "the neighbour may yet fail";
+  EXPECT_FALSE(is_exhausted(once)) << "the neighbour may yet fail";
   set_.conclude(neighbour);
-  EXPECT_TRUE(hopeless(once));
+  EXPECT_TRUE(is_exhausted(once));
 }
 
-TEST_F(CandidateSetTest, OneThatIsGivenUpKeepsOthersAwayAndIsVisitedNoMore) {
+TEST_F(CandidateSetTest, AnAbandonedOneKeepsOthersAwayAndIsVisitedNoMore) {
   set_.offer(candidate(0, 0, 1.0), kStart);
   const NodePair pair = candidate(0, 0, 1.0).pair();
   set_.at(pair).phase = CandidateSet::Phase::kFailed;
   set_.at(pair).attempts = config_.max_attempts;
-  set_.give_up(pair);
+  set_.abandon(pair);
   EXPECT_TRUE(set_.all().empty());
   EXPECT_TRUE(set_.contains(pair));
   set_.offer(candidate(2, 2, 1.0), kStart);  // 4 m on, and 5 m are due beside one that failed
@@ -132,7 +132,7 @@ TEST_F(CandidateSetTest, OneThatIsGivenUpKeepsOthersAwayAndIsVisitedNoMore) {
 }
 
 /// As when the name of a node becomes contested.
-TEST_F(CandidateSetTest, OneThatIsGivenUpIsBackOnceWhatMadeItHopelessIsGone) {
+TEST_F(CandidateSetTest, AnAbandonedOneIsBackOnceTheRedundancyIsGone) {
   const NodePair once = candidate(0, 0, 1.0).pair(), twice = candidate(2, 2, 1.0).pair(),
                  spent = candidate(30, 30, 1.0).pair();
   for (const NodePair& pair : {once, twice, spent}) {
@@ -141,14 +141,14 @@ TEST_F(CandidateSetTest, OneThatIsGivenUpIsBackOnceWhatMadeItHopelessIsGone) {
     set_.at(pair).attempts = pair == once ? 1 : config_.max_attempts;
   }
   for (const NodePair& pair : {twice, spent, once}) {
-    EXPECT_TRUE(set_.hopeless(pair, set_.at(pair)));
-    set_.give_up(pair);
+    EXPECT_TRUE(set_.is_exhausted(pair, set_.at(pair)));
+    set_.abandon(pair);
   }
   set_.erase_if([&](const NodePair& pair, const ScheduledCandidate&) { return pair == twice; });
   EXPECT_FALSE(set_.contains(twice));
   ASSERT_EQ(set_.all().size(), 1u);
   EXPECT_TRUE(set_.retryable(once, set_.at(once)));
-  set_.give_up(once);
+  set_.abandon(once);
   set_.on_removed_node();
   EXPECT_EQ(set_.all().size(), 1u) << "and not the one that had its attempts";
 }

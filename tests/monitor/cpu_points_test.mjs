@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 
-const {CpuPoints, PointPool, Submap, pointLook, rgbOf, Matrix4, OrthographicCamera, PerspectiveCamera, Vector3} =
+const {CpuPoints, PointPool, Submap, pointStyle, rgbOf, Matrix4, OrthographicCamera, PerspectiveCamera, Vector3} =
   await pageModule(process.argv[2], 'cpu_points', 'point_pool', 'submap', 'point_material', 'node_modules/three/build/three.module.js');
 const kSize = 64, kSteps = 32767;
 
@@ -19,11 +19,11 @@ function above(Camera) {
 
 /** A map of submaps, each with points [x, y, z (m), intensity (0 to 1)] around a place. */
 function mapOf(...submaps) {
-  const look = pointLook(), pool = new PointPool(look);
-  Object.assign(look.pixelsPerMetre, {value: 8});
-  Object.assign(look.planar, {value: 1});
-  Object.assign(look.low, {value: -1});
-  Object.assign(look.high, {value: 1});
+  const style = pointStyle(), pool = new PointPool(style);
+  Object.assign(style.pixelsPerMetre, {value: 8});
+  Object.assign(style.planar, {value: 1});
+  Object.assign(style.low, {value: -1});
+  Object.assign(style.high, {value: 1});
   const made = submaps.map(({points, at = [0, 0, 0], colour = '#ff0000'}, k) => {
     const submap = new Submap(String(k), 'r1', 0, pool, colour);
     submap.place(new Matrix4().makeTranslation(...at));
@@ -31,7 +31,7 @@ function mapOf(...submaps) {
     submap.wanted = points.length;
     return submap;
   });
-  const drawer = new CpuPoints(pool, look);
+  const drawer = new CpuPoints(pool, style);
   const picture = (camera = above(OrthographicCamera)) => {
     pool.begin();
     for (const submap of made) {
@@ -40,7 +40,7 @@ function mapOf(...submaps) {
     }
     return drawer.render({camera, width: kSize, height: kSize}, true);
   };
-  return {look, pool, submaps: made, picture};
+  return {style, pool, submaps: made, picture};
 }
 const pixel = ({colours}, x, y) => [...colours.image.data.slice(4 * (kSize * y + x), 4 * (kSize * y + x) + 4)];
 const covered = ({colours}) => Array.from({length: kSize * kSize}, (_, k) => k).filter((k) => colours.image.data[4 * k + 3] > 0);
@@ -51,7 +51,7 @@ for (const Camera of [OrthographicCamera, PerspectiveCamera]) {
   assert.deepEqual(covered(picture(above(Camera))), [[47, 39], [48, 39], [47, 40], [48, 40]].map(([x, y]) => kSize * y + x));
 }
 
-// Of two points at one pixel the nearer is seen, whichever comes first; depths are WebGL's.
+// The nearer of two points at one pixel is drawn, whichever comes first; depths are WebGL's.
 for (const order of [0, 1]) {
   const both = [{points: [[0, 0, 2]], colour: '#00ff00'}, {points: [[0, 0, -2]], colour: '#0000ff'}];
   const picture = mapOf(...(order ? both : both.reverse())).picture();
@@ -62,13 +62,13 @@ for (const order of [0, 1]) {
 }
 
 // Colours: a robot's, lighter with height; the ramp by height and intensity.
-const {look, picture} = mapOf({points: [[-2, 0, -1, 0], [2, 0, 1, 1]], colour: '#2f7de1'});
+const {style, picture} = mapOf({points: [[-2, 0, -1, 0], [2, 0, 1, 1]], colour: '#2f7de1'});
 const {r, g, b} = rgbOf('#2f7de1');
 const near = (value, expected) => expected.every((one, k) => Math.abs(value[k] - 255 * one) <= 2);
 assert.ok(near(pixel(picture(), 16, 32), [0.72 * r, 0.72 * g, 0.72 * b]));
 assert.ok(near(pixel(picture(), 48, 32), [r + 0.42 * (1 - r), g + 0.42 * (1 - g), b + 0.42 * (1 - b)]));
 for (const mode of [1, 2]) {
-  look.mode.value = mode;
+  style.mode.value = mode;
   const [low, high] = [pixel(picture(), 16, 32), pixel(picture(), 48, 32)];
   assert.ok(high[0] > high[2] && low[2] > high[2], `mode ${mode}: ${low} to ${high}`);
 }
@@ -81,6 +81,6 @@ assert.deepEqual(covered(moved.picture()), first.map((k) => k - 8));
 assert.deepEqual(moved.pool.values, before);
 assert.ok(moved.submaps[0].point(0, new Vector3()).distanceTo(new Vector3(1, 1, 0)) < 1e-3);
 
-// What is behind the eye, or beside the picture, is not drawn.
+// Points behind the eye or beside the picture are not drawn.
 const beside = mapOf({points: [[7, 7, 0], [-7.9, 0, 0], [0, 0, 3]], at: [0, 0, 8]});
 assert.equal(covered(beside.picture(above(PerspectiveCamera))).length, 0);

@@ -17,7 +17,7 @@ const {parseIDL} = require('@foxglove/omgidl-parser');
 const {MessageReader} = require('@foxglove/omgidl-serialization');
 const {WebSocket} = require('ws');
 
-const kMostPoints = 300_000;
+const kMaxPoints = 300_000;
 const kToken = '0123456789abcdef';
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_foxglove_'));
 
@@ -84,7 +84,7 @@ async function submapOf(url, hash) {
   return {count, point: (k) => centre.map((c, axis) => c + scale * steps[4 * k + axis]), intensity: (k) => steps[4 * k + 3]};
 }
 
-/** What the map should hold, by the page's data. */
+/** The expected points of the map, by the page's data. */
 async function expectedMap(url, state) {
   const sequence = (id) => Number(id.split('/')[1]), session = (id) => Number(id.match(/#(\d+)/)?.[1] ?? 0);
   const placed = state.nodes.filter((node) => node.T && node.submap);
@@ -92,7 +92,7 @@ async function expectedMap(url, state) {
   const points = [];
   for (const [k, node] of placed.entries()) {
     const submap = await submapOf(url, node.submap);
-    const share = Math.min(submap.count, Math.floor((kMostPoints - points.length) / (placed.length - k)));
+    const share = Math.min(submap.count, Math.floor((kMaxPoints - points.length) / (placed.length - k)));
     for (let p = 0; p < share; ++p) {
       const turned = rotated(node.T.slice(3), submap.point(p));
       points.push([...turned.map((value, axis) => value + node.T[axis]), submap.intensity(p), state.robots.findIndex((one) => one.id === node.robot)]);
@@ -109,7 +109,7 @@ function checkMap(cloud, expected) {
   assert.deepEqual(cloud.fields.map((field) => field.name), ['x', 'y', 'z', 'intensity', 'robot']);
   const count = cloud.data.length / cloud.point_stride;
   assert.equal(count, expected.length);
-  assert.ok(count > 1000 && count <= kMostPoints, `${count} points`);
+  assert.ok(count > 1000 && count <= kMaxPoints, `${count} points`);
   const view = new DataView(cloud.data.buffer, cloud.data.byteOffset, cloud.data.byteLength);
   let worst = 0;
   for (let k = 0; k < count; ++k) {

@@ -127,10 +127,10 @@ TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_tol
   Request order = with_cookie(request(http::verb::post, "/operator/resume?robot=r2"));
   order.set(http::field::origin, "http://127.0.0.1:80");
   EXPECT_EQ(status(order), 403u) << "a finished run has no robot that would obey";
-  std::vector<std::string> given;
+  std::vector<std::string> received;
   state_.give_order = [&](const HoldRequest& order) -> Status {
-    given.push_back((order.hold ? "hold " : "resume ") + (order.robot ? order.robot->str() : "all"));
-    return given.size() > 1 ? failure("no radio") : Status{};
+    received.push_back((order.hold ? "hold " : "resume ") + (order.robot ? order.robot->str() : "all"));
+    return received.size() > 1 ? failure("no radio") : Status{};
   };
   EXPECT_EQ(status(order), 202u);
   order.target("/operator/hold");
@@ -143,7 +143,7 @@ TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_tol
   order.set(http::field::authorization, std::string("Bearer ") + kToken);
   EXPECT_EQ(status(order), 503u) << "a program shows the token itself";
   EXPECT_EQ(status(with_cookie(request(http::verb::get, "/operator/hold"))), 404u);
-  EXPECT_THAT(given, ElementsAre("resume r2", "hold all", "hold all"));
+  EXPECT_THAT(received, ElementsAre("resume r2", "hold all", "hold all"));
 }
 
 }  // namespace

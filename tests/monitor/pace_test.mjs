@@ -1,4 +1,4 @@
-// How the page draws while the view moves (src/monitor/page/pace.ts).
+// The page's effort while the view moves (src/monitor/page/pace.ts).
 //   node pace_test.mjs PAGE_FOLDER
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
@@ -41,5 +41,5 @@ const mean = times.slice(20).reduce((sum, one) => sum + one, 0) / 280;
 assert.ok(mean < 34, `a frame takes ${mean} ms`);
 assert.ok(mean > 15, `points are left out for nothing: a frame takes ${mean} ms`);
 
-// Where it becomes faster, all is drawn again.
+// All is drawn again once it becomes faster.
 assert.deepEqual(frames(steady, 400, 8).at(-1), full);

@@ -22,7 +22,7 @@ if (!executablePath) {
 const {chromium} = require('playwright-core');
 const folder = mkdtempSync(join(tmpdir(), 'fleetmap_page_'));
 
-/** How many colours and how many covered pixels the map's middle has. */
+/** Number of colours and of covered pixels in the map's middle. */
 async function pixelsOfMap(page) {
   return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => {
     const canvas = document.getElementById('canvas');

@@ -80,12 +80,12 @@ TEST(RequestCheck, several_submaps_are_asked_for_by_their_hashes) {
   ASSERT_TRUE(request);
   EXPECT_EQ(request->count, 150u);
   EXPECT_EQ(request->hashes, (std::vector{a, b}));
-  std::string most = "/submaps?count=1&of=" + a;
-  for (std::size_t k = 1; k < kMaxSubmapsAtOnce; ++k) most += "," + b;
-  ASSERT_TRUE(parse_submaps_request(most));
-  EXPECT_EQ(parse_submaps_request(most)->hashes.size(), kMaxSubmapsAtOnce);
+  std::string longest = "/submaps?count=1&of=" + a;
+  for (std::size_t k = 1; k < kMaxSubmapsAtOnce; ++k) longest += "," + b;
+  ASSERT_TRUE(parse_submaps_request(longest));
+  EXPECT_EQ(parse_submaps_request(longest)->hashes.size(), kMaxSubmapsAtOnce);
   for (const std::string& wrong : std::initializer_list<std::string>{
-           most + "," + a, "/submaps", "/submaps?", "/submaps?of=" + a, "/submaps?count=&of=" + a,
+           longest + "," + a, "/submaps", "/submaps?", "/submaps?of=" + a, "/submaps?count=&of=" + a,
            "/submaps?count=1&of=", "/submaps?count=1&of=" + a + ",", "/submaps?count=1&of=" + a + b,
            "/submaps?count=1&of=" + a + ",," + b, "/submaps?count=1&of=" + a.substr(1),
            "/submaps?count=-1&of=" + a, "/submaps?count=1&of=" + std::string(32, 'g')})

@@ -1,4 +1,4 @@
-// What the tests of `fleetmap monitor` share: a short run of the twin, and the program that shows it.
+// Shared by the tests of `fleetmap monitor`: a short run of the twin, and the program that shows it.
 import assert from 'node:assert/strict';
 import {spawn, spawnSync} from 'node:child_process';
 import {join} from 'node:path';

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 
-const {parsePart, parseParts, Submap, PointPool, pointLook, Vector3, Matrix4} =
+const {parsePart, parseParts, Submap, PointPool, pointStyle, Vector3, Matrix4} =
   await pageModule(process.argv[2], 'submap', 'point_pool', 'point_material', 'node_modules/three/build/three.module.js');
 
 /** As src/monitor/point_levels.hpp describes it: point k is (k, 2 k, 3 k, 4 k) steps. */
@@ -32,7 +32,7 @@ for (const cut of [1, 20, 40, 8 * 300 + 67]) {
 assert.throws(() => parsePart(buffer(Buffer.concat([encoded(0, 10, 10), Buffer.alloc(1)]))), /damaged/);
 
 // Parts that follow each other fill the blocks without gaps, whatever their sizes.
-const pool = new PointPool(pointLook()), submap = new Submap(hashes[0], 'r1', 0, pool, '#ffffff');
+const pool = new PointPool(pointStyle()), submap = new Submap(hashes[0], 'r1', 0, pool, '#ffffff');
 submap.place(new Matrix4());
 for (const [from, count] of [[0, 100], [100, 300], [400, 1], [401, 599]]) submap.add(parsePart(buffer(encoded(from, count, 5000))));
 assert.equal(submap.loaded, 1000);
@@ -44,7 +44,7 @@ for (const k of [0, 99, 100, 255, 256, 400, 999]) {
 submap.add(parsePart(buffer(encoded(500, 10, 5000))));  // an answer that was overtaken
 assert.equal(submap.loaded, 1000);
 
-// What is given back is used again; what is kept is unharmed.
+// Blocks that are freed are used again; those that are kept stay as they are.
 submap.trim(300);
 assert.equal(submap.loaded, 512);
 assert.equal(pool.used, 2);

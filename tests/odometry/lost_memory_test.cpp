@@ -18,7 +18,7 @@ using testing::ScanOptions;
 
 constexpr int kScans = 90, kStay = 15;  // scans in all, and from one place
 
-struct Seen {
+struct Outcome {
   std::size_t windows = 0, bytes = 0;  ///< at most
   std::vector<bool> lost;              ///< each scan
   LoamCounters counters;
@@ -35,26 +35,26 @@ class LostMemory : public ::testing::Test {
   }
 
   /// `spoil` changes the points of scan k.
-  Seen map_of(
+  Outcome map_of(
       const testing::PoseAt& pose_at,
       const std::function<void(sensor::Scan&, int)>& spoil = [](auto&, int) {}) const {
     Loam loam(config_, vlp16());
     ScanOptions options;
     options.keep = 0.3;
-    Seen seen;
+    Outcome outcome;
     for (int k = 0; k < kScans; ++k) {
       sensor::Scan scan = make_scan(world_, pose_at, 0.1 * k, vlp16(), options);
       spoil(scan, k);
       const auto update = loam.add_scan(scan);
       EXPECT_TRUE(update);
-      seen.lost.push_back(update && update->lost);
-      seen.windows = std::max(seen.windows, loam.map_size().windows);
-      seen.bytes = std::max(seen.bytes, loam.map_size().bytes);
+      outcome.lost.push_back(update && update->lost);
+      outcome.windows = std::max(outcome.windows, loam.map_size().windows);
+      outcome.bytes = std::max(outcome.bytes, loam.map_size().bytes);
     }
-    seen.counters = loam.counters();
-    return seen;
+    outcome.counters = loam.counters();
+    return outcome;
   }
-  Seen map_of_a_drive() const {
+  Outcome map_of_a_drive() const {
     return map_of([this](double t) { return drive_.at(t); });
   }
 
@@ -65,9 +65,9 @@ class LostMemory : public ::testing::Test {
 };
 
 TEST_F(LostMemory, OfARobotThatIsCarriedAboutTheMapIsNoLargerThanThatOfADrive) {
-  const Seen drive = map_of_a_drive();
+  const Outcome drive = map_of_a_drive();
   EXPECT_EQ(drive.counters.lost, 0u);
-  const Seen carried =
+  const Outcome carried =
       map_of([this](double t) { return places_[static_cast<std::size_t>((10.0 * t + 1e-6) / kStay)]; });
   for (int jump = kStay; jump < kScans; jump += kStay) EXPECT_TRUE(carried.lost.at(jump)) << "scan " << jump;
   EXPECT_GE(carried.counters.map_restarts, 2u);
@@ -76,11 +76,11 @@ TEST_F(LostMemory, OfARobotThatIsCarriedAboutTheMapIsNoLargerThanThatOfADrive) {
 }
 
 TEST_F(LostMemory, AFullMapForgetsWhatIsFarAndCountsIt) {
-  const Seen unbounded = map_of_a_drive();
+  const Outcome unbounded = map_of_a_drive();
   EXPECT_EQ(unbounded.counters.map_overflows, 0u);
   EXPECT_GT(unbounded.windows, 30'000u);
   config_.max_map_windows = 20'000;
-  const Seen bounded = map_of_a_drive();
+  const Outcome bounded = map_of_a_drive();
   EXPECT_LE(bounded.windows, 20'000u);
   EXPECT_GT(bounded.counters.map_overflows, 0u);
   EXPECT_LT(bounded.bytes, unbounded.bytes);
@@ -109,11 +109,11 @@ TEST_F(LostMemory, ScansThatDoNotBelongTogetherFillNoMoreThanTheMapMayHold) {
     if (const int now = static_cast<int>(10.0 * t + 1e-6); now != at) place = anywhere(), at = now;
     return place;
   };
-  for (const auto& [what, seen] :
+  for (const auto& [what, outcome] :
        {std::pair("every scan from elsewhere", map_of(jumps)), std::pair("half of each", map_of(drive, mix)),
         std::pair("ranges that swell", map_of(drive, swell))}) {
-    EXPECT_LE(seen.windows, 30'000u) << what;
-    EXPECT_LE(seen.bytes, 30'000u * 160u) << what;
+    EXPECT_LE(outcome.windows, 30'000u) << what;
+    EXPECT_LE(outcome.bytes, 30'000u * 160u) << what;
   }
 }
 

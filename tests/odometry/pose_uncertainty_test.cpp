@@ -195,10 +195,10 @@ TEST(PoseUncertainty, DegenerateRotationIsStatedInRadians) {
   scan.range = 10.0;
   scan.degenerate_count = 1;
   scan.degenerate_directions.col(0) << 0, std::sqrt(0.5), 0, 0, 0, std::sqrt(0.5);
-  Matrix6d seen = Matrix6d::Zero();  // 1 cm across that direction, nothing along it
+  Matrix6d information = Matrix6d::Zero();  // 1 cm across that direction, nothing along it
   const Vector6d blind = (Vector6d() << 0, 1, 0, 0, 0, 0.1).finished().normalized();
-  seen = 1e4 * (Matrix6d::Identity() - blind * blind.transpose());
-  scan.lidar_information.topLeftCorner<6, 6>() = seen;
+  information = 1e4 * (Matrix6d::Identity() - blind * blind.transpose());
+  scan.lidar_information.topLeftCorner<6, 6>() = information;
   Matrix6d sum = Matrix6d::Zero();
   for (int k = 0; k < 60; ++k) sum += uncertainty.state(a_fifth_on(scan)).growth;
   EXPECT_NEAR(std::sqrt(sum(5, 5) / sum(1, 1)), 0.1, 0.02);

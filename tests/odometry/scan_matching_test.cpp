@@ -36,9 +36,9 @@ std::vector<Vector3d> hall(double spacing, bool closed) {
 
 /// The points as seen from kTruth by a robot of constant velocity, fired one after the other from
 /// `first_time` to `last_time`, with this noise along every axis.
-std::vector<FeaturePoint> seen(const std::vector<Vector3d>& points, double noise = 0.0,
-                               const Vector6d& twist = Vector6d::Zero(), double first_time = 0.0,
-                               double last_time = 0.0) {
+std::vector<FeaturePoint> observed(const std::vector<Vector3d>& points, double noise = 0.0,
+                                   const Vector6d& twist = Vector6d::Zero(), double first_time = 0.0,
+                                   double last_time = 0.0) {
   std::mt19937 random(4);
   std::normal_distribution<double> gauss(0.0, 1.0);
   std::vector<FeaturePoint> features;
@@ -81,7 +81,7 @@ Vector6d error_of(const MatchResult& result) { return se3_log(kTruth.inverse() *
 
 TEST(ScanMatching, LaysAScanOnTheMap) {
   LocalMap map = map_of(hall(0.15, true));
-  const MatchResult result = match(seen(hall(0.4, true)), {}, map, prior_with(Vector6d::Zero(), 0.1));
+  const MatchResult result = match(observed(hall(0.4, true)), {}, map, prior_with(Vector6d::Zero(), 0.1));
   EXPECT_TRUE(result.converged);
   EXPECT_LT(error_of(result).head<3>().norm(), 0.001);
   EXPECT_LT(error_of(result).tail<3>().norm(), 0.0002);
@@ -101,10 +101,10 @@ TEST(ScanMatching, TellsHowTheNoiseComparesWithWhatWasAssumed) {
   LocalMap map = map_of(hall(0.15, true));
   const double assumed = LoamConfig{}.range_noise;
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult as_assumed = match(seen(hall(0.3, true), assumed), {}, map, prior);
+  const MatchResult as_assumed = match(observed(hall(0.3, true), assumed), {}, map, prior);
   EXPECT_NEAR(as_assumed.residual_variance, 1.0, 0.12);
   EXPECT_NEAR(as_assumed.rms, assumed, 0.06 * assumed);
-  const MatchResult half = match(seen(hall(0.3, true), 0.5 * assumed), {}, map, prior);
+  const MatchResult half = match(observed(hall(0.3, true), 0.5 * assumed), {}, map, prior);
   EXPECT_NEAR(half.residual_variance, 0.25, 0.03);
   EXPECT_NEAR(half.rms, 0.5 * assumed, 0.03 * assumed);
 }
@@ -113,7 +113,7 @@ TEST(ScanMatching, TellsHowTheNoiseComparesWithWhatWasAssumed) {
 TEST(ScanMatching, FollowsThePriorAlongWhatTheSceneDoesNotConstrain) {
   LocalMap map = map_of(hall(0.15, false));
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult result = match(seen(hall(0.4, false)), {}, map, prior);
+  const MatchResult result = match(observed(hall(0.4, false)), {}, map, prior);
   ASSERT_EQ(result.degenerate_count, 1);
   // Directions are those of the right tangent, in base_link.
   const Vector3d along = kTruth.linear().transpose() * Vector3d::UnitX();
@@ -134,7 +134,7 @@ TEST(ScanMatching, ThePoseIsThatOfTheReferenceInstant) {
   LocalMap map = map_of(hall(0.15, true));
   Vector6d twist;
   twist << 2.0, 0.1, 0.0, 0.0, 0.0, 0.5;
-  std::vector<FeaturePoint> features = seen(hall(0.4, true), 0.0, twist, 0.0, 0.1);
+  std::vector<FeaturePoint> features = observed(hall(0.4, true), 0.0, twist, 0.0, 0.1);
   const MotionPrior prior = prior_with(twist, 0.01);
   const MatchResult result = match(features, {}, map, prior);
   EXPECT_LT(error_of(result).head<3>().norm(), 0.003);
@@ -155,7 +155,7 @@ TEST(ScanMatching, EdgesCountAcrossThem) {
   LocalMap map({});
   map.add_edges(posts);
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
-  const MatchResult result = match({}, seen(posts), map, prior);
+  const MatchResult result = match({}, observed(posts), map, prior);
   EXPECT_EQ(result.planes, 0u);
   EXPECT_GT(result.edges, 150u);
   EXPECT_EQ(result.upright, result.edges);
@@ -170,7 +170,7 @@ TEST(ScanMatching, WithoutFeaturesOrMapThePriorIsAllThereIs) {
   const MotionPrior prior = prior_with(Vector6d::Zero(), 0.1);
   LocalMap map = map_of(hall(0.15, true)), empty({});
   for (const auto& [features, on] :
-       {std::pair{std::vector<FeaturePoint>{}, &map}, std::pair{seen(hall(0.4, true)), &empty}}) {
+       {std::pair{std::vector<FeaturePoint>{}, &map}, std::pair{observed(hall(0.4, true)), &empty}}) {
     const MatchResult result = match(features, {}, *on, prior);
     EXPECT_EQ(result.planes + result.edges, 0u);
     EXPECT_EQ(result.inlier_fraction, 0.0);

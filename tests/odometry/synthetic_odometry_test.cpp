@@ -45,9 +45,9 @@ DriveResult drive(const testing::SyntheticWorld& world, const SyntheticDrive& mo
 }
 
 /// Bounds (one drive each, a third more than measured): docs/reference/test_bounds.md.
-void expect_drift(const std::vector<Pose>& estimate, const std::vector<Pose>& truth, double most_per_cent,
+void expect_drift(const std::vector<Pose>& estimate, const std::vector<Pose>& truth, double max_per_cent,
                   const std::string& what) {
-  fleetmap::testing::expect_at_most(100.0 * testing::relative_drift(estimate, truth, 20.0), most_per_cent,
+  fleetmap::testing::expect_at_most(100.0 * testing::relative_drift(estimate, truth, 20.0), max_per_cent,
                                     "drift over 20 m, %, " + what, 1);
 }
 
@@ -227,12 +227,12 @@ TEST(SyntheticOdometry, NoiseIsStatedByHowTheMotionKeepsToItsPrior) {
 /// less, and so it is stated. A velocity that follows the bend of the map errs here by 3.3 mrad and states
 /// 0.7.
 TEST(SyntheticOdometry, SwayDuringAScanIsFollowedOrStated) {
-  const Swaying seen = drive_swaying(1.2, true), guessed = drive_swaying(1.2, false);
-  EXPECT_LT(seen.tilt_error, 0.7 * guessed.tilt_error);
-  EXPECT_LT(seen.tilt_stated, 0.9 * guessed.tilt_stated);
+  const Swaying estimated = drive_swaying(1.2, true), guessed = drive_swaying(1.2, false);
+  EXPECT_LT(estimated.tilt_error, 0.7 * guessed.tilt_error);
+  EXPECT_LT(estimated.tilt_stated, 0.9 * guessed.tilt_stated);
   EXPECT_LT(guessed.tilt_error, 0.001);
   EXPECT_LT(guessed.tilt_error, guessed.tilt_stated);
-  EXPECT_LT(seen.tilt_error, seen.tilt_stated);
+  EXPECT_LT(estimated.tilt_error, estimated.tilt_stated);
 }
 
 }  // namespace

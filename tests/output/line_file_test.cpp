@@ -6,17 +6,12 @@
 #include <csignal>
 #include <sstream>
 
+#include "support/file_content.hpp"
 #include "support/full_disk.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 TEST(LineFile, LeavesOutWholeLinesWhileTheDiskIsFullAndSaysSoOnce) {
   const testing::TemporaryFolder folder;
@@ -27,10 +22,10 @@ TEST(LineFile, LeavesOutWholeLinesWhileTheDiskIsFullAndSaysSoOnce) {
     const testing::FullDisk full(9);  // three bytes of the next line fit
     EXPECT_FALSE(file.add("second"));
     EXPECT_TRUE(file.add("third")) << "said already";
-    EXPECT_EQ(text_of(path), "first\n");
+    EXPECT_EQ(testing::file_text(path), "first\n");
   }
   EXPECT_TRUE(file.add("fourth"));
-  EXPECT_EQ(text_of(path), "first\nfourth\n");
+  EXPECT_EQ(testing::file_text(path), "first\nfourth\n");
   const testing::FullDisk full(16);
   EXPECT_FALSE(file.add("fifth")) << "full again";
 }
@@ -47,7 +42,7 @@ TEST(LineFile, AFullOneIsBegunAnewAndTheOneBeforeStays) {
     std::size_t bytes = 0;
     int next = -1;
     for (const auto& part : parts_of(path)) {
-      std::istringstream in(text_of(part));
+      std::istringstream in(testing::file_text(part));
       bytes += in.str().size();
       std::string text;
       std::getline(in, text);
@@ -82,15 +77,15 @@ TEST(LineFile, TheHeaderOfAPartComesOnceThereIsRoom) {
     EXPECT_TRUE(file.add("third")) << "said already";
   }
   ASSERT_TRUE(file.add("fourth"));
-  EXPECT_EQ(text_of(path), "number\nfourth\n");
-  EXPECT_EQ(text_of(part_before(path)), "number\n0123456789\n");
+  EXPECT_EQ(testing::file_text(path), "number\nfourth\n");
+  EXPECT_EQ(testing::file_text(part_before(path)), "number\n0123456789\n");
 }
 
 TEST(LineFile, ALineThatWasCutOffIsEnded) {
   const testing::TemporaryFolder folder;
   const auto path = folder.write("lines.txt", "first\nsec");
   ASSERT_TRUE(LineFile::open(path, std::ios::app, {})->add("third"));
-  EXPECT_EQ(text_of(path), "first\nsec\nthird\n");
+  EXPECT_EQ(testing::file_text(path), "first\nsec\nthird\n");
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ TEST_F(PlacedStore, ItsOriginIsTheConfiguredOneOrThatOfTheLeastNodeWithGps) {
   EXPECT_EQ(site_origin(store_, std::nullopt), GeoPoint{}) << "the map lies nowhere on Earth";
   const NodeId late = put_node("r3", 0, 30.0);
   EXPECT_EQ(site_origin(store_, std::nullopt), position_of(late));
-  const NodeId least = put_node("r1", 1, 10.0);
-  EXPECT_EQ(site_origin(store_, std::nullopt), position_of(least)) << "by name, not by arrival";
+  const NodeId first = put_node("r1", 1, 10.0);
+  EXPECT_EQ(site_origin(store_, std::nullopt), position_of(first)) << "by name, not by arrival";
   EXPECT_EQ(site_origin(store_, kSite), kSite);
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "fleetmap/output/line_file.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::output {
@@ -19,8 +20,7 @@ TEST(RegistrationsFile, HasItsHeadOnceAndALineForEachRegistration) {
   const auto file = folder.path() / "registrations.csv";
   ASSERT_TRUE(append_registration(file, {kTarget, kSource, "accepted", 0.05, 0.75, 0.5, 1.5, ""}));
   ASSERT_TRUE(append_registration(file, {kTarget, kSource, "failed", {}, {}, {}, 0.25, "no points"}));
-  std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = testing::file_text(file);
   const std::string names = to_string(kTarget) + "," + to_string(kSource);
   EXPECT_EQ(text, "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason\n" + names +
                       ",accepted,0.05,0.75,0.5,1.5,,\"\"\n" + names + ",failed,,,,0.25,,\"no points\"\n");

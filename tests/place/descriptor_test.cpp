@@ -35,7 +35,7 @@ Points yard(std::uint64_t seed) {
   return points;
 }
 
-Points seen_from(const Points& world, const Pose& T_enu_base) {
+Points viewed_from(const Points& world, const Pose& T_enu_base) {
   const Eigen::Isometry3f T = T_enu_base.inverse().cast<float>();
   Points points;
   for (const Eigen::Vector3f& p : world) points.push_back(T * p);
@@ -47,7 +47,7 @@ Eigen::Vector3d up_in(const Pose& T_enu_base) {
 }
 
 Descriptor described(const Points& world, const Pose& T_enu_base) {
-  return Descriptor::of(seen_from(world, T_enu_base), up_in(T_enu_base));
+  return Descriptor::of(viewed_from(world, T_enu_base), up_in(T_enu_base));
 }
 
 Pose pose(double x, double y, double yaw, double roll = 0.0, double pitch = 0.0) {
@@ -152,7 +152,7 @@ TEST(Descriptor, NothingSeenResemblesNothing) {
 TEST(Descriptor, BadPointsAndDirectionsAreLeftOut) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  Points points = seen_from(yard(1), pose(0, 0, 0));
+  Points points = viewed_from(yard(1), pose(0, 0, 0));
   const Descriptor clean = Descriptor::of(points, Eigen::Vector3d::UnitZ());
   for (const float bad : {nan, inf, -inf, 1e30f}) {
     points.emplace_back(bad, 0.0f, 0.0f);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "bag_samples.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -25,8 +26,7 @@ Bytes zstd_of(const Bytes& bytes) {
 
 /// Compresses a file in its place, as `ros2 bag record --compression-mode file` does.
 void compress(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Bytes packed = zstd_of(Bytes(std::istreambuf_iterator<char>(in), {}));
+  const Bytes packed = zstd_of(fleetmap::testing::file_bytes(file));
   std::ofstream out(file.string() + ".zstd", std::ios::binary);
   out.write(reinterpret_cast<const char*>(packed.data()), static_cast<std::streamsize>(packed.size()));
   fs::remove(file);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 #include "fleetmap/fleet_codec/topics.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -21,11 +23,6 @@ namespace {
 using fleetmap::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using namespace recording::testing;
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 TEST(BagWriter, WhatIsWrittenIsRead) {
   const TemporaryFolder folder;
@@ -69,7 +66,7 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(dir)) files.push_back(entry.path().filename());
   EXPECT_THAT(files, ::testing::UnorderedElementsAre("metadata.yaml", "drive_0.db3"));
-  const std::string yaml = content(dir / "metadata.yaml");
+  const std::string yaml = fleetmap::testing::file_text(dir / "metadata.yaml");
   for (const char* line : {"version: 5", "storage_identifier: sqlite3", "nanoseconds: 9",
                            "nanoseconds_since_epoch: 1700000000000000000", "message_count: 3", "name: /imu",
                            "type: sensor_msgs/msg/Imu", "serialization_format: cdr",
@@ -79,7 +76,7 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
   }
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((dir / "drive_0.db3").c_str(), &database), SQLITE_OK);
-  std::string seen;
+  std::string rows;
   const auto collect = [](void* out, int columns, char** values, char**) {
     for (int k = 0; k < columns; ++k) *static_cast<std::string*>(out) += std::string(values[k]) + "|";
     return 0;
@@ -88,10 +85,10 @@ TEST(BagWriter, LeavesWhatRosbag2OfHumbleExpects) {
                "SELECT schema_version, ros_distro FROM schema; SELECT id, name, type, serialization_format "
                "FROM topics;"
                "SELECT id, topic_id, timestamp, hex(substr(data, 1, 4)) FROM messages",
-               collect, &seen, nullptr);
+               collect, &rows, nullptr);
   sqlite3_close(database);
   EXPECT_EQ(
-      seen,
+      rows,
       "3|humble|1|/imu|sensor_msgs/msg/Imu|cdr|2|/fleetmap/global_pose|fleetmap/msg/GlobalPose|cdr|"
       "1|1|1700000000000000000|00010000|2|1|1700000000000000005|00010000|3|2|1700000000000000009|00010000|");
 }

@@ -31,9 +31,9 @@ class Checks : public CheckedReader {
 
   /// Whether IMU samples at these times are given out, one after the other.
   std::vector<bool> imus(std::initializer_list<Duration> times) {
-    std::vector<bool> given;
-    for (const Duration time : times) given.push_back(admit(at<sensor::Imu>(time)));
-    return given;
+    std::vector<bool> admitted;
+    for (const Duration time : times) admitted.push_back(admit(at<sensor::Imu>(time)));
+    return admitted;
   }
 };
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "bag_samples.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -16,11 +17,6 @@ using namespace recording::testing;
 namespace fs = std::filesystem;
 
 const fs::path kData = fs::path(FLEETMAP_SOURCE_DIR) / "tests/recording/data";
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Expects the contents that an independent writer put into each file of the folder: scans at 10 Hz, an IMU
 /// at 50 Hz, 0.4 s.
@@ -53,7 +49,7 @@ TEST(McapFile, IsReadWhateverItsChunks) {
 
 TEST(McapFile, IsABagWithItsMetadataToo) {
   const TemporaryFolder folder;
-  folder.write("b/b_0.mcap", bytes_of(kData / "zstd.mcap"));
+  folder.write("b/b_0.mcap", fleetmap::testing::file_text(kData / "zstd.mcap"));
   expect_drive(folder.path() / "b");
   folder.write(
       "b/metadata.yaml",
@@ -64,7 +60,7 @@ TEST(McapFile, IsABagWithItsMetadataToo) {
 TEST(McapFile, ThatWasCutIsReadAsFarAsItGoes) {
   const TemporaryFolder folder;
   for (const char* name : {"plain.mcap", "zstd.mcap", "lz4.mcap", "no_chunks.mcap"}) {
-    const std::string whole = bytes_of(kData / name);
+    const std::string whole = fleetmap::testing::file_text(kData / name);
     std::size_t before = 0;
     for (std::size_t size = 0; size < whole.size(); size += 97) {
       folder.write("cut.mcap", whole.substr(0, size));
@@ -85,7 +81,7 @@ TEST(McapFile, ThatWasCutIsReadAsFarAsItGoes) {
 
 TEST(McapFile, ADamagedChunkIsLeftOutAndCounted) {
   const TemporaryFolder folder;
-  std::string whole = bytes_of(kData / "zstd.mcap");
+  std::string whole = fleetmap::testing::file_text(kData / "zstd.mcap");
   const std::size_t frame = whole.find("\x28\xb5\x2f\xfd", whole.size() / 4);
   ASSERT_NE(frame, std::string::npos);
   whole[frame + 20] = static_cast<char>(whole[frame + 20] ^ 0x55);
@@ -102,7 +98,7 @@ TEST(McapFile, ADamagedChunkIsLeftOutAndCounted) {
 TEST(McapFile, OfFlippedBytesIsReadOrRefused) {
   const TemporaryFolder folder;
   for (const char* name : {"plain.mcap", "lz4.mcap"}) {
-    const std::string whole = bytes_of(kData / name);
+    const std::string whole = fleetmap::testing::file_text(kData / name);
     for (std::size_t at = 0; at < whole.size(); at += 13) {
       std::string damaged = whole;
       damaged[at] = static_cast<char>(~damaged[at]);
@@ -119,7 +115,7 @@ TEST(McapFile, OfFlippedBytesIsReadOrRefused) {
 
 TEST(McapFile, OfAnotherEncodingSaysSo) {
   const TemporaryFolder folder;
-  std::string ros1 = bytes_of(kData / "plain.mcap");
+  std::string ros1 = fleetmap::testing::file_text(kData / "plain.mcap");
   for (std::size_t at = ros1.find("cdr"); at != std::string::npos; at = ros1.find("cdr", at))
     ros1.replace(at, 3, "ros");
   folder.write("a.mcap", ros1);  // with the wrong checksum of its chunks, but the summary is plain

@@ -1,5 +1,7 @@
 #include "recording/sqlite_file.hpp"
 
+#include <gtest/gtest.h>
+
 #include "bag_samples.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,10 +24,10 @@ TEST(SqliteFile, GivesMessagesByTimeWithTheirTopics) {
   const std::vector<BagTopic> topics{{"/points", "sensor_msgs/msg/PointCloud2"},
                                      {"/imu", "sensor_msgs/msg/Imu"}};
   EXPECT_EQ((*file)->topics(), topics);
-  std::vector<std::tuple<std::string, std::int64_t, std::size_t>> seen;
+  std::vector<std::tuple<std::string, std::int64_t, std::size_t>> rows;
   for (auto message = (*file)->next(); message && *message; message = (*file)->next())
-    seen.emplace_back((*message)->topic, (*message)->received_ns - kStart, (*message)->cdr.size());
-  EXPECT_EQ(seen, (decltype(seen){{"/imu", 1, 2}, {"/points", 2, 1}, {"/points", 3, 0}}));
+    rows.emplace_back((*message)->topic, (*message)->received_ns - kStart, (*message)->cdr.size());
+  EXPECT_EQ(rows, (decltype(rows){{"/imu", 1, 2}, {"/points", 2, 1}, {"/points", 3, 0}}));
   const auto after = (*file)->next();
   EXPECT_TRUE(after && !*after);
 }

@@ -7,6 +7,7 @@
 
 #include <fstream>
 
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
@@ -84,8 +85,7 @@ TEST(Unpack, AFileIsUnpackedAsAWhole) {
   const Bytes bytes = content(), packed = zstd_of(bytes);
   folder.write("a.zstd", std::string(packed.begin(), packed.end()));
   ASSERT_TRUE(unpack_zstd_file(folder.path() / "a.zstd", folder.path() / "a"));
-  std::ifstream in(folder.path() / "a", std::ios::binary);
-  EXPECT_EQ(Bytes(std::istreambuf_iterator<char>(in), {}), bytes);
+  EXPECT_EQ(fleetmap::testing::file_bytes(folder.path() / "a"), bytes);
 
   folder.write("cut.zstd", std::string(packed.begin(), packed.end() - 5));
   const Status cut = unpack_zstd_file(folder.path() / "cut.zstd", folder.path() / "b");

@@ -30,7 +30,7 @@ int layer_at(const FlatMap& map, const Vector2f& p, int layer, int dx = 0, int d
   return map.layers[static_cast<std::size_t>((layer * map.size.y() + c.y()) * map.size.x() + c.x())];
 }
 
-bool seen_at(const FlatMap& map, const Vector2f& p) {
+bool observed_at(const FlatMap& map, const Vector2f& p) {
   const Eigen::Vector2i c = ((p - map.origin) / (map.cell_m * kObservedCells)).cast<int>();
   return map.observed[static_cast<std::size_t>(c.y() * map.observed_size.x() + c.x())] != 0;
 }
@@ -97,11 +97,11 @@ TEST(FlatMap, WhatIsSeenIsWhereAnyPointIs) {
   Points points = ground();
   points.emplace_back(40.0f, 0.0f, 1.0f);
   const FlatMap map = flat_map(points, {});
-  EXPECT_TRUE(seen_at(map, {0, 0}));
-  EXPECT_TRUE(seen_at(map, {-9.5f, 9.5f}));
-  EXPECT_FALSE(seen_at(map, {25, 0}));
-  EXPECT_TRUE(seen_at(map, {40, 0}));
-  EXPECT_FALSE(seen_at(map, {39, 9}));
+  EXPECT_TRUE(observed_at(map, {0, 0}));
+  EXPECT_TRUE(observed_at(map, {-9.5f, 9.5f}));
+  EXPECT_FALSE(observed_at(map, {25, 0}));
+  EXPECT_TRUE(observed_at(map, {40, 0}));
+  EXPECT_FALSE(observed_at(map, {39, 9}));
 }
 
 TEST(FlatMap, CellsArePickedEvenly) {

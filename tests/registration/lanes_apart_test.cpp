@@ -60,7 +60,7 @@ void add_pairs(const Site& site, std::size_t lanes_apart, unsigned seed, Errors&
 TEST(LanesApart, ComeOutAboutAsFarApartAsTheyAre) {
   struct Case {
     std::size_t lanes;
-    double most_too_near, most_rms, least_accepted;
+    double max_too_near, max_rms, min_accepted;
   };
   const unsigned seeds = seeds_to_run(2);
   for (const Case& of :
@@ -76,10 +76,10 @@ TEST(LanesApart, ComeOutAboutAsFarApartAsTheyAre) {
       pairs += 4;
     }
     const std::string what = ", " + std::to_string(of.lanes) + " lanes apart";
-    expect_at_least(static_cast<double>(errors.accepted) / pairs, of.least_accepted, "share accepted" + what,
+    expect_at_least(static_cast<double>(errors.accepted) / pairs, of.min_accepted, "share accepted" + what,
                     seeds);
-    expect_at_most(errors.mean_too_near(), of.most_too_near, "m too near" + what, seeds);
-    expect_at_most(errors.rms(), of.most_rms, "RMS m" + what, seeds);
+    expect_at_most(errors.mean_too_near(), of.max_too_near, "m too near" + what, seeds);
+    expect_at_most(errors.rms(), of.max_rms, "RMS m" + what, seeds);
   }
 }
 

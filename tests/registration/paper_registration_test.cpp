@@ -80,11 +80,11 @@ TEST(PaperRegistration, RmseIsThatOfTheInlierPairs) {
   double squares = 0.0;
   std::size_t inliers = 0;
   for (const Eigen::Vector3f& p : transformed(moved, result.T_target_source).points) {
-    double least = std::numeric_limits<double>::infinity();
+    double min_squared = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3f& q : target.points)
-      least = std::min(least, static_cast<double>((p - q).squaredNorm()));
-    if (least > 1.0) continue;
-    squares += least;
+      min_squared = std::min(min_squared, static_cast<double>((p - q).squaredNorm()));
+    if (min_squared > 1.0) continue;
+    squares += min_squared;
     ++inliers;
   }
   ASSERT_GT(inliers, 0u);

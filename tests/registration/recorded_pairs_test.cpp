@@ -20,10 +20,10 @@ using testing::error_between;
 using testing::kDegree;
 
 /// Bounds: docs/reference/test_bounds.md.
-void expect_near(const testing::PoseError& error, double most_m, double most_deg, const std::string& what,
+void expect_near(const testing::PoseError& error, double max_m, double max_deg, const std::string& what,
                  unsigned number = 0) {
-  fleetmap::testing::expect_at_most(error.translation_m, most_m, what + ", m", number);
-  fleetmap::testing::expect_at_most(error.rotation_rad / kDegree, most_deg, what + ", deg", number);
+  fleetmap::testing::expect_at_most(error.translation_m, max_m, what + ", m", number);
+  fleetmap::testing::expect_at_most(error.rotation_rad / kDegree, max_deg, what + ", deg", number);
 }
 
 struct SmallGicpPair : ::testing::Test {

@@ -43,11 +43,11 @@ TEST(RegisterClouds, EmptyTinyAndNonFiniteCloudsAreRejected) {
   tiny.points = {{1, 2, 3}, {4, 5, 6}};
   PointCloud bad;
   bad.points.assign(1000, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
-  PointCloud spot;
-  spot.points.assign(1000, Eigen::Vector3f(1, 1, 1));
+  PointCloud centre;
+  centre.points.assign(1000, Eigen::Vector3f(1, 1, 1));
   PointCloud far = good;
   for (auto& p : far.points) p *= 1e8f;
-  for (const PointCloud& cloud : {PointCloud{}, tiny, bad, spot, far}) {
+  for (const PointCloud& cloud : {PointCloud{}, tiny, bad, centre, far}) {
     for (const auto& result : {register_clouds(good, cloud, {}, Prior{}), register_clouds(cloud, good, {})}) {
       EXPECT_NE(result.verdict, Verdict::accepted);
       EXPECT_FALSE(result.reason.empty());

@@ -53,15 +53,15 @@ TEST(RegistrationConfig, SharesAndWeightsAreBounded) {
 TEST(RegistrationConfig, CountsAreBounded) {
   struct Count {
     std::size_t Config::*value;
-    std::size_t least;
+    std::size_t min;
     const char* name;
   };
   for (const Count& count : {Count{&Config::max_candidates, 1, "max_candidates"},
                              {&Config::max_modes, 1, "max_modes"},
                              {&Config::coarse_points, 10, "coarse_points"},
                              {&Config::fine_points, 10, "fine_points"}}) {
-    expect_accepted(Config{}, count.value, {count.least});
-    expect_refused(Config{}, count.value, {count.least - 1}, count.name);
+    expect_accepted(Config{}, count.value, {count.min});
+    expect_refused(Config{}, count.value, {count.min - 1}, count.name);
   }
 }
 

@@ -12,7 +12,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-json least() { return {{"agents", json::object()}, {"pairs", json::array()}, {"notes", json::array()}}; }
+json minimal() { return {{"agents", json::object()}, {"pairs", json::array()}, {"notes", json::array()}}; }
 
 std::string page_of(const json& evaluation, const RunFolder& run = {},
                     const std::vector<MapPicture>& pictures = {}) {
@@ -35,7 +35,7 @@ AgentFolder driven(const std::string& name, double off) {
 }
 
 TEST(EvaluationPage, OfARunWithoutTruthShowsWhatThereIs) {
-  json evaluation = least();
+  json evaluation = minimal();
   evaluation["notes"] = {"no true surface & no <truth>"};
   const std::string page = page_of(evaluation);
   EXPECT_THAT(page, HasSubstr("no true surface &amp; no &lt;truth&gt;"));
@@ -45,7 +45,7 @@ TEST(EvaluationPage, OfARunWithoutTruthShowsWhatThereIs) {
 }
 
 TEST(EvaluationPage, NumbersAreThoseOfTheEvaluationInTheUnitsOfTheirColumns) {
-  json evaluation = least();
+  json evaluation = minimal();
   evaluation["agents"]["r1"] = {{"path_length", 123.0},
                                 {"ate_rmse", 0.25},
                                 {"rpe_translation", 0.0175},
@@ -63,23 +63,23 @@ TEST(EvaluationPage, NumbersAreThoseOfTheEvaluationInTheUnitsOfTheirColumns) {
 TEST(EvaluationPage, TracksAndErrorsAreDrawnOfRobotsThatHaveThem) {
   RunFolder run;
   run.agents = {driven("r1", 0.5), driven("r2", 0.25)};
-  EXPECT_THAT(page_of(least(), run), HasSubstr("Trajectories, north up"));
-  EXPECT_THAT(page_of(least(), run), HasSubstr("Position error"));
+  EXPECT_THAT(page_of(minimal(), run), HasSubstr("Trajectories, north up"));
+  EXPECT_THAT(page_of(minimal(), run), HasSubstr("Position error"));
   for (AgentFolder& agent : run.agents) agent.truth.reset();
-  EXPECT_THAT(page_of(least(), run), HasSubstr("Trajectories, north up"));
-  EXPECT_THAT(page_of(least(), run), Not(HasSubstr("Position error")));
+  EXPECT_THAT(page_of(minimal(), run), HasSubstr("Trajectories, north up"));
+  EXPECT_THAT(page_of(minimal(), run), Not(HasSubstr("Position error")));
   for (AgentFolder& agent : run.agents) agent.trajectory.reset();
-  EXPECT_THAT(page_of(least(), run), Not(HasSubstr("Trajectories, north up")));
+  EXPECT_THAT(page_of(minimal(), run), Not(HasSubstr("Trajectories, north up")));
 }
 
 TEST(EvaluationPage, PicturesAreEmbedded) {
   const std::vector<MapPicture> pictures{{"map_top.png", "from above", {'p', 'n', 'g'}}};
-  EXPECT_THAT(page_of(least(), {}, pictures), HasSubstr("data:image/png;base64,cG5n"));
-  EXPECT_THAT(page_of(least(), {}, pictures), HasSubstr("from above"));
+  EXPECT_THAT(page_of(minimal(), {}, pictures), HasSubstr("data:image/png;base64,cG5n"));
+  EXPECT_THAT(page_of(minimal(), {}, pictures), HasSubstr("from above"));
 }
 
 TEST(EvaluationPage, ConsistencyIsShownOnlyWhereItWasMeasured) {
-  json evaluation = least();
+  json evaluation = minimal();
   EXPECT_THAT(page_of(evaluation), Not(HasSubstr("keep to their covariances")));
   evaluation["calibration"]["odometry"] = {{"count", 40},         {"nees", 1.5},
                                            {"nees_median", 0.75}, {"expected_median", 0.875},
@@ -92,7 +92,7 @@ TEST(EvaluationPage, ConsistencyIsShownOnlyWhereItWasMeasured) {
 }
 
 TEST(EvaluationPage, BytesOfLinksAreKilobytes) {
-  json evaluation = least();
+  json evaluation = minimal();
   evaluation["links"] = {
       {"per_agent", {{"r1", {{"long_range_bytes", 12'000.0}, {"short_range_bytes", 3'456'000.0}}}}},
       {"long_range_bytes", 12'000.0},

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "fleetmap/cloud/file_io.hpp"
-#include "seen_site.hpp"
+#include "observed_site.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::run_evaluation {
@@ -71,8 +72,7 @@ TEST(MapPictures, APictureIsWrittenUnderItsName) {
   testing::TemporaryFolder folder;
   const MapPicture picture{"map_top.png", "", {1, 2, 3}};
   ASSERT_TRUE(write_picture(folder.path(), picture));
-  std::ifstream in(folder.path() / "map_top.png", std::ios::binary);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "\x01\x02\x03");
+  EXPECT_EQ(testing::file_text(folder.path() / "map_top.png"), "\x01\x02\x03");
   EXPECT_FALSE(write_picture(folder.path() / "none", picture));
 }
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "seen_site.hpp"
+#include "observed_site.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {
@@ -65,7 +65,7 @@ TEST_F(ModeEvaluation, AnotherPlacementIsMeasuredAndTheRunsStays) {
   EXPECT_LT(paper["map"]["rmse"].get<double>(), 0.1) << "measured, and not the run's own 0.25";
   EXPECT_EQ(paper["alignments"]["held"], 0);
   EXPECT_FALSE(paper["alignments"].contains("attempts"));
-  EXPECT_FALSE(paper.contains("statuses")) << "the paper's placement judges none";
+  EXPECT_FALSE(paper.contains("statuses")) << "the paper's placement assigns none";
   EXPECT_EQ(held_.placement.T_enu_node.at(b_).matrix(), before.T_enu_node.at(b_).matrix());
 }
 

@@ -1,6 +1,6 @@
 #include "overlap_evaluation.hpp"
 
-#include "seen_site.hpp"
+#include "observed_site.hpp"
 
 namespace fleetmap::run_evaluation {
 namespace {

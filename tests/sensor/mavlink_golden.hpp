@@ -4,13 +4,13 @@
 #include <iterator>
 
 #include "fleetmap/core/bytes.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::testing {
 
 /// Eight messages as MAVLink v1, v2 and signed v2, written by node-mavlink (mavlink_golden/make_golden.mjs).
 inline Bytes golden_mavlink() {
-  std::ifstream file(FLEETMAP_SOURCE_DIR "/tests/sensor/mavlink_golden/frames.bin", std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return file_bytes(FLEETMAP_SOURCE_DIR "/tests/sensor/mavlink_golden/frames.bin");
 }
 
 }  // namespace fleetmap::testing

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "shapes.hpp"
+#include "support/file_content.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::sim {
@@ -24,11 +25,6 @@ class MeshFile : public ::testing::Test {
   }
   testing::TemporaryFolder folder_;
 };
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Mesh of_all_materials() {
   Mesh mesh = test_ground({0, 0}, {2, 2}, [](double x, double y) { return 0.1 * x - 0.3 * y; });
@@ -115,7 +111,7 @@ TEST_F(MeshFile, DamagedPlyNamesItsLineOrByte) {
 
   const Mesh mesh = test_box({0, 0, 0}, {1, 1, 1});
   ASSERT_TRUE(write_ply(folder_.path() / "b.ply", mesh));
-  const std::string bytes = bytes_of(folder_.path() / "b.ply");
+  const std::string bytes = testing::file_text(folder_.path() / "b.ply");
   EXPECT_THAT(error_of("c.ply", bytes.substr(0, bytes.size() - 5)),
               AllOf(HasSubstr("c.ply: byte "), HasSubstr("ends early")));
 }
@@ -127,7 +123,7 @@ TEST_F(MeshFile, AnyDamageIsReadOrRefused) {
   for (const char* name : {"m.obj", "m.ply"}) {
     const auto file = folder_.path() / name;
     ASSERT_TRUE(name[2] == 'o' ? write_obj(file, mesh) : write_ply(file, mesh));
-    const std::string whole = bytes_of(file);
+    const std::string whole = testing::file_text(file);
     for (int round = 0; round < 250; ++round) {
       std::string damaged = whole;
       for (std::uint64_t k = 0; k <= random() % 4; ++k)

@@ -26,7 +26,7 @@ class DatabaseTest : public ::testing::Test {
     ASSERT_TRUE(insert.bind(1, k).run());
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   const fs::path file_ = folder_ / "some.db";
   testing::PowerCutDisk disk_{1};
   Database db_ = Database::open(file_, false, disk_.name()).value();
@@ -142,7 +142,7 @@ TEST_F(FilledDatabase, AfterASyncThatFailedTheNextOneWritesTheLogAgain) {
 /// Disks differ in what they keep of a sync that failed.
 TEST(DatabaseSync, WhatAFailedSyncLostIsWrittenAgain) {
   for (std::uint32_t seed = 0; seed < 8; ++seed) {
-    const testing::ScratchFolder folder;
+    const testing::TemporaryFolder folder;
     testing::PowerCutDisk disk(seed);
     {
       auto db = Database::open(folder / "some.db", false, disk.name()).value();

@@ -10,13 +10,13 @@ using testing::agent;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(ItemPuts, a_name_with_two_contents_ends_the_same_whatever_came_first) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Bytes submap = random_bytes(700, 1);
   const auto one = make_node(kPeer, 5, submap);
   const auto two = make_node(kPeer, 5, submap, 30.0);
@@ -56,7 +56,7 @@ TEST(ItemPuts, a_name_with_two_contents_ends_the_same_whatever_came_first) {
 }
 
 TEST(ItemPuts, keeps_the_submap_of_an_own_node_whose_name_is_contested) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Bytes submap = random_bytes(700, 1);
   const NodeId id{kSelf, 5};
   {

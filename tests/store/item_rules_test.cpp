@@ -12,13 +12,13 @@ using testing::agent;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(ItemRules, refuses_and_counts_what_breaks_a_rule) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   const Bytes submap = random_bytes(100, 1);
   auto node = make_node(kPeer, 0, submap);
@@ -52,7 +52,7 @@ TEST(ItemRules, refuses_and_counts_what_breaks_a_rule) {
 }
 
 TEST(ItemRules, refuses_alignments_with_a_bad_mode) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   const auto refused = [&](const std::function<void(graph::Alignment&)>& spoil) {
     auto alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 0);

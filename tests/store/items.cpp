@@ -1,7 +1,5 @@
 #include "store/items.hpp"
 
-#include <stdlib.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -9,11 +7,6 @@
 namespace fleetmap::testing {
 
 AgentId agent(const std::string& name) { return AgentId::parse(name).value(); }
-
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "fleetmap_test_XXXXXX").string();
-  path_ = mkdtemp(name.data());
-}
 
 Bytes random_bytes(std::size_t size, std::uint32_t seed) {
   std::mt19937 random(seed);

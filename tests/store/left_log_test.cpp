@@ -9,6 +9,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "store/items.hpp"
 #include "store/power_cut_disk.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -18,11 +19,6 @@ using ::testing::HasSubstr;
 using testing::PowerCutDisk;
 using testing::random_bytes;
 namespace fs = std::filesystem;
-
-Bytes content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 void write(const fs::path& file, const Bytes& bytes) {
   std::ofstream(file, std::ios::binary)
@@ -50,7 +46,7 @@ class LeftLog : public ::testing::Test {
     disk_.restore_power();
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   const fs::path store_ = folder_ / "store.db";
   const fs::path log_file_ = store_.string() + "-wal", copy_ = store_.string() + "-left";
   const Bytes log_ = random_bytes(200'000, 2);
@@ -59,11 +55,11 @@ class LeftLog : public ::testing::Test {
 
 TEST_F(LeftLog, IsWrittenAgainAndSynced) {
   ASSERT_TRUE(write_again());
-  EXPECT_EQ(content_of(log_file_), log_);
+  EXPECT_EQ(testing::file_bytes(log_file_), log_);
   EXPECT_FALSE(fs::exists(copy_));
   EXPECT_EQ(disk_.syncs(), 2u) << "of the copy, and of the log";
   cut_the_power();
-  EXPECT_EQ(content_of(log_file_), log_);
+  EXPECT_EQ(testing::file_bytes(log_file_), log_);
 }
 
 /// Whenever the power goes, the next start has the whole log, be it torn meanwhile.
@@ -78,7 +74,7 @@ TEST_F(LeftLog, IsWholeAfterAPowerCutAtAnyOperation) {
       static_cast<void>(write_left_log_again(store_, disk.name()));
       disk.restore_power();
       ASSERT_TRUE(write_left_log_again(store_, disk.name()));
-      ASSERT_EQ(content_of(log_file_), log_) << "operation " << cut << ", seed " << seed;
+      ASSERT_EQ(testing::file_bytes(log_file_), log_) << "operation " << cut << ", seed " << seed;
       ASSERT_FALSE(fs::exists(copy_));
     }
   }
@@ -88,7 +84,7 @@ TEST_F(LeftLog, OfACutOffStartIsPutBackFromItsCopy) {
   write(copy_, copy_of(log_));
   write(log_file_, random_bytes(300'000, 3));
   ASSERT_TRUE(write_again());
-  EXPECT_EQ(content_of(log_file_), log_) << "the longer one is cut";
+  EXPECT_EQ(testing::file_bytes(log_file_), log_) << "the longer one is cut";
   EXPECT_FALSE(fs::exists(copy_));
 }
 
@@ -98,20 +94,20 @@ TEST_F(LeftLog, ACopyThatIsNotWholeIsDropped) {
     copy.resize(size);
     write(copy_, copy);
     ASSERT_TRUE(write_again());
-    EXPECT_EQ(content_of(log_file_), log_) << size;
+    EXPECT_EQ(testing::file_bytes(log_file_), log_) << size;
     EXPECT_FALSE(fs::exists(copy_));
   }
   Bytes damaged = copy_of(random_bytes(log_.size(), 3));
   damaged[77] ^= 1;
   write(copy_, damaged);
   ASSERT_TRUE(write_again());
-  EXPECT_EQ(content_of(log_file_), log_);
+  EXPECT_EQ(testing::file_bytes(log_file_), log_);
 }
 
 TEST_F(LeftLog, ThatCannotBeWrittenAgainIsLeftAsItIs) {
   disk_.fail_syncs(1);
   EXPECT_TRUE(write_again());
-  EXPECT_EQ(content_of(log_file_), log_);
+  EXPECT_EQ(testing::file_bytes(log_file_), log_);
   EXPECT_FALSE(fs::exists(copy_));
 }
 
@@ -123,7 +119,7 @@ TEST_F(LeftLog, ThatAPowerCutMayHaveTornIsNotOpenedBeforeItIsPutBack) {
   EXPECT_THAT(failed.error().message,
               AllOf(HasSubstr(copy_.string() + ": cannot be put back as " + log_file_.string()),
                     HasSubstr("check the disk")));
-  EXPECT_EQ(content_of(copy_), copy_of(log_)) << "for the next start";
+  EXPECT_EQ(testing::file_bytes(copy_), copy_of(log_)) << "for the next start";
   EXPECT_TRUE(write_again());
   EXPECT_FALSE(fs::exists(copy_));
 }

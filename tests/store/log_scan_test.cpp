@@ -9,17 +9,13 @@
 
 #include "fleetmap/core/bytes.hpp"
 #include "store/items.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::store {
 namespace {
 
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 namespace fs = std::filesystem;
-
-Bytes content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 void write(const fs::path& file, const Bytes& bytes) {
   std::ofstream(file, std::ios::binary)
@@ -55,7 +51,7 @@ class Running {
     run("COMMIT");
   }
 
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "running.db", log = folder / "running.db-wal";
   std::vector<std::size_t> commits;  ///< frames at the end of each, as SQLite counts them
 
@@ -80,7 +76,7 @@ TEST_P(LogScan, FindsThePagesThatSqliteRecovers) {
   ASSERT_EQ(sqlite3_open(killed.c_str(), &db), SQLITE_OK);
   ASSERT_EQ(sqlite3_exec(db, "PRAGMA wal_checkpoint(TRUNCATE)", nullptr, nullptr, nullptr), SQLITE_OK);
   sqlite3_close(db);
-  const Bytes log = content_of(running.log), recovered = content_of(killed);
+  const Bytes log = testing::file_bytes(running.log), recovered = testing::file_bytes(killed);
   ASSERT_GE(content.offset.size(), 2u);
   for (const auto& [page, offset] : content.offset) {
     ASSERT_LE(page * content.page_bytes, recovered.size());
@@ -103,7 +99,7 @@ std::size_t whole(const std::vector<std::size_t>& commits, std::size_t frames) {
 TEST(LogScanDamage, OfACutLogTheWholeTransactionsCount) {
   Running running(1024);
   for (int k = 0; k < 5; ++k) running.put(3);
-  const Bytes log = content_of(running.log);
+  const Bytes log = testing::file_bytes(running.log);
   const fs::path cut = running.folder / "cut";
   for (std::size_t frames = 0; frames <= running.commits.back(); ++frames) {
     for (const std::size_t more : {std::size_t{0}, std::size_t{500}}) {
@@ -118,7 +114,7 @@ TEST(LogScanDamage, OfACutLogTheWholeTransactionsCount) {
 TEST(LogScanDamage, AnyChangedByteEndsTheLogBeforeItsTransaction) {
   Running running(512);
   for (int k = 0; k < 4; ++k) running.put(2);
-  const Bytes log = content_of(running.log);
+  const Bytes log = testing::file_bytes(running.log);
   const fs::path damaged = running.folder / "damaged";
   const std::size_t frame_bytes = end_of_frames(1, 512) - end_of_frames(0, 512);
   for (std::size_t frame = 0; frame < running.commits.back(); ++frame) {
@@ -135,7 +131,7 @@ TEST(LogScanDamage, AnyChangedByteEndsTheLogBeforeItsTransaction) {
 TEST(LogScanDamage, AFileThatIsNoLogIsEmpty) {
   Running running(512);
   running.put(2);
-  const Bytes log = content_of(running.log);
+  const Bytes log = testing::file_bytes(running.log);
   const fs::path other = running.folder / "other";
   const auto expect_empty = [&] {
     const LogContent content = scan_log(other);

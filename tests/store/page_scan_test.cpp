@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
 /// Values of a record that own their bytes.
@@ -122,7 +122,7 @@ class PageScan : public ::testing::TestWithParam<std::tuple<int, const char*>> {
 
 TEST_P(PageScan, FindsEveryRecordAsItWasPut) {
   const auto [page_bytes, kind] = GetParam();
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   std::set<Record> expected;
   {
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, PageScan,
                                             ::testing::Values("", "WITHOUT ROWID")));
 
 TEST(PageScanOfDamage, AFileWithoutItsHeaderIsReadInTheUsualPages) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   std::set<Record> expected;
   {
@@ -152,7 +152,7 @@ TEST(PageScanOfDamage, AFileWithoutItsHeaderIsReadInTheUsualPages) {
 }
 
 TEST(PageScanOfDamage, PagesOfTheLogReplaceThoseOfTheFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   Filled filled(file, 4096, "");
   filled.put("old", 1, Bytes(300, 1));
@@ -170,7 +170,7 @@ TEST(PageScanOfDamage, PagesOfTheLogReplaceThoseOfTheFile) {
 }
 
 TEST(PageScanOfDamage, PagesBehindThoseOfTheLogAreReadFromTheFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   Filled filled(file, 4096, "");
   filled.put_many(4096);
@@ -184,7 +184,7 @@ TEST(PageScanOfDamage, PagesBehindThoseOfTheLogAreReadFromTheFile) {
 
 /// Their numbers take the longest form.
 TEST(PageScanOfDamage, RowsOfNegativeNumbersAreFound) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   {
     Filled filled(file, 4096, "");
@@ -194,7 +194,7 @@ TEST(PageScanOfDamage, RowsOfNegativeNumbersAreFound) {
 }
 
 TEST(PageScanOfDamage, ARecordWhoseChainOfPagesIsACircleIsLeftOut) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   {
     Filled filled(file, 4096, "");
@@ -216,7 +216,7 @@ TEST(PageScanOfDamage, ARecordWhoseChainOfPagesIsACircleIsLeftOut) {
 }
 
 TEST(PageScanOfDamage, NoDamageStopsIt) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "some.db";
   {
     Filled filled(file, 1024, "WITHOUT ROWID");
@@ -234,7 +234,7 @@ TEST(PageScanOfDamage, NoDamageStopsIt) {
 }
 
 TEST(PageScanOfDamage, OnlyAMissingFileFails) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto none = [](std::span<const Value>) { FAIL(); };
   const Status missing = scan_records(folder / "missing.db", none);
   ASSERT_FALSE(missing);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fleetmap/core/bytes.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::testing {
 namespace {
@@ -50,11 +51,6 @@ struct Entry {
   std::shared_ptr<Content> durable;
   std::shared_ptr<Content> now;
 };
-
-Bytes read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 enum class Survival { kNothing, kPrefix, kSectors };
 
@@ -175,7 +171,7 @@ struct PowerCutDisk::State {
     if (state->cut) return SQLITE_CANTOPEN;
     const bool kept = (flags & (SQLITE_OPEN_MAIN_DB | SQLITE_OPEN_MAIN_JOURNAL | SQLITE_OPEN_WAL)) != 0;
     const bool existed = path != nullptr && fs::exists(path);
-    Bytes before = kept && existed && !state->entries.contains(path) ? read(path) : Bytes{};
+    Bytes before = kept && existed && !state->entries.contains(path) ? testing::file_bytes(path) : Bytes{};
     const int code = state->system->xOpen(state->system, path, file, flags, flags_out);
     if (code != SQLITE_OK) return code;
     auto* e = new (reinterpret_cast<char*>(file) + extra_offset) Extra;

@@ -128,7 +128,7 @@ class Workload {
     unsynced_.value = std::max(unsynced_.value, promised_.value);
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_ / "store.db";
   std::mt19937 random_;
   PowerCutDisk disk_;
@@ -178,7 +178,7 @@ TEST(PowerCut, LosesNothingThatWasSyncedThoughSyncsFailedBeforeKills) {
 /// Data that a failed sync lost are written again before the next sync counts.
 TEST(PowerCut, ASyncAfterOneThatFailedKeepsWhatThatOneLost) {
   for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const testing::ScratchFolder folder;
+    const testing::TemporaryFolder folder;
     PowerCutDisk disk(seed);
     StoreConfig config;
     config.file_system = disk.name();
@@ -206,7 +206,7 @@ TEST(PowerCut, ASyncAfterOneThatFailedKeepsWhatThatOneLost) {
 /// Data that a killed program did not sync are readable at its next start, which does not show that they are
 /// on the disk.
 TEST(PowerCut, TheNextStartKeepsWhatAKilledProgramLost) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   PowerCutDisk disk(1);
   StoreConfig config;
   config.file_system = disk.name();

@@ -32,7 +32,7 @@ std::string refusal_on_a_read_only_disk(const std::filesystem::path& folder) {
 }
 
 TEST(ReadOnlyDisk, AStoreThereIsRefusedWithItsPathAndWhatToDo) {
-  const testing::ScratchFolder folder;
+  const testing::TemporaryFolder folder;
   const std::filesystem::path disk = folder / "disk";
   std::filesystem::create_directory(disk);
   std::array<int, 2> ends{};

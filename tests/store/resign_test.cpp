@@ -10,13 +10,13 @@ using testing::agent;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(Resign, drops_what_is_not_signed_and_gives_a_contested_name_to_the_signed_content) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "store.db";
   const Bytes submap = random_bytes(700, 1);
   const auto node = [&](const AgentId& maker, std::uint32_t seq, double east) {

@@ -57,7 +57,7 @@ class SalvageTest : public ::testing::Test {
     EXPECT_EQ(store->meta("value").value(), kValue);
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   const fs::path file_ = folder_ / "store.db";
 };
 

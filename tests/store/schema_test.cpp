@@ -8,6 +8,7 @@
 
 #include "fleetmap/store/store.hpp"
 #include "store/items.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -35,7 +36,7 @@ class Schema : public ::testing::Test {
   }
   std::int64_t number(const char* sql) const { return db_.integer(sql).value(); }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   const fs::path file_ = folder_ / "store.db";
   Database db_ = Database::open(file_, false).value();
 };
@@ -109,9 +110,7 @@ TEST_F(Schema, AnOwnerThatWasDamagedCountsAsNone) {
 
 /// The tables of version 3 with what stops the step to version 5.
 TEST_F(Schema, AMigrationThatFailsLeavesTheStoreWhatItWas) {
-  std::ostringstream sql;
-  sql << std::ifstream(fs::path(FLEETMAP_SOURCE_DIR) / "tests/store/versions/3.sql").rdbuf();
-  run(sql.str());
+  run(testing::file_text(FLEETMAP_SOURCE_DIR "/tests/store/versions/3.sql"));
   ASSERT_EQ(number("PRAGMA user_version"), 3);
   const char* hashed = "SELECT count(*) FROM pragma_table_info('node') WHERE name = 'hash'";
   run("ALTER TABLE node ADD COLUMN signature");

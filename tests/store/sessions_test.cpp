@@ -15,10 +15,10 @@ class SessionsTest : public ::testing::Test {
  protected:
   Store open() { return std::move(Store::open(folder_ / "store.db", kSelf).value()); }
   /// Gives these numbers, one after the other.
-  static Sessions::Draw numbers(std::vector<std::uint16_t> given) {
-    return [given, k = std::size_t{0}]() mutable { return given.at(k++); };
+  static Sessions::Draw numbers(std::vector<std::uint16_t> drawn) {
+    return [drawn, k = std::size_t{0}]() mutable { return drawn.at(k++); };
   }
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 TEST_F(SessionsTest, AreKnownByTheirOrderAfterARestart) {

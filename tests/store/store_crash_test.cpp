@@ -75,7 +75,7 @@ TEST(StoreCrash, kill_9_loses_nothing_that_was_acknowledged) {
   std::mt19937 random(1);
   for (int k = 0; k < kills() && !HasFailure(); ++k) {
     const std::uint32_t kill_after = 1 + static_cast<std::uint32_t>(random()) % (k % 4 == 0 ? 400u : 40u);
-    const testing::ScratchFolder folder;
+    const testing::TemporaryFolder folder;
     int pipe_ends[2];
     ASSERT_EQ(pipe(pipe_ends), 0);
     const pid_t writer = fork();

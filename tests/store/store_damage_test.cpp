@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -98,7 +98,7 @@ class StoreDamage : public ::testing::Test {
     expect_whole_but(*store, nodes, alignments, submaps);
   }
 
-  const ScratchFolder folder_;
+  const TemporaryFolder folder_;
   const fs::path file_ = folder_ / "store.db";
 };
 
@@ -229,7 +229,7 @@ class StoreLog : public ::testing::Test {
     EXPECT_EQ(store->node_set().size(), count);
   }
 
-  const ScratchFolder folder_;
+  const TemporaryFolder folder_;
   const fs::path running_ = folder_ / "running.db", file_ = folder_ / "store.db";
   const fs::path log_ = file_.string() + "-wal";
   std::vector<std::uintmax_t> size_;  ///< of the log before each node, and after the last

@@ -14,13 +14,13 @@ using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
 using testing::run_sql;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(StoreLoad, keeps_signatures_and_checks_them_with_the_row) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "store.db";
   const auto with_signature = [](auto item, std::uint8_t fill) {
     item.signature.emplace().fill(fill);
@@ -51,7 +51,7 @@ TEST(StoreLoad, keeps_signatures_and_checks_them_with_the_row) {
 }
 
 TEST(StoreLoad, drops_and_names_damaged_rows_and_takes_their_items_again) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "store.db";
   {
     auto store = Store::open(path, kSelf).value();

@@ -31,7 +31,7 @@ class OpenState : public ::testing::Test {
     return state_.db->integer(("SELECT count(*) FROM " + table).c_str()).value();
   }
 
-  testing::ScratchFolder folder_;
+  testing::TemporaryFolder folder_;
   StoreState state_;
 };
 

@@ -18,13 +18,13 @@ using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
 using testing::run_sql;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Bytes submap = random_bytes(30'000, 3);
   const auto node = make_node(kSelf, 0, submap);
   const auto alignment = make_alignment({kSelf, 0}, {kPeer, 4}, kPeer, 2);
@@ -66,7 +66,7 @@ TEST(Store, gives_items_back_bit_for_bit_after_reopening) {
 }
 
 TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto refusal = [&](const std::string& name) {
     const auto store = Store::open(folder / name, kSelf);
     return store ? std::string("opened") : store.error().message;
@@ -86,7 +86,7 @@ TEST(Store, says_what_is_wrong_with_a_file_that_is_no_store) {
 }
 
 TEST(Store, has_one_writer_and_any_number_of_readers) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "store.db";
   auto store = Store::open(path, kSelf).value();
   ASSERT_EQ(store.put_node(make_node(kPeer, 7, Bytes{})).value(), Put::kAdded);
@@ -103,7 +103,7 @@ TEST(Store, has_one_writer_and_any_number_of_readers) {
 }
 
 TEST(Store, names_nodes_by_ranges) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   for (const std::uint32_t seq : {0u, 1u, 2u, 5u}) {
     ASSERT_EQ(store.put_node(make_node(kPeer, seq, Bytes{})).value(), Put::kAdded);
@@ -116,7 +116,7 @@ TEST(Store, names_nodes_by_ranges) {
 }
 
 TEST(Store, the_fingerprint_of_a_range_is_the_sum_of_those_of_its_names) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   StoreConfig config;
   config.power_safe = false;
   auto store = Store::open(folder / "a.db", kSelf, config).value();

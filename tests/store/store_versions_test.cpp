@@ -9,6 +9,7 @@
 
 #include "fleetmap/store/store.hpp"
 #include "store/items.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::store {
 namespace {
@@ -18,7 +19,7 @@ using ::testing::HasSubstr;
 using testing::make_alignment;
 using testing::make_node;
 using testing::random_bytes;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -54,11 +55,7 @@ class Sqlite {
   sqlite3* db_ = nullptr;
 };
 
-void read_sql(const fs::path& sql, const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(sql).rdbuf();
-  Sqlite(file).run(text.str());
-}
+void read_sql(const fs::path& sql, const fs::path& file) { Sqlite(file).run(testing::file_text(sql)); }
 
 void write_sql(const fs::path& file, const fs::path& sql) {
   Sqlite db(file);
@@ -101,7 +98,7 @@ void expect_filled(Store& store, std::int64_t version) {
 class StoreVersion : public ::testing::TestWithParam<std::int64_t> {};
 
 TEST_P(StoreVersion, IsBroughtToThePresentOneWithAllThatItHolds) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "store.db";
   if (!fs::exists(sql_of(GetParam()))) {
     ASSERT_EQ(GetParam(), Store::kSchemaVersion) << sql_of(GetParam()) << " is missing: restore it";
@@ -131,7 +128,7 @@ TEST_P(StoreVersion, IsBroughtToThePresentOneWithAllThatItHolds) {
 }
 
 TEST_P(StoreVersion, IsSalvagedWithAllThatItHolds) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "store.db";
   read_sql(sql_of(GetParam()), file);
   std::fstream(file, std::ios::in | std::ios::out | std::ios::binary) << std::string(100, '\0');
@@ -141,7 +138,7 @@ TEST_P(StoreVersion, IsSalvagedWithAllThatItHolds) {
 }
 
 TEST_P(StoreVersion, IsNotSalvagedForAnotherAgent) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "store.db";
   read_sql(sql_of(GetParam()), file);
   std::fstream(file, std::ios::in | std::ios::out | std::ios::binary) << std::string(100, '\0');
@@ -152,7 +149,7 @@ TEST_P(StoreVersion, IsNotSalvagedForAnotherAgent) {
 
 /// Nothing but its form shows that a row of version 3 is whole.
 TEST(StoreVersion3, RowsThatAreNotWholeAreNotSalvaged) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const fs::path file = folder / "store.db";
   read_sql(sql_of(3), file);
   // A sector of a node is lost.

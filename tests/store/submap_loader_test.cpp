@@ -31,7 +31,7 @@ class SubmapLoading : public ::testing::Test {
     EXPECT_EQ(store_.put_node_with_submap(make_node(id.agent, id.seq, submap), submap).value(), Put::kAdded);
   }
 
-  const testing::ScratchFolder folder_;
+  const testing::TemporaryFolder folder_;
   Store store_ = Store::open(folder_ / "store.db", kSelf).value();
 };
 

@@ -14,13 +14,13 @@ using ::testing::HasSubstr;
 using testing::make_node;
 using testing::random_bytes;
 using testing::run_sql;
-using testing::ScratchFolder;
+using testing::TemporaryFolder;
 
 const AgentId kSelf = agent("r1");
 const AgentId kPeer = agent("r2");
 
 TEST(SubmapRows, keeps_the_chunks_of_a_download_over_a_restart) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Bytes submap = random_bytes(3 * Store::kChunkBytes + 5, 1);
   const NodeId id{kPeer, 0};
   const auto chunk = [&](std::uint32_t index) {
@@ -52,7 +52,7 @@ TEST(SubmapRows, keeps_the_chunks_of_a_download_over_a_restart) {
 }
 
 TEST(SubmapRows, drops_a_download_with_the_wrong_content) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   const Bytes submap = random_bytes(Store::kChunkBytes + 7, 1);
   const NodeId id{kPeer, 0};
@@ -67,7 +67,7 @@ TEST(SubmapRows, drops_a_download_with_the_wrong_content) {
 }
 
 TEST(SubmapRows, a_node_without_a_submap_has_nothing_that_could_be_damaged) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   auto store = Store::open(folder / "store.db", kSelf).value();
   graph::Node node = make_node(kPeer, 0, {});
   node.submap_hash = content_hash(random_bytes(9, 1));  // of a liar
@@ -78,7 +78,7 @@ TEST(SubmapRows, a_node_without_a_submap_has_nothing_that_could_be_damaged) {
 }
 
 TEST(SubmapRows, drops_a_submap_that_the_disk_damaged) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder / "store.db";
   const Bytes submap = random_bytes(5000, 1);
   {

@@ -1,30 +1,26 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 namespace fleetmap::testing {
 
-/// A folder of one test, or of all tests of a suite, gone with its object.
+/// A folder of its own, gone with its object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto& tests = *::testing::UnitTest::GetInstance();
-    std::string name = std::string("fleetmap_") + tests.current_test_suite()->name() + "_";
-    if (const auto* test = tests.current_test_info()) name += std::string(test->name()) + "_";
-    path_ = std::filesystem::temp_directory_path() / (name + std::to_string(getpid()));
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "fleetmap_test_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+  /// Makes the folders on the way. Returns the file's path.
   std::filesystem::path write(const std::filesystem::path& name, const std::string& content) const {
     const auto file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

@@ -38,13 +38,13 @@ graph::Node node_at_walls(const AgentId& agent, std::uint32_t seq, const Pose& T
   node.G.reset();
   node.T_odom_base = T_enu_odom.inverse() * T_enu_base;
   node.up_in_base = Eigen::Vector3d::UnitZ();
-  std::vector<Eigen::Vector3f> seen;
+  std::vector<Eigen::Vector3f> visible;
   const Eigen::Isometry3f T = T_enu_base.inverse().cast<float>();
   for (const Eigen::Vector3f& p : walled_site()) {
     const Eigen::Vector3f q = T * p;
-    if (q.head<2>().norm() < 50.0f) seen.push_back(q);
+    if (q.head<2>().norm() < 50.0f) visible.push_back(q);
   }
-  node.descriptor = place::Descriptor::of(seen, node.up_in_base).encode();
+  node.descriptor = place::Descriptor::of(visible, node.up_in_base).encode();
   return node;
 }
 

@@ -56,14 +56,14 @@ class StallDetector {
   StallDetector(std::string thread, Duration limit);
   /// Reports a stall when it is noticed and when it is over, and those that follow within a minute as one
   /// line with their count.
-  std::vector<StallNews> check(SteadyTime now, const ThreadActivity& seen);
+  std::vector<StallNews> check(SteadyTime now, const ThreadActivity& activity);
   const StallCounters& counters() const { return counters_; }
 
  private:
   struct Pause {
     SteadyTime begun, ended;
   };
-  void note_pause(SteadyTime now, const ThreadActivity& seen);
+  void note_pause(SteadyTime now, const ThreadActivity& activity);
   /// From `begun` to `ended`, without the pauses of the process.
   Duration taken(SteadyTime begun, SteadyTime ended) const;
   /// Counts the stall; true if it is new.

@@ -28,24 +28,24 @@ struct Change {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();    ///< m: length and width, horizontal, and height
   double heading_rad = 0.0;                          ///< of its length, counter-clockwise from x
   std::size_t cells = 0;                             ///< of its surface
-  std::size_t seen_through = 0;                      ///< of these, cells that the other day saw through
+  std::size_t traversed = 0;                         ///< of these, cells that the other day saw through
   std::vector<Eigen::Vector3f> points;               ///< one a cell
-  /// [0, 1]: 1 less the size of the largest false change within one day over `seen_through`.
+  /// [0, 1]: 1 less the size of the largest false change within one day over `traversed`.
   double confidence = 0.0;
   /// Share of its surface that the other day saw through, [0, 1]. The rest is hidden, or against the sky.
-  double seen_share() const { return static_cast<double>(seen_through) / static_cast<double>(cells); }
+  double traversed_share() const { return static_cast<double>(traversed) / static_cast<double>(cells); }
 };
 
 struct Changes {
   std::vector<Change> changes;  ///< largest first
   double noise_m = 0.0;         ///< m, median distance of a surface of one day to itself, seen from elsewhere
   double misfit_m = 0.0;        ///< m, the same between the two days
-  double least_m = 0.0;         ///< m, median distance from which surfaces count as different
-  std::size_t least_cells = 0;  ///< size of the largest false change within one day, and one more
+  double min_distance_m = 0.0;  ///< m, median distance from which surfaces count as different
+  std::size_t min_cells = 0;    ///< size of the largest false change within one day, and one more
   std::size_t compared = 0;     ///< cells of either map that the other day saw, or saw through
   std::size_t unknown = 0;      ///< cells of either map that the other day did not see: no statement
-  std::vector<Eigen::Vector3f> same;      ///< cells of `after` that were there before
-  std::vector<Eigen::Vector3f> not_seen;  ///< those that are `unknown`
+  std::vector<Eigen::Vector3f> same;        ///< cells of `after` that were there before
+  std::vector<Eigen::Vector3f> unobserved;  ///< those that are `unknown`
 };
 
 /// Compares two maps of a site that lie in one frame. A cell of one map is changed if no surface of the other

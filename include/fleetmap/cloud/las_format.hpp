@@ -40,8 +40,8 @@ std::optional<Eigen::Vector3i> las_steps(const Eigen::Vector3d& position, const 
 /// Sums over the points of a file, for its header.
 struct LasTotals {
   std::uint64_t points = 0;
-  Eigen::Vector3i least = {0, 0, 0};  ///< steps; of no points zero
-  Eigen::Vector3i greatest = {0, 0, 0};
+  Eigen::Vector3i min = {0, 0, 0};  ///< steps; of no points zero
+  Eigen::Vector3i max = {0, 0, 0};
 
   void add(const Eigen::Vector3i& steps);
 };

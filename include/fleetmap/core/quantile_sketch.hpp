@@ -12,8 +12,8 @@ namespace fleetmap {
 /// exact.
 class QuantileSketch {
  public:
-  static constexpr double kRelativeError = 0.005;  ///< of a quantile within [kLeast, kMost]
-  static constexpr double kLeast = 1e-6, kMost = 1e4;
+  static constexpr double kRelativeError = 0.005;  ///< of a quantile within [kMin, kMax]
+  static constexpr double kMin = 1e-6, kMax = 1e4;
 
   void add(double value);
   std::uint64_t count() const { return count_; }

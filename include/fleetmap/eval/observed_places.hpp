@@ -12,8 +12,8 @@ namespace fleetmap::eval {
 /// Which robots saw which places: cubes of a grid in the frame of the points.
 class ObservedPlaces {
  public:
-  /// A robot has seen a cube of `edge` m once `least` of its points lie in it.
-  ObservedPlaces(double edge, std::uint32_t least);
+  /// A robot has seen a cube of `edge` m once `min_points` of its points lie in it.
+  ObservedPlaces(double edge, std::uint32_t min_points);
   ~ObservedPlaces();
   ObservedPlaces(ObservedPlaces&&) noexcept;
   ObservedPlaces& operator=(ObservedPlaces&&) noexcept;

@@ -27,7 +27,7 @@ struct CloudSenderStats {
 
 struct CloudReceiverStats {
   std::uint64_t received = 0;  ///< whole clouds with the right hash
-  std::uint64_t given_up = 0;
+  std::uint64_t abandoned = 0;
   std::uint64_t bad_hash = 0;    ///< whole clouds with the wrong hash
   std::uint64_t duplicates = 0;  ///< fragments held already
   std::uint64_t unasked = 0;     ///< fragments of clouds that were not requested

@@ -10,7 +10,7 @@ namespace fleetmap::fault_injection {
 
 struct RunConfig {
   /// s after the last fault, in which all must have converged.
-  Duration settling = std::chrono::minutes(10);
+  Duration convergence_timeout = std::chrono::minutes(10);
   std::set<Invariant> invariants;  ///< that are checked
   bool trace = false;
   /// Robots sign their items, forged items bear wrong signatures, and a liar alters items of others that it

@@ -35,10 +35,10 @@ Pose make_pose(const Eigen::Quaterniond& q, const Eigen::Vector3d& t);
 Eigen::Matrix3d rotation_from_rpy(double roll, double pitch, double yaw);
 /// Inverse of rotation_from_rpy: (roll, pitch, yaw), radians.
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R);
-/// The least rotation that turns `from` into the direction of `to`, of any lengths. Identity where one of
+/// The minimal rotation that turns `from` into the direction of `to`, of any lengths. Identity where one of
 /// them is zero or not finite.
-Eigen::Quaterniond least_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
-/// The least rotation that turns `up` to z: a frame to its level frame.
+Eigen::Quaterniond minimal_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+/// The minimal rotation that turns `up` to z: a frame to its level frame.
 Eigen::Matrix3d levelling(const Eigen::Vector3d& up);
 /// Wraps to (-pi, pi].
 double wrap_angle(double radians);

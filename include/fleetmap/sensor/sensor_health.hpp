@@ -50,7 +50,7 @@ class SensorHealth {
   double wheel_squares_ = 0.0, products_ = 0.0;  ///< of turn rates, by which gyro and wheels are compared
   std::size_t compared_rates_ = 0;
   std::uint64_t scans_ = 0, missing_scans_ = 0;
-  std::size_t told_ = 0;  ///< findings that take_warnings() gave
+  std::size_t reported_ = 0;  ///< findings that take_warnings() gave
   std::uint64_t refused_ = 0;
   std::optional<double> force_scale_;  ///< once the unit is decided, by the median of the first norms
   std::optional<Stamp> last_scan_;

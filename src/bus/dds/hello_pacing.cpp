@@ -68,16 +68,16 @@ HelloPacing::Clock::duration HelloPacing::pause_after(int hellos_sent, Clock::du
 HelloPacing::Clock::duration HelloPacing::longer_pause(Clock::duration pause, double others,
                                                        Clock::duration announcement) const {
   // In a small fleet a robot that comes into reach again must be found within ten seconds.
-  const Clock::duration least = to_duration(kFirstPause);
-  const Clock::duration most = std::min<Clock::duration>(announcement, kMaxPause + to_duration(others));
-  return std::clamp(2 * pause, least, std::max(most, least));
+  const Clock::duration min_pause = to_duration(kFirstPause);
+  const Clock::duration max_pause = std::min<Clock::duration>(announcement, kMaxPause + to_duration(others));
+  return std::clamp(2 * pause, min_pause, std::max(max_pause, min_pause));
 }
 
 HelloPacing::Clock::duration HelloPacing::pause_between(double others, std::size_t bytes,
                                                         Clock::time_point now) const {
   const bool only_one = newcomer_ == Clock::time_point{} && now - first_answer_ < kNewcomerFor;
-  const double most = only_one ? kNewcomerShares : kLaterShares;
-  const double shares = fleet_is_connected(now) ? std::min(most, others + 1.0) : 1.0;
+  const double max_shares = only_one ? kNewcomerShares : kLaterShares;
+  const double shares = fleet_is_connected(now) ? std::min(max_shares, others + 1.0) : 1.0;
   // With keys a Hello counts for the three that a pair needs.
   const double bits = config_.keys ? kGreetingBits : 8.0 * static_cast<double>(bytes);
   return to_duration((others + 1.0) * bits / (shares * kMaxPart * config_.fleet_bits_per_second));

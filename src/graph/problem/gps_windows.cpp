@@ -38,9 +38,9 @@ Vector6d variance_of(const Node& node) {
 /// True if the window holds no fix: without fixes the variances of height and heading only grow. Those of
 /// east and north may shrink when the robot returns to a position of small heading error, but not below
 /// `least`.
-bool is_dead_reckoned(const GpsWindow& window, const Vector6d& least) {
+bool is_dead_reckoned(const GpsWindow& window, const Vector6d& min_variance) {
   return window.variance(2) > window.before(2) && window.variance(5) > window.before(5) &&
-         window.variance.head<2>().sum() > least.head<2>().sum();
+         window.variance.head<2>().sum() > min_variance.head<2>().sum();
 }
 
 /// Share of a filter's error in one axis that remains after some time. Its variance V_a grows by dead

@@ -85,10 +85,11 @@ std::optional<double> distance_of(const JointHypotheses& joint, const Keep& keep
 
 /// The least of distance_of() with one hypothesis left out.
 double distance_without_one(const JointHypotheses& joint) {
-  double least = std::numeric_limits<double>::infinity();
+  double min_distance = std::numeric_limits<double>::infinity();
   for (std::size_t one = 0; one < joint.size(); ++one)
-    least = std::min(least, distance_of(joint, [&](std::size_t k) { return k != one; }).value_or(least));
-  return least;
+    min_distance = std::min(
+        min_distance, distance_of(joint, [&](std::size_t k) { return k != one; }).value_or(min_distance));
+  return min_distance;
 }
 
 /// The agent without whose hypotheses the rest is consistent, and by far the likeliest explanation. There may
@@ -96,18 +97,18 @@ double distance_without_one(const JointHypotheses& joint) {
 std::optional<AgentId> likeliest_cause(const BestHypotheses& best, const JointHypotheses& joint,
                                        const Peers& peers) {
   std::optional<AgentId> found;
-  double least = std::numeric_limits<double>::infinity(), second = distance_without_one(joint);
+  double min_distance = std::numeric_limits<double>::infinity(), second = distance_without_one(joint);
   for (const auto& entry : peers) {
     if (entry.second.size() < kMinPeers) continue;
     const auto distance = distance_of(joint, [&](std::size_t k) { return !best.concerns(k, entry.first); });
     if (!distance) continue;
-    second = std::min(second, std::max(least, *distance));
-    if (*distance < least) {
-      least = *distance;
+    second = std::min(second, std::max(min_distance, *distance));
+    if (*distance < min_distance) {
+      min_distance = *distance;
       found = entry.first;
     }
   }
-  if (second - least < kMinDifference) return {};
+  if (second - min_distance < kMinDifference) return {};
   return found;
 }
 

@@ -150,12 +150,12 @@ std::vector<Indices> extended_members(std::span<const Candidate> all, std::span<
     if (assigned.contains(c)) continue;
     const LinearisedCandidate candidate = linearise(all, c, solved);
     std::optional<std::size_t> likeliest;
-    double least = 0.0;
+    double min_cost = 0.0;
     for (std::size_t k = 0; k < members.size(); ++k) {
       const ConditionalResidual residual = residual_by_nearest(all, members[k], candidate);
-      if (!residual.is_consistent() || (likeliest && !(residual.cost < least))) continue;
+      if (!residual.is_consistent() || (likeliest && !(residual.cost < min_cost))) continue;
       likeliest = k;
-      least = residual.cost;
+      min_cost = residual.cost;
     }
     if (likeliest) extended[*likeliest].push_back(c);
   }

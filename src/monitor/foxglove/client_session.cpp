@@ -58,17 +58,17 @@ void ClientSession::cut() {
 
 void ClientSession::on_message() {
   if (!socket_.got_text())
-    return tell(StatusLevel::warning, "publishing and calling services is not offered here");
+    return send_status(StatusLevel::warning, "publishing and calling services is not offered here");
   const auto bytes = buffer_.data();
   const auto request = parse_client_text({static_cast<const char*>(bytes.data()), bytes.size()});
-  if (!request) return tell(StatusLevel::error, request.error().message);
+  if (!request) return send_status(StatusLevel::error, request.error().message);
   if (const std::string problem = subscriptions_.apply(*request, state_.feed.channels()); !problem.empty())
-    tell(StatusLevel::warning, problem);
+    send_status(StatusLevel::warning, problem);
   state_.feed.build_map();
   write_next();
 }
 
-void ClientSession::tell(StatusLevel level, const std::string& text) {
+void ClientSession::send_status(StatusLevel level, const std::string& text) {
   if (!open_) return;
   texts_.push_back(status(level, text));
   if (texts_.size() > kMaxTexts) {  // it writes nonsense faster than it reads what that is

@@ -24,12 +24,12 @@ class ClientSession : public Client, public std::enable_shared_from_this<ClientS
   void run(const Request& request, const std::string& subprotocol);
   void wake() override { write_next(); }
   bool wants_map() const override { return open_ && subscriptions_.has(FleetChannels::kMapChannel); }
-  void warn(const std::string& text) override { tell(StatusLevel::warning, text); }
+  void warn(const std::string& text) override { send_status(StatusLevel::warning, text); }
 
  private:
   void read();
   void on_message();
-  void tell(StatusLevel level, const std::string& text);
+  void send_status(StatusLevel level, const std::string& text);
   void write_next();
   std::string next_text();
   template <class Buffers>

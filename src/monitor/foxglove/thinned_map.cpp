@@ -38,7 +38,7 @@ void ThinnedMap::begin(std::shared_ptr<const FleetView> view) {
   parts_.clear();
   unreadable_.clear();
   next_ = 0;
-  left_ = most_points_;
+  left_ = max_points_;
   const std::vector<AgentId> robots = robots_of(*view_);
   std::set<NodeId> present;
   for (std::size_t k = 0; k < view_->nodes.size(); ++k) {
@@ -99,7 +99,7 @@ void ThinnedMap::append(const Part& part, Bytes& points) const {
 
 Bytes ThinnedMap::message() const {
   Bytes points;
-  points.reserve((most_points_ - left_) * kPointBytes);
+  points.reserve((max_points_ - left_) * kPointBytes);
   for (const Part& part : parts_) append(part, points);
   CdrWriter cdr;
   write(cdr, view_ ? newest_stamp(*view_) : Stamp{});

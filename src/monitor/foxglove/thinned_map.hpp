@@ -22,7 +22,7 @@ class ThinnedMap {
   using Cloud = std::shared_ptr<const QuantisedCloud>;
   /// The submap of a node, in the node's frame.
   using Load = std::function<Result<Cloud>(const graph::Node& node)>;
-  ThinnedMap(std::size_t most_points, Load load) : most_points_(most_points), load_(std::move(load)) {}
+  ThinnedMap(std::size_t max_points, Load load) : max_points_(max_points), load_(std::move(load)) {}
 
   /// Starts over with the submaps of `view`.
   void begin(std::shared_ptr<const FleetView> view);
@@ -46,7 +46,7 @@ class ThinnedMap {
   bool holds(const NodeId& id, std::size_t points) const;
   void append(const Part& part, Bytes& points) const;
 
-  std::size_t most_points_;
+  std::size_t max_points_;
   Load load_;
   std::shared_ptr<const FleetView> view_;
   std::vector<Part> parts_;

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import {kPointSize, type PointLook} from './point_material';
+import {kPointSize, type PointStyle} from './point_material';
 import {kBlock, type PointPool} from './point_pool';
 import {rampOf, shaded, turbo} from './ramp';
 import type {PointPicture, View} from './shading';
@@ -19,7 +19,7 @@ export class CpuPoints {
   private ramps = new Map<string, Uint32Array>();
   private turbo = new Uint32Array(rampOf(turbo).buffer);
 
-  constructor(private pool: PointPool, private look: PointLook) {}
+  constructor(private pool: PointPool, private style: PointStyle) {}
 
   render({camera, width, height}: View, withDepths: boolean): PointPicture {
     const picture = this.resize(width, height);
@@ -46,12 +46,12 @@ export class CpuPoints {
   }
 
   /** The colours of a block: of height or intensity, or of the block as a whole. */
-  private ramp(look: Float32Array): Uint32Array {
-    if (this.look.mode.value !== 0) return this.turbo;
-    const key = look.slice(12, 15).join();
+  private ramp(style: Float32Array): Uint32Array {
+    if (this.style.mode.value !== 0) return this.turbo;
+    const key = style.slice(12, 15).join();
     let ramp = this.ramps.get(key);
     if (!ramp) {
-      const colour = new THREE.Color(look[12], look[13], look[14]);
+      const colour = new THREE.Color(style[12], style[13], style[14]);
       ramp = new Uint32Array(rampOf((h) => shaded(colour, h)).buffer);
       this.ramps.set(key, ramp);
     }
@@ -59,15 +59,15 @@ export class CpuPoints {
   }
 
   private drawBlock(block: number, points: number, VP: number[], width: number, height: number): void {
-    const look = this.pool.lookOf(block), v = this.pool.values, ramp = this.ramp(look);
-    const {mode, low, high, pixelsPerMetre, planar, ratio} = this.look;
+    const style = this.pool.styleOf(block), v = this.pool.values, ramp = this.ramp(style);
+    const {mode, low, high, pixelsPerMetre, planar, ratio} = this.style;
     // Row r of VP times the block's matrix, of steps of 1/32767.
     const row = (r: number, c: number) =>
-      (VP[r] * look[c] + VP[r + 4] * look[c + 4] + VP[r + 8] * look[c + 8] + (c === 3 ? VP[r + 12] : 0)) / (c === 3 ? 1 : 32767);
+      (VP[r] * style[c] + VP[r + 4] * style[c + 4] + VP[r + 8] * style[c + 8] + (c === 3 ? VP[r + 12] : 0)) / (c === 3 ? 1 : 32767);
     const [xx, xy, xz, x1] = [row(0, 0), row(0, 1), row(0, 2), row(0, 3)], [yx, yy, yz, y1] = [row(1, 0), row(1, 1), row(1, 2), row(1, 3)];
     const [zx, zy, zz, z1] = [row(2, 0), row(2, 1), row(2, 2), row(2, 3)], [wx, wy, wz, w1] = [row(3, 0), row(3, 1), row(3, 2), row(3, 3)];
-    const per = 255 / Math.max(0.1, high.value - low.value), hx = (look[8] / 32767) * per, hy = (look[9] / 32767) * per, hz = (look[10] / 32767) * per;
-    const h1 = (look[11] - low.value) * per, byHeight = mode.value < 2, own = ramp[Math.round(255 * look[15])];
+    const per = 255 / Math.max(0.1, high.value - low.value), hx = (style[8] / 32767) * per, hy = (style[9] / 32767) * per, hz = (style[10] / 32767) * per;
+    const h1 = (style[11] - low.value) * per, byHeight = mode.value < 2, own = ramp[Math.round(255 * style[15])];
     const size = kPointSize.metres * pixelsPerMetre.value * ratio.value, least = kPointSize.least * ratio.value, most = kPointSize.most * ratio.value;
     const flat = planar.value > 0.5, pixels = this.pixels, depths = this.depths;
     for (let at = 4 * kBlock * block, end = at + 4 * points; at < end; at += 4) {

@@ -4,7 +4,7 @@ import {CpuPoints} from './cpu_points';
 import {type Edge, edgesOf} from './edges';
 import {GlPoints} from './gl_points';
 import {colourOf, type FleetNode, type State} from './model';
-import {pointLook} from './point_material';
+import {pointStyle} from './point_material';
 import {drawsOnCpu, type Effort, kStill_ms, Pace} from './pace';
 import {pointAt} from './picking';
 import {Shading} from './shading';
@@ -17,7 +17,7 @@ export type Layer = 'points' | 'paths' | 'nodes' | 'used' | 'unused' | 'rejected
 
 export type Hit = {node: string} | {edge: Edge};
 
-/** What the map tells of itself after each picture. */
+/** State of the map after each picture. */
 export interface Picture {
   drawn: number;
   total: number;
@@ -29,7 +29,7 @@ export interface Picture {
   range: [number, number];  // of the submaps' ages, s, or sigmas, m
 }
 
-const kModes: Record<ColourMode, number> = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3};  // of PointLook
+const kModes: Record<ColourMode, number> = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3};  // of PointStyle
 const kFov = 50;
 const kFar = 20_000;
 
@@ -49,7 +49,7 @@ export class FleetMap {
   private perspective = new THREE.PerspectiveCamera(kFov, 1, 0.5, kFar);
   private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
   private controls: {perspective: MapControls; plan: MapControls};
-  private look = pointLook();
+  private style = pointStyle();
   private mode: ColourMode = 'robot';
   readonly submaps: Submaps;
   private lines: Lines;
@@ -67,8 +67,8 @@ export class FleetMap {
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: !onCpu, alpha: true, preserveDrawingBuffer: true});
     this.renderer.autoClear = false;
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    this.submaps = new Submaps(this.look, () => this.draw());
-    this.points = onCpu ? new CpuPoints(this.submaps.pool, this.look) : new GlPoints(this.submaps.pool, this.renderer);
+    this.submaps = new Submaps(this.style, () => this.draw());
+    this.points = onCpu ? new CpuPoints(this.submaps.pool, this.style) : new GlPoints(this.submaps.pool, this.renderer);
     this.pace = new Pace({shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1});
     this.lines = new Lines(this.marks);
     for (const camera of [this.perspective, this.plan]) camera.up.set(0, 0, 1);
@@ -149,7 +149,7 @@ export class FleetMap {
 
   setColour(mode: ColourMode): void {
     this.mode = mode;
-    this.look.mode.value = kModes[mode];
+    this.style.mode.value = kModes[mode];
     this.draw();
   }
 
@@ -157,7 +157,7 @@ export class FleetMap {
   showOnly(hashes: ReadonlySet<string> | undefined): void {
     this.submaps.only = hashes;
     this.submaps.refresh();
-    this.look.mode.value = hashes ? 0 : kModes[this.mode];
+    this.style.mode.value = hashes ? 0 : kModes[this.mode];
     this.draw();
   }
 
@@ -177,11 +177,11 @@ export class FleetMap {
     this.control_.enabled = false;
     this.planar = planar;
     this.control_.enabled = true;
-    this.look_(target, span);
+    this.aim_(target, span);
   }
 
   /** Looks at `target` so that the picture is `span` metres high there. */
-  private look_(target: THREE.Vector3, span: number): void {
+  private aim_(target: THREE.Vector3, span: number): void {
     if (this.planar) {
       this.plan.position.copy(target).add(new THREE.Vector3(0, 0, kFar / 2));
       this.plan.zoom = 2 / span;
@@ -205,12 +205,12 @@ export class FleetMap {
     this.fitted = true;
     const size = box.getSize(new THREE.Vector3()), aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
     const span = Math.max(size.y, size.x / aspect) + 20;
-    this.look_(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.12 * span);
+    this.aim_(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.12 * span);
   }
 
   /** Brings a place into the middle, and near enough to see it. */
   goTo(p: THREE.Vector3): void {
-    this.look_(p, Math.min(this.metresPerPixel() * this.canvas.clientHeight, 60));
+    this.aim_(p, Math.min(this.metresPerPixel() * this.canvas.clientHeight, 60));
   }
 
   pan(right: number, up: number): void {
@@ -225,10 +225,10 @@ export class FleetMap {
   }
 
   zoom(factor: number): void {
-    this.look_(this.control_.target.clone(), (this.metresPerPixel() * this.canvas.clientHeight) / factor);
+    this.aim_(this.control_.target.clone(), (this.metresPerPixel() * this.canvas.clientHeight) / factor);
   }
 
-  /** Of a pixel at what is looked at. */
+  /** Size of a pixel at the target of the view. */
   metresPerPixel(): number {
     const height = Math.max(1, this.canvas.clientHeight);
     if (this.planar) return (this.plan.top - this.plan.bottom) / this.plan.zoom / height;
@@ -307,11 +307,11 @@ export class FleetMap {
     const camera = this.camera, height = Math.max(1, this.canvas.clientHeight);
     camera.updateMatrixWorld();
     const pixelAtOne = this.planar ? this.metresPerPixel() : (2 * Math.tan((kFov * Math.PI) / 360)) / height;
-    this.look.pixelsPerMetre.value = 1 / pixelAtOne;
-    this.look.planar.value = this.planar ? 1 : 0;
-    this.look.ratio.value = effort.ratio;
+    this.style.pixelsPerMetre.value = 1 / pixelAtOne;
+    this.style.planar.value = this.planar ? 1 : 0;
+    this.style.ratio.value = effort.ratio;
     const heights = this.submaps.heights();
-    if (heights) [this.look.low.value, this.look.high.value] = heights;
+    if (heights) [this.style.low.value, this.style.high.value] = heights;
     const range = this.putOnRamp();
     this.submaps.prepare(camera, this.planar, this.until, moving, effort.share);
     this.drawScene(camera, effort, pixelAtOne / effort.ratio);
@@ -319,7 +319,7 @@ export class FleetMap {
     for (const submap of this.submaps.all.values()) total += Math.max(0, submap.total);
     this.onPicture({
       drawn: this.layers.points ? this.submaps.drawn : 0, total, loading: this.submaps.loading, moving, metresPerPixel: this.metresPerPixel(), planar: this.planar,
-      heights: [this.look.low.value, this.look.high.value], range,
+      heights: [this.style.low.value, this.style.high.value], range,
     });
   }
 

@@ -115,7 +115,7 @@ export function metres(m: number): string {
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
 }
 
-// What a running robot sends once a second beyond its store (src/monitor/live_status.cpp).
+// A running robot sends this once a second beyond its store (src/monitor/live_status.cpp).
 
 export type LinkName = 'long_range' | 'short_range';
 

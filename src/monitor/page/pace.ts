@@ -11,7 +11,7 @@ const kFast_ms = 18;
 const kGoal_ms = 25;
 const kSteady = 8;    // fast frames before the effort grows
 const kLevels = 3;
-const kLeastShare = 1 / 4;
+const kMinShare = 1 / 4;
 const kCoarse = 0.6;  // pixels that are drawn along a side, of those that there are
 export const kStill_ms = 180;  // without a change: the view stands still
 
@@ -45,7 +45,7 @@ export class Pace {
   private adapt(step: number): void {
     this.fast = step < kFast_ms ? this.fast + 1 : 0;
     if (step > kSlow_ms) {
-      if (this.level === kLevels) this.share = Math.max(kLeastShare, this.share * Math.max(0.5, kGoal_ms / step));
+      if (this.level === kLevels) this.share = Math.max(kMinShare, this.share * Math.max(0.5, kGoal_ms / step));
       this.level = Math.min(kLevels, this.level + 1);
     } else if (this.fast >= kSteady) {
       this.fast = 0;

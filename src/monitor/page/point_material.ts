@@ -1,8 +1,8 @@
 import * as THREE from 'three';
 import {turboTexture} from './ramp';
 
-/** The look that all points share. */
-export interface PointLook {
+/** The style that all points share. */
+export interface PointStyle {
   mode: {value: number};       // 0 robot, 1 height, 2 intensity, 3 the submap's own share
   low: {value: number};        // m, of the colours of height
   high: {value: number};
@@ -13,13 +13,13 @@ export interface PointLook {
 
 export const kPointSize = {metres: 0.11, least: 1.7, most: 6};  // the latter two in pixels
 
-export function pointLook(): PointLook {
+export function pointStyle(): PointStyle {
   return {mode: {value: 0}, low: {value: 0}, high: {value: 1}, pixelsPerMetre: {value: 1}, planar: {value: 0}, ratio: {value: 1}};
 }
 
 const kVertex = /* glsl */ `
 attribute float intensity;
-uniform sampler2D looks;  // of each block of 256 points: three rows of its matrix, then colour and share
+uniform sampler2D styles;  // of each block of 256 points: three rows of its matrix, then colour and share
 uniform sampler2D turbo;
 uniform float mode, low, high, pixelsPerMetre, planar, ratio;
 varying vec3 vColour;
@@ -30,9 +30,9 @@ void main() {
   int block = gl_VertexID >> 8;
   ivec2 at = ivec2((block & 63) << 2, block >> 6);
   vec4 steps = vec4(position, 1.0);
-  vec3 world = vec3(dot(texelFetch(looks, at, 0), steps), dot(texelFetch(looks, at + ivec2(1, 0), 0), steps),
-                    dot(texelFetch(looks, at + ivec2(2, 0), 0), steps));
-  vec4 own = texelFetch(looks, at + ivec2(3, 0), 0);
+  vec3 world = vec3(dot(texelFetch(styles, at, 0), steps), dot(texelFetch(styles, at + ivec2(1, 0), 0), steps),
+                    dot(texelFetch(styles, at + ivec2(2, 0), 0), steps));
+  vec4 own = texelFetch(styles, at + ivec2(3, 0), 0);
   vec4 view = viewMatrix * vec4(world, 1.0);
   gl_Position = projectionMatrix * view;
   float scale = planar > 0.5 ? pixelsPerMetre : pixelsPerMetre / max(0.5, -view.z);
@@ -51,6 +51,6 @@ void main() { gl_FragColor = vec4(vColour, 1.0); }`;
 /** Drawn as written, without tone curves. */
 export const rgbOf = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
 
-export function pointMaterial(look: PointLook): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({vertexShader: kVertex, fragmentShader: kFragment, uniforms: {...look, looks: {value: null}, turbo: {value: turboTexture()}}});
+export function pointMaterial(style: PointStyle): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({vertexShader: kVertex, fragmentShader: kFragment, uniforms: {...style, styles: {value: null}, turbo: {value: turboTexture()}}});
 }

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import {pointMaterial, type PointLook} from './point_material';
+import {pointMaterial, type PointStyle} from './point_material';
 
 export const kBlock = 256;  // points; the shader shifts by 8
 const kTexels = 4;          // of a block: three rows of its matrix, then colour and share
@@ -14,13 +14,13 @@ export class PointPool {
   readonly object: THREE.Points<THREE.BufferGeometry, THREE.ShaderMaterial>;
   readonly runs: {block: number; points: number}[] = [];  // that are drawn: of each block the first points
   values = new Int16Array(0);  // x, y, z, intensity of each point
-  private looks = new Float32Array(0);
+  private styles = new Float32Array(0);
   private indices = new Uint32Array(0);
   private free: number[] = [];
   private blocks = 0;  // that there is room for
 
-  constructor(look: PointLook) {
-    this.object = new THREE.Points(new THREE.BufferGeometry(), pointMaterial(look));
+  constructor(style: PointStyle) {
+    this.object = new THREE.Points(new THREE.BufferGeometry(), pointMaterial(style));
     this.object.frustumCulled = false;
     this.object.matrixAutoUpdate = false;
     this.grow(kAtFirst);
@@ -48,11 +48,11 @@ export class PointPool {
     buffer.needsUpdate = true;
   }
 
-  /** Pose (to the world, of steps of 1/32767) and look of a block. */
+  /** Pose (to the world, of steps of 1/32767) and style of a block. */
   dress(block: number, matrix: THREE.Matrix4, colour: THREE.Color, share: number): void {
     const m = matrix.elements, start = 4 * kTexels * block;
-    for (let row = 0; row < 3; ++row) this.looks.set([m[row], m[row + 4], m[row + 8], m[row + 12]], start + 4 * row);
-    this.looks.set([colour.r, colour.g, colour.b, share], start + 12);
+    for (let row = 0; row < 3; ++row) this.styles.set([m[row], m[row + 4], m[row + 8], m[row + 12]], start + 4 * row);
+    this.styles.set([colour.r, colour.g, colour.b, share], start + 12);
     this.texture.needsUpdate = true;
   }
 
@@ -87,8 +87,8 @@ export class PointPool {
   }
 
   /** As dress() put it: three rows of its matrix, colour and share. */
-  lookOf(block: number): Float32Array {
-    return this.looks.subarray(4 * kTexels * block, 4 * kTexels * (block + 1));
+  styleOf(block: number): Float32Array {
+    return this.styles.subarray(4 * kTexels * block, 4 * kTexels * (block + 1));
   }
 
   /** Point k of a block, in steps of its submap. */
@@ -98,14 +98,14 @@ export class PointPool {
   }
 
   private get texture(): THREE.DataTexture {
-    return this.object.material.uniforms.looks.value;
+    return this.object.material.uniforms.styles.value;
   }
 
   private grow(blocks: number): void {
-    const values = new Int16Array(4 * kBlock * blocks), looks = new Float32Array(4 * kTexels * blocks);
+    const values = new Int16Array(4 * kBlock * blocks), styles = new Float32Array(4 * kTexels * blocks);
     values.set(this.values);
-    looks.set(this.looks);
-    [this.values, this.looks] = [values, looks];
+    styles.set(this.styles);
+    [this.values, this.styles] = [values, styles];
     for (let block = blocks; block-- > this.blocks;) this.free.push(block);
     this.blocks = blocks;
     const {geometry, material} = this.object;
@@ -113,9 +113,9 @@ export class PointPool {
     const buffer = new THREE.InterleavedBuffer(values, 4).setUsage(THREE.DynamicDrawUsage);
     geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(buffer, 3, 0, true));
     geometry.setAttribute('intensity', new THREE.InterleavedBufferAttribute(buffer, 1, 3, true));
-    material.uniforms.looks.value?.dispose();
-    const texture = new THREE.DataTexture(looks, kTexels * kAcross, blocks / kAcross, THREE.RGBAFormat, THREE.FloatType);
+    material.uniforms.styles.value?.dispose();
+    const texture = new THREE.DataTexture(styles, kTexels * kAcross, blocks / kAcross, THREE.RGBAFormat, THREE.FloatType);
     texture.needsUpdate = true;
-    material.uniforms.looks.value = texture;
+    material.uniforms.styles.value = texture;
   }
 }

@@ -12,7 +12,7 @@ export function turbo(x: number): [number, number, number] {
   ];
 }
 
-/** Of a robot: a little lighter with height, so that shapes show in one colour. */
+/** The ramp of a robot: a little lighter with height, so that shapes show in one colour. */
 export function shaded(colour: THREE.Color, height: number): [number, number, number] {
   const mix = (c: number) => 0.72 * c * (1 - height) + (c + 0.42 * (1 - c)) * height;
   return [mix(colour.r), mix(colour.g), mix(colour.b)];

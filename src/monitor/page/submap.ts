@@ -73,7 +73,7 @@ export class Submap {
   private matrix = new THREE.Matrix4();
   private tinted?: string;
   private share_ = 0;
-  private stale = true;  // its blocks do not show its pose and look yet
+  private stale = true;  // its blocks do not show its pose and style yet
 
   constructor(readonly hash: string, readonly robot: string, readonly t: number, private pool: PointPool, private colour: string) {}
 
@@ -129,7 +129,7 @@ export class Submap {
     this.loaded = Math.min(this.loaded, kBlock * blocks);
   }
 
-  /** Brings its pose and look to the pool, if they have changed. */
+  /** Brings its pose and style to the pool, if they have changed. */
   dress(): void {
     if (!this.stale) return;
     this.stale = false;

@@ -1,10 +1,10 @@
 import * as THREE from 'three';
-import type {PointLook} from './point_material';
+import type {PointStyle} from './point_material';
 import {kBlock, PointPool} from './point_pool';
 import {type Part, parsePart, parseParts, Submap} from './submap';
 
 const kCoarse = 1024;     // points of a submap that come with those of others, at most
-const kLeast = 64;        // likewise, at least
+const kMin = 64;        // likewise, at least
 const kTogether = 64;     // submaps of one request
 const kCoarseAtOnce = 3;  // requests
 const kFineAtOnce = 6;
@@ -29,8 +29,8 @@ export class Submaps {
   private heightsOf = 0;  // points loaded when they were taken
   private loaded = 0;
 
-  constructor(look: PointLook, private changed: () => void) {
-    this.pool = new PointPool(look);
+  constructor(style: PointStyle, private changed: () => void) {
+    this.pool = new PointPool(style);
   }
 
   add(hash: string, robot: string, t: number, colour: string): Submap {
@@ -132,7 +132,7 @@ export class Submaps {
 
   private trim(): void {
     if (kBlock * this.pool.used <= 3 * this.budget + 2 * kBlock * this.all.size) return;
-    for (const submap of this.all.values()) if (submap.wanted < submap.loaded) submap.trim(Math.max(kLeast, submap.wanted));
+    for (const submap of this.all.values()) if (submap.wanted < submap.loaded) submap.trim(Math.max(kMin, submap.wanted));
   }
 
   /** Goes on where the last picture left off, so that loading does not wait for slow pictures. */
@@ -141,7 +141,7 @@ export class Submaps {
     const coarse = spread(open.filter((one) => one.total < 0));
     const share = Math.ceil(this.budget / Math.max(1, this.seen.length));
     for (let k = 0; k < coarse.length && this.running < kCoarseAtOnce; k += kTogether)
-      void this.fetchCoarse(coarse.slice(k, k + kTogether), Math.min(kCoarse, Math.max(kLeast, share)));
+      void this.fetchCoarse(coarse.slice(k, k + kTogether), Math.min(kCoarse, Math.max(kMin, share)));
     if (coarse.length > 0) return;
     for (const submap of open) {
       if (this.running >= kFineAtOnce) return;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """ATE and drift over 20 m of trajectories against the truth: evaluate.py TRUTH.tum ESTIMATE.tum...
 
-An estimate is judged with the stamp that suits it best: start, middle or end of the sweep (0, 0.05, 0.1 s).
+An estimate is evaluated with the stamp that suits it best: start, middle or end of the sweep (0, 0.05, 0.1 s).
 Lost: a piece of 20 m that is 20 % off, or an ATE above 5 % of the way."""
 import sys
 
@@ -60,7 +60,7 @@ def drifts(p, R, tp, tR):
     return np.array(found), way[-1]
 
 
-def judge(truth, name):
+def evaluate(truth, name):
     stamps, p, q = load(name)
     best = None
     for offset in (0.0, 0.05, 0.1):
@@ -80,4 +80,4 @@ def judge(truth, name):
 if __name__ == "__main__":
     reference = load(sys.argv[1])
     for estimate in sys.argv[2:]:
-        print(judge(reference, estimate))
+        print(evaluate(reference, estimate))

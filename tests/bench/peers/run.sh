@@ -35,7 +35,7 @@ export_scans() { # drive folder
   touch "$2/done"
 }
 
-judge() { # drive name log
+evaluate() { # drive name log
   local line
   line=$(grep -o 'CPU.*' "$3" | tail -1 || true)
   echo "$1 $2 | $line | $(python3 "$here/evaluate.py" "$folder/truth.tum" "$folder/$2.tum" | cut -d'|' -f3-) $(tail -1 "$3" | grep lost || true)"
@@ -50,7 +50,7 @@ ours() { # drive name, settings of the sensors used
               --set 'imu.translation=[0,0.1,0.1]' --set 'imu.rotation_rpy_deg=[0,0,28.6478897565]') ;;
   esac
   "$fleetmap" odometry "$recording" --out "$folder/$2.tum" "${mount[@]}" "${@:3}" >"$folder/$2.log" 2>&1 || echo "exit code $?: lost" >>"$folder/$2.log"
-  judge "$1" "$2" "$folder/$2.log"
+  evaluate "$1" "$2" "$folder/$2.log"
 }
 
 peer() { # drive name program settings
@@ -61,7 +61,7 @@ peer() { # drive name program settings
     *) mount=(lidar=0.1,0,0.5,0,0.02,0 imu_mount=0,0.1,0.1,0,0,0.5) ;;
   esac
   "$peers/$3" "$folder" "$folder/$2.tum" "${mount[@]}" "${@:4}" >"$folder/$2.log" 2>&1
-  judge "$1" "$2" "$folder/$2.log"
+  evaluate "$1" "$2" "$folder/$2.log"
 }
 
 # Settings of GenZ-ICP's own files for such drives, de-skewed.

@@ -65,7 +65,7 @@ std::set<AlignmentName> make_one_pair_false(SimulatedFleet& fleet) {
     if (std::set{a.i.agent, a.j.agent} != std::set{kR1, kR2}) continue;
     Pose T = fleet.truth.at(a.j);
     T.pretranslate(kOneRow);
-    a.modes = {fleet.seen_at(a.i, T)};
+    a.modes = {fleet.observed_at(a.i, T)};
     false_ones.emplace(a.computed_by, a.seq);
   }
   return false_ones;
@@ -186,7 +186,7 @@ TEST(FalseAlignments, ModesOfAmbiguousAlignmentsAreToldApart) {
       for (const double rows : {-1.0, 1.0, 2.0}) {
         Pose T = fleet.truth.at(a.j);
         T.pretranslate(rows * kOneRow);
-        a.modes.insert(a.modes.begin(), fleet.seen_at(a.i, T));
+        a.modes.insert(a.modes.begin(), fleet.observed_at(a.i, T));
       }
     }
     const Placement placement = place(fleet);
@@ -212,12 +212,12 @@ TEST(FalseAlignments, AModeThatSaysLittleIsNotTakenForTheOneThatSaysMuch) {
       if (fleet.random()() % 3 != 0) continue;
       Pose T = fleet.truth.at(a.j);
       T.pretranslate(Eigen::Vector3d(3.0, 0.0, 0.0));
-      a.modes.push_back(fleet.seen_at(a.i, T));
+      a.modes.push_back(fleet.observed_at(a.i, T));
       a.modes.back().covariance =
           Vector6d(100.0, 100.0, 100.0, 0.67, 0.67, 0.67).asDiagonal();  // as a registration without a hold
       Pose blurred = fleet.truth.at(a.j);
       blurred.pretranslate(Eigen::Vector3d(0.0, 1.0, 0.0));
-      a.modes.push_back(fleet.seen_at(a.i, blurred));
+      a.modes.push_back(fleet.observed_at(a.i, blurred));
       a.modes.back().covariance = Vector6d(1.0, 1.0, 1.0, 0.01, 0.01, 0.01).asDiagonal();
     }
     std::size_t right = 0;
@@ -238,7 +238,7 @@ TEST(FalseAlignments, AnAmbiguousAlignmentAllOfWhoseModesAreContradictedIsReject
     Alignment& a = fleet.align(base.i, base.j, kR1, Eigen::Vector3d(100.0, 0.0, 0.0));
     Pose T = fleet.truth.at(base.j);
     T.pretranslate(Eigen::Vector3d(near, 0.0, 0.0));
-    a.modes.push_back(fleet.seen_at(base.i, T));
+    a.modes.push_back(fleet.observed_at(base.i, T));
     EXPECT_EQ(statuses(place(fleet)).at({kR1, a.seq}), AlignmentStatus::against_others) << near;
   }
 }

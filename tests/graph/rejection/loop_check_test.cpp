@@ -48,7 +48,7 @@ SimulatedFleet triangle(unsigned seed, double gps_sigma) {
     if (std::set{a.i.agent, a.j.agent} != std::set{kR1, kR2}) continue;
     Pose T = fleet.truth.at(a.j);
     T.pretranslate(kOneRow);
-    a.modes = {fleet.seen_at(a.i, T)};
+    a.modes = {fleet.observed_at(a.i, T)};
   }
   return fleet;
 }

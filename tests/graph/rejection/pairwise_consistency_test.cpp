@@ -61,8 +61,8 @@ TEST(PairwiseConsistency, TheSetsAreAPartitionWithOneModeOfAnAlignmentEach) {
   for (Alignment& a : fleet.alignments) {
     Pose T = fleet.truth.at(a.j);
     T.pretranslate(kOneRow);
-    a.modes.push_back(fleet.seen_at(a.i, T));
-    a.modes.push_back(fleet.seen_at(a.i, fleet.truth.at(a.j)));  // nearly the first one
+    a.modes.push_back(fleet.observed_at(a.i, T));
+    a.modes.push_back(fleet.observed_at(a.i, fleet.truth.at(a.j)));  // nearly the first one
   }
   const ReducedFleet reduced(fleet);
   const PriorSolution prior(reduced);

@@ -23,7 +23,7 @@ struct Random {
       if (pair.first == pair.second || std::ranges::find(pairs, pair) != pairs.end()) continue;
       if (std::ranges::find(pairs, std::pair(pair.second, pair.first)) != pairs.end()) continue;
       pairs.push_back(pair);
-      given = pairs.size() - (random() % 2);  // some of the pairs get nothing
+      filled = pairs.size() - (random() % 2);  // some of the pairs get nothing
     }
   }
 
@@ -46,7 +46,7 @@ struct Random {
         add(i, i, Eigen::Matrix3d(30.0 * Eigen::Matrix3d::Identity()));
       }
     }
-    for (std::size_t k = 0; k < given; ++k) {
+    for (std::size_t k = 0; k < filled; ++k) {
       const auto [i, j] = pairs[k];
       const int rows = dims[static_cast<std::size_t>(i)], cols = dims[static_cast<std::size_t>(j)];
       if (rows == 6 && cols == 6) add(i, j, Eigen::Matrix<double, 6, 6>::NullaryExpr(number).eval());
@@ -59,7 +59,7 @@ struct Random {
   std::mt19937 random;
   std::vector<int> dims;
   std::vector<std::pair<int, int>> pairs;
-  std::size_t given = 0;
+  std::size_t filled = 0;
   Eigen::MatrixXd dense;
 };
 

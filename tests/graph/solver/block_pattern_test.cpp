@@ -32,16 +32,16 @@ std::vector<std::vector<bool>> eliminated(std::size_t variables, const Pairs& pa
 TEST(BlockPattern, HasTheBlocksThatTheEliminationFillsAndNoOthers) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
-    std::vector<int> dims, given(25);
+    std::vector<int> dims, permutation(25);
     for (int i = 0; i < 25; ++i) dims.push_back(random() % 2 == 0 ? 3 : 6);
     Pairs pairs;
     for (int k = 0; k < 40; ++k) {
       const int i = static_cast<int>(random() % 25), j = static_cast<int>(random() % 25);
       if (i != j) pairs.emplace_back(i, j);
     }
-    std::iota(given.begin(), given.end(), 0);
-    std::ranges::shuffle(given, random);
-    for (const auto& order : {std::vector<int>(), given}) {
+    std::iota(permutation.begin(), permutation.end(), 0);
+    std::ranges::shuffle(permutation, random);
+    for (const auto& order : {std::vector<int>(), permutation}) {
       const BlockPattern L(dims, pairs, order);
       const auto filled = eliminated(dims.size(), pairs, L);
       std::vector<bool> covered(L.values(), false);

@@ -8,9 +8,9 @@ namespace fleetmap::fault_injection {
 
 /// Signatures of a simulated fleet, one object for all its robots: a keyed hash instead of Ed25519, which
 /// takes a hundredth of the time and distinguishes the same items as long as no attacker calls sign().
-class StandInSignatures final : public exchange::ItemAuthenticator {
+class SimulatedSignatures final : public exchange::ItemAuthenticator {
  public:
-  explicit StandInSignatures(std::uint64_t secret) : secret_(secret) {}
+  explicit SimulatedSignatures(std::uint64_t secret) : secret_(secret) {}
 
   Bytes fleet() const override;
   Signature sign(const graph::Node& node) const override;

@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,24 +12,24 @@ using fleetmap::testing::agent;
 using fleetmap::testing::make_alignment;
 using fleetmap::testing::make_node;
 
-class StandInSignaturesTest : public ::testing::Test {
+class SimulatedSignaturesTest : public ::testing::Test {
  protected:
-  StandInSignatures fleet_{42};
+  SimulatedSignatures fleet_{42};
   graph::Node node_ = make_node(agent("r1"), 3, {1, 2, 3});
   graph::Alignment alignment_ = make_alignment({agent("r1"), 3}, {agent("r2"), 5}, agent("r1"), 0);
 };
 
-TEST_F(StandInSignaturesTest, WhatTheFleetSignedIsGenuine) {
+TEST_F(SimulatedSignaturesTest, WhatTheFleetSignedIsGenuine) {
   EXPECT_EQ(fleet_.verify(node_), ItemProof::kUnsigned);
   EXPECT_EQ(fleet_.verify(alignment_), ItemProof::kUnsigned);
   node_.signature = fleet_.sign(node_);
   alignment_.signature = fleet_.sign(alignment_);
   EXPECT_EQ(fleet_.verify(node_), ItemProof::kGenuine);
   EXPECT_EQ(fleet_.verify(alignment_), ItemProof::kGenuine);
-  EXPECT_EQ(StandInSignatures(42).verify(node_), ItemProof::kGenuine) << "any robot's object will do";
+  EXPECT_EQ(SimulatedSignatures(42).verify(node_), ItemProof::kGenuine) << "any robot's object will do";
 }
 
-TEST_F(StandInSignaturesTest, AnyChangeShows) {
+TEST_F(SimulatedSignaturesTest, AnyChangeShows) {
   node_.signature = fleet_.sign(node_);
   graph::Node other = node_;
   other.id.seq = 4;
@@ -48,10 +48,10 @@ TEST_F(StandInSignaturesTest, AnyChangeShows) {
   EXPECT_EQ(fleet_.verify(alignment_), ItemProof::kWrong);
 }
 
-TEST_F(StandInSignaturesTest, AnotherFleetsSignatureIsWrong) {
-  const StandInSignatures other(43);
+TEST_F(SimulatedSignaturesTest, AnotherFleetsSignatureIsWrong) {
+  const SimulatedSignatures other(43);
   EXPECT_NE(other.fleet(), fleet_.fleet());
-  EXPECT_EQ(StandInSignatures(42).fleet(), fleet_.fleet());
+  EXPECT_EQ(SimulatedSignatures(42).fleet(), fleet_.fleet());
   node_.signature = other.sign(node_);
   EXPECT_EQ(fleet_.verify(node_), ItemProof::kWrong);
 }

@@ -1,4 +1,4 @@
-#include "fleetmap/fault_injection/stand_in_signatures.hpp"
+#include "fleetmap/fault_injection/simulated_signatures.hpp"
 
 #include <algorithm>
 
@@ -33,19 +33,19 @@ ItemProof proof_of(const Item& item, const Signature& genuine) {
 
 }  // namespace
 
-Bytes StandInSignatures::fleet() const { return bytes_of(secret_); }
+Bytes SimulatedSignatures::fleet() const { return bytes_of(secret_); }
 
-Signature StandInSignatures::sign(const graph::Node& node) const {
+Signature SimulatedSignatures::sign(const graph::Node& node) const {
   return keyed_hash(secret_, 1, fleet_codec::signed_bytes(node));
 }
 
-Signature StandInSignatures::sign(const graph::Alignment& alignment) const {
+Signature SimulatedSignatures::sign(const graph::Alignment& alignment) const {
   return keyed_hash(secret_, 2, fleet_codec::signed_bytes(alignment));
 }
 
-ItemProof StandInSignatures::verify(const graph::Node& node) const { return proof_of(node, sign(node)); }
+ItemProof SimulatedSignatures::verify(const graph::Node& node) const { return proof_of(node, sign(node)); }
 
-ItemProof StandInSignatures::verify(const graph::Alignment& alignment) const {
+ItemProof SimulatedSignatures::verify(const graph::Alignment& alignment) const {
   return proof_of(alignment, sign(alignment));
 }
 

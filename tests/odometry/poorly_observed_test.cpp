@@ -21,17 +21,17 @@ std::string text_of(const StatedDrive& drove, const char* what) {
 }
 
 /// `most_stated` m, 1 sigma at the end.
-void expect_stated_as_it_errs(const StatedDrive& drove, double most_stated, const char* what) {
+void expect_stated_as_it_errs(const StatedDrive& drove, double max_stated, const char* what) {
   const std::string text = text_of(drove, what);
   EXPECT_LT(drove.error, 3.0 * drove.sigma) << text;
-  EXPECT_LT(drove.sigma, most_stated) << text;
+  EXPECT_LT(drove.sigma, max_stated) << text;
   EXPECT_LT(drove.nees, 2.0) << text;
   EXPECT_GT(drove.nees, 0.03) << text;
   EXPECT_EQ(drove.lost, 0u) << text;
 }
 
 /// A scan or two that miss a direction are stated to centimetres, as they err, and not to metres.
-TEST(PoorlySeen, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
+TEST(PoorlyObserved, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
   for (const auto keep : {low, near}) {
     PoorDrive aisle = drive_in(testing::panel_world());
     aisle.legs = {{1, 0, 0}, {12, 1.5, 0}, {1, 0, 0}, {4, 0, 0.8}, {1, 0, 0}, {8, 1.5, 0}};
@@ -42,7 +42,7 @@ TEST(PoorlySeen, WhatAPartOfTheScanLeavesOpenIsStatedAsItErrs) {
 }
 
 /// If nine of ten scans do not constrain a direction, the error is metres, and the covariance states it.
-TEST(PoorlySeen, WhereHardlyAnyScanHoldsTheWayItIsStatedAsItErrs) {
+TEST(PoorlyObserved, WhereHardlyAnyScanHoldsTheWayItIsStatedAsItErrs) {
   PoorDrive yard = drive_in(testing::yard_world());
   yard.keep = near;
   expect_stated_as_it_errs(state_drive(yard, false), 60.0, "yard, 5 m");
@@ -54,17 +54,17 @@ TEST(PoorlySeen, WhereHardlyAnyScanHoldsTheWayItIsStatedAsItErrs) {
 
 /// The wheels and the gyro hold the way where the LiDAR sees level ground and nothing else. A robot on wheels
 /// does not move sideways, either: without that it is 2 to 4 m off. Bounds: docs/reference/test_bounds.md.
-TEST(PoorlySeen, WheelsHoldTheWayOnBareGround) {
+TEST(PoorlyObserved, WheelsHoldTheWayOnBareGround) {
   struct Ground {
     const char* name;
-    double height, most_error;  // m
+    double height, max_error;  // m
   };
   for (const Ground& ground : {Ground{"level", 0.0, 0.32}, Ground{"rolls by 0.25 m", 0.25, 0.05}}) {
     for (const std::uint64_t seed : {1, 2}) {
       const StatedDrive drove =
           state_drive(testing::drive_on(testing::rolling_ground(ground.height)), true, seed);
       const std::string text = text_of(drove, ground.name);
-      EXPECT_LT(drove.error, ground.most_error) << text;
+      EXPECT_LT(drove.error, ground.max_error) << text;
       EXPECT_LT(drove.error, 3.0 * drove.sigma) << text;
       EXPECT_LT(drove.worst_nees, 1.0) << text;
       EXPECT_FALSE(drove.warned) << text;
@@ -73,7 +73,7 @@ TEST(PoorlySeen, WheelsHoldTheWayOnBareGround) {
 }
 
 /// LiDAR alone slides over such ground. That is said, and errors are as large as stated, not ten times that.
-TEST(PoorlySeen, SlidingOverBareGroundIsSaidAndStated) {
+TEST(PoorlyObserved, SlidingOverBareGroundIsSaidAndStated) {
   for (const double height : {0.0, 0.25}) {
     const StatedDrive drove = state_drive(testing::drive_on(testing::rolling_ground(height)), false);
     const std::string text = text_of(drove, height > 0.0 ? "rolls by 0.25 m" : "level");

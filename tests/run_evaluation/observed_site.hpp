@@ -37,12 +37,12 @@ class ObservedSite : public ::testing::Test {
   }
   void put(const NodeId& id, float from, float to, const Eigen::Vector3d& place) {
     const Pose T = make_pose(Eigen::Matrix3d::Identity(), place);
-    cloud::PointCloud seen;
+    cloud::PointCloud visible;
     for (const auto& p : site_.points) {
-      if (p.x() >= from && p.x() < to) seen.points.push_back(p);
+      if (p.x() >= from && p.x() < to) visible.points.push_back(p);
     }
     const Bytes submap =
-        cloud::encode(cloud::transformed(seen, T.inverse()), {.resolution_m = 0.005}).value();
+        cloud::encode(cloud::transformed(visible, T.inverse()), {.resolution_m = 0.005}).value();
     graph::Node node;
     node.id = id;
     node.stamp = stamp_from_ns(1'000'000'000);

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "merged_store.hpp"
+
+namespace fleetmap::apps {
+
+/// Prints what each of `files` added to the merged store, whether each two of them were joined, and what the
+/// whole, which is in the file `written`, holds.
+void print_summary(std::ostream& out, const MergedStore& merged, const std::vector<std::string>& files,
+                   const std::string& written);
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fleetmap/agent/perception_config.hpp"
+#include "fleetmap/bus/bus.hpp"
+#include "sample_check.hpp"
+#include "stream_summary.hpp"
+
+namespace fleetmap::apps {
+
+/// Listens to all sensors of a robot, sums up their streams and checks their samples.
+class SensorListener {
+ public:
+  /// `bus` outlives this.
+  SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus);
+
+  const StreamSummary& streams() const { return streams_; }
+  /// Sentences on what is wrong with the samples that came since the last call, and on all that could not be
+  /// decoded.
+  std::vector<std::string> findings();
+
+ private:
+  template <class T>
+  void listen(const bus::Topic& topic);
+  template <class T>
+  void add(Result<T> decoded, const std::string& topic);
+
+  bus::Bus& bus_;
+  SampleCheck check_;
+  StreamSummary streams_;
+  std::map<std::string, std::size_t> refused_;  ///< by reason
+  std::vector<bus::Handle> subscriptions_;
+};
+
+}  // namespace fleetmap::apps

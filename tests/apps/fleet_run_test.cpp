@@ -1,0 +1,62 @@
+// `fleetmap run`: its options, and all that a run of the twin leaves.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/small_twin.hpp"
+#include "fleetmap/output/trajectory_file.hpp"
+#include "support/command_line.hpp"
+
+namespace fleetmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+using FleetRun = testing::CommandLineTest;
+
+TEST_F(FleetRun, TakesAFileOrRecordingsAndNotBoth) {
+  for (const std::vector<std::string>& input :
+       {std::vector<std::string>{}, {"-c", "f.yaml", "--recording", "r1=d"}}) {
+    std::vector<std::string> arguments{"run", "--out", path("out")};
+    arguments.insert(arguments.end(), input.begin(), input.end());
+    run(arguments);
+    EXPECT_EQ(exit_code_, 2);
+    EXPECT_THAT(output_, HasSubstr("give either -c FLEET.yaml or --recording NAME=PATH"));
+  }
+}
+
+TEST_F(FleetRun, ARecordingHasANameAndAPath) {
+  for (const char* text : {"drive1", "=drive1", "too long a name=drive1"}) {
+    run({"run", "--recording", text, "--out", path("out")});
+    EXPECT_EQ(exit_code_, 78) << text;
+    EXPECT_THAT(output_,
+                HasSubstr(std::string("--recording ") + text + ": expected NAME=PATH, e.g. r1=drive1"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing was begun";
+}
+
+TEST_F(FleetRun, NoMoreAgentsThanTheFileHas) {
+  run({"run", "-c", FLEETMAP_SOURCE_DIR "/config/fleets/farm_small.yaml", "--agents", "6", "--out",
+       path("out")});
+  EXPECT_EQ(exit_code_, 2);
+  EXPECT_THAT(output_, HasSubstr("farm_small.yaml has only 5 agents; give at most so many"));
+}
+
+TEST(FleetRunOfTheTwin, LeavesTheTruthTheSiteAndTheReportOfTheAgentsThatAreKept) {
+  const testing::SmallTwin twin;
+  const auto run = twin.run("out", {"--agents", "2", "--set", "max_time=10", "--threads", "2"});
+  EXPECT_TRUE(run.exit_code == 0 || run.exit_code == 1) << run.output;
+  ASSERT_TRUE(run.report.is_object()) << run.output;
+  EXPECT_EQ(run.report["agents"].size(), 2u);
+  for (const char* file : {"truth.ply", "site.geojson", "report.html", "r1/store.db", "r2/ekf.tum"})
+    EXPECT_TRUE(std::filesystem::exists(run.out / file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(run.out / "r3"));
+  const auto truth = output::read_tum(run.out / "r1/truth.tum");
+  ASSERT_TRUE(truth) << truth.error().message;
+  ASSERT_GT(truth->size(), 10u);
+  EXPECT_NEAR(to_seconds(truth->back().stamp - truth->front().stamp), 10.0, 1.0);
+  EXPECT_THAT(run.output, HasSubstr("s of virtual time in "));
+}
+
+}  // namespace
+}  // namespace fleetmap
