@@ -15,6 +15,7 @@
 #include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "live_placement.hpp"
+#include "robot_health.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -82,6 +83,7 @@ Agent::Agent(const AgentConfig& config, bus::Bus& bus, store::Store store, store
 Agent::~Agent() = default;
 
 Status Agent::start() {
+  begun_ = bus_.now();
   if (const Status kept = output::keep_recipe(store_, config_.recipe()); !kept) return kept;
   const Eigen::Vector3d lidar = config_.perception.odometry.T_base_lidar.translation();
   if (const Status kept = output::keep_lidar_mount(store_, lidar); !kept) return kept;
@@ -111,7 +113,8 @@ Status Agent::start() {
     for (const auto& [id, node] : store_.nodes()) navigator_->on_node(node);
     navigator_timer_ = bus_.every(kNavigatorPeriod, {"navigation", [this] { navigate(); }});
     exchange_->set_drives(true);
-    if (const auto order = exchange_->hold_in_force(); order && order->hold) navigator_->obey(*order);
+    if (const auto order = exchange_->hold_in_force()) navigator_->obey(*order);
+    navigator_->obey(exchange_->row_orders());
   }
   local_hold_ =
       bus_.subscribe(fleet_codec::topics::hold_onboard(), [this](const Bytes& cdr) { on_local_hold(cdr); });
@@ -275,15 +278,23 @@ void Agent::on_local_hold(const Bytes& cdr) {
   if (!hold)
     return spdlog::warn("{}: refused: {}", fleet_codec::topics::hold_onboard().name, hold.error().message);
   for (const messages::HoldOrder& order : hold->orders) give_order(order);
+  for (const messages::RowOrder& order : hold->rows) give_order(order);
 }
 
-void Agent::give_order(const messages::HoldOrder& order) {
+template <class Order>
+void Agent::give_order(const Order& order) {
   exchange_->on_local_order(order, bus_.now());
   on_events();
 }
+template void Agent::give_order(const messages::HoldOrder&);
+template void Agent::give_order(const messages::RowOrder&);
 
 void Agent::handle(const exchange::HoldChanged& changed) {
   if (navigator_) navigator_->obey(changed.order);
+}
+
+void Agent::handle(const exchange::RowsOrdered& ordered) {
+  if (navigator_) navigator_->obey(ordered.orders);
 }
 
 void Agent::handle(const exchange::ItemConflict& conflict) {
@@ -326,6 +337,7 @@ void Agent::update_status() {
     status.position_stddev = static_cast<float>(place::horizontal_sigma(G->covariance));
   }
   status.busy = nodes_.has_rest();
+  status.health = health_of(counters_of(*perception_, store_failures_.total(), begun_, bus_.now()));
   if (navigator_ && navigator_->battery()) status.battery = static_cast<float>(*navigator_->battery());
   exchange_->set_status(status);
   name_contested_anew();

@@ -109,6 +109,12 @@ struct Log {
         "{}: heard {}, which is not of this fleet; if it should be, name it in `fleet` of every robot's file",
         self.str(), stranger.name.str());
   }
+  void operator()(const exchange::RowsOrdered& ordered) const {
+    for (const messages::RowOrder& order : ordered.orders) {
+      spdlog::info("{}: row {} is given by {} to {} by order of {}", self.str(), order.row, order.robot.str(),
+                   order.to.empty() ? "another robot" : order.to.str(), order.issuer.str());
+    }
+  }
   template <class Other>
   void operator()(const Other&) const {}  // whoever handles it tells of it, or nobody needs to know
 };

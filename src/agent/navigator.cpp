@@ -141,6 +141,7 @@ void Navigator::tick(bool maps_exchanged, std::vector<AgentId> exchanged_with) {
   input.finished = follower_.finished();
   input.stuck = stuck(input.now);
   input.progress = follower_.progress();
+  input.called_home = called_home_;
   input.maps_exchanged = maps_exchanged;
   input.exchanged_with = std::move(exchanged_with);
   input.surveyed = coverage_.covered();
@@ -166,11 +167,17 @@ bool Navigator::stuck(Stamp now) const {
 }
 
 void Navigator::obey(const messages::HoldOrder& order) {
-  if (order.hold == guard_.held()) return;
-  guard_.set_held(order.hold);
-  spdlog::warn("{}: {} by order of {}", self_.str(), order.hold ? "held" : "let go", order.issuer.str());
+  using Kind = messages::HoldOrder::Kind;
+  const bool hold = order.kind == Kind::kHold, home = order.kind == Kind::kHome;
+  if (hold == guard_.held() && home == called_home_) return;
+  guard_.set_held(hold);
+  called_home_ = home;
+  const char* what = hold ? "held" : home ? "called home" : "let go";
+  spdlog::warn("{}: {} by order of {}", self_.str(), what, order.issuer.str());
   watch();
 }
+
+void Navigator::obey(std::vector<messages::RowOrder> orders) { executive_.set_row_orders(std::move(orders)); }
 
 void Navigator::stop() {
   guard_.stop();

@@ -12,7 +12,7 @@ enum ExitCode : int { kDone = 0, kFailed = 1, kUsage = 2, kBadConfiguration = 78
 /// Each adds its subcommand; when it is chosen, its exit code goes to `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
 void add_agent(CLI::App& app, int& exit_code);
-/// Two: hold and resume.
+/// Four: hold, resume, home and give.
 void add_hold(CLI::App& app, int& exit_code);
 void add_sim(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);

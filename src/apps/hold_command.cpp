@@ -1,4 +1,5 @@
-// `fleetmap hold` and `fleetmap resume`: an operator's order to one robot or to all, over the long range.
+// `fleetmap hold`, `resume`, `home` and `give`: an operator's order to one robot or to all, over the long
+// range.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -21,10 +22,13 @@ namespace {
 
 using messages::Hold;
 using messages::HoldOrder;
+using messages::RowOrder;
 
 struct HoldOptions {
   std::string config;
   std::string robot;
+  std::string to;
+  std::uint32_t row = 0;
   double timeout = 15.0;
   std::vector<std::string> set;
 };
@@ -68,6 +72,8 @@ const char* what_it_does(Hold::Driving driving) {
       return "stands";
     case Hold::Driving::kFree:
       return "drives on";
+    case Hold::Driving::kHome:
+      return "drives home";
     case Hold::Driving::kNoMission:
       return "heard it, but fleetmap does not drive it";
     case Hold::Driving::kNoRobot:
@@ -76,21 +82,18 @@ const char* what_it_does(Hold::Driving driving) {
   return "heard it";
 }
 
-int run(const HoldOptions& options, bool hold) {
-  const auto overrides = parse_overrides(options.set);
-  if (!overrides) return report(overrides.error(), kUsage);
-  const auto fleet = fleet_of(options, *overrides);
-  if (!fleet) return report(fleet.error(), kBadConfiguration);
-  HoldOrder order{{}, {}, fleet->dds.agent, hold};
-  std::vector<AgentId> addressed = fleet->robots;
-  if (!options.robot.empty()) {
-    std::erase_if(addressed, [&](const AgentId& id) { return id.str() != options.robot; });
-    if (addressed.empty()) return report({options.config + ": has no robot '" + options.robot + "'"}, kUsage);
-    order.robot = addressed.front();
-  }
-  auto bus = join_dds(fleet->dds);
+/// The robot of that name; fails if there is none.
+Result<AgentId> member(const Fleet& fleet, const std::string& name, const std::string& file) {
+  const auto found = std::ranges::find_if(fleet.robots, [&](const AgentId& id) { return id.str() == name; });
+  return found == fleet.robots.end() ? failure(file + ": has no robot '" + name + "'")
+                                     : Result<AgentId>(*found);
+}
+
+/// Sends the order until all robots that it concerns have confirmed it.
+int send(const Fleet& fleet, const HoldOptions& options, std::vector<AgentId> addressed, Order order) {
+  auto bus = join_dds(fleet.dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
-  order.stamp = (*bus)->now();
+  std::visit([&](auto& one) { one.stamp = (*bus)->now(); }, order);
   const std::atomic<bool>& stop = stop_on_signals();
   const OrderInForce in_force(**bus, addressed, order);
   (*bus)->run_until([&] { return stop || in_force.confirmed_by_all(); }, from_seconds(options.timeout));
@@ -109,25 +112,72 @@ int run(const HoldOptions& options, bool hold) {
   return all ? kDone : kFailed;
 }
 
-void add_order(CLI::App& app, int& exit_code, bool hold) {
-  auto options = std::make_shared<HoldOptions>();
-  CLI::App* command =
-      hold ? app.add_subcommand("hold", "one robot or all stand still until resume, over the long range")
-           : app.add_subcommand("resume", "one robot or all, held before, drive on");
+int drive(const HoldOptions& options, HoldOrder::Kind kind) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  const auto fleet = fleet_of(options, *overrides);
+  if (!fleet) return report(fleet.error(), kBadConfiguration);
+  HoldOrder order{{}, {}, fleet->dds.agent, kind};
+  std::vector<AgentId> addressed = fleet->robots;
+  if (!options.robot.empty()) {
+    const auto robot = member(*fleet, options.robot, options.config);
+    if (!robot) return report(robot.error(), kUsage);
+    addressed = {*robot};
+    order.robot = *robot;
+  }
+  return send(*fleet, options, addressed, order);
+}
+
+int give(const HoldOptions& options) {
+  const auto overrides = parse_overrides(options.set);
+  if (!overrides) return report(overrides.error(), kUsage);
+  const auto fleet = fleet_of(options, *overrides);
+  if (!fleet) return report(fleet.error(), kBadConfiguration);
+  const auto robot = member(*fleet, options.robot, options.config);
+  if (!robot) return report(robot.error(), kUsage);
+  RowOrder order{{}, *robot, {}, fleet->dds.agent, options.row};
+  std::vector<AgentId> addressed{*robot};
+  if (!options.to.empty()) {
+    const auto to = member(*fleet, options.to, options.config);
+    if (!to) return report(to.error(), kUsage);
+    order.to = *to;
+    if (*to != *robot) addressed.push_back(*to);
+  }
+  return send(*fleet, options, addressed, order);
+}
+
+CLI::App* add_order(CLI::App& app, const char* name, const char* about,
+                    const std::shared_ptr<HoldOptions>& options) {
+  CLI::App* command = app.add_subcommand(name, about);
   command->add_option("-c,--config", options->config, "AGENT.yaml of any robot, or FLEET.yaml")->required();
   command->add_option("--robot", options->robot, "this robot alone")->check(some_path());
   command->add_option("--timeout", options->timeout, "s, to wait until every robot has confirmed")
       ->check(positive_number());
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
-  command->callback([options, hold, &exit_code] { exit_code = run(*options, hold); });
+  return command;
 }
 
 }  // namespace
 
 void add_hold(CLI::App& app, int& exit_code) {
-  add_order(app, exit_code, true);
-  add_order(app, exit_code, false);
+  using Kind = HoldOrder::Kind;
+  const auto add = [&](const char* name, const char* about, Kind kind) {
+    const auto options = std::make_shared<HoldOptions>();
+    add_order(app, name, about, options)->callback([options, kind, &exit_code] {
+      exit_code = drive(*options, kind);
+    });
+  };
+  add("hold", "one robot or all stand still until resume, over the long range", Kind::kHold);
+  add("resume", "one robot or all, held or called home before, drive on", Kind::kResume);
+  add("home", "one robot or all give their rows away and drive to their starts until resume", Kind::kHome);
+  const auto options = std::make_shared<HoldOptions>();
+  CLI::App* command = add_order(app, "give", "a robot gives a row of the mission to another one", options);
+  command->get_option("--robot")->required()->description("the robot that is not to drive the row");
+  command->add_option("--row", options->row, "id of the row, as the mission's file has it")->required();
+  command->add_option("--to", options->to, "the robot that is to drive it; else any other one")
+      ->check(some_path());
+  command->callback([options, &exit_code] { exit_code = give(*options); });
 }
 
 }  // namespace fleetmap::apps

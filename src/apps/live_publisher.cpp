@@ -48,11 +48,26 @@ FleetNow fleet_now(const agent::Agent& agent, const LivePublisher::LastHeard& la
   fleet.statuses = exchange.statuses();
   fleet.driving = exchange.driving();
   fleet.orders = exchange.hold_orders();
+  fleet.row_orders = exchange.row_orders();
   fleet.heard = last_heard;
   fleet.misbehaved = exchange.stats().misbehaved;
   fleet.problems[fleet.self] = problems_of(agent, now);
   if (agent.navigator() != nullptr) add_mission(*agent.navigator(), fleet);
   return fleet;
+}
+
+/// Passes an order on. Stamp zero: it replaces all others.
+void give(agent::Agent& agent, const AgentId& issuer, const monitor::OrderRequest& request) {
+  using Request = monitor::OrderRequest::Kind;
+  using Kind = messages::HoldOrder::Kind;
+  const AgentId robot = request.robot.value_or(AgentId{});
+  if (request.kind == Request::kGive)
+    return agent.give_order(
+        messages::RowOrder{{}, robot, request.to.value_or(AgentId{}), issuer, request.row});
+  const Kind kind = request.kind == Request::kHold   ? Kind::kHold
+                    : request.kind == Request::kHome ? Kind::kHome
+                                                     : Kind::kResume;
+  agent.give_order(messages::HoldOrder{{}, robot, issuer, kind});
 }
 
 double lost_after(const agent::Agent& agent) {
@@ -83,12 +98,12 @@ LivePublisher::LivePublisher(agent::Agent& agent, bus::Bus& bus, monitor::Server
     : agent_(agent), bus_(bus), server_(server), who_may_join_(std::move(who_may_join)) {
   const AgentId self = agent.config().id;
   const std::vector<AgentId> fleet = agent.config().exchange.fleet;
-  server_.set_operator([&agent, post, self, fleet](const monitor::HoldRequest& request) -> Status {
-    if (request.robot && std::ranges::find(fleet, *request.robot) == fleet.end())
-      return failure(request.robot->str() + " is no robot of this fleet");
-    // Stamp zero: the order replaces all others.
-    const messages::HoldOrder order{{}, request.robot.value_or(AgentId{}), self, request.hold};
-    if (!post([&agent, order] { agent.give_order(order); }))
+  server_.set_operator([&agent, post, self, fleet](const monitor::OrderRequest& request) -> Status {
+    for (const auto& robot : {request.robot, request.to}) {
+      if (robot && std::ranges::find(fleet, *robot) == fleet.end())
+        return failure(robot->str() + " is no robot of this fleet");
+    }
+    if (!post([&agent, self, request] { give(agent, self, request); }))
       return failure("the robot is too busy; try again");
     return {};
   });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "fleetmap/fleet_codec/messages.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 using messages::Hold;
 using messages::HoldOrder;
+using messages::RowOrder;
 
 constexpr Duration kCheckPeriod = std::chrono::milliseconds(50);
 constexpr Duration kRepeat = std::chrono::seconds(1);
@@ -19,9 +21,30 @@ constexpr Duration kRepeat = std::chrono::seconds(1);
 /// this one; another operator may insist longer.
 constexpr int kMaxRenewals = 3;
 
+/// What a robot that sent `hold` obeys in place of `order`; nothing if it has not heard of that.
+std::optional<HoldOrder> obeyed(const HoldOrder& order, const Hold& hold) {
+  const auto in_force = exchange::order_for(hold.from, hold.orders);
+  return in_force && !exchange::replaces(order, *in_force) ? in_force : std::nullopt;
+}
+
+std::optional<RowOrder> obeyed(const RowOrder& order, const Hold& hold) {
+  const auto same = std::ranges::find(hold.rows, order.row, &RowOrder::row);
+  return same != hold.rows.end() && same->stamp >= order.stamp ? std::optional(*same) : std::nullopt;
+}
+
+Stamp later_than(const HoldOrder&, const Hold& hold, Stamp now) {
+  return exchange::later_than(hold.orders, now);
+}
+Stamp later_than(const RowOrder&, const Hold& hold, Stamp now) {
+  return exchange::later_than(hold.rows, now);
+}
+
+void add_to(Hold& hold, const HoldOrder& order) { hold.orders.push_back(order); }
+void add_to(Hold& hold, const RowOrder& order) { hold.rows.push_back(order); }
+
 }  // namespace
 
-OrderInForce::OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const HoldOrder& order)
+OrderInForce::OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const Order& order)
     : bus_(bus), addressed_(std::move(addressed)), order_(order) {
   subscription_ = bus_.subscribe(fleet_codec::topics::hold(), [this](const Bytes& cdr) {
     if (const auto hold = fleet_codec::decode<Hold>(cdr)) on_hold(*hold);
@@ -32,8 +55,14 @@ OrderInForce::OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, con
 
 void OrderInForce::send() {
   next_ = bus_.now() + kRepeat;
-  bus_.publish(fleet_codec::topics::hold(),
-               fleet_codec::encode(Hold{order_.issuer, Hold::Driving::kNoRobot, {order_}}));
+  Hold hold;
+  std::visit(
+      [&](const auto& order) {
+        hold.from = order.issuer;
+        add_to(hold, order);
+      },
+      order_);
+  bus_.publish(fleet_codec::topics::hold(), fleet_codec::encode(hold));
 }
 
 void OrderInForce::repeat() {
@@ -44,16 +73,20 @@ void OrderInForce::repeat() {
 
 void OrderInForce::on_hold(const Hold& hold) {
   if (std::ranges::find(addressed_, hold.from) == addressed_.end()) return;
-  const auto in_force = exchange::order_for(hold.from, hold.orders);
-  if (!in_force || exchange::replaces(order_, *in_force)) return;  // it has not heard
-  if (*in_force == order_) {
-    confirmed_[hold.from] = hold.driving;
-  } else if (renewals_ < kMaxRenewals) {
-    ++renewals_;
-    order_.stamp = exchange::later_than(hold.orders, bus_.now());
-    confirmed_.clear();
-    send();
-  }
+  std::visit(
+      [&](auto& order) {
+        const auto in_force = obeyed(order, hold);
+        if (!in_force) return;
+        if (*in_force == order) {
+          confirmed_[hold.from] = hold.driving;
+        } else if (renewals_ < kMaxRenewals) {
+          ++renewals_;
+          order.stamp = later_than(order, hold, bus_.now());
+          confirmed_.clear();
+          send();
+        }
+      },
+      order_);
 }
 
 }  // namespace fleetmap::apps

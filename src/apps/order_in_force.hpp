@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <variant>
 #include <vector>
 
 #include "fleetmap/bus/dds_bus.hpp"
@@ -8,10 +9,12 @@
 
 namespace fleetmap::apps {
 
-/// An operator's order to hold or resume on its way over the long range, and which robots confirmed it.
+using Order = std::variant<messages::HoldOrder, messages::RowOrder>;
+
+/// An operator's order on its way over the long range, and which robots confirmed it.
 class OrderInForce {
  public:
-  OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const messages::HoldOrder& order);
+  OrderInForce(bus::DdsBus& bus, std::vector<AgentId> addressed, const Order& order);
 
   bool confirmed_by_all() const { return confirmed_.size() == addressed_.size(); }
   const std::map<AgentId, messages::Hold::Driving>& confirmed() const { return confirmed_; }
@@ -24,7 +27,7 @@ class OrderInForce {
 
   bus::DdsBus& bus_;
   std::vector<AgentId> addressed_;
-  messages::HoldOrder order_;
+  Order order_;
   std::map<AgentId, messages::Hold::Driving> confirmed_;
   std::size_t readers_ = 0;
   Stamp next_{};

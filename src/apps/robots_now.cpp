@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "fleetmap/sensor/clock_offsets.hpp"
 #include "row_progress.hpp"
 
 namespace fleetmap::apps {
@@ -35,6 +36,8 @@ std::string words_of(const MissionReport& report, const std::vector<planning::Ro
       return "is stuck and gave its rows away";
     case MissionState::kLowBattery:
       return "drives home with a low battery";
+    case MissionState::kCalledHome:
+      return "was called home and gave its rows away";
     case MissionState::kLost:
       break;
   }
@@ -54,6 +57,31 @@ std::string activity_now(const FleetNow& fleet, const AgentId& id, bool is_held)
   return status->second.busy ? "maps" : "has nothing left to map or to exchange";
 }
 
+std::vector<std::uint32_t> rows_of(const MissionReport& report, const std::vector<planning::Row>& rows) {
+  std::vector<std::uint32_t> ids;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (report.claimed.has(row)) ids.push_back(rows[row].id);
+  }
+  return ids;
+}
+
+/// Orders that the robot has not confirmed by what it does.
+void add_unconfirmed(const FleetNow& fleet, bool stands, bool on_way_home, monitor::RobotNow& robot) {
+  if (robot.driven && robot.ordered_to_hold && !stands)
+    robot.problems.push_back("has not confirmed the order to stand still");
+  if (robot.driven && robot.called_home && !on_way_home)
+    robot.problems.push_back("has not confirmed the order to drive home");
+  const auto report = fleet.reports.find(robot.id);
+  if (report == fleet.reports.end()) return;
+  for (const messages::RowOrder& order : fleet.row_orders) {
+    const auto row = std::ranges::find(fleet.rows, order.row, &planning::Row::id);
+    const auto index = static_cast<std::size_t>(row - fleet.rows.begin());
+    const bool owns = report->second.claimed.has(index) || report->second.done.has(index);
+    if (order.to == robot.id && row != fleet.rows.end() && !owns)
+      robot.problems.push_back(fmt::format("has not taken over row {} yet", order.row));
+  }
+}
+
 std::vector<monitor::LastHeard> heard_of(const FleetNow& fleet, const AgentId& id) {
   std::vector<monitor::LastHeard> all;
   for (const auto& [source, heard] : fleet.heard)
@@ -69,6 +97,9 @@ void add_status(const messages::AgentStatus& status, monitor::RobotNow& robot) {
   robot.backlog_bytes = status.backlog_bytes;
   if (status.battery >= 0.0f) robot.battery = status.battery;
   if (status.position_stddev > 0.0f) robot.sigma_m = status.position_stddev;
+  if (const auto behind = messages::seconds_behind(status.health.clock_offset)) {
+    robot.clock = {sensor::to_string(static_cast<sensor::Source>(status.health.clock_sensor)), *behind};
+  }
 }
 
 monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
@@ -77,19 +108,25 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
   if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end())
     add_status(status->second, robot);
   const auto order = exchange::order_for(id, fleet.orders);
-  robot.ordered_to_hold = order && order->hold;
+  robot.ordered_to_hold = order && order->kind == messages::HoldOrder::Kind::kHold;
+  robot.called_home = order && order->kind == messages::HoldOrder::Kind::kHome;
+  if (const auto report = fleet.reports.find(id); report != fleet.reports.end())
+    robot.rows = rows_of(report->second, fleet.rows);
   const auto driving = fleet.driving.find(id);
   const bool answered = driving != fleet.driving.end();
   // A robot that has not said yet what it does can be stopped, too.
   robot.driven = !answered || driving->second != Hold::Driving::kNoMission;
   const bool is_held = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
   robot.activity = activity_now(fleet, id, is_held);
-  if (robot.driven && robot.ordered_to_hold && !is_held)
-    robot.problems.push_back("has not confirmed the order to stand still");
+  add_unconfirmed(fleet, is_held, answered && driving->second == Hold::Driving::kHome, robot);
   if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
     robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));
-  if (const auto known = fleet.problems.find(id); known != fleet.problems.end())
+  if (const auto known = fleet.problems.find(id); known != fleet.problems.end()) {
     robot.problems.insert(robot.problems.end(), known->second.begin(), known->second.end());
+  } else if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end()) {
+    for (std::string& words : messages::words_of(status->second.health))
+      robot.problems.push_back(std::move(words));
+  }
   robot.heard = heard_of(fleet, id);
   return robot;
 }

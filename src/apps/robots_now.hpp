@@ -22,6 +22,7 @@ struct FleetNow {
   std::map<AgentId, messages::Hold::Driving> driving;  ///< likewise
   std::map<AgentId, messages::MissionReport> reports;  ///< likewise
   std::vector<messages::HoldOrder> orders;             ///< in force or replaced by those for one robot
+  std::vector<messages::RowOrder> row_orders;          ///< in force
   std::map<LinkLog::Source, LinkLog::Heard> heard;
   std::map<AgentId, std::uint64_t> misbehaved;           ///< messages that contradict the rules
   std::vector<planning::Row> rows;                       ///< of the mission, in its order

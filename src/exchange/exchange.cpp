@@ -83,6 +83,13 @@ void Exchange::on_local_order(HoldOrder order, Stamp now) {
   if (state_->holds.add(order)) state_->note_orders(before);
 }
 
+void Exchange::on_local_order(RowOrder order, Stamp now) {
+  if (order.stamp == Stamp{}) order.stamp = later_than(row_orders(), now);
+  if (state_->holds.add(order)) state_->note_row_orders();
+}
+
+std::vector<RowOrder> Exchange::row_orders() const { return state_->holds.rows().all(); }
+
 std::optional<HoldOrder> Exchange::hold_in_force() const { return state_->holds.in_force(); }
 
 std::vector<HoldOrder> Exchange::hold_orders() const { return state_->holds.all(); }

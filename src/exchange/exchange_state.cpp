@@ -129,7 +129,14 @@ void Exchange::State::handle(const MissionReport& report, const Delivery&, Stamp
 void Exchange::State::handle(const Hold& hold, const Delivery&, Stamp) {
   if (members.contains(hold.from)) heard_driving.insert_or_assign(hold.from, hold.driving);
   const auto before = holds.in_force();
+  const auto rows_before = holds.rows().all();
   if (holds.on_hold(hold)) note_orders(before);
+  if (holds.rows().all() != rows_before) note_row_orders();
+}
+
+void Exchange::State::note_row_orders() {
+  orders_to_store = true;
+  events.push_back(RowsOrdered{holds.rows().all()});
 }
 
 void Exchange::State::note_orders(const std::optional<HoldOrder>& before) {
@@ -176,20 +183,21 @@ void Exchange::State::tick_receivers(Stamp now) {
 }
 
 void Exchange::State::tick_holds(Stamp now) {
-  auto orders = holds.tick(now);
-  if (!orders) return;
+  if (!holds.tick(now)) return;
   if (orders_to_store) {
     // A disk that fails must not delay a stop. Storing is tried again when the orders are repeated.
     const Status stored = store.set_meta(kHoldKey, holds.encoded());
     orders_to_store = !stored;
     if (!stored) events.push_back(StoreFailed{stored.error()});
   }
-  outbox.broadcast(Priority::kSafety, Hold{members.self(), own_driving(), std::move(*orders)});
+  outbox.broadcast(Priority::kSafety, Hold{members.self(), own_driving(), holds.all(), holds.rows().all()});
 }
 
 Hold::Driving Exchange::State::own_driving() const {
   if (!drives) return Hold::Driving::kNoMission;
-  return holds.held() ? Hold::Driving::kHeld : Hold::Driving::kFree;
+  if (holds.held()) return Hold::Driving::kHeld;
+  const auto order = holds.in_force();
+  return order && order->kind == HoldOrder::Kind::kHome ? Hold::Driving::kHome : Hold::Driving::kFree;
 }
 
 AgentStatus Exchange::State::own_status() const {

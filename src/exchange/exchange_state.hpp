@@ -51,6 +51,7 @@ struct Exchange::State {
   bool idle(Stamp now, const std::set<AgentId>& without) const;
   /// Emits HoldChanged if `before` is no longer in force. The robot obeys before the order is stored.
   void note_orders(const std::optional<HoldOrder>& before);
+  void note_row_orders();
   /// With the counts of the store and the queue, without stamp.
   AgentStatus own_status() const;
   Hold::Driving own_driving() const;

@@ -214,6 +214,9 @@ Bytes encode(const messages::AgentStatus& status) {
   out.submaps(status.submaps);
   out.backlog_bytes(status.backlog_bytes);
   out.busy(status.busy);
+  out.problems(status.health.problems);
+  out.clock_sensor(status.health.clock_sensor);
+  out.clock_offset(status.health.clock_offset);
   out.loans().resize(std::min(status.loans.size(), kMaxLoans));
   for (std::size_t k = 0; k < out.loans().size(); ++k) {
     out.loans()[k].borrower(agent_name(status.loans[k].borrower));
@@ -242,6 +245,9 @@ Result<messages::AgentStatus> decode(ByteView cdr) {
   status.submaps = in->submaps();
   status.backlog_bytes = in->backlog_bytes();
   status.busy = in->busy();
+  check.require(in->problems() <= messages::Health::kAllProblems, "problems are not known");
+  check.require(in->clock_sensor() < messages::Health::kSensors, "clock_sensor is not known");
+  status.health = {in->problems(), in->clock_sensor(), in->clock_offset()};
   check.require(in->loans().size() <= kMaxLoans, "more than 4 loans");
   for (const msg::Loan& loan : in->loans()) {
     status.loans.push_back({check.agent(loan.borrower(), "borrower"), loan.bytes_per_second()});
@@ -273,7 +279,7 @@ Result<messages::MissionReport> decode(ByteView cdr) {
   messages::MissionReport report;
   report.from = check.agent(in->sender(), "sender");
   report.stamp = check.stamp(in->stamp());
-  check.require(in->state() <= 5, "state is not known");
+  check.require(in->state() <= 6, "state is not known");
   const bool sets_fit = in->done().size() <= kMaxRowSet && in->claimed().size() <= kMaxRowSet &&
                         in->failed().size() <= kMaxRowSet;
   check.require(sets_fit, "a set of rows is beyond 512 bytes");
@@ -299,7 +305,16 @@ Bytes encode(const messages::Hold& hold) {
     order.stamp(to_ns(hold.orders[k].stamp));
     order.robot(agent_name(hold.orders[k].robot));
     order.issuer(agent_name(hold.orders[k].issuer));
-    order.hold(hold.orders[k].hold);
+    order.kind(static_cast<std::uint8_t>(hold.orders[k].kind));
+  }
+  out.rows().resize(std::min(hold.rows.size(), kMaxRowOrders));
+  for (std::size_t k = 0; k < out.rows().size(); ++k) {
+    msg::RowOrder& order = out.rows()[k];
+    order.stamp(to_ns(hold.rows[k].stamp));
+    order.robot(agent_name(hold.rows[k].robot));
+    order.to(agent_name(hold.rows[k].to));
+    order.issuer(agent_name(hold.rows[k].issuer));
+    order.row(hold.rows[k].row);
   }
   return bus::to_cdr(out);
 }
@@ -311,13 +326,22 @@ Result<messages::Hold> decode(ByteView cdr) {
   FieldCheck check(type_name::kHold);
   messages::Hold hold;
   hold.from = check.agent(in->sender(), "sender");
-  check.require(in->driving() <= 3, "driving is not known");
+  check.require(in->driving() <= 4, "driving is not known");
   hold.driving = static_cast<messages::Hold::Driving>(in->driving());
   check.require(in->orders().size() <= kMaxHoldOrders, "orders are more than 32");
   for (const msg::HoldOrder& order : in->orders()) {
     const bool all = order.robot() == AgentName{};
+    check.require(order.kind() <= 2, "kind of an order is not known");
     hold.orders.push_back({check.stamp(order.stamp()), all ? AgentId{} : check.agent(order.robot(), "robot"),
-                           check.agent(order.issuer(), "issuer"), order.hold()});
+                           check.agent(order.issuer(), "issuer"),
+                           static_cast<messages::HoldOrder::Kind>(order.kind())});
+  }
+  check.require(in->rows().size() <= kMaxRowOrders, "orders for rows are more than 16");
+  for (const msg::RowOrder& order : in->rows()) {
+    const bool anyone = order.to() == AgentName{};
+    hold.rows.push_back({check.stamp(order.stamp()), check.agent(order.robot(), "robot"),
+                         anyone ? AgentId{} : check.agent(order.to(), "to"),
+                         check.agent(order.issuer(), "issuer"), order.row()});
   }
   return check.finish(std::move(hold));
 }

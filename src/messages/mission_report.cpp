@@ -17,6 +17,8 @@ const char* to_string(MissionState state) {
       return "stuck";
     case MissionState::kLowBattery:
       return "low battery";
+    case MissionState::kCalledHome:
+      return "called home";
     case MissionState::kLost:
       return "lost";
   }

@@ -25,7 +25,7 @@ void add_security_headers(Response& response, std::string_view host) {
 
 /// An order of an operator. `head` has passed refusal().
 Reply reply_to_order(ServerState& state, const RequestHead& head, std::string_view target) {
-  const auto order = parse_hold_request(target);
+  const auto order = parse_order_request(target);
   if (!order) return {.status = 405, .body = "everything here is read only\n"};
   if (!state.operated()) return {.status = 403, .body = "read only: orders need a live robot and a token\n"};
   // Browsers name the page that posts; other programs show the token themselves.

@@ -14,6 +14,10 @@ json optional_json(const std::optional<double>& value, double steps) {
   return value ? json(rounded(*value, steps)) : json();
 }
 
+json clock_json(const std::optional<ClockNow>& clock) {
+  return clock ? json{{"sensor", clock->sensor}, {"behind_s", clock->behind_s}} : json();
+}
+
 json robot_json(const RobotNow& robot) {
   json heard = json::array();
   for (const LastHeard& one : robot.heard)
@@ -24,11 +28,14 @@ json robot_json(const RobotNow& robot) {
           {"heard", std::move(heard)},
           {"battery", optional_json(robot.battery, 1e3)},
           {"sigma_m", optional_json(robot.sigma_m, 1e3)},
+          {"clock", clock_json(robot.clock)},
           {"nodes", robot.nodes},
           {"alignments", robot.alignments},
           {"submaps", robot.submaps},
           {"backlog_bytes", robot.backlog_bytes},
           {"ordered_to_hold", robot.ordered_to_hold},
+          {"called_home", robot.called_home},
+          {"rows", robot.rows},
           {"driven", robot.driven}};
 }
 

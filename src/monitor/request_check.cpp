@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <random>
+#include <utility>
 
 namespace fleetmap::monitor {
 namespace {
@@ -42,6 +44,16 @@ std::optional<std::size_t> number_after(std::string_view text, std::string_view 
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// Takes "NAME=ROBOT" off the front of `query`; nothing if that is not there.
+std::optional<AgentId> take_agent(std::string_view& query, std::string_view name) {
+  if (!query.starts_with(name)) return std::nullopt;
+  const std::string_view value = query.substr(name.size(), query.find('&', 1) - name.size());
+  const auto agent = AgentId::parse(std::string(value));
+  if (!agent || agent->empty()) return std::nullopt;
+  query.remove_prefix(name.size() + value.size());
+  return *agent;
 }
 
 constexpr std::size_t kHashDigits = 32;
@@ -154,16 +166,29 @@ std::optional<SubmapsRequest> parse_submaps_request(std::string_view target) {
   }
 }
 
-std::optional<HoldRequest> parse_hold_request(std::string_view target) {
-  constexpr std::string_view kHold = "/operator/hold", kResume = "/operator/resume", kRobot = "?robot=";
-  const bool hold = target.starts_with(kHold);
-  if (!hold && !target.starts_with(kResume)) return std::nullopt;
-  target.remove_prefix(hold ? kHold.size() : kResume.size());
-  if (target.empty()) return HoldRequest{hold, std::nullopt};
-  if (!target.starts_with(kRobot)) return std::nullopt;
-  const auto robot = AgentId::parse(std::string(target.substr(kRobot.size())));
-  if (!robot || robot->empty()) return std::nullopt;
-  return HoldRequest{hold, *robot};
+std::optional<OrderRequest> parse_order_request(std::string_view target) {
+  using Kind = OrderRequest::Kind;
+  constexpr std::array<std::pair<std::string_view, Kind>, 4> kPaths{{{"/operator/hold", Kind::kHold},
+                                                                     {"/operator/resume", Kind::kResume},
+                                                                     {"/operator/home", Kind::kHome},
+                                                                     {"/operator/give", Kind::kGive}}};
+  const std::string_view path = target.substr(0, target.find('?'));
+  const auto found = std::ranges::find(kPaths, path, &std::pair<std::string_view, Kind>::first);
+  if (found == kPaths.end()) return std::nullopt;
+  OrderRequest order{found->second, std::nullopt, 0, std::nullopt};
+  std::string_view query = target.substr(path.size());
+  if (order.kind != Kind::kGive && query.empty()) return order;
+  order.robot = take_agent(query, "?robot=");
+  if (!order.robot) return std::nullopt;
+  if (order.kind == Kind::kGive) {
+    const std::string_view field = query.substr(0, query.find('&', 1));
+    const auto row = number_after(field, "&row=");
+    if (!row || *row > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+    order.row = static_cast<std::uint32_t>(*row);
+    query.remove_prefix(field.size());
+    if (!query.empty() && !(order.to = take_agent(query, "&to="))) return std::nullopt;
+  }
+  return query.empty() ? std::optional(order) : std::nullopt;
 }
 
 }  // namespace fleetmap::monitor

@@ -113,10 +113,11 @@ TEST_F(AgentTest, AnOrderGivenHereIsObeyedThere) {
   }
   network->run_until(Stamp{} + 5s);
   EXPECT_FALSE(agents[1]->exchange().hold_in_force());
-  agents[0]->give_order({.robot = {}, .issuer = id("r1"), .hold = true});
+  agents[0]->give_order(messages::HoldOrder{
+      .stamp = {}, .robot = {}, .issuer = id("r1"), .kind = messages::HoldOrder::Kind::kHold});
   network->run_until(Stamp{} + 10s);
   ASSERT_TRUE(agents[1]->exchange().hold_in_force());
-  EXPECT_TRUE(agents[1]->exchange().hold_in_force()->hold);
+  EXPECT_EQ(agents[1]->exchange().hold_in_force()->kind, messages::HoldOrder::Kind::kHold);
   EXPECT_TRUE(agents[0]->idle());
 }
 

@@ -160,13 +160,26 @@ bool DrivenFleet::run_until_driving() {
 }
 
 messages::HoldOrder DrivenFleet::order_now(const std::string& robot, bool hold) const {
-  return {now(), robot.empty() ? AgentId{} : robot_id(robot), robot_id("operator"), hold};
+  return {now(), robot.empty() ? AgentId{} : robot_id(robot), robot_id("operator"),
+          hold ? messages::HoldOrder::Kind::kHold : messages::HoldOrder::Kind::kResume};
 }
 
-void DrivenFleet::order(const std::string& robot, bool hold) {
-  const messages::Hold message{
-      robot_id("operator"), messages::Hold::Driving::kNoRobot, {order_now(robot, hold)}};
-  operator_->publish(fleet_codec::topics::hold(), fleet_codec::encode(message));
+void DrivenFleet::send(messages::Hold orders) {
+  orders.from = robot_id("operator");
+  operator_->publish(fleet_codec::topics::hold(), fleet_codec::encode(orders));
+}
+
+void DrivenFleet::order(const std::string& robot, bool hold) { send({{}, {}, {order_now(robot, hold)}}); }
+
+void DrivenFleet::call_home(const std::string& robot) {
+  messages::HoldOrder order = order_now(robot, false);
+  order.kind = messages::HoldOrder::Kind::kHome;
+  send({{}, {}, {order}});
+}
+
+void DrivenFleet::give(const std::string& robot, std::uint32_t row, const std::string& to) {
+  const AgentId receiver = to.empty() ? AgentId{} : robot_id(to);
+  send({{}, {}, {}, {{now(), robot_id(robot), receiver, robot_id("operator"), row}}});
 }
 
 Stamp stands_from(const DrivenFleet::Robot& robot, Stamp event, Stamp until) {

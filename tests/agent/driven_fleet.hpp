@@ -60,12 +60,15 @@ class DrivenFleet {
   bool run_until_driving();
   /// Sends an operator's order on the long range, once.
   void order(const std::string& robot, bool hold);
+  void call_home(const std::string& robot);
+  void give(const std::string& robot, std::uint32_t row, const std::string& to);
   messages::HoldOrder order_now(const std::string& robot, bool hold) const;
   /// As kill -9 and a new start do; the chassis stands meanwhile.
   void restart(const std::string& name);
 
  private:
   void start(Robot& robot);
+  void send(messages::Hold orders);
   void tick();
   void sense(Robot& robot);
   void guide(Robot& robot);

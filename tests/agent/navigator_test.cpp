@@ -75,7 +75,10 @@ class NavigatorTest : public ::testing::Test {
       ASSERT_EQ(command.yaw_rate, 0.0);
     }
   }
-  static messages::HoldOrder order(bool hold) { return {{}, {}, AgentId::parse("operator").value(), hold}; }
+  static messages::HoldOrder order(bool hold) {
+    using Kind = messages::HoldOrder::Kind;
+    return {{}, {}, AgentId::parse("operator").value(), hold ? Kind::kHold : Kind::kResume};
+  }
   messages::MissionReport report_of(const char* id, Bytes done) const {
     messages::MissionReport report;
     report.from = AgentId::parse(id).value();

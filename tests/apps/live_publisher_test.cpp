@@ -74,12 +74,16 @@ TEST_F(LivePublisher, ShowsTheOtherRobotOnceItIsHeardAndPassesOnOrders) {
   ASSERT_TRUE(eventually([&] { return !live(port).is_null(); }, 60s)) << r1->output();
   EXPECT_EQ(robot(port, 1)["activity"], "was not heard yet");
   EXPECT_EQ(live(port)["operated"], true);
+  EXPECT_TRUE(robot(port, 1)["problems"].empty()) << "nothing is known of it yet";
   EXPECT_EQ(live(port)["sensors"].size(), 4u);
   const auto r2 = agent("r2");
   ASSERT_TRUE(eventually([&] { return robot(port, 1)["heard"].size() == 2; }, 60s)) << r1->output();
   const auto idle = [&] { return robot(port, 1)["activity"] == "has nothing left to map or to exchange"; };
   EXPECT_TRUE(eventually(idle, 60s)) << live(port);
+  const auto tells = [&] { return robot(port, 1)["problems"].size() == 2; };
+  EXPECT_TRUE(eventually(tells, 60s)) << "r2 has no sensors, and says so by radio: " << live(port);
   const json now = live(port);
+  EXPECT_EQ(now["robots"][1]["problems"], (json{"no scan comes from its LiDAR", "its pose is not known"}));
   EXPECT_EQ(now["self"], "r1");
   EXPECT_GT(now["radio"]["share"].get<double>(), 0.0);
   EXPECT_EQ(now["radio"]["missing_submaps"], 0);
@@ -100,6 +104,9 @@ TEST_F(LivePublisher, ShowsTheOtherRobotOnceItIsHeardAndPassesOnOrders) {
   EXPECT_EQ(robot(port, 0)["ordered_to_hold"], false);
   EXPECT_EQ(post(port, "/operator/resume?robot=r2", bearer()), "202");
   EXPECT_TRUE(eventually([&] { return robot(port, 1)["ordered_to_hold"] == false; }, 60s));
+  EXPECT_EQ(post(port, "/operator/home?robot=r2", bearer()), "202");
+  EXPECT_TRUE(eventually([&] { return robot(port, 1)["called_home"] == true; }, 60s));
+  EXPECT_EQ(robot(port, 1)["ordered_to_hold"], false);
   r1->signal(SIGTERM);
   EXPECT_TRUE(eventually([&] { return !r1->running(); }, 60s));
 }

@@ -7,6 +7,7 @@ namespace {
 
 using messages::Hold;
 using messages::MissionState;
+using Kind = messages::HoldOrder::Kind;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -40,7 +41,7 @@ class RobotsNow : public ::testing::Test {
     EXPECT_EQ(robots.size(), 2u);
     return id == kR1 ? robots.at(0) : robots.at(1);
   }
-  void order(bool hold) { fleet_.orders = {{Stamp{1s}, kR2, kR1, hold}}; }
+  void order(bool hold) { fleet_.orders = {{Stamp{1s}, kR2, kR1, hold ? Kind::kHold : Kind::kResume}}; }
 
   FleetNow fleet_;
 };
@@ -125,6 +126,41 @@ TEST_F(RobotsNow, AnOrderCountsOnceTheRobotHasAnswered) {
   fleet_.driving[kR2] = Hold::Driving::kNoMission;
   EXPECT_FALSE(of(kR2).driven);
   EXPECT_FALSE(of(kR1).ordered_to_hold);
+}
+
+TEST_F(RobotsNow, ACallHomeAndAGivenRowCountOnceTheRobotHasAnswered) {
+  fleet_.reports[kR2] = report(MissionState::kDriving, 1, 4, 0);
+  fleet_.reports[kR2].claimed = messages::RowSet(4);
+  fleet_.reports[kR2].claimed.set(1);
+  fleet_.reports[kR2].claimed.set(3);
+  EXPECT_THAT(of(kR2).rows, ElementsAre(71u, 73u));
+  fleet_.row_orders = {
+      {Stamp{1s}, kR1, kR2, kR1, 72}, {Stamp{1s}, kR1, kR2, kR1, 73}, {Stamp{1s}, kR1, kR2, kR1, 9}};
+  EXPECT_THAT(of(kR2).problems, ElementsAre("has not taken over row 72 yet"))
+      << "it has 73, and there is no row 9";
+  fleet_.reports[kR2].done.set(2);
+  EXPECT_THAT(of(kR2).problems, IsEmpty());
+  fleet_.orders = {{Stamp{1s}, kR2, kR1, Kind::kHome}};
+  EXPECT_TRUE(of(kR2).called_home);
+  EXPECT_FALSE(of(kR2).ordered_to_hold);
+  EXPECT_THAT(of(kR2).problems, ElementsAre("has not confirmed the order to drive home"));
+  fleet_.driving[kR2] = Hold::Driving::kHome;
+  fleet_.reports[kR2].state = MissionState::kCalledHome;
+  EXPECT_THAT(of(kR2).problems, IsEmpty());
+  EXPECT_THAT(of(kR2).activity, HasSubstr("was called home and gave its rows away"));
+}
+
+TEST_F(RobotsNow, HealthAndClockOfAnotherRobotComeWithItsStatus) {
+  EXPECT_FALSE(of(kR2).clock);
+  messages::AgentStatus& status = fleet_.statuses[kR2];
+  status.health = {messages::Health::kNoScan, 2, messages::clock_code(-2.0)};
+  EXPECT_THAT(of(kR2).problems, ElementsAre("no scan comes from its LiDAR"));
+  ASSERT_TRUE(of(kR2).clock);
+  EXPECT_EQ(of(kR2).clock->sensor, "gps");
+  EXPECT_NEAR(of(kR2).clock->behind_s, -2.0, 0.1);
+  fleet_.problems[kR2] = {"no scan for 7 s"};
+  EXPECT_THAT(of(kR2).problems, ElementsAre("no scan for 7 s"))
+      << "of a robot whose insides are known, those";
 }
 
 TEST_F(RobotsNow, WhyThisRobotStandsIsKnownHere) {

@@ -74,6 +74,11 @@ TEST_F(VirtualPage, ShowsTheFleetAndItsRadiosAndHoldsARobot) {
   EXPECT_EQ(now["operated"], true);
   EXPECT_EQ(now["radio"]["who_may_join"], "members of the fleet");
   EXPECT_EQ(post("/operator/resume?robot=r2"), "202");
+  const auto called = [&] { return robot(1)["activity"].get<std::string>().starts_with("was called home"); };
+  EXPECT_EQ(post("/operator/give?robot=r2&row=0&to=r9"), "503");
+  EXPECT_EQ(post("/operator/home?robot=r2"), "202");
+  EXPECT_TRUE(eventually(called, 60s)) << live();
+  EXPECT_EQ(post("/operator/resume?robot=r2"), "202");
   ASSERT_TRUE(eventually([&] { return !run->running(); }, 300s)) << run->output();
   EXPECT_EQ(run->wait(), 0) << run->output();
 }

@@ -148,7 +148,7 @@ TEST_F(ExchangeStateTest, AnOrderGoesBeforeAllElse) {
   exchange_.on_message(status_of(kPeer, false), kStart);
   const Bytes submap = random_bytes(20, 1);
   ASSERT_TRUE(exchange_.on_own_node(make_node(kSelf, 0, submap), submap, kStart));
-  exchange_.on_local_order({{}, {}, kSelf, true}, kStart);
+  exchange_.on_local_order(HoldOrder{{}, {}, kSelf, HoldOrder::Kind::kHold}, kStart);
   const auto out = exchange_.tick(kStart);
   const auto first_radio = std::ranges::find(out, Reach::kLongRange, &Outgoing::reach);
   ASSERT_NE(first_radio, out.end());

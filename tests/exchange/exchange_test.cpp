@@ -42,19 +42,19 @@ TEST_F(ExchangeTest, AnOwnNodeIsStoredAndGoesToEachOtherRobot) {
 TEST_F(ExchangeTest, AnOperatorsOrderIsObeyedThoughTheOperatorIsNoMember) {
   Hold hold;
   hold.from = kStranger;
-  hold.orders = {{kStart, kSelf, kStranger, true}};
+  hold.orders = {{kStart, kSelf, kStranger, HoldOrder::Kind::kHold}};
   exchange_.on_message(hold, kStart);
   const auto changed = taken<HoldChanged>();
   ASSERT_EQ(changed.size(), 1u);
-  EXPECT_TRUE(changed[0].order.hold);
+  EXPECT_EQ(changed[0].order.kind, HoldOrder::Kind::kHold);
   exchange_.on_message(hold, kStart);
   EXPECT_TRUE(taken<HoldChanged>().empty()) << "a repetition changes nothing";
   ASSERT_TRUE(exchange_.hold_in_force());
-  EXPECT_TRUE(exchange_.hold_in_force()->hold);
+  EXPECT_EQ(exchange_.hold_in_force()->kind, HoldOrder::Kind::kHold);
 }
 
 TEST_F(ExchangeTest, AnOrderSurvivesARestart) {
-  exchange_.on_local_order({{}, {}, kSelf, true}, kStart);
+  exchange_.on_local_order(HoldOrder{{}, {}, kSelf, HoldOrder::Kind::kHold}, kStart);
   EXPECT_EQ(sent<Hold>(kStart).size() > 0, true) << "it goes to the others at once";
   const auto order = exchange_.hold_in_force();
   ASSERT_TRUE(order);
@@ -63,12 +63,37 @@ TEST_F(ExchangeTest, AnOrderSurvivesARestart) {
   EXPECT_EQ(exchange_.hold_in_force(), order);
 }
 
+TEST_F(ExchangeTest, RowsThatAreGivenAwayAreToldSentAndSurviveARestart) {
+  exchange_.on_local_order(RowOrder{{}, kSelf, kPeer, kSelf, 7}, kStart);
+  ASSERT_EQ(taken<RowsOrdered>().size(), 1u);
+  ASSERT_EQ(exchange_.row_orders().size(), 1u);
+  const RowOrder given = exchange_.row_orders()[0];
+  EXPECT_NE(given.stamp, Stamp{});
+  const auto out = sent<Hold>(kStart);
+  ASSERT_EQ(out.size(), 1u);
+  EXPECT_EQ(std::get<Hold>(out[0].message).rows, std::vector{given});
+  Hold back;
+  back.from = kStranger;
+  back.rows = {{given.stamp, kPeer, kThird, kStranger, 9}};
+  exchange_.on_message(back, kStart);
+  const auto told = taken<RowsOrdered>();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].orders.size(), 2u) << "all that are in force";
+  exchange_.on_message(back, kStart);
+  EXPECT_TRUE(taken<RowsOrdered>().empty()) << "a repetition changes nothing";
+  sent<Hold>(kStart + std::chrono::seconds(1));
+  exchange_ = make();
+  EXPECT_EQ(exchange_.row_orders().size(), 2u);
+}
+
 TEST_F(ExchangeTest, ReportsWhetherEachRobotStandsByAnOrder) {
   EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kNoMission);
   exchange_.set_drives(true);
   EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kFree);
-  exchange_.on_local_order({{}, kSelf, kSelf, true}, kStart);
+  exchange_.on_local_order(HoldOrder{{}, kSelf, kSelf, HoldOrder::Kind::kHold}, kStart);
   EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHeld);
+  exchange_.on_local_order(HoldOrder{{}, kSelf, kSelf, HoldOrder::Kind::kHome}, kStart);
+  EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHome);
   exchange_.on_message(Hold{kPeer, Hold::Driving::kFree, {}}, kStart);
   EXPECT_EQ(exchange_.driving().at(kPeer), Hold::Driving::kFree);
   EXPECT_FALSE(exchange_.driving().contains(kThird));

@@ -99,13 +99,13 @@ TEST(Fleet, each_robot_has_the_last_status_and_the_last_answer_to_an_order_of_ev
   EXPECT_EQ(first.statuses().at(r1).nodes, 1u);
   EXPECT_TRUE(first.hold_orders().empty());
   EXPECT_EQ(first.driving().size(), 1u) << "nobody answers without an order";
-  first.on_local_order({{}, r2, r1, true}, fleet.now());
+  first.on_local_order(messages::HoldOrder{{}, r2, r1, messages::HoldOrder::Kind::kHold}, fleet.now());
   fleet.run_for(std::chrono::seconds(60), [&] { return first.driving().size() == 3; });
   EXPECT_EQ(first.driving().at(r2), Hold::Driving::kHeld);
   EXPECT_EQ(first.driving().at(r1), Hold::Driving::kNoMission);
   ASSERT_EQ(first.hold_orders().size(), 1u);
-  EXPECT_TRUE(first.hold_orders()[0].hold);
-  first.on_local_order({{}, r2, r1, false}, fleet.now());
+  EXPECT_EQ(first.hold_orders()[0].kind, messages::HoldOrder::Kind::kHold);
+  first.on_local_order(messages::HoldOrder{{}, r2, r1, messages::HoldOrder::Kind::kResume}, fleet.now());
   fleet.run_for(std::chrono::seconds(60), [&] { return first.driving().at(r2) == Hold::Driving::kFree; });
   EXPECT_EQ(first.driving().at(r2), Hold::Driving::kFree);
 }

@@ -18,7 +18,8 @@ const Stamp kStart = stamp_from_ns(1'700'000'000'000'000'000);
 const std::set<AgentId> kFleet{agent("r1"), agent("r2"), agent("r3")};
 
 HoldOrder order(const char* robot, bool hold, Duration at) {
-  return {kStart + at, *robot == '\0' ? AgentId{} : agent(robot), agent("operator"), hold};
+  return {kStart + at, *robot == '\0' ? AgentId{} : agent(robot), agent("operator"),
+          hold ? HoldOrder::Kind::kHold : HoldOrder::Kind::kResume};
 }
 Hold from_operator(const HoldOrder& order) { return {agent("operator"), Hold::Driving::kNoRobot, {order}}; }
 
@@ -30,7 +31,7 @@ TEST(HoldOrders, TheLatestOrderThatConcernsARobotIsInForce) {
   EXPECT_TRUE(orders.held());
   EXPECT_TRUE(orders.add(order("r1", false, 2s)));
   EXPECT_FALSE(orders.held()) << "it alone was let go";
-  EXPECT_TRUE(order_for(agent("r2"), orders.all())->hold);
+  EXPECT_TRUE(order_for(agent("r2"), orders.all())->kind == HoldOrder::Kind::kHold);
   EXPECT_TRUE(orders.add(order("r2", true, 3s)));
   EXPECT_FALSE(orders.held()) << "that was for another";
   EXPECT_TRUE(orders.add(order("", true, 4s)));
@@ -69,9 +70,43 @@ TEST(HoldOrders, OrdersForStrangersAreIgnored) {
   EXPECT_TRUE(orders.all().empty());
 }
 
+TEST(HoldOrders, OfOrdersAtOneTimeTheSaferOneIsInForce) {
+  const auto at_once = [](HoldOrder::Kind kind) {
+    return HoldOrder{kStart, agent("r1"), agent("operator"), kind};
+  };
+  const HoldOrder resume = at_once(HoldOrder::Kind::kResume), home = at_once(HoldOrder::Kind::kHome),
+                  hold = at_once(HoldOrder::Kind::kHold);
+  EXPECT_TRUE(replaces(hold, home) && replaces(home, resume) && replaces(hold, resume));
+  EXPECT_FALSE(replaces(home, hold) || replaces(resume, home) || replaces(home, home));
+  HoldOrders orders(agent("r1"), kFleet);
+  orders.add(home);
+  EXPECT_FALSE(orders.held()) << "it drives home";
+  EXPECT_EQ(orders.in_force()->kind, HoldOrder::Kind::kHome);
+}
+
+TEST(HoldOrders, RowsAreGivenAmongMembersAndRepeatedLikeTheOthers) {
+  HoldOrders orders(agent("r1"), kFleet);
+  const RowOrder row{kStart, agent("r1"), agent("r2"), agent("operator"), 7};
+  EXPECT_FALSE(orders.add(RowOrder{kStart, agent("r9"), {}, agent("operator"), 7}));
+  EXPECT_FALSE(orders.add(RowOrder{kStart, agent("r1"), agent("r9"), agent("operator"), 7}));
+  EXPECT_FALSE(orders.tick(kStart));
+  EXPECT_TRUE(orders.on_hold({agent("operator"), Hold::Driving::kNoRobot, {}, {row}}));
+  EXPECT_TRUE(orders.tick(kStart + 20ms));
+  EXPECT_FALSE(orders.tick(kStart + 40ms));
+  EXPECT_FALSE(orders.on_hold({agent("r2"), Hold::Driving::kFree, {}, {row}}));
+  EXPECT_FALSE(orders.tick(kStart + 60ms)) << "r2 has it";
+  orders.on_hold({agent("r2"), Hold::Driving::kFree, {}, {}});
+  EXPECT_TRUE(orders.tick(kStart + 80ms)) << "r2 lacks it";
+  EXPECT_TRUE(orders.tick(kStart + 12s));
+  HoldOrders again(agent("r1"), kFleet);
+  again.load(orders.encoded());
+  EXPECT_EQ(again.rows().all(), std::vector{row});
+}
+
 TEST(HoldOrders, SurviveTheStore) {
   HoldOrders orders(agent("r1"), kFleet);
   orders.add(order("", true, 1s));
+  orders.add(HoldOrder{kStart, agent("r3"), agent("operator"), HoldOrder::Kind::kHome});
   orders.add(order("r2", false, 2s));
   HoldOrders again(agent("r1"), kFleet);
   again.load(orders.encoded());
@@ -114,7 +149,7 @@ TEST(HoldOrders, SpreadThroughAFleetThatLosesMessagesAndOutliveARestart) {
   const auto held = [&] {
     return fleet.all([](const SimFleet::Robot& robot) {
       const auto order = robot.exchange->hold_in_force();
-      return order && order->hold;
+      return order && order->kind == HoldOrder::Kind::kHold;
     });
   };
   HoldOrder all = order("", true, 0s);

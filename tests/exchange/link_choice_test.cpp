@@ -63,7 +63,8 @@ TEST(LinkChoice, the_radio_is_silent_but_for_orders_when_the_whole_fleet_is_near
   EXPECT_EQ((sent_over<graph::Node, graph::Alignment, Digest, CloudFragment, AgentStatus>(fleet,
                                                                                           Reach::kLongRange)),
             0u);
-  fleet.robot("r1").exchange->on_local_order({{}, {}, agent("r1"), true}, fleet.now());
+  fleet.robot("r1").exchange->on_local_order(
+      messages::HoldOrder{{}, {}, agent("r1"), messages::HoldOrder::Kind::kHold}, fleet.now());
   fleet.run_for(std::chrono::seconds(5));
   EXPECT_GT((sent_over<Hold>(fleet, Reach::kLongRange)), 0u);
 }

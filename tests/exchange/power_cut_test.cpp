@@ -98,9 +98,9 @@ class PoweredFleet {
     const auto theirs = fleet_.add_node("r2", 3.0 * ++made_, 20'000);
     fleet_.add_alignment("r2", {.ours = theirs.id, .theirs = {kSelf, 0}}, 0.2);
     if (made_ % 3 == 0)
-      fleet_.forge(
-          "r1",
-          Hold{agent("operator"), Hold::Driving::kNoRobot, {{fleet_.now(), {}, agent("operator"), true}}});
+      fleet_.forge("r1", Hold{agent("operator"),
+                              Hold::Driving::kNoRobot,
+                              {{fleet_.now(), {}, agent("operator"), HoldOrder::Kind::kHold}}});
     try {
       if (made_ % 2 == 0) fleet_.add_node("r1", 3.0 * made_, 20'000);
     } catch (const std::runtime_error&) {

@@ -90,9 +90,9 @@ TEST(HostileBytes, NoiseIsRefusedByEveryDecoder) {
 TEST(HostileBytes, AnotherSchemaVersionIsRefusedNamingBoth) {
   RandomMessages random(14);
   Bytes bytes = encode(random.node());
-  bytes[kHeader] = 7;
+  bytes[kHeader] = 9;
   EXPECT_EQ(refusal<graph::Node>(bytes),
-            "fleetmap::msg::Node: the sender speaks schema version 7, this program version " +
+            "fleetmap::msg::Node: the sender speaks schema version 9, this program version " +
                 std::to_string(kSchemaVersion) +
                 "; "
                 "run the same release on all robots");

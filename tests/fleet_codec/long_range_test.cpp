@@ -11,6 +11,7 @@
 namespace fleetmap::fleet_codec {
 namespace {
 
+using Kind = messages::HoldOrder::Kind;
 using fleet_codec::testing::cloud_fragment;
 using fleet_codec::testing::id;
 using fleet_codec::testing::node_id;
@@ -82,11 +83,11 @@ TEST(LongRange, DigestsAndRequestsOfItemsLieOnTheWireAsTheIdlHasThem) {
 
 TEST(LongRange, AStatusLiesOnTheWireAsTheIdlHasIt) {
   const messages::AgentStatus status{
-      id("r1"), stamp_from_ns(123456789012),         {0.5, -0.25, 110.5}, 1.5f, 0.75f, -1.0f, 1, 2, 3, 4,
-      true,     {{id("r2"), 500}, {id("r3"), 65535}}};
+      id("r1"), stamp_from_ns(123456789012),          {0.5, -0.25, 110.5}, 1.5f, 0.75f, -1.0f, 1, 2, 3, 4,
+      true,     {{id("r2"), 500}, {id("r3"), 65535}}, {17, 3, -9}};
   WireBytes wire;
   wire.octet(kSchemaVersion).name("r1").number(std::int64_t{123456789012}).f64(0.5).f64(-0.25).f32(110.5f);
-  wire.f32(1.5f).f32(0.75f).f32(-1.0f).u32(1).u32(2).u32(3).u32(4).octet(1);
+  wire.f32(1.5f).f32(0.75f).f32(-1.0f).u32(1).u32(2).u32(3).u32(4).octet(1).octet(17).octet(3).octet(0xf7);
   wire.u32(2).name("r2").number(std::uint16_t{500}).name("r3").number(std::uint16_t{65535});
   EXPECT_EQ(encode(status), wire.bytes());
   const auto got = read<messages::AgentStatus>(wire);
@@ -101,6 +102,10 @@ TEST(LongRange, AStatusLiesOnTheWireAsTheIdlHasIt) {
   EXPECT_EQ(got.backlog_bytes, 4u);
   EXPECT_TRUE(got.busy);
   EXPECT_EQ(got.loans, status.loans);
+  EXPECT_EQ(got.health, status.health);
+  messages::AgentStatus well = status;
+  well.health = {};
+  EXPECT_EQ(encode(well).size(), encode(status).size()) << "health lies where alignment left bytes unused";
 }
 
 TEST(LongRange, AMissionReportLiesOnTheWireAsTheIdlHasIt) {
@@ -121,18 +126,21 @@ TEST(LongRange, AMissionReportLiesOnTheWireAsTheIdlHasIt) {
 }
 
 TEST(LongRange, OrdersToHoldLieOnTheWireAsTheIdlHasThem) {
-  const messages::Hold hold{
-      id("op"),
-      messages::Hold::Driving::kHeld,
-      {{stamp_from_ns(12345678901), {}, id("op"), true}, {stamp_from_ns(2), id("r2"), id("o2"), false}}};
+  const messages::Hold hold{id("op"),
+                            messages::Hold::Driving::kHeld,
+                            {{stamp_from_ns(12345678901), {}, id("op"), Kind::kHold},
+                             {stamp_from_ns(2), id("r2"), id("o2"), Kind::kHome}},
+                            {{stamp_from_ns(3), id("r1"), {}, id("op"), 70}}};
   WireBytes wire;
   wire.octet(kSchemaVersion).octet(2).name("op").u32(2);
   wire.number(std::int64_t{12345678901}).name("").name("op").octet(1);
-  wire.number(std::int64_t{2}).name("r2").name("o2").octet(0);
+  wire.number(std::int64_t{2}).name("r2").name("o2").octet(2);
+  wire.u32(1).number(std::int64_t{3}).name("r1").name("").name("op").u32(70);
   EXPECT_EQ(encode(hold), wire.bytes());
   const auto got = read<messages::Hold>(wire);
   EXPECT_EQ(got.driving, hold.driving);
   EXPECT_EQ(got.orders, hold.orders) << "the first one of all robots";
+  EXPECT_EQ(got.rows, hold.rows) << "to any other robot";
 }
 
 TEST(LongRange, WhatHasNoMeaningIsRefusedWithTheReason) {
@@ -159,14 +167,23 @@ TEST(LongRange, WhatHasNoMeaningIsRefusedWithTheReason) {
   status.battery = 1.0f;
   status.heading = 11.0f;
   EXPECT_THAT(refusal(status), HasSubstr("heading is not finite or beyond its range"));
+  status.heading = 0.0f;
+  status.health = {32, 0, 0};
+  EXPECT_THAT(refusal(status), HasSubstr("problems are not known"));
+  status.health = {0, 4, 0};
+  EXPECT_THAT(refusal(status), HasSubstr("clock_sensor is not known"));
   messages::MissionReport report;
   report.from = id("r1");
   report.position.x() = 3e7;
   EXPECT_THAT(refusal(report), HasSubstr("east is not finite or beyond its range"));
-  EXPECT_THAT(refusal(messages::Hold{id("op"), static_cast<messages::Hold::Driving>(4), {}}),
+  EXPECT_THAT(refusal(messages::Hold{id("op"), static_cast<messages::Hold::Driving>(5), {}}),
               HasSubstr("driving is not known"));
-  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), id("r2"), {}, true}}}),
+  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), id("r2"), {}, Kind::kHold}}}),
               HasSubstr("issuer: agent id"));
+  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), {}, id("op"), static_cast<Kind>(3)}}}),
+              HasSubstr("kind of an order is not known"));
+  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {}, {{stamp_from_ns(1), {}, id("r2"), id("op"), 7}}}),
+              HasSubstr("robot: agent id"));
 }
 
 TEST(LongRange, LongListsAreCutToWhatEveryReceiverTakes) {
@@ -176,10 +193,14 @@ TEST(LongRange, LongListsAreCutToWhatEveryReceiverTakes) {
   ASSERT_EQ(missing.size(), kMaxMissing);
   EXPECT_EQ(missing.back(), kMaxMissing - 1);
   messages::Hold hold{id("op"), {}, {}};
-  for (int k = 0; k < 40; ++k) hold.orders.push_back({stamp_from_ns(k), id("r2"), id("op"), true});
+  for (int k = 0; k < 40; ++k) {
+    hold.orders.push_back({stamp_from_ns(k), id("r2"), id("op"), Kind::kHold});
+    hold.rows.push_back({stamp_from_ns(k), id("r2"), {}, id("op"), static_cast<std::uint32_t>(k)});
+  }
   const auto orders = decode<messages::Hold>(encode(hold))->orders;
   ASSERT_EQ(orders.size(), kMaxHoldOrders);
   EXPECT_EQ(orders.back(), hold.orders[kMaxHoldOrders - 1]);
+  EXPECT_EQ(decode<messages::Hold>(encode(hold))->rows.size(), kMaxRowOrders);
   messages::AgentStatus status;
   status.from = id("r1");
   status.loans.assign(9, {id("r2"), 7});

@@ -179,7 +179,9 @@ TEST(FleetMessages, MissionReportKeepsItsMeaning) {
   EXPECT_EQ(received->failed, report.failed);
   report.battery = 1.02;  // as some drivers report of a full one
   EXPECT_EQ(decode<messages::MissionReport>(encode(report))->battery, 1.0);
-  report.state = static_cast<messages::MissionState>(6);
+  report.state = messages::MissionState::kCalledHome;
+  EXPECT_EQ(decode<messages::MissionReport>(encode(report))->state, report.state);
+  report.state = static_cast<messages::MissionState>(7);
   EXPECT_FALSE(decode<messages::MissionReport>(encode(report)));
 }
 

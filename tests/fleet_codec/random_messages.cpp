@@ -136,9 +136,13 @@ messages::SubmapChunk RandomMessages::chunk() {
 }
 
 messages::Hold RandomMessages::hold() {
-  messages::Hold hold{agent(), static_cast<messages::Hold::Driving>(integer(0, 3)), {}};
+  messages::Hold hold{agent(), static_cast<messages::Hold::Driving>(integer(0, 4)), {}};
   for (std::uint32_t k = integer(0, 8); k > 0; --k)
-    hold.orders.push_back({stamp(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(), integer(0, 1) == 0});
+    hold.orders.push_back({stamp(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(),
+                           static_cast<messages::HoldOrder::Kind>(integer(0, 2))});
+  for (std::uint32_t k = integer(0, 8); k > 0; --k)
+    hold.rows.push_back(
+        {stamp(), agent(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(), integer(0, 4000)});
   return hold;
 }
 
@@ -153,29 +157,40 @@ messages::Digest RandomMessages::digest() {
 std::vector<messages::Message> RandomMessages::one_of_each() {
   messages::CloudRequest request{agent(), agent(), node_id(), {}, static_cast<float>(real(0, 20))};
   for (std::uint32_t k = integer(0, 23); k > 0; --k) request.missing.push_back(static_cast<std::uint16_t>(k));
-  return {
-      node(),
-      alignment(),
-      messages::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
-      fragment(),
-      request,
-      digest(),
-      messages::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
-      messages::AgentStatus{
-          agent(), stamp(), position(), 1.5f, 0.7f, -1.0f, 4, 3, 2, 1, integer(0, 1) == 1, {{agent(), 1200}}},
-      messages::MissionReport{agent(),
-                              stamp(),
-                              messages::MissionState::kStuck,
-                              {-12.5, 1e3},
-                              0.25,
-                              7,
-                              messages::RowSet(Bytes{1, 2}),
-                              messages::RowSet(Bytes{3}),
-                              {}},
-      hold(),
-      messages::SubmapDigest{agent(), ranges(200), {agent(), agent()}},
-      messages::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
-      chunk()};
+  return {node(),
+          alignment(),
+          messages::ProximityMatch{agent(), agent(), node_id(), node_id(), real(0, 30), real(20, 30)},
+          fragment(),
+          request,
+          digest(),
+          messages::ItemRequest{agent(), agent(), ranges(20), ranges(20)},
+          messages::AgentStatus{
+              agent(),
+              stamp(),
+              position(),
+              1.5f,
+              0.7f,
+              -1.0f,
+              4,
+              3,
+              2,
+              1,
+              integer(0, 1) == 1,
+              {{agent(), 1200}},
+              {static_cast<std::uint8_t>(integer(0, 31)), static_cast<std::uint8_t>(integer(0, 3)), -7}},
+          messages::MissionReport{agent(),
+                                  stamp(),
+                                  messages::MissionState::kStuck,
+                                  {-12.5, 1e3},
+                                  0.25,
+                                  7,
+                                  messages::RowSet(Bytes{1, 2}),
+                                  messages::RowSet(Bytes{3}),
+                                  {}},
+          hold(),
+          messages::SubmapDigest{agent(), ranges(200), {agent(), agent()}},
+          messages::SubmapRequest{agent(), agent(), node_id(), integer(0, 5000), integer(0, 5000)},
+          chunk()};
 }
 
 }  // namespace fleetmap::fleet_codec::testing

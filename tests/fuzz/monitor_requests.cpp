@@ -24,7 +24,7 @@ struct Robot {
   int orders = 0;
   Robot() {
     state.cookie = "fleetmap_80";
-    state.give_order = [this](const monitor::HoldRequest&) -> Status {
+    state.give_order = [this](const monitor::OrderRequest&) -> Status {
       ++orders;
       return {};
     };
@@ -64,7 +64,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto submaps = monitor::parse_submaps_request(text))
     fuzz::require(!submaps->hashes.empty() && submaps->hashes.size() <= monitor::kMaxSubmapsAtOnce,
                   "too many submaps");
-  if (const auto order = monitor::parse_hold_request(text); order && order->robot)
-    fuzz::require(text.ends_with("=" + order->robot->str()), "an order for another robot than is named");
+  if (const auto order = monitor::parse_order_request(text); order && order->robot)
+    fuzz::require(text.find("=" + order->robot->str()) != std::string_view::npos &&
+                      (!order->to || text.ends_with("=" + order->to->str())),
+                  "an order for another robot than is named");
   return 0;
 }

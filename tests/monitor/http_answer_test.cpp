@@ -92,7 +92,7 @@ TEST_F(HttpAnswer, a_web_socket_is_opened_at_its_place_for_so_many) {
 }
 
 TEST_F(HttpAnswer, nobody_gives_orders_without_a_token) {
-  state_.give_order = [](const HoldRequest&) -> Status { return {}; };
+  state_.give_order = [](const OrderRequest&) -> Status { return {}; };
   Request order = request(http::verb::post, "/operator/hold");
   order.set(http::field::origin, "http://127.0.0.1:80");
   EXPECT_EQ(status(order), 403u);
@@ -128,8 +128,9 @@ TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_tol
   order.set(http::field::origin, "http://127.0.0.1:80");
   EXPECT_EQ(status(order), 403u) << "a finished run has no robot that would obey";
   std::vector<std::string> received;
-  state_.give_order = [&](const HoldRequest& order) -> Status {
-    received.push_back((order.hold ? "hold " : "resume ") + (order.robot ? order.robot->str() : "all"));
+  state_.give_order = [&](const OrderRequest& order) -> Status {
+    received.push_back((order.kind == OrderRequest::Kind::kHold ? "hold " : "resume ") +
+                    (order.robot ? order.robot->str() : "all"));
     return received.size() > 1 ? failure("no radio") : Status{};
   };
   EXPECT_EQ(status(order), 202u);

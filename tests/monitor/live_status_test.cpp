@@ -29,6 +29,8 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   robot.battery = 0.615;
   robot.nodes = 12;
   robot.driven = robot.ordered_to_hold = true;
+  robot.rows = {7, 9};
+  robot.clock = {"gps", -2.048};
   status.robots = {robot};
   const json live = written(status);
   EXPECT_EQ(live["self"], "r1");
@@ -44,6 +46,9 @@ TEST(LiveStatus, robots_are_written_with_what_is_known_of_them) {
   EXPECT_EQ(one["nodes"], 12);
   EXPECT_EQ(one["driven"], true);
   EXPECT_EQ(one["ordered_to_hold"], true);
+  EXPECT_EQ(one["called_home"], false);
+  EXPECT_EQ(one["rows"], json({7, 9}));
+  EXPECT_EQ(one["clock"], json({{"sensor", "gps"}, {"behind_s", -2.048}}));
 }
 
 TEST(LiveStatus, radio_and_sensors_are_written) {

@@ -306,6 +306,28 @@ async function holdAndResume(page) {
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
 }
 
+const rowsOf = (page, robot) => page.getByLabel(`Row of ${robot}`).locator('option').evaluateAll((options) => options.map((option) => option.value));
+
+/** A row of r1 goes to r2, and r1 is called home and let go. */
+async function giveAndCallHome(page) {
+  await page.getByRole('group', {name: 'Give a row of r1 away'}).waitFor({timeout: 60_000});
+  const row = (await rowsOf(page, 'r1')).at(-1);
+  assert.ok(!(await rowsOf(page, 'r2')).includes(row), `row ${row} is claimed twice`);
+  await page.getByLabel('Row of r1').selectOption(row);
+  await page.getByLabel('Robot that drives the row of r1').selectOption('r2');
+  await page.getByRole('group', {name: 'Give a row of r1 away'}).getByRole('button', {name: 'Give'}).click();
+  await textIs(page, '#fleet', new RegExp(`Ordered: r1 gives row ${row} to r2\\.`));
+  const options = ([name, value]) => [...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value);
+  await page.waitForFunction(options, ['r2', row], {timeout: 60_000});
+  await page.waitForFunction(([name, value]) => ![...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value), ['r1', row], {timeout: 60_000});
+  await page.getByRole('button', {name: 'Call r1 home'}).click();
+  await textIs(page, '[data-robot=r1]', /r1 was called home and gave its rows away/);
+  await shot(page, 'called_home');
+  await page.getByRole('button', {name: 'Resume r1'}).click();
+  await page.getByRole('button', {name: 'Call r1 home'}).waitFor({timeout: 60_000});
+  await page.waitForFunction(() => !/called home/.test(document.querySelector('[data-robot=r1]').textContent), null, {timeout: 60_000});
+}
+
 /** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */
 async function testVirtual(browser) {
   const tokenFile = join(folder, 'token');
@@ -324,6 +346,7 @@ async function testVirtual(browser) {
       await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
       await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);
       await holdAndResume(page);
+      await giveAndCallHome(page);
       await shot(page, 'virtual');
     });
   } finally {
@@ -342,6 +365,9 @@ async function testLive(browser) {
     const [url, readOnly] = await Promise.all([addressOf(shown), addressOf(heard)]);
     await watchLive(browser, url, 1366, 768, async (page) => {
       await fleetAndRadio(page, 'live_desk');
+      // r2 has no sensors; what it lacks comes over the radio.
+      await page.locator('#tab-fleet').click();
+      await textIs(page, '[data-robot=r2]', /no scan comes from its LiDAR.*its pose is not known/);
       await holdAndResume(page);
     });
     await watchLive(browser, readOnly, 1366, 768, async (page) => {

@@ -93,18 +93,38 @@ TEST(RequestCheck, several_submaps_are_asked_for_by_their_hashes) {
 }
 
 TEST(RequestCheck, orders_are_for_one_robot_or_for_all) {
-  const auto all = parse_hold_request("/operator/hold");
+  const auto all = parse_order_request("/operator/hold");
   ASSERT_TRUE(all);
-  EXPECT_TRUE(all->hold);
+  EXPECT_EQ(all->kind, OrderRequest::Kind::kHold);
   EXPECT_FALSE(all->robot);
-  const auto one = parse_hold_request("/operator/resume?robot=r2");
+  const auto one = parse_order_request("/operator/resume?robot=r2");
   ASSERT_TRUE(one);
-  EXPECT_FALSE(one->hold);
+  EXPECT_EQ(one->kind, OrderRequest::Kind::kResume);
   EXPECT_EQ(one->robot->str(), "r2");
+  EXPECT_EQ(parse_order_request("/operator/home?robot=r2")->kind, OrderRequest::Kind::kHome);
+  EXPECT_FALSE(parse_order_request("/operator/home")->robot);
   for (const char* wrong : {"", "/operator", "/operator/", "/operator/holdall", "/operator/hold?", "/hold",
                             "/operator/hold?robot=", "/operator/hold?robot=a/b", "/operator/hold?name=r2",
                             "/operator/hold?robot=r2&robot=r1"})
-    EXPECT_FALSE(parse_hold_request(wrong)) << wrong;
+    EXPECT_FALSE(parse_order_request(wrong)) << wrong;
+}
+
+TEST(RequestCheck, a_row_is_given_by_one_robot_to_another_or_to_any) {
+  const auto any = parse_order_request("/operator/give?robot=r1&row=17");
+  ASSERT_TRUE(any);
+  EXPECT_EQ(any->kind, OrderRequest::Kind::kGive);
+  EXPECT_EQ(any->robot->str(), "r1");
+  EXPECT_EQ(any->row, 17u);
+  EXPECT_FALSE(any->to);
+  const auto one = parse_order_request("/operator/give?robot=r1&row=0&to=r2");
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->to->str(), "r2");
+  for (const char* wrong : {"/operator/give", "/operator/give?robot=r1", "/operator/give?row=7",
+                            "/operator/give?robot=r1&row=", "/operator/give?robot=r1&row=-1",
+                            "/operator/give?robot=r1&row=4294967296",
+                            "/operator/give?robot=r1&row=7&to=", "/operator/give?robot=r1&row=7&to=r2&to=r3",
+                            "/operator/give?robot=&row=7", "/operator/hold?robot=r1&row=7"})
+    EXPECT_FALSE(parse_order_request(wrong)) << wrong;
 }
 
 }  // namespace

@@ -185,9 +185,10 @@ class OperatedServer : public ::testing::Test {
     return config;
   }
   void operate() {
-    server_->set_operator([this](const HoldRequest& order) -> Status {
+    server_->set_operator([this](const OrderRequest& order) -> Status {
       if (order.robot && order.robot->str() != "r2") return failure("no such robot");
-      ordered_.push_back((order.hold ? "hold " : "resume ") + (order.robot ? order.robot->str() : "all"));
+      ordered_.push_back((order.kind == OrderRequest::Kind::kHold ? "hold " : "resume ") +
+                         (order.robot ? order.robot->str() : "all"));
       return {};
     });
   }

@@ -59,7 +59,9 @@ class Agent {
   /// Ends all subscriptions. Offloaded work must also have ended before the agent is destroyed.
   void stop();
   /// Sends an operator's order, given on this robot, to all, as Exchange::on_local_order() does.
-  void give_order(const messages::HoldOrder& order);
+  /// `Order`: messages::HoldOrder or RowOrder.
+  template <class Order>
+  void give_order(const Order& order);
   /// True if no scan, registration or message waits.
   bool idle() const;
   /// True if every node, alignment and submap that it has heard of is held, except those of robots that the
@@ -115,6 +117,7 @@ class Agent {
   void handle(const exchange::CloudNeeded& needed);
   void handle(const exchange::MissionHeard& heard);
   void handle(const exchange::HoldChanged& changed);
+  void handle(const exchange::RowsOrdered& ordered);
   void handle(const exchange::ItemConflict& conflict);
   void handle(const exchange::SessionTaken& taken);
   void handle(const exchange::StoreFailed& failed);
@@ -159,6 +162,7 @@ class Agent {
   bus::Handle status_timer_;
   bus::Handle navigator_timer_;
   bus::Handle local_hold_;
+  Stamp begun_{};          ///< when the program started
   Stamp session_begun_{};  ///< if it was not with the program's start
   StoreFailures store_failures_;
 };

@@ -48,6 +48,8 @@ class Navigator {
   void on_node(const graph::Node& node);
   /// Follows the order of an operator that is in force.
   void obey(const messages::HoldOrder& order);
+  /// Follows the operators' orders for rows; those given before and missing here no longer hold.
+  void obey(std::vector<messages::RowOrder> orders);
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.
@@ -91,6 +93,7 @@ class Navigator {
   std::optional<StopReason> stop_reason_;  ///< as of the last check
   Stamp standing_since_{};
   bool drove_ = false;             ///< the guard let a command pass
+  bool called_home_ = false;       ///< by an operator
   std::optional<double> battery_;  ///< share left
   std::optional<Stamp> next_report_;
   std::vector<bus::Handle> handles_;

@@ -28,6 +28,7 @@ using messages::Message;
 using messages::MissionReport;
 using messages::Outgoing;
 using messages::Reach;
+using messages::RowOrder;
 
 /// Exchange of one robot with the others, as a state machine: messages and time in, messages and events out.
 /// A message for one robot goes over the short range if the two are near (its digests arrive there and name
@@ -65,10 +66,13 @@ class Exchange {
   /// Sends an order that was issued on this robot itself to all. An order with stamp zero gets a stamp that
   /// replaces all others.
   void on_local_order(HoldOrder order, Stamp now);
+  void on_local_order(RowOrder order, Stamp now);
   /// The order in force for this robot; none if there never was one. It survives a restart.
   std::optional<HoldOrder> hold_in_force() const;
   /// The orders for each robot and for all, as far as they were received.
   std::vector<HoldOrder> hold_orders() const;
+  /// Which rows operators gave away. They survive a restart, too.
+  std::vector<RowOrder> row_orders() const;
 
   /// `message` arrived over `link`, from the robot `from` where the link identifies it. An item may arrive
   /// from another robot than its maker.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "fleetmap/core/ids.hpp"
 #include "fleetmap/core/result.hpp"
@@ -44,6 +45,10 @@ struct MissionHeard {
 /// Another order of an operator is in force for this agent.
 struct HoldChanged {
   HoldOrder order;
+};
+/// Rows were given away by an operator, or are given otherwise than before.
+struct RowsOrdered {
+  std::vector<messages::RowOrder> orders;  ///< all that are in force
 };
 /// Another content arrived under a name that is taken: a session number was drawn twice, or an item is
 /// forged or damaged. Where items are signed, the maker signed both: another robot has its key, as on a
@@ -111,7 +116,7 @@ struct MapComplete {
 };
 using Event =
     std::variant<NodeAdded, AlignmentAdded, SubmapAdded, CloudNeeded, PeerStatus, MissionHeard, HoldChanged,
-                 ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered, OwnItemsElsewhere, SessionTaken,
-                 SenderMisbehaved, StrangerHeard, StoreFailed, MapComplete>;
+                 RowsOrdered, ItemConflict, ItemRefused, ItemsAdopted, OfferUndelivered, OwnItemsElsewhere,
+                 SessionTaken, SenderMisbehaved, StrangerHeard, StoreFailed, MapComplete>;
 
 }  // namespace fleetmap::exchange

@@ -10,6 +10,7 @@
 #include "fleetmap/geometry/geodesy.hpp"
 #include "fleetmap/graph/alignment.hpp"
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/messages/health.hpp"
 #include "fleetmap/messages/mission_report.hpp"
 
 /// Messages between robots. Nodes and alignments (graph) are sent as they are.
@@ -100,29 +101,48 @@ struct AgentStatus {
   std::uint32_t backlog_bytes = 0;  ///< waiting for the long-range link
   bool busy = false;                ///< more nodes or alignments of `from` may come
   std::vector<Loan> loans = {};
+  Health health = {};
 };
 
-/// An operator's order to stand still or to drive on. Of the orders that concern a robot, for itself or for
-/// all, the one with the latest stamp is in force.
+/// An operator's order to stand still, to drive home or to drive on. Of the orders that concern a robot, for
+/// itself or for all, the one with the latest stamp is in force.
 struct HoldOrder {
+  enum class Kind : std::uint8_t {
+    kResume,  ///< drive the mission
+    kHold,    ///< stand still
+    kHome,    ///< give all rows away and drive back to the start
+  };
   Stamp stamp;    ///< when it was given; raised above that of the order which it replaces, whatever the clock
   AgentId robot;  ///< empty: every robot
   AgentId issuer;  ///< for people
-  bool hold = false;
+  Kind kind = Kind::kResume;
   bool operator==(const HoldOrder&) const = default;
+};
+
+/// An operator's order to give a row away. Of the orders for a row the one with the latest stamp is in force.
+struct RowOrder {
+  Stamp stamp;            ///< as that of a HoldOrder
+  AgentId robot;          ///< who is not to drive it
+  AgentId to;             ///< who is to drive it; empty: whoever of the others is done with it first
+  AgentId issuer;         ///< for people
+  std::uint32_t row = 0;  ///< its id in the mission
+  bool operator==(const RowOrder&) const = default;
 };
 
 /// Orders that `from` gives (an operator, a button) or repeats (an agent, so that nobody misses them).
 struct Hold {
+  static constexpr std::size_t kMaxRows = 16;
   enum class Driving : std::uint8_t {
     kNoRobot,    ///< `from` is an operator
     kFree,       ///< `from` drives its mission
     kHeld,       ///< `from` stands by an order
     kNoMission,  ///< `from` obeys nobody here: something else drives it
+    kHome,       ///< `from` drives home by an order, or is there
   };
   AgentId from;
   Driving driving = Driving::kNoRobot;
   std::vector<HoldOrder> orders;
+  std::vector<RowOrder> rows = {};
 };
 
 // ---- short range

@@ -19,6 +19,7 @@ enum class MissionState : std::uint8_t {
   kStuck,       ///< can't get on; has given away its rows
   kLowBattery,  ///< drives home; has given away its rows
   kLost,        ///< only said of others: nothing was heard for long
+  kCalledHome,  ///< an operator called it home; has given away its rows
 };
 const char* to_string(MissionState state);
 

@@ -16,6 +16,12 @@ struct LastHeard {
   double seconds_ago = 0.0;
 };
 
+/// The clock of a robot's sensors that is off most.
+struct ClockNow {
+  std::string sensor;
+  double behind_s = 0.0;  ///< within a factor of 1.4; negative: ahead
+};
+
 /// One robot at present, as the robot that shows the page has heard of it.
 struct RobotNow {
   AgentId id;
@@ -24,9 +30,12 @@ struct RobotNow {
   std::vector<LastHeard> heard;       ///< empty: not heard yet, or this robot itself
   std::optional<double> battery;      ///< share left
   std::optional<double> sigma_m;      ///< m, horizontal, of its own G
+  std::optional<ClockNow> clock;      ///< empty: not known
   std::size_t nodes = 0, alignments = 0, submaps = 0;  ///< held
   std::size_t backlog_bytes = 0;                       ///< waiting for its radio
   bool ordered_to_hold = false;                        ///< an operator's order is in force
+  bool called_home = false;                            ///< likewise
+  std::vector<std::uint32_t> rows;                     ///< ids of those that it still has to drive
   bool driven = false;  ///< orders are for it: it has not said that fleetmap does not drive it
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,11 +53,15 @@ struct SubmapsRequest {
 inline constexpr std::size_t kMaxSubmapsAtOnce = 128;
 std::optional<SubmapsRequest> parse_submaps_request(std::string_view target);
 
-/// An operator's order: "/operator/hold" and "/operator/resume", of all robots or with "?robot=NAME" of one.
-struct HoldRequest {
-  bool hold = false;
+/// An operator's order: "/operator/hold", "/operator/resume" and "/operator/home", of all robots or with
+/// "?robot=NAME" of one; "/operator/give?robot=NAME&row=N", to any other robot or with "&to=NAME" to one.
+struct OrderRequest {
+  enum class Kind { kHold, kResume, kHome, kGive };
+  Kind kind = Kind::kHold;
   std::optional<AgentId> robot;  ///< empty: all
+  std::uint32_t row = 0;         ///< of kGive, its id
+  std::optional<AgentId> to;     ///< of kGive; empty: any other robot
 };
-std::optional<HoldRequest> parse_hold_request(std::string_view target);
+std::optional<OrderRequest> parse_order_request(std::string_view target);
 
 }  // namespace fleetmap::monitor

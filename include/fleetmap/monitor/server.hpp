@@ -41,7 +41,7 @@ struct ServerStats {
 /// of an operator (set_operator()).
 class Server {
  public:
-  /// `load` is called on the server's thread alone.
+  /// `load` is called on the server's thread, and on others at the same time with preview_threads.
   static Result<std::unique_ptr<Server>> start(const ServerConfig& config, store::SubmapLoader load,
                                                std::span<const PageFile> page = built_in_page());
   ~Server();
@@ -56,7 +56,7 @@ class Server {
   /// Likewise. A status that the server's thread has not taken yet is replaced, so none queue up.
   void publish(std::shared_ptr<const LiveStatus> status);
   /// Passes on an operator's order, on the server's thread; fails with the reason.
-  using GiveOrder = std::function<Status(const HoldRequest&)>;
+  using GiveOrder = std::function<Status(const OrderRequest&)>;
   /// Lets viewers give orders. Without a token there are none: anyone on the machine would give them.
   void set_operator(GiveOrder give_order);
   ServerStats stats() const;

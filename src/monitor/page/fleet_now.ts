@@ -8,7 +8,13 @@ interface Card {
   facts: HTMLElement;
   problems: HTMLElement;
   hold: HTMLButtonElement;
+  home: HTMLButtonElement;
+  give: HTMLElement;
+  row: HTMLSelectElement;
+  to: HTMLSelectElement;
 }
+
+type Order = 'hold' | 'resume' | 'home' | 'give';
 
 /** Each robot's present state in words. Cards stay and their texts change, so that focus and reading position stay too. */
 export class FleetNow {
@@ -24,7 +30,8 @@ export class FleetNow {
   private lost = new Set<string>();
 
   constructor() {
-    this.all.append(this.orderButton('Hold all', () => this.order(true)), this.orderButton('Resume all', () => this.order(false)));
+    this.all.append(this.orderButton('Hold all', () => this.order('hold')), this.orderButton('Call all home', () => this.order('home')),
+      this.orderButton('Resume all', () => this.order('resume')));
     this.root.append(el('h2', {}, 'Now'), this.all, this.answer, this.list, el('h2', {id: 'sensors-title'}, 'Sensors'), this.sensors, this.said);
     setInterval(() => this.refresh(), 1000);
   }
@@ -52,9 +59,14 @@ export class FleetNow {
     const known = this.cards.get(id);
     if (known) return known;
     const badge = el('span', {class: 'badge'}), activity = el('p', {class: 'activity'}), facts = el('p', {class: 'facts'}), problems = el('ul', {class: 'problems'});
-    const hold = this.orderButton('Hold', () => this.order(!this.live?.robots.find((robot) => robot.id === id)?.ordered_to_hold, id));
-    const article = el('article', {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`}, el('h3', {}, id, badge, hold), activity, problems, facts);
-    const card = {article, badge, activity, facts, problems, hold};
+    const robot = () => this.live?.robots.find((one) => one.id === id);
+    const hold = this.orderButton('Hold', () => this.order(robot()?.ordered_to_hold ? 'resume' : 'hold', id));
+    const home = this.orderButton('Call home', () => this.order(robot()?.called_home ? 'resume' : 'home', id));
+    const row = el('select', {'aria-label': `Row of ${id}`}), to = el('select', {'aria-label': `Robot that drives the row of ${id}`});
+    const give = el('p', {class: 'give', role: 'group', 'aria-label': `Give a row of ${id} away`}, 'Give row ', row, ' to ', to, ' ',
+      this.orderButton('Give', () => this.order('give', id, {row: row.value, ...(to.value ? {to: to.value} : {})})));
+    const article = el('article', {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`}, el('h3', {}, id, badge, hold, home), activity, problems, facts, give);
+    const card = {article, badge, activity, facts, problems, hold, home, give, row, to};
     this.cards.set(id, card);
     this.list.append(article);
     return card;
@@ -74,6 +86,12 @@ export class FleetNow {
     card.hold.hidden = !live.operated || !robot.driven;
     setText(card.hold, robot.ordered_to_hold ? 'Resume' : 'Hold');
     card.hold.setAttribute('aria-label', `${robot.ordered_to_hold ? 'Resume' : 'Hold'} ${robot.id}`);
+    card.home.hidden = card.hold.hidden;
+    setText(card.home, robot.called_home ? 'Resume' : 'Call home');
+    card.home.setAttribute('aria-label', robot.called_home ? `Resume ${robot.id}` : `Call ${robot.id} home`);
+    card.give.hidden = card.hold.hidden || robot.rows.length === 0 || live.robots.length < 2;
+    setOptions(card.row, robot.rows.map((row) => [String(row), String(row)]));
+    setOptions(card.to, [['', 'any other robot'], ...live.robots.filter((one) => one.id !== robot.id).map((one): [string, string] => [one.id, one.id])]);
     if (lost && !this.lost.has(robot.id)) this.said.textContent = `${robot.id} is lost.`;
     if (lost) this.lost.add(robot.id);
     else this.lost.delete(robot.id);
@@ -84,6 +102,7 @@ export class FleetNow {
     if (!isSelf && robot.heard.length > 0) facts.push(`last heard ${robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`).join(', ')}`);
     if (robot.battery !== null) facts.push(`battery ${Math.round(100 * robot.battery)} %`);
     if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ)`);
+    if (robot.clock) facts.push(clockWords(robot.clock));
     if (robot.nodes > 0) facts.push(`holds ${robot.nodes} nodes, ${robot.submaps} submaps, ${robot.alignments} alignments`);
     if (robot.backlog_bytes > 0) facts.push(`${bytes(robot.backlog_bytes)} wait for its radio`);
     const text = facts.join('; ');
@@ -104,9 +123,11 @@ export class FleetNow {
   }
 
   /** The robot's next status shows what came of it. */
-  private async order(hold: boolean, robot?: string): Promise<void> {
-    const what = `${hold ? 'hold' : 'resume'} ${robot ?? 'all robots'}`;
-    const target = `/operator/${hold ? 'hold' : 'resume'}${robot ? `?robot=${encodeURIComponent(robot)}` : ''}`;
+  private async order(order: Order, robot?: string, more: Record<string, string> = {}): Promise<void> {
+    const whom = robot ?? 'all robots';
+    const what = order === 'give' ? `${whom} gives row ${more.row} to ${more.to ?? 'any other robot'}` : order === 'home' ? `call ${whom} home` : `${order} ${whom}`;
+    const query = new URLSearchParams({...(robot ? {robot} : {}), ...more}).toString();
+    const target = `/operator/${order}${query && `?${query}`}`;
     try {
       const answer = await fetch(target, {method: 'POST'});
       this.answer.textContent = answer.ok ? `Ordered: ${what}.` : `Not ordered (${what}): ${(await answer.text()).trim()}`;
@@ -114,6 +135,21 @@ export class FleetNow {
       this.answer.textContent = `Not ordered (${what}): the robot does not answer.`;
     }
   }
+}
+
+function clockWords(clock: {sensor: string; behind_s: number}): string {
+  const off = Math.abs(clock.behind_s);
+  if (off < 0.01) return 'the clocks of its sensors agree';
+  const time = off < 1 ? `${Math.round(1000 * off)} ms` : ago(off);
+  return `the clock of its ${clock.sensor} is about ${time} ${clock.behind_s < 0 ? 'ahead' : 'behind'}`;
+}
+
+/** Keeps what is selected as long as it is still there; leaves a menu alone that shows the same already. */
+function setOptions(select: HTMLSelectElement, options: [string, string][]): void {
+  if (select.options.length === options.length && options.every(([value], k) => select.options[k].value === value)) return;
+  const selected = select.value;
+  select.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
+  if (options.some(([value]) => value === selected)) select.value = selected;
 }
 
 function setText(element: HTMLElement, text: string): void {

@@ -126,11 +126,14 @@ export interface RobotNow {
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
+  clock: {sensor: string; behind_s: number} | null;  // that is off most, within a factor of 1.4
   nodes: number;
   alignments: number;
   submaps: number;
   backlog_bytes: number;
   ordered_to_hold: boolean;
+  called_home: boolean;
+  rows: number[];  // that it still has to drive
   driven: boolean;
 }
 

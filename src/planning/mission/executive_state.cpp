@@ -91,11 +91,30 @@ void ExecutiveState::follow_up(const MissionInput& input) {
   const bool elsewhere = goal == Goal::kRow || goal == Goal::kStop;  // what comes next leads another way
   retry_at_ = elsewhere ? input.now : input.now + from_seconds(rules().stuck_retry);
   stop();
-  if (stuck_in_a_row_ >= rules().stuck_limit && state != MissionState::kLowBattery) {
+  if (stuck_in_a_row_ >= rules().stuck_limit && !drives_home()) {
     state = MissionState::kStuck;
     release_all();
     retry_at_ = input.now + from_seconds(rules().stuck_retry);
   }
+}
+
+void ExecutiveState::begin_way_home(MissionState why) {
+  state = why;
+  arrived_ = false;
+  release_all();
+}
+
+void ExecutiveState::end_way_home() {
+  state = MissionState::kDriving;
+  arrived_ = false;
+  stop();
+}
+
+void ExecutiveState::check_call(const MissionInput& input) {
+  if (input.called_home == std::exchange(called_home_, input.called_home)) return;
+  if (state == MissionState::kLowBattery) return;  // it drives home anyway
+  if (called_home_) return begin_way_home(MissionState::kCalledHome);
+  if (state != MissionState::kDone || !board.all_finished(input.now)) end_way_home();
 }
 
 void ExecutiveState::check_battery(const MissionInput& input) {
@@ -105,17 +124,15 @@ void ExecutiveState::check_battery(const MissionInput& input) {
       energy_of({static_cast<float>(way), 0.0f}, robot()) / robot().battery_wh + 0.5 * rules().low_battery;
   const double mark = std::max(rules().low_battery, std::min(share_home, 0.5));
   if (state != MissionState::kLowBattery && input.battery <= mark) {
-    state = MissionState::kLowBattery;
-    arrived_ = false;
-    release_all();
+    begin_way_home(MissionState::kLowBattery);
   } else if (state == MissionState::kLowBattery && input.battery > mark + kRecovered) {
-    state = MissionState::kDriving;
-    arrived_ = false;
-    stop();
+    called_home_ ? begin_way_home(MissionState::kCalledHome) : end_way_home();
   }
 }
 
 void ExecutiveState::update_claims(Stamp now) {
+  if (state == MissionState::kDriving || state == MissionState::kMeeting)
+    claims.take_ordered(board, attempts.abandoned(), now);
   if (claims.drop_lost(board, attempts.abandoned(), now)) stop();
 }
 
@@ -268,7 +285,7 @@ void ExecutiveState::select_goal(const MissionInput& input) {
   if (state == MissionState::kDone) return;
   const bool finished = board.all_finished(input.now);
   const bool alone = alone_too_long(finished || board.nobody_left(input.now), input.now);
-  if (state == MissionState::kLowBattery) return go_home(input, finished, alone);
+  if (drives_home()) return go_home(input, finished, alone);
   if (state == MissionState::kStuck) return wait_stuck(input, alone);
   if (claims.current() || keep_appointment(input)) {
     state = MissionState::kDriving;

@@ -24,6 +24,8 @@ class ExecutiveState {
   void begin(const MissionInput& input);
   /// Ends or gives up the path under way, as the follower reports.
   void follow_up(const MissionInput& input);
+  /// Begins or ends the way home by an operator's order.
+  void check_call(const MissionInput& input);
   /// Low is also a battery that just suffices for the way home.
   void check_battery(const MissionInput& input);
   void update_claims(Stamp now);
@@ -55,6 +57,11 @@ class ExecutiveState {
   void recover();
   void stop();
   void release_all();
+  bool drives_home() const {
+    return state == MissionState::kLowBattery || state == MissionState::kCalledHome;
+  }
+  void begin_way_home(MissionState why);
+  void end_way_home();
   bool on_schedule(Stamp now) const;
   void end_stop(bool kept);
   bool keep_appointment(const MissionInput& input);
@@ -77,6 +84,7 @@ class ExecutiveState {
   Stamp retry_at_{};
   int stuck_in_a_row_ = 0;
   bool arrived_ = false;  // where it last wanted to go
+  bool called_home_ = false;
   BlockedPlaces blocked_;
   std::optional<Stamp> all_done_since_;
 };

@@ -140,9 +140,38 @@ bool MissionBoard::idle(std::size_t robot, Stamp now) const {
          report->current == MissionReport::kNoRow;
 }
 
+void MissionBoard::set_row_orders(const std::vector<messages::RowOrder>& orders) {
+  given_.clear();
+  for (const messages::RowOrder& order : orders) {
+    const auto row = std::ranges::find(plan_->mission.rows, order.row, &Row::id);
+    const auto by = plan_->find(order.robot);
+    const auto to = order.to.empty() ? std::nullopt : plan_->find(order.to);
+    if (row == plan_->mission.rows.end() || !by || (!to && !order.to.empty())) continue;
+    given_[static_cast<std::size_t>(row - plan_->mission.rows.begin())] = {*by, to};
+  }
+}
+
+std::optional<std::size_t> MissionBoard::receiver(std::size_t row) const {
+  const auto given = given_.find(row);
+  return given == given_.end() ? std::nullopt : given->second.to;
+}
+
+bool MissionBoard::barred(std::size_t robot, std::size_t row, Stamp now) const {
+  const auto given = given_.find(row);
+  if (given == given_.end() || given->second.to || given->second.by != robot) return false;
+  for (std::size_t other = 0; other < robots(); ++other) {
+    if (other != robot && can_drive(other, row, now)) return true;
+  }
+  return false;
+}
+
 bool MissionBoard::lost_claim(std::size_t row, bool ours_under_way, Stamp now) const {
   for (std::size_t robot = 0; robot < robots(); ++robot) {
     if (robot == self_ || !peers_[robot].last || !available(robot, now) || !claims(robot, row)) continue;
+    if (const auto chosen = receiver(row); chosen == self_ || chosen == robot) {
+      if (chosen == robot) return true;
+      continue;
+    }
     const bool theirs_under_way = under_way(robot, row);
     if (theirs_under_way != ours_under_way ? theirs_under_way : robot < self_) return true;
   }
@@ -216,8 +245,11 @@ std::vector<std::size_t> MissionBoard::takers(const std::vector<std::size_t>& or
       const auto& visits = division.routes[w].visits;
       if (std::ranges::find(visits, id, &RowVisit::row) != visits.end()) taker[k] = crew[w];
     }
-    if (taker[k] < robots() && !failed(taker[k], orphans[k])) continue;
-    const auto other = std::ranges::find_if(crew, [&](std::size_t r) { return !failed(r, orphans[k]); });
+    const auto may_take = [&](std::size_t r) {
+      return !failed(r, orphans[k]) && !barred(r, orphans[k], now);
+    };
+    if (taker[k] < robots() && may_take(taker[k])) continue;
+    const auto other = std::ranges::find_if(crew, may_take);
     taker[k] = other == crew.end() ? robots() : *other;
   }
   return taker;
@@ -241,7 +273,8 @@ std::vector<std::size_t> MissionBoard::to_give_away(const std::vector<std::size_
   if (helpers.empty()) return {};
   std::vector<std::size_t> rows;
   for (const std::size_t row : mine) {
-    if (std::ranges::none_of(helpers, [&](std::size_t r) { return failed(r, row); })) rows.push_back(row);
+    const auto refuses = [&](std::size_t r) { return failed(r, row) || barred(r, row, now); };
+    if (receiver(row) != self_ && std::ranges::none_of(helpers, refuses)) rows.push_back(row);
   }
   const DivisionConfig config = quick(plan_->config.division);
   const Division alone =

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "fleetmap/messages/mission_report.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
 
 namespace fleetmap::planning {
@@ -50,6 +51,12 @@ class MissionBoard {
   /// The last report of another robot, or the own one; null before the first.
   const MissionReport* report_of(std::size_t robot) const;
 
+  void set_row_orders(const std::vector<messages::RowOrder>& orders);
+  /// The robot to which an operator gave the row, if he named one.
+  std::optional<std::size_t> receiver(std::size_t row) const;
+  /// An operator took the row from the robot and named no other, and another one can drive it.
+  bool barred(std::size_t robot, std::size_t row, Stamp now) const;
+
   /// Another available robot's claim goes before ours.
   bool lost_claim(std::size_t row, bool ours_under_way, Stamp now) const;
   /// Two of those who are left gave it up, or the only one who is.
@@ -76,7 +83,14 @@ class MissionBoard {
     Stamp heard;
   };
   void resolve_done(Stamp now);
+  bool can_drive(std::size_t robot, std::size_t row, Stamp now) const {
+    return available(robot, now) && !failed(robot, row);
+  }
 
+  struct Given {
+    std::size_t by = 0;
+    std::optional<std::size_t> to;
+  };
   std::shared_ptr<const FleetPlan> plan_;
   std::size_t self_;
   std::vector<RowSet> planned_;  ///< of each robot, from the start
@@ -86,6 +100,7 @@ class MissionBoard {
   RowSet reported_;  ///< by anyone, ever
   RowSet surveyed_;
   RowSet done_;
+  std::map<std::size_t, Given> given_;  ///< by row
   Stamp begun_;
 };
 

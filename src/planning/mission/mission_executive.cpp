@@ -29,6 +29,10 @@ Result<MissionExecutive> MissionExecutive::create(Mission mission, const AgentId
 
 void MissionExecutive::on_report(const MissionReport& report, Stamp now) { state_->board.hear(report, now); }
 
+void MissionExecutive::set_row_orders(const std::vector<messages::RowOrder>& orders) {
+  state_->board.set_row_orders(orders);
+}
+
 MissionAction MissionExecutive::update(const MissionInput& input) {
   ExecutiveState& s = *state_;
   if (!input.pose.position.allFinite() || !std::isfinite(input.pose.yaw)) {
@@ -37,6 +41,7 @@ MissionAction MissionExecutive::update(const MissionInput& input) {
   if (!s.begun) s.begin(input);
   s.board.set_surveyed(input.surveyed, input.now);
   s.follow_up(input);
+  s.check_call(input);
   s.check_battery(input);
   s.update_claims(input.now);
   s.update_report(input);

@@ -22,11 +22,22 @@ void RowClaims::begin() {
 
 bool RowClaims::drop_lost(const MissionBoard& board, const RowSet& abandoned, Stamp now) {
   std::erase_if(queue_, [&](std::size_t row) {
-    return board.done().has(row) || board.lost_claim(row, false, now) || abandoned.has(row);
+    return board.done().has(row) || board.lost_claim(row, false, now) || abandoned.has(row) ||
+           board.barred(self_, row, now);
   });
-  if (!current_ || !board.lost_claim(*current_, true, now)) return false;
+  if (!current_) return false;
+  if (!board.lost_claim(*current_, true, now) && !board.barred(self_, *current_, now)) return false;
   current_.reset();
   return true;
+}
+
+void RowClaims::take_ordered(const MissionBoard& board, const RowSet& abandoned, Stamp now) {
+  for (std::size_t row = 0; row < board.rows(); ++row) {
+    if (board.receiver(row) != self_ || board.finished(row, now)) continue;
+    if (abandoned.has(row) || current_ == row || std::ranges::find(queue_, row) != queue_.end()) continue;
+    queue_.push_back(row);
+    ++changes_;
+  }
 }
 
 void RowClaims::take_orphans(const MissionBoard& board, const RowSet& abandoned, Stamp now) {
@@ -43,7 +54,7 @@ void RowClaims::take_orphans(const MissionBoard& board, const RowSet& abandoned,
   for (std::size_t robot = 0; robot < self_; ++robot) rank += board.available(robot, now) ? 1 : 0;
   const Duration patience = from_seconds(plan_->config.executive.orphan_wait * rank);
   for (std::size_t k = 0; k < orphans.size(); ++k) {
-    if (abandoned.has(orphans[k])) continue;
+    if (abandoned.has(orphans[k]) || board.barred(self_, orphans[k], now)) continue;
     const bool overdue = now - *orphan_since_[orphans[k]] > patience;
     if (taker[k] != self_ && !overdue) continue;
     queue_.push_back(orphans[k]);

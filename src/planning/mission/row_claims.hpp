@@ -23,6 +23,8 @@ class RowClaims {
   /// under way is among them. A row under way is driven to its end even if others report it as done, because
   /// nodes lie along it before it is driven.
   bool drop_lost(const MissionBoard& board, const RowSet& abandoned, Stamp now);
+  /// Claims rows that an operator gave to this robot.
+  void take_ordered(const MissionBoard& board, const RowSet& abandoned, Stamp now);
   /// Claims orphans that fall to this robot by the common division, or that nobody took for too long.
   void take_orphans(const MissionBoard& board, const RowSet& abandoned, Stamp now);
   /// Gives rows to idle robots if the fleet is done earlier by it. The robot sets out from `then` after

@@ -111,6 +111,30 @@ TEST_F(ExecutiveStateTest, ALowBatteryBringsItHome) {
   EXPECT_EQ(state_.state, MissionState::kDriving);
 }
 
+TEST_F(ExecutiveStateTest, ACallBringsItHomeUntilItIsLetGo) {
+  set_out();
+  MissionInput called = input(10.0);
+  called.called_home = true;
+  called.pose.position += Eigen::Vector2d(10.0, 0.0);
+  state_.check_call(called);
+  EXPECT_EQ(state_.state, MissionState::kCalledHome);
+  EXPECT_TRUE(state_.claims.all().empty());
+  state_.select_goal(called);
+  EXPECT_EQ(state_.goal, Goal::kHome);
+  EXPECT_LT((state_.path.back() - plan_->fleet[0].start.position).norm(), 1e-6);
+  // An empty battery on the way changes the reason alone.
+  called.battery = plan_->config.executive.low_battery;
+  state_.check_battery(called);
+  EXPECT_EQ(state_.state, MissionState::kLowBattery);
+  called.battery = 1.0;
+  state_.check_battery(called);
+  EXPECT_EQ(state_.state, MissionState::kCalledHome);
+  called.called_home = false;
+  state_.check_call(called);
+  EXPECT_EQ(state_.state, MissionState::kDriving);
+  EXPECT_EQ(state_.goal, Goal::kNone);
+}
+
 TEST_F(ExecutiveStateTest, TheReportHoldsWhatItClaims) {
   set_out();
   state_.update_report(input(3.0));

@@ -46,6 +46,43 @@ TEST_F(MissionBoardTest, ARobotIsBelievedOfItsOwnRows) {
   EXPECT_FALSE(board_.done().has(row_of(0)));
 }
 
+TEST_F(MissionBoardTest, TheReceiverOfARowGoesBeforeWhoIsUnderWayOnIt) {
+  const std::size_t row = row_of(1);
+  MissionReport theirs = report(2, 1.0);
+  theirs.claimed.set(row);
+  board_.hear(theirs, at(1.0));
+  EXPECT_FALSE(board_.lost_claim(row, true, at(1.0)));
+  const RowId id = plan_->mission.rows[row].id;
+  board_.set_row_orders({{at(1.0), plan_->fleet[1].id, plan_->fleet[2].id, {}, id}});
+  EXPECT_EQ(board_.receiver(row), 2u);
+  EXPECT_TRUE(board_.lost_claim(row, true, at(1.0)));
+  EXPECT_FALSE(board_.lost_claim(row, true, at(200.0))) << "the receiver is lost";
+  MissionReport none = report(2, 2.0);
+  board_.hear(none, at(2.0));
+  EXPECT_FALSE(board_.lost_claim(row, false, at(2.0))) << "the receiver has not taken it yet";
+  MissionReport first = report(0, 1.0);
+  first.claimed.set(row);
+  first.current = static_cast<std::uint32_t>(row);
+  board_.hear(first, at(2.0));
+  board_.set_row_orders({{at(2.0), plan_->fleet[0].id, plan_->fleet[1].id, {}, id}});
+  EXPECT_FALSE(board_.lost_claim(row, false, at(2.0))) << "it is ours now";
+}
+
+TEST_F(MissionBoardTest, ARowIsTakenFromARobotAsLongAsAnotherCanDriveIt) {
+  const std::size_t row = row_of(1);
+  board_.set_row_orders({{at(1.0), plan_->fleet[1].id, {}, {}, plan_->mission.rows[row].id},
+                         {at(1.0), plan_->fleet[1].id, {}, {}, 4'000'000'000u}});
+  EXPECT_TRUE(board_.barred(1, row, at(1.0)));
+  EXPECT_FALSE(board_.barred(0, row, at(1.0)));
+  EXPECT_FALSE(board_.barred(1, row_of(1, 1), at(1.0)));
+  EXPECT_FALSE(board_.receiver(row));
+  MissionReport failed = report(0, 1.0);
+  failed.failed.set(row);
+  board_.hear(failed, at(1.0));
+  EXPECT_TRUE(board_.barred(1, row, at(1.0))) << "the third robot can";
+  EXPECT_FALSE(board_.barred(1, row, at(70.0))) << "nobody else is left";
+}
+
 TEST_F(MissionBoardTest, HearsayCountsOnlyWhereNodesLie) {
   MissionReport hearsay = report(0, 1.0);
   hearsay.done.set(row_of(2));

@@ -26,6 +26,18 @@ void VirtualFleet::start(std::size_t k) {
   robots[k].along = 0.0;
 }
 
+void VirtualFleet::give(RowId row, std::size_t from, std::optional<std::size_t> to) {
+  orders_.push_back({stamp(), plan->fleet[from].id, to ? plan->fleet[*to].id : AgentId{}, {}, row});
+  for (Robot& robot : robots) {
+    if (robot.executive) robot.executive->set_row_orders(orders_);
+  }
+}
+
+double VirtualFleet::driven_by(std::size_t k, RowId row) const {
+  const auto found = visited_by_.find({k, row});
+  return found == visited_by_.end() ? 0.0 : static_cast<double>(found->second.size());
+}
+
 Stamp VirtualFleet::stamp() const { return stamp_from_ns(static_cast<std::int64_t>(now * 1e9)); }
 
 void VirtualFleet::step() {
@@ -39,6 +51,7 @@ void VirtualFleet::step() {
     input.stuck = following && robot.standing > 15.0;
     input.progress = robot.along;
     input.maps_exchanged = robot.exchanged;
+    input.called_home = robot.called_home;
     input.surveyed = coverage_.covered();
     if (radio) {
       for (const std::size_t other : radio->even_with(k)) {
@@ -95,7 +108,7 @@ void VirtualFleet::move(Robot& robot) {
     robot.pose.position = p;
     robot.along = next;
     moved = true;
-    mark(p);
+    mark(robot);
   }
   robot.standing = moved ? 0.0 : robot.standing + 1.0;
   robot.battery -= robot.drain;
@@ -110,14 +123,18 @@ Eigen::Vector2d VirtualFleet::point(const Polyline& path, double along) {
   return path.back();
 }
 
-void VirtualFleet::mark(const Eigen::Vector2d& p) {
+void VirtualFleet::mark(const Robot& robot) {
+  const Eigen::Vector2d& p = robot.pose.position;
+  const auto k = static_cast<std::size_t>(&robot - robots.data());
   coverage_.add(p);
   for (const Row& row : plan->mission.rows) {
     const Eigen::Vector2d d = row.waypoints.back() - row.waypoints.front();
     const double on = (p - row.waypoints.front()).dot(d.normalized());
     const double beside =
         std::abs((p - row.waypoints.front()).dot(Eigen::Vector2d(-d.y(), d.x()).normalized()));
-    if (beside < 0.5 && on > -0.1 && on < d.norm() + 0.1) visited_[row.id].insert(static_cast<int>(on));
+    if (!(beside < 0.5 && on > -0.1 && on < d.norm() + 0.1)) continue;
+    visited_[row.id].insert(static_cast<int>(on));
+    visited_by_[{k, row.id}].insert(static_cast<int>(on));
   }
 }
 
@@ -139,7 +156,8 @@ void VirtualFleet::exchange() {
   bool all = true;
   for (const Robot& robot : robots) {
     all &= !robot.executive || robot.state == MissionState::kMeeting || robot.state == MissionState::kDone ||
-           robot.state == MissionState::kStuck || robot.state == MissionState::kLowBattery;
+           robot.state == MissionState::kStuck || robot.state == MissionState::kLowBattery ||
+           robot.state == MissionState::kCalledHome;
   }
   for (Robot& robot : robots) robot.exchanged |= all && robot.state == MissionState::kMeeting;
 }

@@ -30,6 +30,7 @@ class VirtualFleet {
     double along = 0.0;     ///< m of action.path
     double standing = 0.0;  ///< s without getting on
     bool exchanged = false;
+    bool called_home = false;
     double driven = 0.0;  ///< m
     MissionState state = MissionState::kDriving;
   };
@@ -40,6 +41,8 @@ class VirtualFleet {
 
   VirtualFleet(std::shared_ptr<const FleetPlan> shared, double loss, std::uint64_t seed);
   void start(std::size_t k);
+  /// Every robot that lives hears the order.
+  void give(RowId row, std::size_t from, std::optional<std::size_t> to);
   void kill(std::size_t k) { robots[k].executive.reset(); }
 
   std::shared_ptr<const FleetPlan> plan;
@@ -58,11 +61,13 @@ class VirtualFleet {
       double limit, const std::function<void()>& each = [] {});
   /// Rows whose every metre some robot drove.
   std::size_t rows_driven() const;
+  /// m of the row that robot `k` drove.
+  double driven_by(std::size_t k, RowId row) const;
 
  private:
   void move(Robot& robot);
   static Eigen::Vector2d point(const Polyline& path, double along);
-  void mark(const Eigen::Vector2d& p);
+  void mark(const Robot& robot);
   void report();
   /// Maps flow when all who are alive and can move wait at the meeting.
   void exchange();
@@ -71,6 +76,8 @@ class VirtualFleet {
   double loss_;
   std::mt19937_64 random_;
   std::map<RowId, std::set<int>> visited_;
+  std::map<std::pair<std::size_t, RowId>, std::set<int>> visited_by_;
+  std::vector<messages::RowOrder> orders_;
   RowCoverage coverage_;  ///< by the nodes of all, which every robot gets
 };
 

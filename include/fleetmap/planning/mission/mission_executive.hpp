@@ -8,7 +8,7 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/messages/mission_report.hpp"
+#include "fleetmap/messages/messages.hpp"
 #include "fleetmap/planning/mission/fleet_plan.hpp"
 #include "fleetmap/planning/mission/mission_config.hpp"
 #include "fleetmap/planning/site/mission.hpp"
@@ -31,6 +31,8 @@ struct MissionInput {
   bool finished = false;
   bool stuck = false;
   double progress = 0.0;  ///< m along the path
+  /// An operator's order to drive home is in force.
+  bool called_home = false;
   /// Everything that was to be exchanged at the rendezvous is.
   bool maps_exchanged = false;
   /// Robots within reach who hold all maps that this one holds, and the other way round.
@@ -57,9 +59,12 @@ struct MissionAction {
 ///   fleet's nodes lie along it; what is known is passed on in every report;
 /// - a row that two claim stays with the one that is under way on it, else with the lower name;
 /// - a row that is blocked is tried from both ends, by two robots where two are left, and then abandoned;
-/// - rows of a robot that is lost, stuck or low on battery belong to nobody; each of the others works out who
+/// - rows of a robot that is lost, stuck, low on battery or called home belong to nobody; each of the others
+/// works out who
 ///   of them takes which, and whoever still sees nobody at a row after a while takes it;
 /// - a robot with many rows left gives some away when another one has none (the late one, the returned one);
+/// - a row that an operator gives to a robot is claimed by it, and its former owner keeps it until then; one
+///   that he takes from a robot goes to another one, unless no other can drive it;
 /// - two whom the plan lets stop to exchange maps drive there in the plan's order of rows and wait for each
 ///   other, never for one who is lost or got other rows, nor for ever.
 /// So no row stays undone while a robot remains that can reach it; at worst one is driven twice.
@@ -77,6 +82,9 @@ class MissionExecutive {
 
   /// Processes another robot's report; those that are unknown, own, old or invalid are ignored.
   void on_report(const MissionReport& report, Stamp now);
+  /// The operators' orders for rows that are in force, of those given so far. Orders for rows or robots that
+  /// the mission does not have are ignored.
+  void set_row_orders(const std::vector<messages::RowOrder>& orders);
   MissionAction update(const MissionInput& input);
   /// As of the last update.
   MissionReport report() const;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/core/time.hpp"
+#include "fleetmap/messages/messages.hpp"
+
+namespace fleetmap::exchange {
+
+using messages::RowOrder;
+
+/// The operators' orders to give rows away: one last-writer-wins register for each row. At most
+/// messages::Hold::kMaxRows are kept, those with the latest stamps, so that every robot keeps the same ones
+/// and they fit one message.
+class RowOrders {
+ public:
+  /// True if it replaced a register.
+  bool add(const RowOrder& order);
+  /// Some row has a later order here than in `theirs`.
+  bool more_than(const std::vector<RowOrder>& theirs) const;
+  std::vector<RowOrder> all() const;
+
+  /// One order as a line of text for the store, and back.
+  static std::string line_of(const RowOrder& order);
+  static std::optional<RowOrder> order_of(const std::string& line);
+
+ private:
+  std::map<std::uint32_t, RowOrder> registers_;  ///< by row
+};
+
+/// A stamp later than that of every one of `orders`, and not before `now`.
+Stamp later_than(const std::vector<RowOrder>& orders, Stamp now);
+
+}  // namespace fleetmap::exchange
