@@ -85,8 +85,6 @@ Agent::~Agent() = default;
 Status Agent::start() {
   begun_ = bus_.now();
   if (const Status kept = output::keep_recipe(store_, config_.recipe()); !kept) return kept;
-  const Eigen::Vector3d lidar = config_.perception.odometry.T_base_lidar.translation();
-  if (const Status kept = output::keep_lidar_mount(store_, lidar); !kept) return kept;
   config_.exchange.payload_size = [](const messages::Message& message) {
     return fleet_codec::encode(message).size();
   };
@@ -171,6 +169,7 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (!frame_.admits(perception_->odometry_counters(),
                      [this](const char* why) { return begin_session(why); }))
     return;
+  keep_lidar_mount();
   if (numbers_run_out()) begin_session("no number is left for another item of this session");
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.add(perceived.cpu_seconds);
@@ -178,6 +177,12 @@ void Agent::on_perceived(Perceived&& perceived) {
   if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
   tracks_.add(perceived);
   if (nodes_.add(std::move(perceived), bus_.now())) freeze_node();
+}
+
+void Agent::keep_lidar_mount() {
+  if (std::exchange(lidar_mount_kept_, true)) return;
+  const Status kept = output::keep_lidar_mount(store_, perception_->T_base_lidar().translation());
+  if (!kept) handle(exchange::StoreFailed{kept.error()});
 }
 
 void Agent::navigate() {

@@ -9,6 +9,7 @@
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -37,11 +38,14 @@ Perception::Perception(const PerceptionConfig& config, bus::Bus& bus, OnPerceive
       on_scan_(std::move(on_scan)),
       loam_(config.odometry, config.lidar),
       ekf_(config.localization),
+      mounts_(config),
       scans_(config.waiting_scans),
       last_sample_(bus.now()),
       last_scan_(last_sample_) {
   bus_.advertise(ros_codec::topics::odometry());
   bus_.advertise(fleet_codec::topics::global_pose());
+  health_.set_imu_rotation(config_.odometry.q_base_imu);
+  if (config_.gyro_in_degrees) health_.expect_degrees(*config_.gyro_in_degrees);
   subscribe();
 }
 
@@ -50,6 +54,8 @@ void Perception::subscribe() {
     topic.name = name;
     return topic;
   };
+  subscriptions_.push_back(
+      bus_.subscribe(ros_codec::topics::tf_static(), [this](const Bytes& cdr) { on_transforms(cdr); }));
   const SensorTopics& names = config_.topics;
   subscriptions_.push_back(bus_.subscribe(named(ros_codec::topics::points(), names.points),
                                           [this](const Bytes& cdr) { on_scan(cdr); }));
@@ -84,6 +90,7 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
           return warn(name + ": message refused", sample.error().message);
         }
         ++count;
+        if (!placed(source, cdr)) return;
         watch_clock(source, sample->stamp);
         if (clock_offsets_.unclear(source)) return void(++counters_.unclear_stamps);
         sample->stamp += clock_offsets_.correction(source);
@@ -91,6 +98,35 @@ void Perception::on_sample(const bus::Topic& topic, sensor::Source source, std::
         for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
         if (sound) use(*sample);
       }));
+}
+
+void Perception::on_transforms(const Bytes& cdr) {
+  const auto transforms = ros_codec::decode_transforms(cdr);
+  if (!transforms) return warn("/tf_static: message refused", transforms.error().message);
+  mounts_.add(*transforms);
+  for (const std::string& news : mounts_.take_warnings()) spdlog::warn("{}", news);
+}
+
+bool Perception::placed(sensor::Source source, const Bytes& cdr) {
+  if (mounts_.decided(source)) return true;
+  const auto frame = ros_codec::frame_id_of(cdr);
+  if (!frame) return true;  // it is refused when it is decoded
+  // Work on one that is refused may still touch what the mount changes.
+  const bool at_work = source == sensor::Source::kLidar && busy_;
+  if (at_work) ++counters_.waited_for_frames;
+  if (at_work) return false;
+  const auto state = mounts_.on_message(source, *frame, bus_.now());
+  if (state == SensorMounts::State::kWaits) ++counters_.waited_for_frames;
+  if (state != SensorMounts::State::kDecided) return state == SensorMounts::State::kKnown;
+  for (const std::string& news : mounts_.take_warnings()) spdlog::warn("{}", news);
+  if (!mounts_.by_frames(source)) return true;
+  spdlog::info("{}", mounts_.summary(source));
+  mounts_.apply_to(config_, source);
+  ekf_.set_mounting(config_.localization.mounting);
+  health_.set_imu_rotation(config_.odometry.q_base_imu);
+  if (source == sensor::Source::kImu) new_q_base_imu_ = config_.odometry.q_base_imu;
+  if (source == sensor::Source::kLidar) loam_ = odometry::Loam(config_.odometry, config_.lidar);
+  return true;
 }
 
 void Perception::watch_clock(sensor::Source source, Stamp stamp) {
@@ -101,6 +137,7 @@ void Perception::watch_clock(sensor::Source source, Stamp stamp) {
 void Perception::on_scan(const Bytes& cdr) {
   last_sample_ = last_scan_ = bus_.now();
   ++counters_.scans;
+  if (!placed(sensor::Source::kLidar, cdr)) return;
   // One without a stamp is refused when it is decoded.
   if (const auto stamp = ros_codec::stamp_of_scan(cdr)) watch_clock(sensor::Source::kLidar, *stamp);
   if (clock_offsets_.unclear(sensor::Source::kLidar)) return void(++counters_.unclear_stamps);
@@ -122,11 +159,13 @@ void Perception::start_next() {
   job->clock_correction = clock_offsets_.correction(sensor::Source::kLidar);
   job->imu.swap(imu_since_scan_);
   job->wheel.swap(wheel_since_scan_);
+  job->q_base_imu.swap(new_q_base_imu_);
   const bool taken =
       bus_.offload(bus::Lane::kPerception,
                    {"odometry",
                     [this, job] {
                       const double start = thread_cpu_seconds();
+                      if (job->q_base_imu) loam_.set_imu_rotation(*job->q_base_imu);
                       for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
                       for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
                       Result<ros_codec::DecodedScan> decoded = ros_codec::decode_scan(job->scan);
@@ -152,6 +191,9 @@ void Perception::finish(Job& job) {
   for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
   if (job.sweep) health_.check_scan(job.sweep->first, job.sweep->second);
   if (job.ground) health_.check_ground(*job.ground);
+  if (job.update)
+    health_.check_motion(job.update->stamp,
+                         job.update->lost ? std::nullopt : std::optional(job.update->T_odom_base));
   for (const std::string& news : health_.take_warnings()) spdlog::warn("{}", news);
   if (job.times_in_microseconds)
     warn("point times in microseconds",

@@ -67,6 +67,7 @@ json perception_json(const agent::Agent& agent) {
           {"refused_messages", counters.refused_messages},
           {"refused_scans", counters.refused_scans},
           {"dropped_scans", counters.dropped_scans},
+          {"waited_for_frames", counters.waited_for_frames},
           {"unclear_stamps", counters.unclear_stamps},
           {"repeated_scans", loam.refused_repeated},
           {"lost_scans", loam.lost},

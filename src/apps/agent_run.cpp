@@ -127,9 +127,10 @@ int run_agent(const AgentOptions& options) {
   if (!overrides) return report(overrides.error(), kUsage);
   const auto page_config = config_of_page(options.monitor);
   if (!page_config) return report(page_config.error(), kUsage);
-  const auto config =
+  auto config =
       options.as.empty() ? robot_of_its_own(options, *overrides) : member_of_fleet(options, *overrides);
   if (!config) return report(config.error(), kBadConfiguration);
+  config->agent.perception.frame_patience = agent::kFramePatience;
   auto bus = join_dds(config->dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
   for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/config/robot_file.hpp"
 #include "live_bus.hpp"
 #include "live_devices.hpp"
@@ -35,6 +36,7 @@ int examine(const DoctorOptions& options) {
   dds.agent = free_name("doctor", robot->agent.exchange.fleet);
   auto bus = join_dds(dds);
   if (!bus) return report(bus.error(), kBadConfiguration);
+  robot->agent.perception.frame_patience = agent::kFramePatience;
   SensorListener listener(robot->agent.perception, **bus);
   // Its agent receives there if it runs, and publishes the scans.
   const auto lidar = publish_velodyne(robot->agent.perception, **bus);
@@ -47,6 +49,7 @@ int examine(const DoctorOptions& options) {
   std::cout << "listening for " << options.seconds << " s; drive a turn, so that units of turn rates show\n";
   (*bus)->run_until([] { return stop_on_signals().load(); }, from_seconds(options.seconds));
   listener.streams().print(std::cout);
+  for (const std::string& mount : listener.mounts()) std::cout << mount << '\n';
   std::vector<std::string> findings = listener.findings();
   std::ranges::move(machine_findings(machine_state(robot->agent.directory)), std::back_inserter(findings));
   if (listener.streams().scans() == 0) {

@@ -1,5 +1,7 @@
 #include "fleet_run.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -15,6 +17,7 @@
 #include "live_monitor.hpp"
 #include "options.hpp"
 #include "recording_feed.hpp"
+#include "recording_input.hpp"
 #include "report.hpp"
 #include "run_summary.hpp"
 #include "twin_feed.hpp"
@@ -64,8 +67,17 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
     return std::unique_ptr<FleetFeed>(std::move(*feed));
   }
   std::vector<config::RecordingConfig> recordings;
-  for (const auto& member : config.members) recordings.push_back(*member.recording);
-  return RecordingFeed::create(recordings, config.members.front().agent.site_origin);
+  std::vector<recording::LogClock> log_clocks;
+  for (auto& member : config.members) {
+    recordings.push_back(*member.recording);
+    const auto prepared = prepare(member.recording->path, member.recording->reader, member.agent.perception);
+    if (!prepared) return tl::unexpected(prepared.error());
+    log_clocks.push_back(prepared->log_clock);
+    for (const std::string& mount : prepared->mounts) spdlog::info("{}: {}", member.agent.id.str(), mount);
+    for (const std::string& finding : prepared->findings)
+      spdlog::warn("{}: {}", member.agent.id.str(), finding);
+  }
+  return RecordingFeed::create(recordings, log_clocks, config.members.front().agent.site_origin);
 }
 
 /// Writes the true trajectory of each robot of the twin and returns them; none from recordings.

@@ -1,11 +1,13 @@
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
+#include "odometry_run.hpp"
 #include "recording_input.hpp"
-#include "sample_check.hpp"
 #include "stream_summary.hpp"
 
 namespace fleetmap::apps {
@@ -14,23 +16,22 @@ namespace {
 int inspect(const RecordingOptions& options) {
   const auto input = open_recording(options);
   if (!input) return input.error();
-  SampleCheck check(input->log_clock, input->config.agent.perception.odometry.T_base_lidar);
   StreamSummary streams;
-  std::vector<std::string> findings;
-  for (;;) {
-    auto sample = input->reader->next();
-    if (!sample) return report(sample.error(), kFailed);
-    if (!*sample) break;
-    streams.add(**sample);
-    check.admit(**sample, input->reader->recorded());
-    for (std::string& news : check.take_warnings()) findings.push_back(std::move(news));
-  }
+  const auto done = run_odometry(*input->reader, input->prepared.log_clock, input->config.agent.perception,
+                                 [&](const recording::Sample& sample) { streams.add(sample); });
+  if (!done) return report(done.error(), kFailed);
+  std::vector<std::string> findings = input->prepared.findings;
+  std::ranges::copy(done->findings, std::back_inserter(findings));
+  if (!done->kept_its_way()) findings.emplace_back("odometry: it lost its way; see the findings before this");
+  if (done->poses.empty() && streams.scans() > 0)
+    findings.push_back("odometry: no scan could be used: " + done->first_refusal);
   streams.print(std::cout);
+  for (const std::string& mount : input->prepared.mounts) std::cout << mount << '\n';
   for (const auto& [name, count] : input->reader->counters().named()) {
     if (count > 0) std::cout << name << ' ' << count << '\n';
   }
   for (const std::string& finding : findings) std::cout << "- " << finding << '\n';
-  if (findings.empty()) std::cout << "nothing found in clocks, units and rates\n";
+  if (findings.empty()) std::cout << "nothing found in clocks, units, rates, mounts and motions\n";
   return findings.empty() ? kDone : kFailed;
 }
 
@@ -40,8 +41,8 @@ void add_inspect(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RecordingOptions>();
   options->scans_needed = false;
   CLI::App* command = app.add_subcommand("inspect",
-                                         "what a recording holds, and what is wrong with its clocks, units "
-                                         "and rates; exit code 1 if anything is");
+                                         "what a recording holds, and what is wrong with its clocks, units, "
+                                         "rates, mounts and motions; exit code 1 if anything is");
   add_recording_options(*command, *options);
   command->callback([options, &exit_code] { exit_code = inspect(*options); });
 }

@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -26,8 +28,11 @@ int run(const OdometryOptions& options) {
     return report(writable.error(), kFailed);
   const auto input = open_recording(options.input);
   if (!input) return input.error();
-  const auto done = run_odometry(*input->reader, input->log_clock, input->config.agent.perception);
+  for (const std::string& mount : input->prepared.mounts) spdlog::info("{}", mount);
+  for (const std::string& finding : input->prepared.findings) spdlog::warn("{}", finding);
+  const auto done = run_odometry(*input->reader, input->prepared.log_clock, input->config.agent.perception);
   if (!done) return report(done.error(), kFailed);
+  for (const std::string& finding : done->findings) spdlog::warn("{}", finding);
   if (done->poses.empty()) {
     return report({options.input.recording + ": no scan could be used" +
                    (done->first_refusal.empty() ? "" : ": " + done->first_refusal)},

@@ -1,10 +1,9 @@
 #include "odometry_run.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <iterator>
 #include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
@@ -18,14 +17,12 @@ namespace {
 class OdometryFeed {
  public:
   OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
-      : config_(config),
-        loam_(config.odometry, config.lidar),
-        check_(log_clock, config.odometry.T_base_lidar) {}
+      : config_(config), loam_(config.odometry, config.lidar), check_(log_clock, config) {}
 
   /// `recorded` as Reader::recorded() has it.
   void add(recording::Sample sample, std::optional<Stamp> recorded) {
     const bool sound = check_.admit(sample, recorded);
-    for (const std::string& news : check_.take_warnings()) spdlog::warn("{}", news);
+    take_warnings();
     if (!sound) return;
     if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
       const Stamp end = sensor::end_of(*scan);
@@ -46,6 +43,7 @@ class OdometryFeed {
   }
   OdometryRun finish() {
     for (const Waiting& waiting : waiting_) add_scan(waiting.scan);
+    take_warnings();
     run_.counters = loam_.counters();
     return std::move(run_);
   }
@@ -64,6 +62,8 @@ class OdometryFeed {
     return covered || waiting_.back().scan.stamp - first.scan.stamp > kPatience;
   }
 
+  void take_warnings() { std::ranges::move(check_.take_warnings(), std::back_inserter(run_.findings)); }
+
   void add_scan(const sensor::Scan& scan) {
     const double cpu = thread_cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
@@ -71,9 +71,10 @@ class OdometryFeed {
     run_.wall_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     run_.cpu_s += thread_cpu_seconds() - cpu;
-    for (const std::string& news : loam_.take_warnings()) spdlog::warn("{}", news);
+    std::ranges::move(loam_.take_warnings(), std::back_inserter(run_.findings));
     if (const odometry::LocalMapSize map = loam_.map_size(); map.bytes > run_.map.bytes) run_.map = map;
     if (update) {
+      check_.add_motion(*update);
       run_.poses.push_back({update->stamp, update->T_odom_base});
       run_.way.add(*update);
       run_.blind += update->degenerate_count > 0;
@@ -94,12 +95,14 @@ class OdometryFeed {
 }  // namespace
 
 Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
-                                 const agent::PerceptionConfig& config) {
+                                 const agent::PerceptionConfig& config,
+                                 const std::function<void(const recording::Sample&)>& on_sample) {
   OdometryFeed feed(config, log_clock);
   while (true) {
     auto sample = reader.next();
     if (!sample) return tl::unexpected(sample.error());
     if (!*sample) return feed.finish();
+    if (on_sample) on_sample(**sample);
     feed.add(std::move(**sample), reader.recorded());
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,13 +27,16 @@ struct OdometryRun {
   odometry::LocalMapSize map;  ///< when it was largest
   std::size_t blind = 0;       ///< scans that left a direction of the motion to the prior
   odometry::WayCheck way;
+  std::vector<std::string> findings;  ///< about clocks, units, rates, mounts and motions
 
   /// True if the odometry never restarted its map and the trajectory has no warnings.
   bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
 };
 
-/// Runs the odometry over the whole recording. Fails if it cannot be read to its end.
+/// Runs the odometry over the whole recording; `on_sample` sees each sample before. Fails if it cannot be
+/// read to its end.
 Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
-                                 const agent::PerceptionConfig& config);
+                                 const agent::PerceptionConfig& config,
+                                 const std::function<void(const recording::Sample&)>& on_sample = {});
 
 }  // namespace fleetmap::apps

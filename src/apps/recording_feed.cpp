@@ -27,15 +27,14 @@ Status RecordingFeed::advance(Member& member) {
 }
 
 Result<std::unique_ptr<RecordingFeed>> RecordingFeed::create(
-    const std::vector<config::RecordingConfig>& recordings, const std::optional<GeoPoint>& site_origin) {
+    const std::vector<config::RecordingConfig>& recordings,
+    const std::vector<recording::LogClock>& log_clocks, const std::optional<GeoPoint>& site_origin) {
   std::unique_ptr<RecordingFeed> feed(new RecordingFeed);
   for (const config::RecordingConfig& source : recordings) {
     auto reader = recording::open(source.path, source.reader);
     if (!reader) return tl::unexpected(reader.error());
-    const auto log_clock = recording::find_log_clock(source.path, source.reader);
-    if (!log_clock) return tl::unexpected(log_clock.error());
     Member member;
-    member.times = recording::PlayTimes(*log_clock);
+    member.times = recording::PlayTimes(log_clocks[feed->members_.size()]);
     member.reader = std::move(*reader);
     if (const Status first = advance(member); !first) return tl::unexpected(first.error());
     if (!member.next) return failure(source.path.string() + ": the recording holds no sensor sample");

@@ -14,9 +14,10 @@ namespace fleetmap::apps {
 /// Plays each member's recording.
 class RecordingFeed final : public FleetFeed {
  public:
-  /// `site_origin`: as configured; else the first fix of the first recording that the fixes after it bear
-  /// out.
+  /// `log_clocks`: of each recording. `site_origin`: as configured; else the first fix of the first recording
+  /// that the fixes after it bear out.
   static Result<std::unique_ptr<RecordingFeed>> create(const std::vector<config::RecordingConfig>& recordings,
+                                                       const std::vector<recording::LogClock>& log_clocks,
                                                        const std::optional<GeoPoint>& site_origin);
 
   Stamp start() const override { return start_; }

@@ -4,7 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/config/robot_file.hpp"
+#include "fleetmap/recording/survey.hpp"
 #include "options.hpp"
 
 namespace fleetmap::apps {
@@ -16,6 +18,16 @@ void add_recording_options(CLI::App& command, RecordingOptions& options) {
       ->required();
   command.add_option("-c,--config", options.config, "AGENT.yaml or FLEET.yaml for the sensors");
   command.add_option("--set", options.set, "key=value, e.g. lidar.model=hdl64e")->allow_extra_args(false);
+}
+
+Result<Preparation> prepare(const std::filesystem::path& recording, const recording::ReaderConfig& reader,
+                            agent::PerceptionConfig& config) {
+  auto survey = recording::survey(recording, reader);
+  if (!survey) return tl::unexpected(survey.error());
+  auto mounts = agent::SensorMounts::of_recording(survey->frames, config);
+  mounts.apply_to(config);
+  config.gyro_in_degrees = std::move(survey->gyro_in_degrees);
+  return Preparation{survey->clock, mounts.summaries(), mounts.take_warnings()};
 }
 
 tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options) {
@@ -31,9 +43,9 @@ tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options
   reader_config.scans_needed = options.scans_needed;
   auto reader = recording::open(options.recording, reader_config);
   if (!reader) return failed(reader.error(), kFailed);
-  const auto log_clock = recording::find_log_clock(options.recording, reader_config);
-  if (!log_clock) return failed(log_clock.error(), kFailed);
-  return RecordingInput{std::move(*config), std::move(*reader), *log_clock};
+  auto prepared = prepare(options.recording, reader_config, config->agent.perception);
+  if (!prepared) return failed(prepared.error(), kFailed);
+  return RecordingInput{std::move(*config), std::move(*reader), std::move(*prepared)};
 }
 
 }  // namespace fleetmap::apps

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <tl/expected.hpp>
@@ -7,7 +8,7 @@
 
 #include "commands.hpp"
 #include "fleetmap/config/robot_config.hpp"
-#include "fleetmap/recording/play_times.hpp"
+#include "fleetmap/recording/log_clock.hpp"
 #include "fleetmap/recording/reader.hpp"
 
 namespace fleetmap::apps {
@@ -21,11 +22,21 @@ struct RecordingOptions {
 };
 void add_recording_options(CLI::App& command, RecordingOptions& options);
 
+/// Facts about a recording that its samples are read by.
+struct Preparation {
+  recording::LogClock log_clock;
+  std::vector<std::string> mounts;    ///< a line for each sensor
+  std::vector<std::string> findings;  ///< what is wrong with them
+};
+/// Examines a recording's beginning, and completes the robot's settings by mounts and units that it states.
+Result<Preparation> prepare(const std::filesystem::path& recording, const recording::ReaderConfig& reader,
+                            agent::PerceptionConfig& config);
+
 /// An opened recording and the settings of the robot that it is of.
 struct RecordingInput {
   config::RobotConfig config;
   std::unique_ptr<recording::Reader> reader;
-  recording::LogClock log_clock;
+  Preparation prepared;
 };
 /// Fails with the exit code after the reason was reported.
 tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options);

@@ -2,14 +2,18 @@
 
 #include <utility>
 
+#include "fleetmap/ros_codec/frame_transforms.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
 
-RecordingPlayer::RecordingPlayer(recording::Reader& reader, const recording::LogClock& log_clock,
-                                 bus::DdsBus& bus, const agent::SensorTopics& names, double rate)
-    : reader_(reader), bus_(bus), names_(names), rate_(rate), times_(log_clock) {
+RecordingPlayer::RecordingPlayer(recording::Reader& reader, const recording::Survey& survey, bus::DdsBus& bus,
+                                 const agent::SensorTopics& names, double rate)
+    : reader_(reader), bus_(bus), names_(names), rate_(rate), times_(survey.clock) {
   for (const bus::Topic& topic : sensor_topics(names_)) bus_.advertise(topic);
+  if (const auto mounts = mounts_of(survey.frames); !mounts.empty())
+    bus_.publish(ros_codec::topics::tf_static(), ros_codec::encode(mounts));
 }
 
 Status RecordingPlayer::start() {

@@ -10,13 +10,15 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/recording/survey.hpp"
 
 namespace fleetmap::apps {
 
-/// Plays samples at the times they were taken at, from timers of the bus's own thread.
+/// Plays samples at the times they were taken at, from timers of the bus's own thread, and before them the
+/// mounts that the recording states.
 class RecordingPlayer {
  public:
-  RecordingPlayer(recording::Reader& reader, const recording::LogClock& log_clock, bus::DdsBus& bus,
+  RecordingPlayer(recording::Reader& reader, const recording::Survey& survey, bus::DdsBus& bus,
                   const agent::SensorTopics& names, double rate);
   /// Fails if the recording holds no sample.
   Status start();

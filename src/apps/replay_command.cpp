@@ -7,8 +7,8 @@
 #include "fleetmap/bus/dds_bus.hpp"
 #include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/config/robot_file.hpp"
-#include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/recording/survey.hpp"
 #include "live_bus.hpp"
 #include "options.hpp"
 #include "recording_player.hpp"
@@ -65,9 +65,9 @@ int run(const ReplayOptions& options) {
 
   const std::atomic<bool>& stop = stop_on_signals();
   const agent::SensorTopics& names = robot->agent.perception.topics;
-  const auto log_clock = recording::find_log_clock(path, reader_config);
-  if (!log_clock) return report(log_clock.error(), kFailed);
-  RecordingPlayer player(**reader, *log_clock, **bus, names, options.rate);
+  const auto survey = recording::survey(path, reader_config);
+  if (!survey) return report(survey.error(), kFailed);
+  RecordingPlayer player(**reader, *survey, **bus, names, options.rate);
   const auto matched = [&] {
     return stop || std::ranges::all_of(sensor_topics(names), [&](const bus::Topic& topic) {
              return (*bus)->matches(topic).readers > 0;

@@ -25,6 +25,21 @@ struct Check {
 
 }  // namespace
 
+SampleCheck::SampleCheck(const recording::LogClock& log_clock, const agent::PerceptionConfig& config)
+    : times_(log_clock) {
+  set_mounts(config);
+  if (config.gyro_in_degrees) health_.expect_degrees(*config.gyro_in_degrees);
+}
+
+void SampleCheck::set_mounts(const agent::PerceptionConfig& config) {
+  T_base_lidar_ = config.odometry.T_base_lidar;
+  health_.set_imu_rotation(config.odometry.q_base_imu);
+}
+
+void SampleCheck::add_motion(const odometry::OdometryUpdate& update) {
+  health_.check_motion(update.stamp, update.lost ? std::nullopt : std::optional(update.T_odom_base));
+}
+
 bool SampleCheck::admit(recording::Sample& sample, std::optional<Stamp> recorded) {
   const auto source = static_cast<sensor::Source>(sample.index());  // the order of both is the same
   now_ = std::max(now_, times_.of(sample, recorded));

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fleetmap/agent/perception_config.hpp"
+#include "fleetmap/odometry/loam.hpp"
 #include "fleetmap/recording/play_times.hpp"
 #include "fleetmap/recording/reader.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
@@ -14,12 +16,15 @@ namespace fleetmap::apps {
 /// Checks samples of a recording as perception checks live ones before it uses them.
 class SampleCheck {
  public:
-  explicit SampleCheck(const recording::LogClock& log_clock, const Pose& T_base_lidar = Pose::Identity())
-      : times_(log_clock), T_base_lidar_(T_base_lidar) {}
+  SampleCheck(const recording::LogClock& log_clock, const agent::PerceptionConfig& config);
 
+  /// Mounts that were decided since.
+  void set_mounts(const agent::PerceptionConfig& config);
   /// Corrects the sample. False if it must not be used: its clock is undecided or its values are unsound.
   /// `recorded` as Reader::recorded() has it.
   bool admit(recording::Sample& sample, std::optional<Stamp> recorded);
+  /// Compares the other sensors with the odometry's motion.
+  void add_motion(const odometry::OdometryUpdate& update);
   /// Findings about clocks and values since the last call.
   std::vector<std::string> take_warnings();
   const sensor::SensorHealth& health() const { return health_; }

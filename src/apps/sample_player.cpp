@@ -1,5 +1,7 @@
 #include "sample_player.hpp"
 
+#include <utility>
+
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -20,6 +22,16 @@ EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics&
   // The order of the variant is that of sensor_topics().
   return {sensor_topics(names)[sample.index()],
           std::visit([](const auto& s) { return ros_codec::encode(s); }, sample)};
+}
+
+std::vector<sensor::FrameTransform> mounts_of(const sensor::SensorFrames& frames) {
+  std::vector<sensor::FrameTransform> mounts;
+  for (const auto& [id, played_as] : {std::pair(frames.ids[0], "lidar"), std::pair(frames.ids[1], "imu"),
+                                      std::pair(frames.ids[2], "gps")}) {
+    if (const auto T = frames.tree.find("base_link", id); T && !id.empty() && !frames.tree.empty())
+      mounts.push_back({"base_link", played_as, T->translation(), Eigen::Quaterniond(T->linear())});
+  }
+  return mounts;
 }
 
 }  // namespace fleetmap::apps

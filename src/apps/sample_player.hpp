@@ -18,4 +18,7 @@ struct EncodedSample {
 };
 EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics& names);
 
+/// The mounts that a recording states, from base_link to the frame_ids of encode().
+std::vector<sensor::FrameTransform> mounts_of(const sensor::SensorFrames& frames);
+
 }  // namespace fleetmap::apps

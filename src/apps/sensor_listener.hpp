@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fleetmap/agent/perception_config.hpp"
+#include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "sample_check.hpp"
 #include "stream_summary.hpp"
@@ -18,6 +19,8 @@ class SensorListener {
   SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus);
 
   const StreamSummary& streams() const { return streams_; }
+  /// A sentence on the mount of each sensor.
+  std::vector<std::string> mounts() const { return mounts_.summaries(); }
   /// Sentences on what is wrong with the samples that came since the last call, and on all that could not be
   /// decoded.
   std::vector<std::string> findings();
@@ -26,10 +29,14 @@ class SensorListener {
   template <class T>
   void listen(const bus::Topic& topic);
   template <class T>
-  void add(Result<T> decoded, const std::string& topic);
+  void add(Result<T> decoded, const Bytes& cdr, const std::string& topic);
+  /// False while the sensor's mount is not known.
+  bool place(sensor::Source source, const std::string& frame_id);
 
+  agent::PerceptionConfig config_;
   bus::Bus& bus_;
   SampleCheck check_;
+  agent::SensorMounts mounts_;
   StreamSummary streams_;
   std::map<std::string, std::size_t> refused_;  ///< by reason
   std::vector<bus::Handle> subscriptions_;

@@ -4,8 +4,10 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/ros_codec/topics.hpp"
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
@@ -21,7 +23,9 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
 
 SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus)
     : writer_(std::move(writer)) {
-  for (const bus::Topic& topic : sensor_topics(topics)) {
+  std::vector<bus::Topic> recorded = sensor_topics(topics);
+  recorded.push_back(ros_codec::topics::tf_static());
+  for (const bus::Topic& topic : recorded) {
     subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
       const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
       if (!written && !std::exchange(failed_, true))

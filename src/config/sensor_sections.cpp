@@ -19,6 +19,8 @@ std::uint16_t read_port(Section& section, const std::string& key, const char* us
   return static_cast<std::uint16_t>(port);
 }
 
+bool states_mount(Section& sensor) { return sensor.has("translation") || sensor.has("rotation_rpy_deg"); }
+
 void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   Section lidar = top.section("lidar");
   std::string model = perception.lidar.name;
@@ -29,6 +31,7 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
     lidar.problem("model", known.error().message);
   }
   lidar.read_mount(perception.odometry.T_base_lidar);
+  perception.mount_given[static_cast<std::size_t>(sensor::Source::kLidar)] = states_mount(lidar);
   lidar.read("max_range", perception.odometry.max_range);
   lidar.read("min_range", perception.odometry.min_range);
   lidar.read("range_noise", perception.odometry.range_noise);
@@ -86,6 +89,7 @@ void read_imu(Section& top, agent::PerceptionConfig& perception) {
   localization::EkfConfig& ekf = perception.localization;
   Section imu = top.section("imu");
   imu.read_mount(ekf.mounting.T_base_imu);
+  perception.mount_given[static_cast<std::size_t>(sensor::Source::kImu)] = states_mount(imu);
   perception.odometry.q_base_imu = Eigen::Quaterniond(ekf.mounting.T_base_imu.linear());
   imu.read("gyro_noise", ekf.imu.gyro_noise);
   imu.read("accel_noise", ekf.imu.accel_noise);
@@ -145,7 +149,9 @@ void read_mavlink(Section& top, agent::DeviceConfig& devices) {
   mavlink.finish();
 }
 
-void read_gps(Section& top, localization::EkfConfig& ekf, agent::DeviceConfig& devices) {
+void read_gps(Section& top, agent::PerceptionConfig& perception) {
+  localization::EkfConfig& ekf = perception.localization;
+  agent::DeviceConfig& devices = perception.devices;
   Section gps = top.section("gps");
   devices.nmea = read_serial(gps, "nmea_device", "nmea_baud", 9600);
   devices.gpsd = read_gpsd(gps);
@@ -154,6 +160,7 @@ void read_gps(Section& top, localization::EkfConfig& ekf, agent::DeviceConfig& d
     gps.problem(devices.nmea ? "nmea_device" : "gpsd",
                 "the autopilot's GPS is used as well; set mavlink.gps: false, or leave this one out");
   gps.read("translation", ekf.mounting.p_base_antenna);
+  perception.mount_given[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
   gps.read("correlation_time", ekf.gps.correlation_time);
   gps.read("correlated_share", ekf.gps.correlated_share);
   gps.read("default_sigma_h", ekf.gps.default_sigma_h);
@@ -182,7 +189,7 @@ void read_perception(Section& top, agent::PerceptionConfig& perception) {
   read_lidar(top, perception);
   read_imu(top, perception);
   read_mavlink(top, perception.devices);
-  read_gps(top, perception.localization, perception.devices);
+  read_gps(top, perception);
   read_wheel(top, perception.localization);
   read_odometry(top, perception);
   top.check(perception.lidar.validate());

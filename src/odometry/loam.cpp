@@ -12,6 +12,7 @@ Loam::~Loam() = default;
 Loam::Loam(Loam&&) noexcept = default;
 Loam& Loam::operator=(Loam&&) noexcept = default;
 
+void Loam::set_imu_rotation(const Eigen::Quaterniond& q_base_imu) { pipeline_->set_imu_rotation(q_base_imu); }
 void Loam::add_imu(const sensor::Imu& imu) { pipeline_->add_imu(imu); }
 void Loam::add_wheel(const sensor::Wheel& wheel) { pipeline_->add_wheel(wheel); }
 Result<OdometryUpdate> Loam::add_scan(const sensor::Scan& scan) { return pipeline_->add_scan(scan); }

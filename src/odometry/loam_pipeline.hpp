@@ -22,6 +22,7 @@ class LoamPipeline {
  public:
   LoamPipeline(LoamConfig config, const LidarModel& model);
 
+  void set_imu_rotation(const Eigen::Quaterniond& q_base_imu) { sensors_.set_imu_rotation(q_base_imu); }
   void add_imu(const sensor::Imu& imu) { counters_.imu_dropped += !sensors_.add(imu); }
   void add_wheel(const sensor::Wheel& wheel) { counters_.wheel_dropped += !sensors_.add(wheel); }
 

@@ -25,6 +25,11 @@ constexpr const char* kBackwards =
     "the motion compensation bends the scans; mend the time field of the driver (it must grow from the "
     "first point to the last), or set odometry.deskew to false";
 
+constexpr const char* kMillimetres =
+    "LiDAR: half of its points are more than 1 km away, so they are in millimetres and not in metres; scale "
+    "x, y and z "
+    "in the driver by 0.001";
+
 std::string wrong_rings(const LidarModel& model) {
   std::string text = "lidar.model '";
   text += model.name;
@@ -56,9 +61,17 @@ void ModelCheck::add(const sensor::Scan& scan) {
   if (scans_++ % kEvery != 0) return;
   if (rings_.add(rings_differ(scan))) news_.push_back(wrong_rings(model_));
   if (times_.add(times_run_backwards(scan))) news_.emplace_back(kBackwards);
+  if (units_.add(in_millimetres(scan))) news_.emplace_back(kMillimetres);
 }
 
 std::vector<std::string> ModelCheck::take_warnings() { return std::exchange(news_, {}); }
+
+bool ModelCheck::in_millimetres(const sensor::Scan& scan) {
+  constexpr float kFar = 1000.0f;  // m
+  const auto far = std::ranges::count_if(
+      scan.points, [](const sensor::ScanPoint& point) { return point.position.squaredNorm() > kFar * kFar; });
+  return scan.points.size() >= kMinPoints && 2 * static_cast<std::size_t>(far) > scan.points.size();
+}
 
 bool ModelCheck::rings_differ(const sensor::Scan& scan) const {
   if (scan.has_ring || angles_.size() < 2) return false;

@@ -28,12 +28,13 @@ class ModelCheck {
 
   bool rings_differ(const sensor::Scan& scan) const;
   bool times_run_backwards(const sensor::Scan& scan) const;
+  static bool in_millimetres(const sensor::Scan& scan);
 
   LidarModel model_;
   std::vector<double> angles_;  ///< of the rings, ascending, rad
   double spacing_ = 0.0;        ///< of the rings, mean, rad
   std::uint64_t scans_ = 0;
-  Finding rings_, times_;
+  Finding rings_, times_, units_;
   std::vector<std::string> news_;
 };
 

@@ -29,6 +29,7 @@ class MotionSensors {
  public:
   explicit MotionSensors(const LoamConfig& config) : config_(config) {}
 
+  void set_imu_rotation(const Eigen::Quaterniond& q_base_imu) { config_.q_base_imu = q_base_imu; }
   /// False if the sample was dropped: not finite, or out of order.
   bool add(const sensor::Imu& imu);
   bool add(const sensor::Wheel& wheel);

@@ -7,7 +7,9 @@
 #include "bag_metadata.hpp"
 #include "bag_topics.hpp"
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
 #include "packet_reader.hpp"
 #include "unpack.hpp"
 
@@ -86,6 +88,7 @@ class BagReader : public PacketReader {
     }
   }
   std::optional<Stamp> recorded() const override { return recorded_; }
+  const sensor::SensorFrames& frames() const override { return frames_; }
 
  private:
   /// Advances by one message; empty when it yields no sample.
@@ -138,6 +141,7 @@ class BagReader : public PacketReader {
         add_packets(cdr, message);
         return std::nullopt;  // a message ends within a turn; next_scan() returns those that are complete
       case Kind::kScan: {
+        note_frame(sensor::Source::kLidar, cdr);
         if (content_ == ScanContent::kStampOnly) {
           const auto stamp = ros_codec::stamp_of_scan(cdr);
           if (!stamp) return undecodable(topic, stamp.error());
@@ -151,17 +155,21 @@ class BagReader : public PacketReader {
         return Sample(std::move(decoded->scan));
       }
       case Kind::kImu:
-        return sample_of<sensor::Imu>(cdr, topic);
+        return sample_of<sensor::Imu>(cdr, topic, sensor::Source::kImu);
       case Kind::kFix:
-        return sample_of<sensor::Fix>(cdr, topic);
+        return sample_of<sensor::Fix>(cdr, topic, sensor::Source::kGps);
+      case Kind::kTransforms:
+        add_transforms(cdr, topic);
+        return std::nullopt;
       default:
-        return sample_of<sensor::Wheel>(cdr, topic);
+        return sample_of<sensor::Wheel>(cdr, topic, sensor::Source::kWheel);
     }
   }
 
   void add_packets(ByteView cdr, const BagMessage& message) {
     const auto decoded = ros_codec::decode_velodyne_scan(cdr);
     if (!decoded) return void(undecodable(message.topic, decoded.error()));
+    note_frame(sensor::Source::kLidar, cdr);
     const Stamp recorded = stamp_from_ns(message.received_ns);
     for (const auto& packet : decoded->packets) {
       Stamp arrival = packet.received;
@@ -175,10 +183,22 @@ class BagReader : public PacketReader {
   }
 
   template <class T>
-  std::optional<Sample> sample_of(ByteView cdr, const std::string& topic) {
+  std::optional<Sample> sample_of(ByteView cdr, const std::string& topic, sensor::Source source) {
+    note_frame(source, cdr);
     auto decoded = ros_codec::decode<T>(cdr);
     if (!decoded) return undecodable(topic, decoded.error());
     return Sample(std::move(*decoded));
+  }
+
+  void note_frame(sensor::Source source, ByteView cdr) {
+    std::string& id = frames_.ids[static_cast<std::size_t>(source)];
+    if (id.empty()) id = ros_codec::frame_id_of(cdr).value_or(std::string());
+  }
+
+  void add_transforms(ByteView cdr, const std::string& topic) {
+    const auto transforms = ros_codec::decode_transforms(cdr);
+    if (!transforms) return void(undecodable(topic, transforms.error()));
+    frames_.add(*transforms);
   }
 
   std::optional<Sample> undecodable(const std::string& topic, const Error& error) {
@@ -199,6 +219,7 @@ class BagReader : public PacketReader {
   std::unique_ptr<BagFile> file_;
   bool ended_ = false;
   std::optional<Stamp> recorded_;
+  sensor::SensorFrames frames_;
 };
 
 }  // namespace

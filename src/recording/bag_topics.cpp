@@ -10,6 +10,7 @@ namespace fleetmap::recording {
 namespace {
 
 constexpr char kNone[] = "none";
+constexpr char kTransforms[] = "tf2_msgs/msg/TFMessage";
 
 /// One kind of topic: its config key, its type and our own name for it.
 struct Role {
@@ -94,6 +95,9 @@ Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& t
     const auto name = select(role, topics, wanted.*role.wanted, bag);
     if (!name) return tl::unexpected(name.error());
     if (!name->empty()) chosen.emplace(*name, role.kind);
+  }
+  for (const BagTopic& topic : of_type(topics, kTransforms)) {
+    if (topic.name.ends_with("/tf_static")) chosen.emplace(topic.name, Kind::kTransforms);
   }
   return chosen;
 }

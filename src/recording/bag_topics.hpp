@@ -17,11 +17,12 @@ struct BagTopic {
 };
 
 /// The sample to which a message of a topic is decoded.
-enum class Kind { kScan, kPackets, kImu, kFix, kWheel };  // kPackets: to scans
+enum class Kind { kScan, kPackets, kImu, kFix, kWheel, kTransforms };  // kPackets: to scans; the last to none
 
 /// Selects the topics to read: by name if the config has one, else the only topic of the type, else the one
 /// with our own name. Points must be found if they are needed; the rest may be absent. Without a cloud, the
-/// packets of a LiDAR are taken for them; where a bag has both, the clouds are taken and this is logged.
+/// packets of a LiDAR are taken for them; where a bag has both, the clouds are taken and this is logged. All
+/// that is called /tf_static, in any namespace, is taken.
 /// Errors list the candidates and the config key.
 Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& topics, const Topics& wanted,
                                                   const std::string& bag, bool scans_needed = true);

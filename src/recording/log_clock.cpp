@@ -1,10 +1,7 @@
 #include "fleetmap/recording/log_clock.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
-#include <variant>
 #include <vector>
 
 namespace fleetmap::recording {
@@ -19,13 +16,7 @@ constexpr double kMaxRateError = 0.05;
 /// Lags below this are those of drivers and of single sensors' clocks.
 constexpr Duration kWrittenLater = std::chrono::minutes(1);
 
-/// Times of one kind of sensor.
-struct SensorTimes {
-  Stamp first_stamp, last_stamp, first_recorded, last_recorded;
-  Duration min_lag = Duration::max();
-};
-
-std::optional<double> rate_of(const SensorTimes& times) {
+std::optional<double> rate_of(const LogClockFinder::Times& times) {
   const Duration span = times.last_stamp - times.first_stamp;
   if (span < kMinSpan) return std::nullopt;
   return to_seconds(times.last_recorded - times.first_recorded) / to_seconds(span);
@@ -37,10 +28,10 @@ Duration common_lag(std::vector<Duration> lags) {
   return lags[(lags.size() - 1) / 2];
 }
 
-LogClock clock_of(const std::vector<SensorTimes>& sensors) {
+LogClock clock_of(const std::vector<LogClockFinder::Times>& sensors) {
   std::vector<double> rates;
   std::vector<Duration> lags;
-  for (const SensorTimes& times : sensors) {
+  for (const LogClockFinder::Times& times : sensors) {
     if (const auto rate = rate_of(times)) rates.push_back(*rate);
     lags.push_back(times.min_lag);
   }
@@ -56,27 +47,21 @@ LogClock clock_of(const std::vector<SensorTimes>& sensors) {
 
 }  // namespace
 
-Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config) {
-  auto reader = open(recording, config, ScanContent::kStampOnly);
-  if (!reader) return tl::unexpected(reader.error());
-  std::array<std::optional<SensorTimes>, std::variant_size_v<Sample>> times;
-  std::optional<Stamp> begun;
-  for (std::size_t samples = 0; samples < kMaxSamples; ++samples) {
-    const auto sample = (*reader)->next();
-    if (!sample || !*sample) break;  // the player reports the reason
-    const auto recorded = (*reader)->recorded();
-    if (!recorded) return LogClock{};
-    if (!begun) begun = recorded;
-    const Stamp stamp = stamp_of(**sample);
-    std::optional<SensorTimes>& sensor = times[(*sample)->index()];
-    if (!sensor) sensor = SensorTimes{stamp, stamp, *recorded, *recorded};
-    sensor->last_stamp = stamp;
-    sensor->last_recorded = *recorded;
-    sensor->min_lag = std::min(sensor->min_lag, *recorded - stamp);
-    if (*recorded - *begun > kExamined) break;
-  }
-  std::vector<SensorTimes> sensors;
-  for (const auto& sensor : times) {
+bool LogClockFinder::add(const Sample& sample, Stamp recorded) {
+  if (!begun_) begun_ = recorded;
+  if (++samples_ > kMaxSamples || recorded - *begun_ > kExamined) return false;
+  const Stamp stamp = stamp_of(sample);
+  std::optional<Times>& sensor = times_[sample.index()];
+  if (!sensor) sensor = Times{stamp, stamp, recorded, recorded};
+  sensor->last_stamp = stamp;
+  sensor->last_recorded = recorded;
+  sensor->min_lag = std::min(sensor->min_lag, recorded - stamp);
+  return true;
+}
+
+LogClock LogClockFinder::clock() const {
+  std::vector<Times> sensors;
+  for (const auto& sensor : times_) {
     if (sensor) sensors.push_back(*sensor);
   }
   return sensors.empty() ? LogClock{} : clock_of(sensors);

@@ -9,6 +9,11 @@
 
 namespace fleetmap::recording {
 
+const sensor::SensorFrames& Reader::frames() const {
+  static const sensor::SensorFrames kNone;
+  return kNone;
+}
+
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config,
                                      ScanContent content) {
   if (auto status = config.validate(); !status) return tl::unexpected(status.error());

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "cdr_header.hpp"
 #include "fleetmap/bus/cdr.hpp"
 #include "fleetmap/core/text_list.hpp"
 #include "ros_time.hpp"
@@ -249,20 +250,13 @@ Bytes encode(const sensor::Scan& scan, std::string_view frame_id) {
 }
 
 Result<Stamp> stamp_of_scan(ByteView cdr) {
-  constexpr std::size_t kStampBytes = 8;  // first in the header: int32 s, uint32 ns
   if (auto status = bus::check_encapsulation(cdr, type_name::kPointCloud2); !status)
     return tl::unexpected(status.error());
   if (cdr.size() < bus::kEncapsulationBytes + kStampBytes)
     return failure(std::string(type_name::kPointCloud2) + ": ends within its header");
-  const bool little_endian = cdr[1] == 1;
-  const auto number = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t k = 0; k < 4; ++k) value = (value << 8) | cdr[at + (little_endian ? 3 - k : k)];
-    return value;
-  };
   builtin_interfaces::msg::dds_::Time_ time;
-  time.sec(static_cast<std::int32_t>(number(bus::kEncapsulationBytes)));
-  time.nanosec(number(bus::kEncapsulationBytes + 4));
+  time.sec(static_cast<std::int32_t>(header_number(cdr, bus::kEncapsulationBytes)));
+  time.nanosec(header_number(cdr, bus::kEncapsulationBytes + 4));
   return from_ros(time, type_name::kPointCloud2);
 }
 

@@ -96,6 +96,15 @@ void odometry(Transcoder& message) {
   message.numbers(8, 7 + 36 + 6 + 36);  // pose and twist, each with its covariance
 }
 
+void tf_message(Transcoder& message) {
+  const std::uint32_t transforms = message.count();
+  for (std::uint32_t k = 0; k < transforms && message.more(); ++k) {
+    message.header();
+    message.text();         // child_frame_id
+    message.numbers(8, 7);  // translation and rotation
+  }
+}
+
 void velodyne_scan(Transcoder& message) {
   message.header();
   const std::uint32_t packets = message.count();
@@ -117,6 +126,8 @@ Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message) {
     nav_sat_fix(transcoder);
   } else if (type == "nav_msgs/msg/Odometry") {
     odometry(transcoder);
+  } else if (type == "tf2_msgs/msg/TFMessage") {
+    tf_message(transcoder);
   } else if (type == "velodyne_msgs/msg/VelodyneScan") {
     velodyne_scan(transcoder);
   } else {

@@ -9,6 +9,7 @@ inline constexpr char kNavSatFix[] = "sensor_msgs::msg::dds_::NavSatFix_";
 inline constexpr char kOdometry[] = "nav_msgs::msg::dds_::Odometry_";
 inline constexpr char kBatteryState[] = "sensor_msgs::msg::dds_::BatteryState_";
 inline constexpr char kTwist[] = "geometry_msgs::msg::dds_::Twist_";
+inline constexpr char kTfMessage[] = "tf2_msgs::msg::dds_::TFMessage_";
 inline constexpr char kVelodyneScan[] = "velodyne_msgs::msg::dds_::VelodyneScan_";
 
 }  // namespace fleetmap::ros_codec::type_name

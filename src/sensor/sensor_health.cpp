@@ -30,10 +30,14 @@ constexpr Duration kShortestSweep = std::chrono::milliseconds(5);
 constexpr double kPause = 100.0;   // sweeps: the LiDAR was off
 constexpr double kMissing = 1.75;  // sweeps from scan to scan
 constexpr double kMissingShare = 0.1;
-constexpr std::uint64_t kMinScansChecked = 50;
+constexpr std::uint64_t kMinScansChecked = 40;
 constexpr std::uint64_t kScansPerGround = 5;
 constexpr std::size_t kGrounds = 40;
-constexpr double kLevel = 5.0 * kDegree;  // tilt of the ground in base_link
+constexpr Duration kImuGap = std::chrono::milliseconds(250), kPauseOfImu = std::chrono::seconds(10);
+constexpr Duration kGapsJudgedAfter = std::chrono::seconds(10);
+constexpr double kGapShare = 0.1;
+constexpr double kSteepest = 25.0 * kDegree;  // slope on which a robot starts
+constexpr double kLevel = 5.0 * kDegree;      // tilt of the ground in base_link
 
 /// Unit of a specific force whose norm is that of gravity.
 struct ForceUnit {
@@ -84,8 +88,58 @@ std::vector<std::string> SensorHealth::take_warnings() {
 }
 
 bool SensorHealth::check(Imu& imu) {
+  check_gaps(imu.stamp);
   correct_force(imu);
-  return correct_rate(imu) || refuse();
+  check_gravity(imu);
+  if (!correct_rate(imu)) return refuse();
+  motion_.add(imu);
+  return true;
+}
+
+void SensorHealth::set_imu_rotation(const Eigen::Quaterniond& q_base_imu) {
+  q_base_imu_ = q_base_imu;
+  motion_.set_imu_rotation(q_base_imu);
+}
+
+void SensorHealth::check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base) {
+  if (!T_odom_base) {
+    motion_.interrupt();
+    return gps_.interrupt();
+  }
+  motion_.add_motion(stamp, *T_odom_base);
+  gps_.add_motion(stamp, *T_odom_base);
+  for (std::string& finding : motion_.take_findings()) state(std::move(finding));
+  for (std::string& finding : gps_.take_findings()) state(std::move(finding));
+}
+
+void SensorHealth::check_gaps(Stamp stamp) {
+  const std::optional<Stamp> before = std::exchange(last_imu_, stamp);
+  if (!first_imu_) first_imu_ = stamp;
+  if (!before || stamp <= *before || imu_gaps_said_) return;
+  if (stamp - *before > kPauseOfImu) first_imu_ = stamp;  // it was off
+  if (stamp - *before > kImuGap && stamp - *before <= kPauseOfImu) imu_gaps_ += to_seconds(stamp - *before);
+  const double heard = to_seconds(stamp - *first_imu_);
+  if (stamp - *first_imu_ < kGapsJudgedAfter || imu_gaps_ < kGapShare * heard) return;
+  imu_gaps_said_ = true;
+  state("IMU: samples are missing: " + number(100.0 * imu_gaps_ / heard) +
+        " % of the time is in gaps of more than 0.25 s, in which the motion is not measured. Check its "
+        "cable, the "
+        "load of the computer and the rate of the driver (100 Hz)");
+}
+
+void SensorHealth::check_gravity(const Imu& imu) {
+  if (first_forces_.size() >= kFirstNorms || !(imu.specific_force.norm() > kNoAccelerometer)) return;
+  first_forces_.push_back((q_base_imu_ * imu.specific_force).normalized());
+  if (first_forces_.size() < kFirstNorms) return;
+  const Eigen::Vector3d up = median(first_forces_);
+  const double tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
+  if (tilt < kSteepest) return;
+  const Eigen::Vector3d turn = rpy_from_rotation(levelling(up)) / kDegree;
+  state("IMU: gravity is " + number(tilt / kDegree) +
+        " deg off base_link's z at the start, so the IMU is not mounted as imu.rotation_rpy_deg says: it "
+        "should be "
+        "turned by [" +
+        number(turn.x()) + ", " + number(turn.y()) + ", 0] deg more; or its axes are swapped");
 }
 
 void SensorHealth::correct_force(Imu& imu) {
@@ -117,16 +171,25 @@ void SensorHealth::correct_force(Imu& imu) {
   }
 }
 
+void SensorHealth::expect_degrees(const std::string& why) {
+  gyro_in_degrees_ = why;
+  state("IMU: " + why +
+        ", so the unit of the angular velocity is deg/s and not rad/s; it is converted. Correct the driver");
+}
+
+bool SensorHealth::gyro_unit_decided() const {
+  return gyro_in_degrees_.has_value() || compared_rates_ >= kComparedRates;
+}
+
 bool SensorHealth::correct_rate(Imu& imu) {
   const double rate = imu.angular_velocity.norm();
-  imu.angular_velocity *= rate_scale_;
-  if (rate_scale_ != 1.0) return true;
-  const auto in_degrees = [&](const std::string& why) {
-    rate_scale_ = kDegree;
+  if (gyro_in_degrees_) {
     imu.angular_velocity *= kDegree;
-    state(
-        "IMU: " + why +
-        ", so the unit of the angular velocity is deg/s and not rad/s; it is converted. Correct the driver");
+    return true;
+  }
+  const auto in_degrees = [&](const std::string& why) {
+    expect_degrees(why);
+    imu.angular_velocity *= kDegree;
     return true;
   };
   const bool with_wheels = last_wheel_ && last_wheel_->yaw_rate &&
@@ -153,6 +216,12 @@ bool SensorHealth::correct_rate(Imu& imu) {
 }
 
 bool SensorHealth::check(Wheel& wheel) {
+  const bool sound = correct_twist(wheel) || refuse();
+  if (sound) motion_.add(wheel);
+  return sound;
+}
+
+bool SensorHealth::correct_twist(Wheel& wheel) {
   const std::optional<Wheel> before = std::exchange(last_wheel_, wheel);
   const bool is_stationary = wheel.forward_speed == 0.0 && wheel.yaw_rate.value_or(0.0) == 0.0;
   if (!is_stationary || !before || !before->T_odom_base || !wheel.T_odom_base) return true;
@@ -168,15 +237,24 @@ bool SensorHealth::check(Wheel& wheel) {
   wheel.forward_speed = T_before_now.translation().x() / to_seconds(step);
   wheel.yaw_rate = turn.z() / to_seconds(step);
   last_wheel_->yaw_rate = wheel.yaw_rate;
-  return std::abs(wheel.forward_speed) < kMaxSpeed || refuse();
+  return std::abs(wheel.forward_speed) < kMaxSpeed;
 }
 
 bool SensorHealth::check(const Fix& fix) {
   const GeoPoint& p = fix.position;
   const bool somewhere =
       std::isfinite(p.latitude) && std::isfinite(p.longitude) && (p.latitude != 0.0 || p.longitude != 0.0);
+  if (std::isfinite(p.latitude) && !somewhere && fix.valid && !std::exchange(no_place_, true))
+    state(
+        "GPS: fixes are at latitude 0, longitude 0: the receiver reports them before it knows its place; "
+        "they are "
+        "refused. Let its driver set status -1");
+  if (!somewhere && fix.valid) return refuse();
   const bool flat = somewhere && !std::isfinite(p.altitude);
-  if (!flat) return true;
+  if (!flat) {
+    gps_.add(fix);
+    return true;
+  }
   if (!std::exchange(no_altitude_, true))
     state(
         "GPS: fixes have no altitude and cannot be used; let the receiver or its driver report the height "

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "fleetmap/bus/local_network.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/topics.hpp"
@@ -203,6 +205,74 @@ TEST_F(RenamedTopic, IsHeardAndOursIsNot) {
   bus_->publish(topic, kNoMessage);
   run_for(10ms);
   EXPECT_EQ(perception_->counters().scans, 1u);
+}
+
+/// A robot whose configuration leaves the mounts away.
+class FramedSensors : public PerceptionTest {
+ protected:
+  FramedSensors() {
+    config_.odometry.T_base_lidar = Pose::Identity();
+    config_.frame_patience = 2s;
+  }
+  /// Publishes a scan of a LiDAR that is pitched by 20 deg.
+  void pitched_scan() {
+    sensor::Scan scan = yard_scan();
+    scan.stamp = network_->now();
+    const Eigen::Matrix3f R = kPitched.inverse().toRotationMatrix().cast<float>();
+    for (auto& point : scan.points) point.position = R * point.position;
+    bus_->publish(topics::points(), ros_codec::encode(scan, "velodyne"));
+  }
+  float lowest_point() const {
+    float lowest = 0.0f;
+    for (const auto& point : perceived_.back().odometry.points.points) lowest = std::min(lowest, point.z());
+    return lowest;
+  }
+
+  const Eigen::Quaterniond kPitched{rotation_from_rpy(0.0, 0.35, 0.0)};
+  const std::vector<sensor::FrameTransform> kFrames{{"base_link", "velodyne", {0.0, 0.0, 0.8}, kPitched},
+                                                    {"base_link", "imu", {}, kPitched}};
+};
+
+TEST_F(FramedSensors, WaitForTheirMountsAndUseThem) {
+  bus_->publish(topics::points(), kNoMessage);  // decides nothing
+  run_for(1s);
+  pitched_scan();
+  run_for(500ms);
+  EXPECT_EQ(perception_->counters().waited_for_frames, 1u);
+  EXPECT_TRUE(perceived_.empty());
+  bus_->publish(topics::tf_static(), ros_codec::encode(kFrames));
+  run_for(10ms);
+  pitched_scan();
+  run_for(500ms);
+  ASSERT_EQ(perceived_.size(), 1u);
+  EXPECT_TRUE(perception_->T_base_lidar().isApprox(make_pose(kPitched, {0.0, 0.0, 0.8}), 1e-9));
+  EXPECT_GT(lowest_point(), -0.3f) << "the ground is level";
+  // The IMU is known later than the first scan was used.
+  for (int k = 0; k < 50; ++k) {
+    sensor::Imu imu;
+    imu.stamp = network_->now();
+    imu.specific_force = kPitched.inverse() * Eigen::Vector3d(0.0, 0.0, 9.80665);
+    bus_->publish(topics::imu(), ros_codec::encode(imu));
+    run_for(10ms);
+  }
+  pitched_scan();
+  run_for(500ms);
+  ASSERT_EQ(perceived_.size(), 2u);
+  EXPECT_TRUE(perceived_[1].up_is_measured);
+  EXPECT_LT((perceived_[1].up_in_base - Eigen::Vector3d::UnitZ()).norm(), 0.02);
+}
+
+TEST_F(FramedSensors, WithoutFramesAreUsedAtTheirDefaultAfterTheWait) {
+  pitched_scan();
+  run_for(1900ms);
+  pitched_scan();
+  run_for(100ms);
+  EXPECT_TRUE(perceived_.empty());
+  pitched_scan();
+  run_for(500ms);
+  ASSERT_EQ(perceived_.size(), 1u);
+  EXPECT_EQ(perception_->counters().waited_for_frames, 2u);
+  EXPECT_LT(lowest_point(), -0.8f) << "tilted, as nothing says otherwise";
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Outcome {
   std::vector<std::string> news;
 };
 Outcome outcome(Duration gps_ahead, double force_unit) {
-  SampleCheck check({});
+  SampleCheck check({}, {});
   Outcome run;
   const auto add = [&](recording::Sample sample, Stamp now) {
     const bool admitted = check.admit(sample, now);

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "checks.hpp"
+#include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 
@@ -28,14 +29,31 @@ void decode_scan(ByteView cdr) {
   decode<sensor::Scan>(cdr);
 }
 
+void decode_frames(ByteView cdr) {
+  ros_codec::frame_id_of(cdr);
+  const MemoryPeak memory;
+  const auto transforms = ros_codec::decode_transforms(cdr);
+  require(memory.bytes() <= 65'536 + 64 * cdr.size(), "decoding allocates far more than its bytes");
+  if (!transforms) return require(!transforms.error().message.empty(), "refused without a reason");
+  sensor::SensorFrames frames;
+  frames.add(*transforms);
+  for (const sensor::FrameTransform& transform : *transforms) {
+    const auto T = frames.tree.find("base_link", transform.child);
+    if (T) require(T->matrix().allFinite(), "a mount that is not finite");
+  }
+  require(ros_codec::decode_transforms(ros_codec::encode(*transforms)).has_value(),
+          "what was accepted is refused when recorded");
+}
+
 using Decoder = void (*)(ByteView);
-constexpr std::array<Decoder, 7> kDecoders{&decode_scan,
+constexpr std::array<Decoder, 8> kDecoders{&decode_scan,
                                            &decode<sensor::Imu>,
                                            &decode<sensor::Fix>,
                                            &decode<sensor::Wheel>,
                                            &decode<sensor::Battery>,
                                            &decode<ros_codec::OdometryMsg>,
-                                           &decode<ros_codec::VelocityCommand>};
+                                           &decode<ros_codec::VelocityCommand>,
+                                           &decode_frames};
 
 }  // namespace
 }  // namespace fleetmap::fuzz

@@ -54,6 +54,12 @@ TEST(ModelCheck, IsSilentOnScansOfTheirOwnModel) {
   }
 }
 
+TEST(ModelCheck, NamesPointsInMillimetres) {
+  sensor::Scan scan = scan_of(vlp16(), {});
+  for (sensor::ScanPoint& point : scan.points) point.position *= 1000.0f;
+  EXPECT_TRUE(says(news(scan, vlp16()), "in millimetres"));
+}
+
 TEST(ModelCheck, NamesAModelThatIsNotThatOfTheScans) {
   EXPECT_TRUE(says(news(scan_of(hdl64e(), without_rings()), vlp16()), "set lidar.model"));
   EXPECT_TRUE(says(news(scan_of(os1_64(), without_rings()), vlp16()), "'vlp16' does not fit"));

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "bag_samples.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace fleetmap::recording {
 namespace {
@@ -18,20 +17,16 @@ struct Times {
 
 /// The clock of a bag with these IMU samples, and fixes.
 LogClock clock_of(const std::vector<Times>& imus, const std::vector<Times>& fixes = {}) {
-  const fleetmap::testing::TemporaryFolder folder;
-  const auto ns = [](double seconds) { return kStart + from_seconds(seconds).count(); };
-  {
-    auto bag = BagWriter::create(folder.path() / "bag").value();
-    put(bag, ros_codec::topics::points(), ns(imus.front().recorded),
-        ros_codec::encode(scan_at(ns(imus.front().stamp))));
-    for (const Times& at : imus)
-      put(bag, ros_codec::topics::imu(), ns(at.recorded), ros_codec::encode(imu_at(ns(at.stamp))));
-    for (const Times& at : fixes)
-      put(bag, ros_codec::topics::fix(), ns(at.recorded), ros_codec::encode(fix_at(ns(at.stamp))));
-  }
-  const auto clock = find_log_clock(folder.path() / "bag");
-  EXPECT_TRUE(clock) << clock.error().message;
-  return clock.value_or(LogClock{});
+  const auto at = [](double seconds) { return stamp_from_ns(kStart) + from_seconds(seconds); };
+  LogClockFinder finder;
+  const auto add = [&](auto sample, const Times& times) {
+    sample.stamp = at(times.stamp);
+    finder.add(sample, at(times.recorded));
+  };
+  add(sensor::Scan(), imus.front());
+  for (const Times& times : imus) add(sensor::Imu(), times);
+  for (const Times& times : fixes) add(sensor::Fix(), times);
+  return finder.clock();
 }
 
 /// `count` samples a second apart, recorded `lag` later by a clock of this rate.
@@ -72,15 +67,16 @@ TEST(LogClock, OfThreeSensorsTheMiddleLagCounts) {
   EXPECT_EQ(clock_of(every_second(4, 400.0), fixes).shift, -400s);
 }
 
-TEST(LogClock, WhatIsNoRecordingIsAnErrorAndKittiHasNoClock) {
-  const fleetmap::testing::TemporaryFolder folder;
-  EXPECT_FALSE(find_log_clock(folder.path() / "none"));
-  const float point[4] = {1, 2, 3, 0};
-  folder.write("drive/0.bin", {reinterpret_cast<const char*>(point), sizeof(point)});
-  const auto clock = find_log_clock(folder.path() / "drive");
-  ASSERT_TRUE(clock);
-  EXPECT_TRUE(clock->usable);
-  EXPECT_EQ(clock->shift, 0ns);
+TEST(LogClock, OfNothingIsPlayedByStamps) {
+  EXPECT_TRUE(LogClockFinder().clock().usable);
+  EXPECT_EQ(LogClockFinder().clock().shift, 0ns);
+}
+
+TEST(LogClock, TwentySecondsAreEnough) {
+  LogClockFinder finder;
+  EXPECT_TRUE(finder.add(sensor::Imu{}, stamp_from_ns(kStart)));
+  EXPECT_TRUE(finder.add(sensor::Imu{}, stamp_from_ns(kStart) + 20s));
+  EXPECT_FALSE(finder.add(sensor::Imu{}, stamp_from_ns(kStart) + 21s));
 }
 
 }  // namespace

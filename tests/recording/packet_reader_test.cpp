@@ -5,7 +5,7 @@
 
 #include "bag_samples.hpp"
 #include "bus/captured_log.hpp"
-#include "fleetmap/recording/log_clock.hpp"
+#include "fleetmap/recording/survey.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "pcap_bytes.hpp"
 #include "recording/ros1_records.hpp"
@@ -86,7 +86,7 @@ TEST(PacketReader, AScanIsRecordedWithThePacketThatCompletesIt) {
     EXPECT_GT(lag, Duration::zero());
     EXPECT_LT(lag, std::chrono::milliseconds(250));
   }
-  const auto clock = find_log_clock(folder.path() / "b");
+  const auto clock = survey(folder.path() / "b");
   ASSERT_TRUE(clock) << clock.error().message;
 }
 

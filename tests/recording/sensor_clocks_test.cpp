@@ -3,6 +3,7 @@
 
 #include "bag_samples.hpp"
 #include "fleetmap/recording/play_times.hpp"
+#include "fleetmap/recording/survey.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
@@ -76,7 +77,7 @@ TEST_P(SensorClocks, AreFoundWhenABagIsPlayed) {
   write(seconds);
   auto reader = open(folder_);
   ASSERT_TRUE(reader) << reader.error().message;
-  PlayTimes times(find_log_clock(folder_).value());
+  PlayTimes times(survey(folder_).value().clock);
   sensor::ClockOffsets offsets;
   std::vector<std::string> news;
   std::optional<Stamp> first, last;
@@ -137,7 +138,7 @@ LogClock clock_of_bag(double begun, double rate) {
       put(bag, ros_codec::topics::fix(), received + 100'000'000, ros_codec::encode(fix_at(stamp)));
   }
   EXPECT_TRUE(bag.close());
-  return find_log_clock(folder).value();
+  return survey(folder).value().clock;
 }
 
 /// Decoding costs far more than reading, and the player decodes every scan anyway.
@@ -152,7 +153,7 @@ TEST(LogClock, NeedsNoMoreOfAScanThanItsStamp) {
     put(bag, ros_codec::topics::points(), stamp + 300'000'000'000, scan);
   }
   EXPECT_TRUE(bag.close());
-  EXPECT_NEAR(to_seconds(find_log_clock(folder).value().shift), -300.0, 0.01);
+  EXPECT_NEAR(to_seconds(survey(folder).value().clock.shift), -300.0, 0.01);
   auto reader = open(folder, {}, ScanContent::kStampOnly).value();
   const auto sample = reader->next().value();
   ASSERT_TRUE(sample);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "fleetmap/ros_codec/frame_transforms.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
@@ -131,6 +132,26 @@ TEST(Ros1, VelodyneScanWhosePacketsAreNoMultipleOfFourBytes) {
   }
 }
 
+TEST(Ros1, TfMessageWithNamesOfAnyLength) {
+  for (const char* child : {"imu", "velodyne", "os_lidar"}) {
+    Ros1Message message;
+    message.put(std::uint32_t{2});
+    for (double x : {1.0, 2.0}) {
+      message.header("base_link").put(std::string(child)).put(x).zeros(2);
+      message.put(0.5).put(-0.5).put(0.5).put(0.5);
+    }
+    const auto cdr = cdr_from_ros1("tf2_msgs/msg/TFMessage", message.bytes());
+    ASSERT_TRUE(cdr) << cdr.error().message;
+    const auto transforms = decode_transforms(*cdr);
+    ASSERT_TRUE(transforms) << transforms.error().message;
+    ASSERT_EQ(transforms->size(), 2u);
+    EXPECT_EQ(transforms->back().parent, "base_link");
+    EXPECT_EQ(transforms->back().child, child);
+    EXPECT_EQ(transforms->back().translation, Eigen::Vector3d(2.0, 0.0, 0.0));
+    EXPECT_EQ(transforms->back().rotation.coeffs(), Eigen::Vector4d(0.5, -0.5, 0.5, 0.5)) << "x, y, z, w";
+  }
+}
+
 TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
   const Bytes whole = imu("imu");
   for (std::size_t size = 0; size < whole.size(); ++size)
@@ -143,6 +164,7 @@ TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
   Bytes many = whole;
   std::fill(many.begin() + 12, many.end(), 0xff);
   EXPECT_FALSE(cdr_from_ros1("sensor_msgs/msg/PointCloud2", many)) << "4 billion fields";
+  EXPECT_FALSE(cdr_from_ros1("tf2_msgs/msg/TFMessage", many)) << "4 billion transforms";
   EXPECT_FALSE(cdr_from_ros1("velodyne_msgs/msg/VelodyneScan", many)) << "4 billion packets";
 }
 

@@ -227,7 +227,9 @@ TEST(ClockOffsets, ASensorThatIsAloneIsComparedWithTheComputersAndUsedAsItIs) {
     EXPECT_LE(robot.unclear[kLidar], 5) << "scans, for which others may come";
     EXPECT_NEAR(robot.offsets.behind(Source::kLidar).value(), -off, 0.2);
     ASSERT_EQ(robot.news.size(), text == nullptr ? 0u : 1u) << ::testing::PrintToString(robot.news);
-    if (text != nullptr) EXPECT_THAT(robot.news[0], ::testing::ContainsRegex(text));
+    if (text != nullptr) {
+      EXPECT_THAT(robot.news[0], ::testing::ContainsRegex(text));
+    }
   }
 }
 

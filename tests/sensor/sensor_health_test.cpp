@@ -171,6 +171,58 @@ TEST(SensorHealth, ALidarThatWasOffForAWhileLostNothing) {
   EXPECT_EQ(health.missing_scans(), 0u);
 }
 
+TEST(SensorHealth, DegreesThatWereFoundBeforeAreConvertedFromTheFirstSampleOn) {
+  SensorHealth health;
+  health.expect_degrees("it turns 57 times as fast as the wheels");
+  Imu imu = sample(0, 0.5 / kDegree);
+  EXPECT_TRUE(health.check(imu));
+  EXPECT_NEAR(imu.angular_velocity.z(), 0.5, 1e-9);
+  EXPECT_THAT(health.take_warnings(), ElementsAre(HasSubstr("57 times as fast as the wheels, so the unit")));
+}
+
+TEST(SensorHealth, AnImuThatIsUpsideDownOrLiesOnItsSideIsNamedWithTheTurnThatIsMissing) {
+  for (const auto& [roll, text] :
+       {std::pair(180.0, "gravity is 180 deg"), {-90.0, "turned by [90, "}, {15.0, ""}}) {
+    for (const bool stated : {false, true}) {
+      const Eigen::Quaterniond q_base_imu(rotation_from_rpy(-roll * kDegree, 0.0, 0.0));
+      SensorHealth health;
+      if (stated) health.set_imu_rotation(q_base_imu);
+      for (int k = 0; k < 50; ++k) {
+        Imu imu = sample(k);
+        imu.specific_force = q_base_imu.inverse() * Eigen::Vector3d(0.0, 0.0, 9.81);
+        health.check(imu);
+      }
+      const bool silent = stated || *text == '\0';
+      if (silent) {
+        EXPECT_THAT(health.findings(), IsEmpty()) << roll;
+      } else {
+        EXPECT_THAT(health.findings(), ElementsAre(HasSubstr(text))) << roll;
+      }
+    }
+  }
+}
+
+TEST(SensorHealth, AnImuWithGapsIsNamedAndOneThatWasOffIsNot) {
+  SensorHealth gaps, off;
+  for (int k = 0; k < 3000; ++k) {
+    Imu imu = sample(k);
+    if (k % 300 < 200) gaps.check(imu);
+    imu = sample(k < 1000 ? k : k + 2000);
+    off.check(imu);
+  }
+  EXPECT_THAT(gaps.findings(), ElementsAre(HasSubstr("IMU: samples are missing")));
+  EXPECT_THAT(off.findings(), IsEmpty());
+}
+
+TEST(SensorHealth, FixesOfAReceiverWithoutAPlaceAreRefused) {
+  SensorHealth health;
+  Fix nowhere{.stamp = kStart, .position = {}};
+  EXPECT_FALSE(health.check(nowhere));
+  EXPECT_THAT(health.take_warnings(), ElementsAre(HasSubstr("latitude 0, longitude 0")));
+  nowhere.valid = false;
+  EXPECT_TRUE(health.check(nowhere)) << "it says so itself, and the filter counts it";
+}
+
 TEST(SensorHealth, FixesWithoutAltitudeAreNamed) {
   SensorHealth health;
   Fix fix;

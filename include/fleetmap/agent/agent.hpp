@@ -110,6 +110,8 @@ class Agent {
   /// the store failed.
   bool begin_session(const char* why);
   bool numbers_run_out() const;
+  /// With the first scan: by then the mount is decided.
+  void keep_lidar_mount();
   void navigate();
   /// Handles an order from a button on the robot.
   void on_local_hold(const Bytes& cdr);
@@ -145,6 +147,7 @@ class Agent {
   store::Store store_;
   store::Sessions sessions_;
   std::uint16_t session_;
+  bool lidar_mount_kept_ = false;
   bool rest_frozen_for_meeting_ = false;
   bool own_item_contested_ = true;  ///< perhaps: also before the start
   TrackRecorder tracks_;

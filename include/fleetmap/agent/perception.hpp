@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fleetmap/agent/perception_config.hpp"
+#include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/core/bounded_queue.hpp"
 #include "fleetmap/geometry/global_pose.hpp"
@@ -36,10 +37,11 @@ struct PerceptionCounters {
   std::uint64_t imu = 0;
   std::uint64_t fixes = 0;
   std::uint64_t wheel = 0;
-  std::uint64_t refused_messages = 0;  ///< that could not be decoded
-  std::uint64_t refused_scans = 0;     ///< that LOAM could not use
-  std::uint64_t dropped_scans = 0;     ///< LOAM was too slow
-  std::uint64_t unclear_stamps = 0;    ///< samples left out at the start, while two sensors' clocks disagreed
+  std::uint64_t refused_messages = 0;   ///< that could not be decoded
+  std::uint64_t refused_scans = 0;      ///< that LOAM could not use
+  std::uint64_t dropped_scans = 0;      ///< LOAM was too slow
+  std::uint64_t waited_for_frames = 0;  ///< samples left out at the start, before /tf_static stated the mount
+  std::uint64_t unclear_stamps = 0;  ///< samples left out at the start, while two sensors' clocks disagreed
 };
 
 /// Items 1 and 2 of the paper: sensors in, O (LOAM) and G (EKF) out, also onto the onboard link. LOAM runs
@@ -65,6 +67,8 @@ class Perception {
   localization::EkfCounters localization_counters() const { return ekf_.counters(); }
   const sensor::ClockOffsets& clock_offsets() const { return clock_offsets_; }
   const sensor::SensorHealth& health() const { return health_; }
+  /// By the configuration or by /tf_static; final with the first scan that is used.
+  const Pose& T_base_lidar() const { return config_.odometry.T_base_lidar; }
 
  private:
   /// A scan and the other samples that came since the scan before it.
@@ -74,6 +78,7 @@ class Perception {
     Duration clock_correction{};  ///< of the scan's stamp
     std::vector<sensor::Imu> imu;
     std::vector<sensor::Wheel> wheel;
+    std::optional<Eigen::Quaterniond> q_base_imu;  ///< if it was decided since the scan before
     Result<odometry::OdometryUpdate> update = failure("not run");
     bool times_in_microseconds = false;
     std::optional<std::pair<Stamp, Duration>> sweep;  ///< stamp and sweep of a decoded scan
@@ -87,6 +92,9 @@ class Perception {
   void on_sample(const bus::Topic& topic, sensor::Source source, std::uint64_t& count, Use use);
   /// Compares `stamp` with those of the other sensors.
   void watch_clock(sensor::Source source, Stamp stamp);
+  /// False while the sensor's mount is not known.
+  bool placed(sensor::Source source, const Bytes& cdr);
+  void on_transforms(const Bytes& cdr);
   void on_scan(const Bytes& cdr);
   void start_next();
   void finish(Job& job);
@@ -104,6 +112,8 @@ class Perception {
   localization::Ekf ekf_;
   sensor::ClockOffsets clock_offsets_;
   sensor::SensorHealth health_;
+  SensorMounts mounts_;
+  std::optional<Eigen::Quaterniond> new_q_base_imu_;
   BoundedQueue<std::pair<Stamp, Bytes>> scans_;  ///< when they came, and as they came
   std::vector<sensor::Imu> imu_since_scan_;
   std::vector<sensor::Wheel> wheel_since_scan_;

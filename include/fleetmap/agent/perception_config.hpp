@@ -1,15 +1,23 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "fleetmap/agent/device_config.hpp"
+#include "fleetmap/core/time.hpp"
 #include "fleetmap/localization/ekf_config.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/sensor/clock_offsets.hpp"
 
 namespace fleetmap::agent {
+
+/// PerceptionConfig::frame_patience of a robot whose drivers run: what is latched comes when they are
+/// discovered.
+inline constexpr Duration kFramePatience = std::chrono::seconds(2);
 
 /// Names of the sensor topics on the onboard link, as on the wire ("rt/points" is ROS 2's "/points").
 struct SensorTopics {
@@ -26,6 +34,13 @@ struct PerceptionConfig {
   /// itself; 0: a driver publishes them. Perception hears the topic either way.
   std::uint16_t velodyne_port = 0;
   DeviceConfig devices;
+  /// The configuration states the mount of LiDAR, IMU and GPS (in the order of sensor::Source), so that
+  /// /tf_static does not replace it.
+  std::array<bool, sensor::kSources> mount_given{};
+  /// So long the first samples of a sensor without a stated mount wait for /tf_static.
+  Duration frame_patience = Duration::zero();
+  /// Why the gyro is taken for one that reports deg/s; found in a recording before it is used.
+  std::optional<std::string> gyro_in_degrees;
   bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted

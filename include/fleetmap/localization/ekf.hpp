@@ -27,6 +27,8 @@ class Ekf {
  public:
   /// `config` must be valid.
   explicit Ekf(const EkfConfig& config) : config_(config) {}
+  /// Before the first sample of a sensor whose mount it changes.
+  void set_mounting(const Mounting& mounting) { config_.mounting = mounting; }
 
   /// True if the sample was taken into account; a fix may still be refused by the filter, see counters().
   bool add(const sensor::Imu& imu);

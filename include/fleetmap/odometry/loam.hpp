@@ -62,6 +62,8 @@ class Loam {
   Loam(Loam&&) noexcept;
   Loam& operator=(Loam&&) noexcept;
 
+  /// Before the first sample of the IMU.
+  void set_imu_rotation(const Eigen::Quaterniond& q_base_imu);
   /// Optional. Samples should reach past the end of a scan before that scan is added.
   void add_imu(const sensor::Imu& imu);
   void add_wheel(const sensor::Wheel& wheel);

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <filesystem>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <variant>
 
-#include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/recording/reader.hpp"
 
@@ -18,8 +20,24 @@ struct LogClock {
   Duration shift{};
 };
 
-/// Reads the stamps of the first 20 s of a recording, whose scans are not decoded for it. Without such times
-/// it is played by its stamps.
-Result<LogClock> find_log_clock(const std::filesystem::path& recording, const ReaderConfig& config = {});
+/// Finds it from the first 20 s of a recording.
+class LogClockFinder {
+ public:
+  /// False when it has seen enough.
+  bool add(const Sample& sample, Stamp recorded);
+  /// Without a sample, the clock of a recording that is played by its stamps.
+  LogClock clock() const;
+
+  /// Times of one kind of sensor.
+  struct Times {
+    Stamp first_stamp, last_stamp, first_recorded, last_recorded;
+    Duration min_lag = Duration::max();
+  };
+
+ private:
+  std::array<std::optional<Times>, std::variant_size_v<Sample>> times_;
+  std::optional<Stamp> begun_;
+  std::size_t samples_ = 0;
+};
 
 }  // namespace fleetmap::recording

@@ -15,6 +15,7 @@
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/recording/kitti_config.hpp"
 #include "fleetmap/recording/reader_config.hpp"
+#include "fleetmap/sensor/frame_tree.hpp"
 #include "fleetmap/sensor/samples.hpp"
 #include "fleetmap/sensor/scan.hpp"
 
@@ -66,6 +67,8 @@ class Reader {
   virtual Result<std::optional<Sample>> next() = 0;
   /// The time at which the last sample of next() was recorded; empty if the recording lacks it.
   virtual std::optional<Stamp> recorded() const { return std::nullopt; }
+  /// The frames that the messages of a bag named so far.
+  virtual const sensor::SensorFrames& frames() const;
   virtual const Counters& counters() const = 0;
 };
 

@@ -9,6 +9,7 @@ bus::Topic points();          ///< sensor::Scan
 bus::Topic imu();             ///< sensor::Imu
 bus::Topic fix();             ///< sensor::Fix
 bus::Topic wheel_odometry();  ///< sensor::Wheel
+bus::Topic tf_static();       ///< std::vector<sensor::FrameTransform>
 bus::Topic battery();         ///< sensor::Battery
 bus::Topic odometry();        ///< OdometryMsg
 bus::Topic cmd_vel();         ///< VelocityCommand

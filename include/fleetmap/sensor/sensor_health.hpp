@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/sensor/gps_agreement.hpp"
+#include "fleetmap/sensor/motion_agreement.hpp"
 #include "fleetmap/sensor/samples.hpp"
 
 namespace fleetmap::sensor {
@@ -20,6 +23,17 @@ class SensorHealth {
   bool check(Imu& imu);
   bool check(Wheel& wheel);
   bool check(const Fix& fix);
+  /// base_link in the odometry's frame at a scan, if the scan fitted the map; otherwise empty. Gyro, wheels
+  /// and GPS are compared with it.
+  void check_motion(Stamp stamp, const std::optional<Pose>& T_odom_base);
+  /// Mount of the IMU, before its first sample.
+  void set_imu_rotation(const Eigen::Quaterniond& q_base_imu);
+  /// Takes the angular rates for deg/s from the first one on, for a reason that was found before.
+  void expect_degrees(const std::string& why);
+  /// Why they are taken for that.
+  const std::optional<std::string>& gyro_in_degrees() const { return gyro_in_degrees_; }
+  /// True when the wheels' turns, or rates that no robot reaches, decided it.
+  bool gyro_unit_decided() const;
   /// A scan with point times, in order. A spinning LiDAR's sweep ends where the next one begins, so scans are
   /// missing if they come more seldom: lost by the network or the system's receive buffer.
   void check_scan(Stamp stamp, Duration sweep);
@@ -40,12 +54,15 @@ class SensorHealth {
 
  private:
   void correct_force(Imu& imu);
+  void check_gravity(const Imu& imu);
+  void check_gaps(Stamp stamp);
   bool correct_rate(Imu& imu);
+  bool correct_twist(Wheel& wheel);
   void state(std::string finding);
   bool refuse();
 
   std::optional<Wheel> last_wheel_;  ///< as received
-  double rate_scale_ = 1.0;
+  std::optional<std::string> gyro_in_degrees_;
   Stamp impossible_since_;
   double wheel_squares_ = 0.0, products_ = 0.0;  ///< of turn rates, by which gyro and wheels are compared
   std::size_t compared_rates_ = 0;
@@ -55,12 +72,18 @@ class SensorHealth {
   std::optional<double> force_scale_;  ///< once the unit is decided, by the median of the first norms
   std::optional<Stamp> last_scan_;
   std::vector<double> first_norms_;
+  std::vector<Eigen::Vector3d> first_forces_;  ///< directions in base_link
+  Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
+  MotionAgreement motion_;
+  GpsAgreement gps_;
+  std::optional<Stamp> first_imu_, last_imu_;
+  double imu_gaps_ = 0.0;  ///< s
   std::vector<Eigen::Vector3d> grounds_;
   std::uint64_t scans_for_ground_ = 0;
   std::vector<std::string> findings_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
-  bool no_altitude_ = false;
+  bool no_altitude_ = false, no_place_ = false, imu_gaps_said_ = false;
   bool scans_missing_ = false;
 };
 

@@ -29,7 +29,7 @@ constexpr Duration kBackgroundStuckAfter = std::chrono::seconds(20);
 }  // namespace
 
 const std::vector<std::string>& profiles_of(Link link) {
-  static const std::vector<std::string> onboard = {"sensor", "state"};
+  static const std::vector<std::string> onboard = {"sensor", "state", "latched"};
   static const std::vector<std::string> long_range = {"small", "cloud"};
   static const std::vector<std::string> short_range = {"control", "bulk"};
   return link == Link::kOnboard ? onboard : link == Link::kLongRange ? long_range : short_range;

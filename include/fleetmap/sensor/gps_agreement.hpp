@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/sensor/samples.hpp"
+
+namespace fleetmap::sensor {
+
+/// Compares the track of GPS with that of the odometry, over windows of the drive: jumps, a track that is
+/// mirrored (latitude and longitude swapped) or of another size, or that is of another robot or time.
+class GpsAgreement {
+ public:
+  void add(const Fix& fix);
+  void add_motion(Stamp stamp, const Pose& T_odom_base);
+  /// The motion has no relation to the one before.
+  void interrupt();
+  /// Since the last call.
+  std::vector<std::string> take_findings();
+
+ private:
+  struct Place {
+    Eigen::Vector2d gps, odom;  ///< m
+    double sigma;               ///< m, reported by GPS
+  };
+  void match(const Fix& fix, const Eigen::Vector2d& odom);
+  void check_jump(const Place& place);
+  void check_track();
+
+  std::optional<LocalFrame> frame_;
+  struct Instant {
+    Stamp stamp;
+    Eigen::Vector2d odom;
+  };
+  std::optional<Instant> last_;
+  std::deque<Fix> waiting_;
+  std::optional<Place> last_place_;
+  std::deque<Place> track_;  ///< a place every 2 m
+  double driven_ = 0.0;      ///< m, since the track was checked
+  int contradictions_ = 0;   ///< windows in a row
+  bool jump_said_ = false, track_said_ = false;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace fleetmap::sensor

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fleetmap/geometry/se3.hpp"
+#include "fleetmap/sensor/running_integral.hpp"
+#include "fleetmap/sensor/samples.hpp"
+
+namespace fleetmap::sensor {
+
+/// Compares the motion that the LiDAR measured with that of gyro and wheels: scales, signs, axes, directions
+/// and stamps. Drivers that have one of these wrong decode, and bend a map or break its odometry. Each
+/// contradiction is found once, when 10 m or 1.2 rad were driven; which sensor is wrong is decided by the
+/// majority.
+class MotionAgreement {
+ public:
+  /// IMU frame to base_link; of configuration or /tf_static.
+  void set_imu_rotation(const Eigen::Quaterniond& q_base_imu) { q_base_imu_ = q_base_imu; }
+  void add(const Imu& imu);
+  void add(const Wheel& wheel);
+  /// base_link in the odometry's frame at the reference instant of a scan that fitted the map.
+  void add_motion(Stamp stamp, const Pose& T_odom_base);
+  /// The motion has no relation to the one before: the odometry lost its way or began anew.
+  void interrupt();
+  /// Since the last call.
+  std::vector<std::string> take_findings();
+
+ private:
+  static constexpr int kLags = 20;          ///< on either side
+  static constexpr double kLagStep = 0.02;  // s
+
+  struct Step {
+    Stamp from, to;
+    Eigen::Vector2d moved;  ///< m, in the axes of base_link
+    double turned;          ///< rad about z
+  };
+  void compare(const Step& step);
+  void compare_drive(const Step& step);
+  void compare_turn(const Step& step);
+  void compare_stamps(const Step& step);
+  void judge_drive();
+  void judge_turns();
+  void judge_gyro(const Eigen::Vector3d& slope, const std::string& others);
+  void compare_gyro_and_wheels(Stamp to);
+  void judge_stamps();
+
+  Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
+  RunningIntegral gyro_;    ///< rad in base_link
+  RunningIntegral wheels_;  ///< m forward, rad about z, and s in which the turn rate was measured
+  struct Instant {
+    Stamp stamp;
+    Pose T_odom_base;
+  };
+  std::optional<Instant> last_;
+  std::deque<Step> waiting_;  ///< until the other sensors have passed them
+
+  // Sums over steps; the LiDAR's squares divide them.
+  double driven_ = 0.0, drive_squares_ = 0.0;  // m, m^2
+  Eigen::Vector2d drive_products_ = Eigen::Vector2d::Zero();
+  double gyro_turned_ = 0.0, gyro_squares_ = 0.0;  // rad, rad^2
+  Eigen::Vector3d gyro_products_ = Eigen::Vector3d::Zero();
+  double wheel_turned_ = 0.0, wheel_squares_ = 0.0, wheel_products_ = 0.0;
+  std::optional<Stamp> compared_to_;                   ///< gyro with wheels
+  double wheels_turned_ = 0.0, wheels_squares_ = 0.0;  // rad, rad^2
+  Eigen::Vector3d gyro_by_wheels_ = Eigen::Vector3d::Zero();
+  std::array<double, 2 * kLags + 1> misfits_{};  ///< of gyro and LiDAR by lag, rad^2
+  std::size_t misfit_steps_ = 0;
+  bool drive_judged_ = false, turns_judged_ = false, stamps_judged_ = false;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace fleetmap::sensor

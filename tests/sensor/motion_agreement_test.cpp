@@ -1,0 +1,110 @@
+#include "fleetmap/sensor/motion_agreement.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace fleetmap::sensor {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Stamp at(double seconds) { return stamp_from_ns(1'700'000'000'000'000'000) + from_seconds(seconds); }
+
+/// A robot that drives 1 m/s and swings to either side; what its sensors have wrong.
+struct Robot {
+  double wheel_scale = 1.0, wheel_turn_scale = 1.0;
+  Eigen::Matrix3d R_imu_base = Eigen::Matrix3d::Identity();  ///< that the driver does not know of
+  double gyro_scale = 1.0, gyro_late = 0.0;                  ///< late: s
+  double lidar_yaw = 0.0, lidar_turn_sign = 1.0;
+  bool with_gyro = true, with_wheels = true, lost = false;
+
+  static double rate(double t) { return 0.4 * std::sin(0.9 * t); }
+
+  std::vector<std::string> findings() const {
+    MotionAgreement agreement;
+    Pose T = Pose::Identity();
+    const Pose T_base_wrong = make_pose(rotation_from_rpy(0.0, 0.0, lidar_yaw), Eigen::Vector3d::Zero());
+    for (int k = 0; k < 6000; ++k) {
+      const double t = 0.01 * k;
+      Imu imu;
+      imu.stamp = at(t + gyro_late);
+      imu.angular_velocity = gyro_scale * (R_imu_base * Eigen::Vector3d(0.0, 0.0, rate(t)));
+      if (with_gyro) agreement.add(imu);
+      if (with_wheels && k % 5 == 0)
+        agreement.add(
+            Wheel{.stamp = at(t), .forward_speed = wheel_scale, .yaw_rate = wheel_turn_scale * rate(t)});
+      if (lost) agreement.interrupt();
+      if (k % 10 == 0) agreement.add_motion(at(t), T_base_wrong.inverse() * T * T_base_wrong);
+      T = T * make_pose(rotation_from_rpy(0.0, 0.0, lidar_turn_sign * 0.01 * rate(t)),
+                        Eigen::Vector3d(0.01, 0.0, 0.0));
+    }
+    return agreement.take_findings();
+  }
+};
+
+TEST(MotionAgreement, IsSilentWhereAllAgreeOrNothingIsCompared) {
+  EXPECT_THAT(Robot{}.findings(), IsEmpty());
+  EXPECT_THAT((Robot{.with_gyro = false, .with_wheels = false}.findings()), IsEmpty());
+  EXPECT_THAT((Robot{.wheel_scale = 1.1, .wheel_turn_scale = 0.7, .gyro_scale = 1.03}.findings()), IsEmpty())
+      << "tyres, skid steering and a cheap gyro";
+}
+
+TEST(MotionAgreement, TheUnitAndTheSignOfTheWheelsAreNamed) {
+  EXPECT_THAT((Robot{.wheel_scale = 3.6}.findings()), ElementsAre(HasSubstr("km/h")));
+  EXPECT_THAT((Robot{.wheel_scale = 1000.0}.findings()), ElementsAre(HasSubstr("mm/s")));
+  EXPECT_THAT((Robot{.wheel_scale = 1.5}.findings()), ElementsAre(HasSubstr("diameter")));
+  EXPECT_THAT((Robot{.wheel_scale = -1.0}.findings()), ElementsAre(HasSubstr("drives backwards")));
+  EXPECT_THAT((Robot{.wheel_scale = 0.0}.findings()), ElementsAre(HasSubstr("it stands while")));
+  EXPECT_THAT((Robot{.wheel_turn_scale = -1.0}.findings()),
+              ElementsAre(HasSubstr("sign of twist.angular.z")));
+  EXPECT_THAT((Robot{.wheel_turn_scale = 0.0}.findings()), ElementsAre(HasSubstr("angular.z is not filled")));
+  EXPECT_THAT((Robot{.wheel_turn_scale = 57.3}.findings()),
+              ElementsAre(HasSubstr("the unit or the track width")));
+}
+
+TEST(MotionAgreement, TheYawOfTheLidarIsNamedWithItsSign) {
+  // A LiDAR turned to the left by 90 deg, unknown to the configuration, sees the robot move to its right.
+  EXPECT_THAT(
+      (Robot{.lidar_yaw = 0.5 * std::numbers::pi}.findings()),
+      ElementsAre(ContainsRegex("(89\\.[0-9]|90|90\\.[0-9]) deg to the right of where the wheels drive.*"
+                                "should have (89\\.[0-9]|90|90\\.[0-9]) deg more yaw")));
+  EXPECT_THAT((Robot{.lidar_yaw = 0.1}.findings()), IsEmpty());
+}
+
+TEST(MotionAgreement, AxesAndSignsOfTheGyroAreNamed) {
+  Eigen::Matrix3d swapped;
+  swapped << 0, 0, 1, 0, 1, 0, 1, 0, 0;  // x and z
+  EXPECT_THAT((Robot{.R_imu_base = swapped}.findings()),
+              ElementsAre(HasSubstr("turns about x: its axes are swapped")));
+  EXPECT_THAT((Robot{.R_imu_base = -swapped}.findings()), ElementsAre(HasSubstr("turns about minus x")));
+  EXPECT_THAT((Robot{.gyro_scale = -1.0}.findings()), ElementsAre(HasSubstr("the sign of its z axis")));
+  EXPECT_THAT((Robot{.gyro_scale = 0.5}.findings()),
+              ElementsAre(HasSubstr("0.5 times as fast as LiDAR and wheels")));
+  EXPECT_THAT((Robot{.gyro_scale = 0.0, .with_wheels = false}.findings()),
+              ElementsAre(HasSubstr("as fast as the LiDAR")));
+}
+
+TEST(MotionAgreement, WhereTheOdometryIsLostTheWheelsNameTheGyro) {
+  EXPECT_THAT((Robot{.gyro_scale = -1.0, .lost = true}.findings()),
+              ElementsAre(HasSubstr("turns right where the wheels turn left")));
+  EXPECT_THAT(Robot{.lost = true}.findings(), IsEmpty());
+  EXPECT_THAT((Robot{.wheel_turn_scale = 0.6, .lost = true}.findings()), IsEmpty()) << "skid steering";
+}
+
+TEST(MotionAgreement, ALidarThatTwoContradictIsMirrored) {
+  EXPECT_THAT((Robot{.lidar_turn_sign = -1.0}.findings()), ElementsAre(HasSubstr("mirrored")));
+}
+
+TEST(MotionAgreement, StampsThatAreWrongByATenthOfASecondAreNamed) {
+  EXPECT_THAT((Robot{.gyro_late = 0.1}.findings()), ElementsAre(HasSubstr("100 ms after the LiDAR")));
+  EXPECT_THAT((Robot{.gyro_late = -0.2}.findings()), ElementsAre(HasSubstr("200 ms before the LiDAR")));
+  EXPECT_THAT((Robot{.gyro_late = 0.02}.findings()), IsEmpty());
+}
+
+}  // namespace
+}  // namespace fleetmap::sensor
