@@ -125,8 +125,9 @@ class SpoiltRecording : public ::testing::Test {
 
   static Outcome run(const std::string& name, const Recording& recording) {
     const std::filesystem::path bag = write(name, recording), out = folder_->path() / (name + "_out");
-    std::vector<std::string> command{testing::kProgram, "run",        "--recording", "r1=" + bag.string(),
-                                     "--out",   out.string(), "--set",       "site.origin=[48.2,11.6,500]"};
+    std::vector<std::string> command{
+        testing::kProgram, "run",        "--recording", "r1=" + bag.string(),
+        "--out",           out.string(), "--set",       "site.origin=[48.2,11.6,500]"};
     command.insert(command.end(), kMounted.begin(), kMounted.end());
     testing::Process process(command);
     const int exit_code = process.wait();
