@@ -39,7 +39,7 @@ class SensorListenerTest : public ::testing::Test {
 TEST_F(SensorListenerTest, CountsTheSamplesOfAllFourSensors) {
   for (int k = 0; k < 3; ++k) {
     const Stamp now = robot_.now();
-    publish(sensor::Scan{now, false, false, {{}}});
+    publish(sensor::Scan{now, false, false, {{{1.0f, 2.0f, 3.0f}, 0.0f, 0.0f, 0}}});
     sensor::Imu imu;
     imu.stamp = now;
     imu.specific_force = {0.0, 0.0, 9.81};
