@@ -26,7 +26,7 @@ void add_recording_options(CLI::App& command, RecordingOptions& options);
 struct Preparation {
   recording::LogClock log_clock;
   std::vector<std::string> mounts;    ///< a line for each sensor
-  std::vector<std::string> findings;  ///< what is wrong with them
+  std::vector<std::string> findings;  ///< a sentence on each fault
 };
 /// Examines a recording's beginning, and completes the robot's settings by mounts and units that it states.
 Result<Preparation> prepare(const std::filesystem::path& recording, const recording::ReaderConfig& reader,

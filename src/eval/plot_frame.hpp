@@ -31,7 +31,7 @@ class PlotFrame {
   double floor_pixel() const { return bottom_; }
   bool shows_y(double value) const;
 
-  std::ostringstream body;  ///< what is drawn, clipped to the area
+  std::ostringstream body;  ///< drawn elements, clipped to the area
   /// The whole plot.
   std::string finish() const;
 

@@ -45,7 +45,7 @@ class PoseUncertainty {
   };
   struct Stated {
     Matrix6d pose_noise;  ///< of the scan in the local map, at its stamp
-    Matrix6d growth;      ///< what was lost on the way from the scan before
+    Matrix6d growth;      ///< lost on the way from the scan before
   };
   Stated state(const Matched& scan);
 

@@ -18,7 +18,7 @@ struct ReplayedRegistrations {
   std::vector<graph::Alignment> alignments;  ///< the accepted and ambiguous ones, named as agents name theirs
   std::size_t accepted = 0, ambiguous = 0, rejected = 0;
   double cpu_seconds = 0.0;
-  std::vector<std::string> notes;  ///< what could not be read or registered
+  std::vector<std::string> notes;  ///< pairs that could not be read or registered
 };
 
 /// The registrations that a run's agents logged.
@@ -26,7 +26,7 @@ struct RegistrationLogs {
   /// The method that they used; `correlation` where none logged a registration.
   registration::Method method = registration::Method::correlation;
   std::vector<std::pair<AgentId, std::vector<store::LoggedRegistration>>> by_agent;
-  std::vector<std::string> notes;  ///< what could not be read
+  std::vector<std::string> notes;  ///< pairs that could not be read
 };
 RegistrationLogs read_registration_logs(const RunFolder& run);
 

@@ -31,7 +31,7 @@ struct RunFolder {
   std::filesystem::path directory;
   std::vector<AgentFolder> agents;  ///< by name
   nlohmann::json report;            ///< report.json, or null
-  std::vector<std::string> notes;   ///< what could not be read
+  std::vector<std::string> notes;   ///< files that could not be read
 };
 
 /// Fails when `directory` holds no robot's folder. `truths` (may be empty) holds NAME.tum or NAME/truth.tum;

@@ -35,7 +35,7 @@ fault_injection::Scenario with_a_compromised_robot(std::uint64_t seed) {
 }
 
 struct Reported {
-  bool is_garbage = false;  ///< what the compromised robot sends, not something that may be believed
+  bool is_garbage = false;  ///< sent by the compromised robot, and nothing that may be believed
   nlohmann::json report;
 };
 

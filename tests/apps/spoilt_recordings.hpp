@@ -25,7 +25,7 @@ struct Spoilt {
   std::function<void(Recording&)> spoil;
   /// Part of the sentence that names the cause; empty: it must do no harm.
   std::string named;
-  bool in_place = false;  ///< what it spoils is the place on the Earth, and not the odometry
+  bool in_place = false;  ///< it spoils the place on the Earth, not the odometry
 };
 
 /// As `Spoilt` of one type of sample: a change of each.

@@ -27,7 +27,7 @@ using namespace fleetmap;
 using namespace fleetmap::registration;
 using namespace fleetmap::registration::testing;
 
-struct Place {
+struct PairPlace {
   std::string name;
   std::function<Site()> make;
   Gathering how;
@@ -66,8 +66,8 @@ Site farm(const std::string& name, unsigned seed, bool hilly = false, double siz
 }
 
 /// Sites of a set. What is in `final` was not looked at while the method was made.
-std::vector<Place> places_of(const std::string& set) {
-  std::vector<Place> places;
+std::vector<PairPlace> places_of(const std::string& set) {
+  std::vector<PairPlace> places;
   const auto add = [&](const std::string& kind, unsigned seed, const Gathering& how) {
     const std::string name = kind + std::to_string(seed);
     places.push_back({name,
@@ -107,7 +107,7 @@ std::vector<Place> places_of(const std::string& set) {
 constexpr int kClusters = 5, kNodesPerCluster = 7;
 
 /// Nodes in clusters: a lane and a station on it, and others within a few lanes and 15 m along.
-std::vector<MappedNode> nodes_of(const Place& place) {
+std::vector<MappedNode> nodes_of(const PairPlace& place) {
   const Site site = place.make();
   std::mt19937_64 random(place.seed * 7919 + 13);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -145,7 +145,7 @@ std::vector<MappedNode> nodes_of(const Place& place) {
 }
 
 void make_maps(const std::filesystem::path& dir, const std::string& set) {
-  for (const Place& place : places_of(set)) {
+  for (const PairPlace& place : places_of(set)) {
     const auto path = dir / (place.name + ".maps");
     if (std::filesystem::exists(path)) continue;
     write_nodes(path, nodes_of(place));
@@ -161,7 +161,7 @@ SpherizeConfig spherize_config() {
 }
 
 void make_clouds(const std::filesystem::path& dir, const std::string& set, const std::string& tag) {
-  for (const Place& place : places_of(set)) {
+  for (const PairPlace& place : places_of(set)) {
     std::vector<MappedNode> nodes = read_nodes(dir / (place.name + ".maps"));
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
@@ -291,7 +291,7 @@ void count_alike(const MappedNode& a, const MappedNode& b, const Pose& truth,
   count(truth, result, cpu_ms, totals.by_similarity["alike " + std::to_string(0.1 * tenth).substr(0, 3)]);
 }
 
-Tally register_pairs(const Place& place, const std::vector<MappedNode>& nodes,
+Tally register_pairs(const PairPlace& place, const std::vector<MappedNode>& nodes,
                      const RegistrationConfig& config, double sigma, Totals& totals) {
   const MapDrift drift = MapDrift::straight(place.how.drift_m, place.how.drift_rad, place.how.reach_m);
   Tally tally;
@@ -322,7 +322,7 @@ void register_all(const std::filesystem::path& dir, const std::string& set, cons
   Totals totals;
   const char* only_site = std::getenv("SITE");
   const char* only_sigma = std::getenv("SIGMA");
-  for (const Place& place : places_of(set)) {
+  for (const PairPlace& place : places_of(set)) {
     if (only_site != nullptr && place.name != only_site) continue;
     const std::vector<MappedNode> nodes = read_nodes(dir / (place.name + tag + ".clouds"));
     for (const double sigma : {1.5, 5.0, 10.0, -5.0, 0.0}) {

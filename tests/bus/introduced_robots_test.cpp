@@ -6,7 +6,7 @@
 #include "bus/dds/introductions.hpp"
 #include "bus/dds/rtps_messages.hpp"
 #include "bus/lone_radio.hpp"
-#include "bus/place.hpp"
+#include "bus/udp_end.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
@@ -87,7 +87,7 @@ TEST_F(IntroducedRobot, IsHeardOnceItSpeaks) {
 
 /// Its data may be meant for the start of r1 before this one, so a Hello of its own is still asked for.
 TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
-  Place r3(static_cast<std::uint16_t>(own_ + 6));
+  UdpEnd r3(static_cast<std::uint16_t>(own_ + 6));
   introduce_and_wait({introduction("r3", 3)});
   const std::uint32_t writer = key_of(topic("fleetmap/status"));
   const int before = came_;
@@ -114,7 +114,7 @@ TEST_F(IntroducedRobot, ItsDataIsTakenBeforeItsHello) {
 }
 
 TEST_F(IntroducedRobot, IsIntroducedToOthersInTurn) {
-  Place r5(static_cast<std::uint16_t>(own_ + 10));
+  UdpEnd r5(static_cast<std::uint16_t>(own_ + 10));
   introduce_and_wait({});
   std::optional<Hello> hello;
   ASSERT_TRUE(run_until([&] {
@@ -130,7 +130,7 @@ TEST_F(IntroducedRobot, IsIntroducedToOthersInTurn) {
 
 /// It may take r1 for its start before.
 TEST_F(IntroducedRobot, IsSentAHelloThatItMustAnswer) {
-  Place r3(static_cast<std::uint16_t>(own_ + 6));
+  UdpEnd r3(static_cast<std::uint16_t>(own_ + 6));
   introduce_and_wait({introduction("r3", 3)});
   while (r3.hello()) {
   }
@@ -194,15 +194,15 @@ class RobotsThatAreOff : public LoneRadio {};
 TEST_F(RobotsThatAreOff, KeepNobodyFromAnAnswer) {
   const auto own = static_cast<std::uint16_t>(7410 + 250 * first_test_domain());
   const auto port = [&](int k) { return static_cast<std::uint16_t>(own + 2 * k); };
-  std::deque<Place> off;
+  std::deque<UdpEnd> off;
   for (int k = 3; k < 16; ++k) off.emplace_back(port(k));
-  Place r2(port(2));
+  UdpEnd r2(port(2));
   DdsBusConfig config = robot("r1");
   config.long_range.fleet_bits_per_second = 30e3;
   const DdsBus& bus = start(config);
   int to_silent = 0;
   const auto count = [&] {
-    for (Place& place : off) {
+    for (UdpEnd& place : off) {
       while (place.datagram()) ++to_silent;
     }
     return to_silent;
@@ -233,7 +233,7 @@ TEST_F(RobotsThatAreOff, KeepNobodyFromAnAnswer) {
 
 /// Two messages make a pair known to each other.
 TEST_F(IntroducedRobot, AnAnswerIsNotAnswered) {
-  Place r2(static_cast<std::uint16_t>(own_ + 4)), r4(static_cast<std::uint16_t>(own_ + 8));
+  UdpEnd r2(static_cast<std::uint16_t>(own_ + 4)), r4(static_cast<std::uint16_t>(own_ + 8));
   std::optional<Hello> hello;
   ASSERT_TRUE(run_until([&] { return (hello = r2.hello()).has_value(); }));
   Hello answer = hello_of("r2", 2);

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "bus/lone_radio.hpp"
-#include "bus/place.hpp"
+#include "bus/udp_end.hpp"
 
 namespace fleetmap::bus::testing {
 namespace {
@@ -100,7 +100,7 @@ TEST_F(RadioHellosTest, ARobotOfThisRobotsNameIsReportedOnce) {
 
 /// The answer names the participant that it answers, so that the other one need not answer it.
 TEST_F(RadioHellosTest, AnAnswerNamesWhomItAnswers) {
-  Place r5(port(5));
+  UdpEnd r5(port(5));
   Hello hello = hello_;
   hello.sender = name("r5");
   hello.port = port(5);

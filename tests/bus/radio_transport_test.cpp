@@ -3,7 +3,7 @@
 
 #include "bus/dds/participant_qos.hpp"
 #include "bus/lone_radio.hpp"
-#include "bus/place.hpp"
+#include "bus/udp_end.hpp"
 #include "fleetmap/bus/wire_overhead.hpp"
 #include "fleetmap/core/utc.hpp"
 #include "trust/fleet_of_keys.hpp"
@@ -53,7 +53,7 @@ TEST_P(RadioTransport, EachOfManyMessagesArrivesAsItWasSent) {
 TEST_P(RadioTransport, TakesTheBytesOnTheWireThatAreCounted) {
   DdsBusConfig config = of("r1");
   const auto port = static_cast<std::uint16_t>(7410 + 250 * first_test_domain() + 20);
-  Place place(port);
+  UdpEnd place(port);
   config.long_range.peers = {"127.0.0.1:" + std::to_string(port)};
   DdsBus& bus = start(config);
   std::size_t on_the_wire = 0, datagrams = 0;

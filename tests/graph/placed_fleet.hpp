@@ -14,7 +14,7 @@
 
 namespace fleetmap::graph::testing {
 
-using AlignmentName = std::pair<AgentId, std::uint32_t>;  ///< who computed it, and its number
+using AlignmentName = std::pair<AgentId, std::uint32_t>;  ///< computed by, number
 
 inline const Eigen::Vector3d kOneRow(kPitch, 0.0, 0.0);
 inline const AgentId kR1 = SimulatedFleet::agent(0), kR2 = SimulatedFleet::agent(1),

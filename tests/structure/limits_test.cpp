@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -65,6 +67,18 @@ TEST(Limits, LinesOfDocumentsHaveAtMost120Characters) {
     EXPECT_GT(pages.size(), 3u) << folder;
     for (const std::string& page : pages) expect_short_lines(page);
   }
+}
+
+TEST(Limits, MethodAndResultsHaveFewerThan12000Words) {
+  std::size_t words = 0;
+  for (const char* folder : {"docs/method", "docs/results"}) {
+    for (const std::string& page : files_below(folder, ".md")) {
+      std::istringstream text(text_of(page));
+      words += static_cast<std::size_t>(std::distance(std::istream_iterator<std::string>(text), {}));
+    }
+  }
+  EXPECT_GT(words, 5000u) << "the scan found hardly any page";
+  EXPECT_LT(words, 12'000u);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct NavigatorConfig;  // navigator_config.hpp
 /// Everything that can be set of one robot, by component.
 struct AgentConfig {
   AgentId id;
-  std::filesystem::path directory;      ///< what the agent keeps and leaves: store.db, trajectories, maps
+  std::filesystem::path directory;      ///< for store.db, trajectories, maps
   std::optional<GeoPoint> site_origin;  ///< of ENU; absent: the position of the least node id held
   PerceptionConfig perception;
   place::NodeGeneratorConfig nodes;

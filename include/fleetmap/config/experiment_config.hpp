@@ -22,7 +22,7 @@ struct MetricSpec {
   /// The metric is measured in multiples of this, in `unit`; 0: its values are continuous.
   double resolution = 0.0;
   std::string with = {};    ///< the metric in whose plot this one is drawn; empty: it has a plot of its own
-  std::string series = {};  ///< what its lines are called there
+  std::string series = {};  ///< the name of its lines there
 };
 
 /// One value of an axis: the keys it sets in the fleet's file.

@@ -54,9 +54,9 @@ struct FleetErrors {
   std::size_t poses = 0;
   double unaligned = 0.0;       ///< both are georeferenced
   double joint = 0.0;           ///< after the best single rigid transform of the whole fleet: joint ATE
-  double georeference = 0.0;    ///< what that transform takes away: the fleet's map lies elsewhere as a whole
-  double between_robots = 0.0;  ///< what a rigid transform for each robot takes away besides
-  double bend = 0.0;            ///< what remains: each robot's own track is bent
+  double georeference = 0.0;    ///< taken away by that transform: the fleet's map lies elsewhere as a whole
+  double between_robots = 0.0;  ///< taken away besides by a rigid transform for each robot
+  double bend = 0.0;            ///< the rest: each robot's own track is bent
 };
 /// Fails with fewer than three matches in all. A robot with fewer than three counts with the others only.
 Result<FleetErrors> compare_jointly(std::span<const Track> tracks);

@@ -66,7 +66,7 @@ class Ekf {
   std::array<std::optional<Stamp>, 3> last_of_sensor_;
   std::optional<Stamp> unconfirmed_jump_;
   int consecutive_behind_ = 0;  ///< samples far older than the newest, with none in time between them
-  EkfCounters refused_;         ///< what never reached the filter
+  EkfCounters refused_;         ///< samples that never reached the filter
 };
 
 /// G of a filter that has a position.

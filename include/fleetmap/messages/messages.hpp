@@ -122,8 +122,8 @@ struct HoldOrder {
 /// An operator's order to give a row away. Of the orders for a row the one with the latest stamp is in force.
 struct RowOrder {
   Stamp stamp;            ///< as that of a HoldOrder
-  AgentId robot;          ///< who is not to drive it
-  AgentId to;             ///< who is to drive it; empty: whoever of the others is done with it first
+  AgentId robot;          ///< is not to drive it
+  AgentId to;             ///< is to drive it; empty: whoever of the others is done with it first
   AgentId issuer;         ///< for people
   std::uint32_t row = 0;  ///< its id in the mission
   bool operator==(const RowOrder&) const = default;

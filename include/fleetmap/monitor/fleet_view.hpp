@@ -32,7 +32,7 @@ struct FleetView {
   graph::Placement placement;
   std::vector<Attempt> attempts;   ///< of all robots whose registrations are known
   std::vector<Holding> holdings;   ///< of all robots whose stores are known
-  std::vector<std::string> notes;  ///< what could not be read
+  std::vector<std::string> notes;  ///< files that could not be read
 };
 
 /// All robots that made a node or an alignment, ran a registration or hold something, by name.

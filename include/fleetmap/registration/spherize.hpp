@@ -18,9 +18,9 @@ namespace fleetmap::registration {
 
 /// M^s of the paper (Alg. 3), ready for the long-range link.
 struct SpherizedCloud {
-  Bytes bytes;  ///< what is sent: at most fit.max_bytes
+  Bytes bytes;  ///< to be sent: at most fit.max_bytes
   cloud::PointCloud
-      decoded;  ///< what the receiver sees: register with this, so that both sides hold the same points
+      decoded;  ///< as the receiver sees it: register with this, so that both sides hold the same points
   float voxel_m = 0.0f;       ///< m, of the final thinning
   double resolution_m = 0.0;  ///< m, of the coding
   std::size_t points_in = 0;

@@ -38,7 +38,7 @@ class Introductions {
   bool believes(const Introduction& introduction) const;
 
  private:
-  std::map<Prefix, std::set<Prefix>> knows_;  ///< what each peer's Hellos listed
+  std::map<Prefix, std::set<Prefix>> knows_;  ///< peers that each peer's Hellos listed
   std::deque<Prefix> gone_;
 };
 

@@ -11,7 +11,7 @@ namespace fleetmap::graph {
 struct TrialExclusions {
   std::set<std::size_t> candidates;  ///< of hypotheses that are inconsistent around a loop
   std::set<std::size_t> undecided;   ///< of these, where several hypotheses may be the false one
-  std::set<FramePair> frames;        ///< whose hypotheses are undecided: they join nothing
+  std::set<FramePair> frames;        ///< with undecided hypotheses: they join nothing
 };
 
 /// The accepted candidates and the graph solved with them.

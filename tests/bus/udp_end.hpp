@@ -17,9 +17,9 @@
 namespace fleetmap::bus::testing {
 
 /// A UDP socket at a port of this machine.
-class Place {
+class UdpEnd {
  public:
-  explicit Place(std::uint16_t port) {
+  explicit UdpEnd(std::uint16_t port) {
     sockaddr_in here{};
     here.sin_family = AF_INET;
     here.sin_port = htons(port);
@@ -27,9 +27,9 @@ class Place {
     if (bind(fd_, reinterpret_cast<const sockaddr*>(&here), sizeof here) != 0)
       throw std::runtime_error("port " + std::to_string(port) + " is taken");
   }
-  ~Place() { close(fd_); }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
+  ~UdpEnd() { close(fd_); }
+  UdpEnd(const UdpEnd&) = delete;
+  UdpEnd& operator=(const UdpEnd&) = delete;
   /// The next datagram that waits, if any.
   std::optional<Bytes> datagram() {
     pollfd waits{fd_, POLLIN, 0};
