@@ -6,8 +6,8 @@
 #include <chrono>
 #include <sstream>
 
+#include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/output/robot_folders.hpp"
-#include "fleetmap/store/submap_loader.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -36,7 +36,9 @@ std::string fingerprint(const std::vector<fs::path>& folders) {
 Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::ServerConfig>& config,
                                                LiveMonitor::Folders folders, LiveMonitor::Read read) {
   if (!config) return nullptr;
-  auto page = LiveMonitor::start(*config, std::move(folders), std::move(read), true);
+  monitor::ServerConfig beside_robots = *config;
+  beside_robots.background = true;
+  auto page = LiveMonitor::start(beside_robots, std::move(folders), std::move(read), true);
   if (page) spdlog::info("page: open {} in a browser", (*page)->server().url());
   return page;
 }
@@ -49,14 +51,19 @@ Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerCon
                                                         Read read, bool patient) {
   auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(folders), std::move(read)));
   const auto load = [self = live.get()](const NodeId& id) -> Result<cloud::PointCloud> {
-    const auto store = [self] {
-      const std::lock_guard lock(self->mutex_);
-      return self->store_;
+    const auto encoded = [&]() -> Result<Bytes> {
+      const std::lock_guard reading(self->reading_);
+      std::unique_lock lock(self->mutex_);
+      const auto store = self->store_;
+      lock.unlock();
+      return store ? store->submap(id) : failure("nothing is shown yet");
     }();
-    if (!store) return failure("nothing is shown yet");
-    return store::decoded_submaps(*store)(id);
+    if (!encoded) return tl::unexpected(encoded.error());
+    return encoded->empty() ? cloud::PointCloud{} : cloud::decode(*encoded);
   };
-  auto server = monitor::Server::start(config, load);
+  monitor::ServerConfig with_previews = config;
+  with_previews.preview_threads = std::clamp(std::thread::hardware_concurrency(), 2u, 3u) - 1;
+  auto server = monitor::Server::start(with_previews, load);
   if (!server) return tl::unexpected(server.error());
   live->server_ = std::move(*server);
   if (const Status shown = live->show_if_changed(); !shown && !patient) return tl::unexpected(shown.error());

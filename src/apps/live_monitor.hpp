@@ -43,9 +43,10 @@ class LiveMonitor {
   std::mutex mutex_;  ///< of `stop_` and `store_`
   std::condition_variable stopped_;
   bool stop_ = false;
-  std::shared_ptr<store::Store> store_;  ///< read on the server's thread once it was shown
-  std::string shown_;                    ///< fingerprint of the files that were read last
-  std::string failed_;                   ///< why the last reading failed, which is said once
+  std::mutex reading_;  ///< of the store that is shown, whose submaps are decoded on several threads
+  std::shared_ptr<store::Store> store_;
+  std::string shown_;   ///< fingerprint of the files that were read last
+  std::string failed_;  ///< why the last reading failed, which is said once
   std::unique_ptr<monitor::Server> server_;
   std::thread thread_;
 };

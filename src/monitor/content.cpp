@@ -1,5 +1,7 @@
 #include "content.hpp"
 
+#include <bit>
+
 #include "fleetmap/monitor/request_check.hpp"
 #include "state_json.hpp"
 
@@ -9,6 +11,18 @@ namespace {
 constexpr std::size_t kMaxPointsAtOnce = 1u << 18;
 
 std::size_t bytes_of(const QuantisedCloud& cloud) { return cloud.values.size() * sizeof(std::int16_t); }
+
+/// The same in an order of which any beginning is spread over the whole (van der Corput), as the page asks.
+std::deque<std::string> spread(const std::vector<std::string>& all) {
+  std::deque<std::string> order;
+  const auto bits = static_cast<std::size_t>(std::bit_width(all.size()));
+  for (std::size_t k = 0; k < std::size_t{1} << bits; ++k) {
+    std::size_t mirrored = 0;
+    for (std::size_t bit = 0; bit < bits; ++bit) mirrored |= (k >> bit & 1) << (bits - 1 - bit);
+    if (mirrored < all.size()) order.push_back(all[mirrored]);
+  }
+  return order;
+}
 
 Reply plain(unsigned status, std::string text) { return {.status = status, .body = std::move(text) + '\n'}; }
 
@@ -36,9 +50,38 @@ void PointCache::keep(const std::string& hash, std::shared_ptr<const QuantisedCl
 void Content::show(const FleetView& view) {
   state_ = std::make_shared<const std::string>(state_json(view));
   submaps_.clear();
+  std::vector<std::string> missing;
   for (std::size_t k = 0; k < view.nodes.size(); ++k) {
-    if (view.has_submap[k]) submaps_.emplace(to_hex(view.nodes[k].submap_hash), view.nodes[k].id);
+    if (!view.has_submap[k]) continue;
+    const std::string hash = to_hex(view.nodes[k].submap_hash);
+    if (submaps_.emplace(hash, view.nodes[k].id).second && !made_.contains(hash)) missing.push_back(hash);
   }
+  std::erase_if(made_, [this](const std::string& hash) { return !submaps_.contains(hash); });
+  waiting_ = spread(missing);
+}
+
+bool Content::misses_previews() {
+  while (!waiting_.empty() && (made_.contains(waiting_.front()) || being_made_.contains(waiting_.front())))
+    waiting_.pop_front();
+  return !waiting_.empty();
+}
+
+std::pair<std::string, Content::Make> Content::begin_preview() {
+  const std::string hash = waiting_.front();
+  waiting_.pop_front();
+  being_made_.insert(hash);
+  return {hash, [load = load_, node = submaps_.at(hash)]() -> Cloud {
+            const auto loaded = load(node);
+            return loaded ? std::make_shared<const QuantisedCloud>(quantised_prefix(*loaded, kCoarsePoints))
+                          : nullptr;
+          }};
+}
+
+void Content::end_preview(const std::string& hash, const Cloud& preview) {
+  being_made_.erase(hash);
+  if (!preview) return;  // a page that asks for it is told why
+  coarse_.keep(hash, preview);
+  made_.insert(hash);
 }
 
 void Content::show(const LiveStatus& status, bool operated) {
@@ -89,12 +132,13 @@ Reply Content::submap(std::string_view target) {
 std::shared_ptr<const QuantisedCloud> Content::coarse(const NodeId& node, const std::string& hash,
                                                       std::size_t& decodable) {
   if (auto kept = coarse_.find(hash)) return kept;
-  if (decodable == 0 && !cache_.find(hash)) return nullptr;
+  if ((decodable == 0 || being_made_.contains(hash)) && !cache_.find(hash)) return nullptr;
   decodable -= decodable > 0;
   const auto whole = cloud(node, hash);
   if (!whole) return std::make_shared<const QuantisedCloud>();
   auto prefix = std::make_shared<const QuantisedCloud>(prefix_of(**whole, kCoarsePoints));
   coarse_.keep(hash, prefix);
+  made_.insert(hash);
   return prefix;
 }
 
@@ -102,7 +146,7 @@ Reply Content::submaps(std::string_view target) {
   const auto request = parse_submaps_request(target);
   if (!request) return plain(400, "expected /submaps?count=N&of=HASH,HASH");
   Reply reply{.type = "application/octet-stream", .body = {}};
-  std::size_t decodable = kDecodedAtOnce;
+  std::size_t decodable = being_made_.empty() ? kDecodedAtOnce : kDecodedBesideOthers;
   for (const std::string& hash : request->hashes) {
     const auto node = submaps_.find(hash);
     if (node == submaps_.end()) continue;
@@ -110,6 +154,11 @@ Reply Content::submaps(std::string_view target) {
     if (!points) continue;
     const Bytes part = encoded_points(*points, 0, request->count);
     reply.body.append(hash).append(part.begin(), part.end());
+  }
+  if (reply.body.empty() && !being_made_.empty() && decodable > 0) {
+    // All that it asks for is being made. An empty answer would be asked for again at once.
+    being_made_.clear();
+    return submaps(target);
   }
   return reply;
 }

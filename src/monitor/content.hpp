@@ -1,11 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
@@ -43,13 +48,20 @@ class PointCache {
 };
 
 /// Content of the server: the page's files, the state and the submaps. No path is ever opened as a file. Used
-/// by one thread.
+/// by one thread; only the work of begin_preview() is done on others.
 class Content {
  public:
   /// Points of a submap that come with those of others at most.
   static constexpr std::size_t kCoarsePoints = 1024;
   /// Submaps that one answer decodes, so that other requests wait for some 0.1 s at most.
   static constexpr std::size_t kDecodedAtOnce = 16;
+  /// Likewise, while others are decoded on other threads.
+  static constexpr std::size_t kDecodedBesideOthers = 4;
+  using Cloud = std::shared_ptr<const QuantisedCloud>;
+  /// Decodes one submap, on any thread.
+  using Make = std::function<Cloud()>;
+
+  /// `load` is called on several threads at a time if previews are made.
 
   Content(std::span<const PageFile> page, store::SubmapLoader load, std::size_t cached_bytes)
       : page_(page), load_(std::move(load)), cache_(cached_bytes), coarse_(cached_bytes) {}
@@ -61,6 +73,13 @@ class Content {
   /// The live status as JSON; empty before the first show().
   std::shared_ptr<const std::string> live() const { return live_; }
   Reply reply(std::string_view target);
+  /// The first points of some submap were not made yet, and nobody is at it.
+  bool misses_previews();
+  bool has_preview(const std::string& hash) { return coarse_.find(hash) != nullptr; }
+  /// Hands out the next one of these, in an order of which any beginning is spread over the site.
+  std::pair<std::string, Make> begin_preview();
+  /// Keeps what its work returned.
+  void end_preview(const std::string& hash, const Cloud& preview);
   /// A node's submap, of those kept or freshly decoded; it is kept only if the page asks for it (reply()).
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
@@ -70,7 +89,7 @@ class Content {
   Reply submap(std::string_view target);
   Reply submaps(std::string_view target);
   /// The first kCoarsePoints of a shown submap, empty where it cannot be read; null for later where they must
-  /// be decoded first and `decodable` is 0.
+  /// be decoded first and `decodable` is 0, or are being made.
   std::shared_ptr<const QuantisedCloud> coarse(const NodeId& node, const std::string& hash,
                                                std::size_t& decodable);
 
@@ -81,6 +100,9 @@ class Content {
   std::shared_ptr<const std::string> state_ = std::make_shared<const std::string>("{}");
   std::shared_ptr<const std::string> live_ = std::make_shared<const std::string>();
   std::map<std::string, NodeId> submaps_;  ///< by content hash
+  std::deque<std::string> waiting_;        ///< submaps whose previews are to be made
+  std::set<std::string> made_;             ///< of those shown, also if the cache lacks them by now
+  std::set<std::string> being_made_;       ///< by the work of begin_preview()
 };
 
 }  // namespace fleetmap::monitor

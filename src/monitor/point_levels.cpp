@@ -109,7 +109,9 @@ std::vector<std::uint32_t> coarse_to_fine(const cloud::PointCloud& cloud) {
   return order;
 }
 
-QuantisedCloud quantised(const cloud::PointCloud& cloud) {
+QuantisedCloud quantised(const cloud::PointCloud& cloud) { return quantised_prefix(cloud, cloud.size()); }
+
+QuantisedCloud quantised_prefix(const cloud::PointCloud& cloud, std::size_t points) {
   QuantisedCloud result;
   const Box box = box_of(cloud);
   if (box.empty()) return result;
@@ -119,8 +121,9 @@ QuantisedCloud quantised(const cloud::PointCloud& cloud) {
   for (const float intensity : cloud.intensities) {
     if (std::isfinite(intensity)) strongest = std::max(strongest, intensity);
   }
-  const std::vector<std::uint32_t> order = coarse_to_fine(cloud);
+  std::vector<std::uint32_t> order = coarse_to_fine(cloud);
   result.whole = order.size();
+  order.resize(std::min(order.size(), points));
   result.values.reserve(4 * order.size());
   for (const std::uint32_t k : order) {
     const Eigen::Vector3f steps = (cloud.points[k] - result.centre) / result.scale;

@@ -28,6 +28,8 @@ struct QuantisedCloud {
   std::size_t size() const { return values.size() / 4; }
 };
 QuantisedCloud quantised(const cloud::PointCloud& cloud);
+/// prefix_of() it, in less time.
+QuantisedCloud quantised_prefix(const cloud::PointCloud& cloud, std::size_t points);
 /// The first points of a cloud, as many as there are.
 QuantisedCloud prefix_of(const QuantisedCloud& cloud, std::size_t points);
 

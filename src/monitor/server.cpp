@@ -79,6 +79,7 @@ std::string Server::url() const {
 void Server::publish(std::shared_ptr<const FleetView> view) {
   net::post(state_->io, [state = state_.get(), view = std::move(view)] {
     state->content.show(*view);
+    state->previews.refresh();
     for (Viewer* viewer : state->viewers) viewer->send(Viewer::kState, state->content.state());
     state->feed.show(view);
   });

@@ -12,6 +12,7 @@
 #include "foxglove/feed.hpp"
 #include "http_types.hpp"
 #include "latest_slot.hpp"
+#include "preview_maker.hpp"
 
 namespace fleetmap::monitor {
 
@@ -37,6 +38,7 @@ struct Server::State {
   tcp::acceptor acceptor{io};
   net::steady_timer pause{io};
   foxglove::Feed feed{io, content, foxglove_clients, {config.foxglove_points, config.foxglove_map_period}};
+  PreviewMaker previews{io, content, config.preview_threads, config.background};
   std::uint16_t port = 0;
   std::thread thread;
 

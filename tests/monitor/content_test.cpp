@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "monitor/views.hpp"
 #include "store/items.hpp"
 
@@ -116,6 +118,42 @@ TEST_F(ManySubmaps, come_in_one_answer_each_after_its_hash) {
   }
   EXPECT_EQ(ask(5000, {0}).size(), 32 + kPointHeaderBytes + 8 * Content::kCoarsePoints)
       << "the first ones alone";
+}
+
+TEST_F(ManySubmaps, previews_are_made_once_and_spread_over_the_site) {
+  std::vector<std::string> order;
+  while (content.misses_previews()) {
+    const auto [hash, make] = content.begin_preview();
+    order.push_back(hash);
+    content.end_preview(hash, make());
+  }
+  EXPECT_EQ(std::set(order.begin(), order.end()).size(), 40u);
+  EXPECT_EQ(loads, 40);
+  EXPECT_EQ(order[0], hash(0));
+  EXPECT_EQ(order[1], hash(32));
+  EXPECT_EQ(order[2], hash(16)) << "the first ones are far apart";
+  EXPECT_EQ(ask(10).size(), 40 * (32 + kPointHeaderBytes + 8 * 10)) << "all are at hand";
+  content.show(fleet.view);
+  EXPECT_FALSE(content.misses_previews()) << "a newer state decodes nothing again";
+  EXPECT_EQ(loads, 40);
+}
+
+TEST_F(ManySubmaps, what_is_being_made_comes_later_unless_nothing_else_is_there) {
+  constexpr std::size_t kPart = 32 + kPointHeaderBytes + 8 * 10;
+  const auto [first, make] = content.begin_preview();
+  EXPECT_EQ(ask(10, {0, 1}).size(), kPart) << "the second one";
+  EXPECT_EQ(ask(10, {0}).size(), kPart) << "an empty answer would be an error for the page";
+  content.end_preview(first, make());
+  EXPECT_EQ(ask(10, {0, 1}).size(), 2 * kPart);
+}
+
+TEST_F(ManySubmaps, a_preview_that_cannot_be_read_is_told_to_who_asks) {
+  broken = true;
+  while (content.misses_previews()) {
+    const auto [hash, make] = content.begin_preview();
+    content.end_preview(hash, make());
+  }
+  EXPECT_EQ(ask(10, {3}).size(), 32 + kPointHeaderBytes) << "its hash, and no point";
 }
 
 TEST_F(ManySubmaps, an_answer_decodes_some_at_a_time_and_none_twice) {

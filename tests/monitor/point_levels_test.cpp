@@ -126,11 +126,16 @@ TEST(PointLevels, parts_put_together_are_the_whole) {
 }
 
 TEST(PointLevels, a_prefix_is_told_from_a_whole_submap) {
-  const QuantisedCloud whole = quantised(random_cloud(1000, 20.0f));
+  const cloud::PointCloud cloud = random_cloud(1000, 20.0f);
+  const QuantisedCloud whole = quantised(cloud);
   const QuantisedCloud prefix = prefix_of(whole, 300);
   EXPECT_EQ(prefix.size(), 300u);
   EXPECT_EQ(encoded_points(prefix, 0, 300), encoded_points(whole, 0, 300));
   EXPECT_EQ(prefix_of(whole, 5000).size(), 1000u);
+  const QuantisedCloud quick = quantised_prefix(cloud, 300);
+  EXPECT_EQ(quick.values, prefix.values);
+  EXPECT_EQ(quick.whole, prefix.whole);
+  EXPECT_EQ(quick.scale, prefix.scale);
 }
 
 TEST(PointLevels, clouds_without_extent_or_points) {

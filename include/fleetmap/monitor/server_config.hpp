@@ -19,7 +19,9 @@ struct ServerConfig {
   std::chrono::milliseconds answer_timeout{30'000};   ///< to take its answer
   std::chrono::milliseconds idle_timeout{30'000};     ///< of a viewer that answers no ping
   std::size_t cached_bytes = 64u << 20;               ///< of submaps that were decoded
-  std::size_t foxglove_points = 300'000;              ///< of the map that Foxglove clients get, at most
+  unsigned preview_threads = 0;           ///< that decode first points before a viewer asks for them
+  bool background = false;                ///< they run when nothing else does
+  std::size_t foxglove_points = 300'000;  ///< of the map that Foxglove clients get, at most
   std::chrono::milliseconds foxglove_map_period{5'000};  ///< from one of these maps to the next
   Status validate() const;
 };
