@@ -130,7 +130,7 @@ TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_tol
   std::vector<std::string> received;
   state_.give_order = [&](const OrderRequest& order) -> Status {
     received.push_back((order.kind == OrderRequest::Kind::kHold ? "hold " : "resume ") +
-                    (order.robot ? order.robot->str() : "all"));
+                       (order.robot ? order.robot->str() : "all"));
     return received.size() > 1 ? failure("no radio") : Status{};
   };
   EXPECT_EQ(status(order), 202u);
