@@ -15,6 +15,7 @@
 #include "fleetmap/output/lidar_mount.hpp"
 #include "fleetmap/output/map_files.hpp"
 #include "live_placement.hpp"
+#include "loop_closing_setup.hpp"
 #include "robot_health.hpp"
 
 namespace fleetmap::agent {
@@ -25,15 +26,6 @@ constexpr Duration kStatusPeriod = std::chrono::seconds(1);
 /// Shortest time between two sessions that begin because another robot holds items under the session's
 /// number.
 constexpr Duration kSessionPause = std::chrono::minutes(1);
-
-loop_closure::LoopClosingConfig loop_closing_config(const AgentConfig& config) {
-  loop_closure::LoopClosingConfig loops{
-      config.id,       config.loop_closure,
-      config.own_path, config.placement.method == graph::PlacementMethod::graph,
-      config.spherize, config.registration};
-  loops.candidates.peer_timeout = exchange::for_fleet(loops.candidates.peer_timeout, config.exchange);
-  return loops;
-}
 
 }  // namespace
 
