@@ -10,7 +10,7 @@ out=/out
 scratch=/run
 qos=$root/qos
 . "$root/deploy/compose/addresses.sh"
-. "$root/deploy/netns/scenarios.sh"
+. "$root/deploy/netns/field_robots.sh"
 
 route_through_medium() { # NET
   local device medium=10.$1.250.2

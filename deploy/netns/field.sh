@@ -18,7 +18,9 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$root/deploy/netns/medium.sh"
-. "$root/deploy/netns/scenarios.sh"
+. "$root/deploy/netns/field_robots.sh"
+. "$root/deploy/netns/discovery_scenarios.sh"
+. "$root/deploy/netns/mapping_scenarios.sh"
 . "$root/deploy/netns/fault_scenarios.sh"
 
 agents=4
