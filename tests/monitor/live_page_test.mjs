@@ -89,14 +89,14 @@ async function holdAndResume(page) {
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
 }
 
-const rowsOf = (page, robot) => page.getByLabel(`Row of ${robot}`).locator('option').evaluateAll((options) => options.map((option) => option.value));
+const rowsOf = (page, robot) => page.getByLabel(`Row of ${robot}`, {exact: true}).locator('option').evaluateAll((options) => options.map((option) => option.value));
 
 /** A row of r1 goes to r2, and r1 is called home and let go. */
 async function giveAndCallHome(page) {
   await page.getByRole('group', {name: 'Give a row of r1 away'}).waitFor({timeout: 60_000});
   const row = (await rowsOf(page, 'r1')).at(-1);
   assert.ok(!(await rowsOf(page, 'r2')).includes(row), `row ${row} is claimed twice`);
-  await page.getByLabel('Row of r1').selectOption(row);
+  await page.getByLabel('Row of r1', {exact: true}).selectOption(row);
   await page.getByLabel('Robot that drives the row of r1').selectOption('r2');
   await page.getByRole('group', {name: 'Give a row of r1 away'}).getByRole('button', {name: 'Give'}).click();
   await textIs(page, '#fleet', new RegExp(`Ordered: r1 gives row ${row} to r2\\.`));
