@@ -21,7 +21,7 @@ constexpr Duration kRepeat = std::chrono::seconds(1);
 /// this one; another operator may insist longer.
 constexpr int kMaxRenewals = 3;
 
-/// What a robot that sent `hold` obeys in place of `order`; nothing if it has not heard of that.
+/// The order that a robot which sent `hold` obeys in place of `order`; none if it has not heard of that.
 std::optional<HoldOrder> obeyed(const HoldOrder& order, const Hold& hold) {
   const auto in_force = exchange::order_for(hold.from, hold.orders);
   return in_force && !exchange::replaces(order, *in_force) ? in_force : std::nullopt;

@@ -64,7 +64,8 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<png", {"src/eval"}},
     {"^<boost/",
      {"src/experiment/student.cpp", "src/monitor/connection", "src/monitor/foxglove/client_session",
-      "src/monitor/foxglove/feed", "src/monitor/http_", "src/monitor/server", "src/monitor/viewer"}},
+      "src/monitor/preview_maker", "src/monitor/foxglove/feed", "src/monitor/http_", "src/monitor/server",
+      "src/monitor/viewer"}},
     {"^<openssl/", {"src/trust", "src/core/bytes.cpp", "src/core/file_hash.cpp"}},
 };
 
