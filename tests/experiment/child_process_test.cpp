@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "experiment/experiment_fixture.hpp"
+#include "support/file_content.hpp"
 
 namespace fleetmap::experiment {
 namespace {
@@ -39,7 +40,7 @@ TEST_F(ChildProcess, TellsHowItEnded) {
   EXPECT_EQ(ended->code, 0);
   EXPECT_FALSE(ended->signalled);
   EXPECT_GT(ended->peak_megabytes, 0.5);
-  EXPECT_THAT(text_of(log()), HasSubstr("all is well"));
+  EXPECT_THAT(testing::file_text(log()), HasSubstr("all is well"));
 
   const auto failed = run("Fails", stop_);
   ASSERT_TRUE(failed);
