@@ -29,7 +29,7 @@ TEST(LostWays, AreASentenceWithBothCounts) {
   EXPECT_THAT(lost_ways(odometry), HasSubstr("began anew 2 times"));
 }
 
-/// Of two robots that were switched off to the end; each left a trajectory.
+/// Two robots that were switched off to the end; each left a trajectory.
 class FleetReport : public ::testing::Test {
  protected:
   FleetReport() {

@@ -13,7 +13,7 @@ using ::testing::Not;
 
 AgentId robot(const char* name) { return AgentId::parse(name).value(); }
 
-/// Of one robot that was switched off, and whose store held a map.
+/// A lone robot that was switched off, and whose store held a map.
 class RunSummary : public ::testing::Test {
  protected:
   RunSummary() {
