@@ -46,7 +46,7 @@ if(FLEETMAP_SANITIZE AND NOT FLEETMAP_FUZZ)
   # A failed test says its line anyway, and without the lines of its callers it compiles a tenth faster.
   set(FLEETMAP_TEST_OPTIONS -g0)
   set(FLEETMAP_CALCULATE_LITTLE apps_units bus config core exchange experiment fuzz messages monitor recording ros_codec
-                                store structure trust)
+                                trust)
 endif()
 function(fleetmap_precompiled_tests name)
   add_executable(${name} ${PROJECT_BINARY_DIR}/precompiled.cpp)

@@ -32,7 +32,9 @@ class SensorRecorderTest : public ::testing::Test {
     network_->run_until(network_->now() + std::chrono::milliseconds(10));
   }
   static recording::Counters counters_of(const std::filesystem::path& bag) {
-    auto reader = recording::open(bag);
+    recording::ReaderConfig config;
+    config.scans_needed = false;
+    auto reader = recording::open(bag, config);
     EXPECT_TRUE(reader) << reader.error().message;
     if (!reader) return {};
     while (*(*reader)->next()) {

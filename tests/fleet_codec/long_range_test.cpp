@@ -158,7 +158,7 @@ TEST(LongRange, WhatHasNoMeaningIsRefusedWithTheReason) {
   cloud.voxel = -0.1;
   EXPECT_THAT(refusal(cloud), HasSubstr("voxel is negative"));
   messages::CloudRequest request{id("r1"), id("r2"), node_id("r3", 7), {}, 1001.0f};
-  EXPECT_THAT(refusal(request), HasSubstr("worth is negative, not finite or too large"));
+  EXPECT_THAT(refusal(request), HasSubstr("information is negative, not finite or too large"));
   messages::AgentStatus status;
   status.from = id("r1");
   EXPECT_EQ(refusal(status), "none");
