@@ -177,7 +177,7 @@ void Navigator::obey(const messages::HoldOrder& order) {
   watch();
 }
 
-void Navigator::obey(std::vector<messages::RowOrder> orders) { executive_.set_row_orders(std::move(orders)); }
+void Navigator::obey(const std::vector<messages::RowOrder>& orders) { executive_.set_row_orders(orders); }
 
 void Navigator::stop() {
   guard_.stop();

@@ -49,7 +49,7 @@ class Navigator {
   /// Follows the order of an operator that is in force.
   void obey(const messages::HoldOrder& order);
   /// Follows the operators' orders for rows; those given before and missing here no longer hold.
-  void obey(std::vector<messages::RowOrder> orders);
+  void obey(const std::vector<messages::RowOrder>& orders);
   /// Stands still from now on.
   void stop();
   /// Why the robot stands still; nothing if it may be driven.
