@@ -113,9 +113,7 @@ bool Perception::placed(sensor::Source source, const Bytes& cdr) {
   if (!frame) return true;  // it is refused when it is decoded
   // Work on one that is refused may still touch what the mount changes.
   const bool at_work = source == sensor::Source::kLidar && busy_;
-  if (at_work) ++counters_.waited_for_frames;
-  if (at_work) return false;
-  const auto state = mounts_.on_message(source, *frame, bus_.now());
+  const auto state = at_work ? SensorMounts::State::kWaits : mounts_.on_message(source, *frame, bus_.now());
   if (state == SensorMounts::State::kWaits) ++counters_.waited_for_frames;
   if (state != SensorMounts::State::kDecided) return state == SensorMounts::State::kKnown;
   for (const std::string& news : mounts_.take_warnings()) spdlog::warn("{}", news);

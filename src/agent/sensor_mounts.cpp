@@ -62,9 +62,9 @@ SensorMounts::State SensorMounts::on_message(Source source, const std::string& f
   frames_.ids[index(source)] = frame_id;
   const Result<Pose> by_frames = frames_.tree.find(kBase, frame_id);
   // A publisher that is there is discovered in the same time by all.
-  for (Mount& any : mounts_) any.waits_since = any.waits_since.value_or(now);
+  if (!waits_since_) waits_since_ = now;
   const bool may_come = !mount.given && !by_frames && !frame_id.empty();
-  if (may_come && now - *mount.waits_since < patience_) return State::kWaits;
+  if (may_come && now - *waits_since_ < patience_) return State::kWaits;
   decide(source, by_frames);
   return State::kDecided;
 }

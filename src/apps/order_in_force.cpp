@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "fleetmap/fleet_codec/messages.hpp"
@@ -32,15 +33,15 @@ std::optional<RowOrder> obeyed(const RowOrder& order, const Hold& hold) {
   return same != hold.rows.end() && same->stamp >= order.stamp ? std::optional(*same) : std::nullopt;
 }
 
-Stamp later_than(const HoldOrder&, const Hold& hold, Stamp now) {
-  return exchange::later_than(hold.orders, now);
+/// The orders in `hold` that are of the kind of `order`.
+template <class Order, class HoldMessage>
+auto& orders_like(const Order& /*order*/, HoldMessage& hold) {
+  if constexpr (std::is_same_v<Order, RowOrder>) {
+    return hold.rows;
+  } else {
+    return hold.orders;
+  }
 }
-Stamp later_than(const RowOrder&, const Hold& hold, Stamp now) {
-  return exchange::later_than(hold.rows, now);
-}
-
-void add_to(Hold& hold, const HoldOrder& order) { hold.orders.push_back(order); }
-void add_to(Hold& hold, const RowOrder& order) { hold.rows.push_back(order); }
 
 }  // namespace
 
@@ -59,7 +60,7 @@ void OrderInForce::send() {
   std::visit(
       [&](const auto& order) {
         hold.from = order.issuer;
-        add_to(hold, order);
+        orders_like(order, hold).push_back(order);
       },
       order_);
   bus_.publish(fleet_codec::topics::hold(), fleet_codec::encode(hold));
@@ -81,7 +82,7 @@ void OrderInForce::on_hold(const Hold& hold) {
           confirmed_[hold.from] = hold.driving;
         } else if (renewals_ < kMaxRenewals) {
           ++renewals_;
-          order.stamp = later_than(order, hold, bus_.now());
+          order.stamp = exchange::later_than(orders_like(order, hold), bus_.now());
           confirmed_.clear();
           send();
         }

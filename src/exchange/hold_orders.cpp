@@ -47,12 +47,6 @@ std::optional<HoldOrder> order_for(const AgentId& robot, const std::vector<HoldO
   return latest;
 }
 
-Stamp later_than(const std::vector<HoldOrder>& orders, Stamp now) {
-  Stamp stamp = now;
-  for (const HoldOrder& order : orders) stamp = std::max(stamp, order.stamp + Duration(1));
-  return stamp;
-}
-
 bool HoldOrders::add(const HoldOrder& order) {
   if (!order.robot.empty() && !fleet_.contains(order.robot)) return false;
   const auto [entry, fresh] = registers_.try_emplace(order.robot, order);

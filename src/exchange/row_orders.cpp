@@ -61,10 +61,4 @@ std::optional<RowOrder> RowOrders::order_of(const std::string& line) {
   return RowOrder{stamp_from_ns(ns), *whose, *whom, *by, row};
 }
 
-Stamp later_than(const std::vector<RowOrder>& orders, Stamp now) {
-  Stamp stamp = now;
-  for (const RowOrder& order : orders) stamp = std::max(stamp, order.stamp + Duration(1));
-  return stamp;
-}
-
 }  // namespace fleetmap::exchange

@@ -58,8 +58,8 @@ TEST(RowOrders, LinesOfTheStoreAreReadBack) {
 }
 
 TEST(RowOrders, AStampLaterThanAllOfThemReplacesThem) {
-  EXPECT_EQ(later_than({order(7, 2), order(8, 9)}, stamp_from_ns(4)), stamp_from_ns(10));
-  EXPECT_EQ(later_than({order(7, 2)}, stamp_from_ns(40)), stamp_from_ns(40));
+  EXPECT_EQ(later_than(std::vector{order(7, 2), order(8, 9)}, stamp_from_ns(4)), stamp_from_ns(10));
+  EXPECT_EQ(later_than(std::vector{order(7, 2)}, stamp_from_ns(40)), stamp_from_ns(40));
 }
 
 }  // namespace

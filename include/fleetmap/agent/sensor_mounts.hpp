@@ -50,7 +50,6 @@ class SensorMounts {
     bool given = false;  ///< by the configuration
     bool decided = false;
     bool by_frames = false;
-    std::optional<Stamp> waits_since;
   };
   const Mount& of(sensor::Source source) const { return mounts_[static_cast<std::size_t>(source)]; }
   std::string name_of_frame(sensor::Source source) const;
@@ -62,6 +61,7 @@ class SensorMounts {
   std::array<Mount, sensor::kSources> mounts_;
   sensor::SensorFrames frames_;
   Duration patience_;
+  std::optional<Stamp> waits_since_;  ///< the first message of any sensor
   std::vector<std::string> warnings_;
   std::set<std::string> told_;  ///< a publisher repeats its transforms
 };

@@ -22,9 +22,6 @@ using messages::RowOrder;
 bool replaces(const HoldOrder& a, const HoldOrder& b);
 /// The order of `orders` that is in force for `robot`: the latest that names it or all; nothing without one.
 std::optional<HoldOrder> order_for(const AgentId& robot, const std::vector<HoldOrder>& orders);
-/// A stamp later than those of all `orders`, and not before `now`: an order that carries it replaces them
-/// whatever the clocks of those who gave them.
-Stamp later_than(const std::vector<HoldOrder>& orders, Stamp now);
 
 /// The operators' orders, replicated over the fleet: one last-writer-wins register for each robot and one for
 /// all (stop, drive home, drive on), and one for each row that was given away (RowOrders). A robot sends its

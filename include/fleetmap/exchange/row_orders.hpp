@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -32,7 +33,13 @@ class RowOrders {
   std::map<std::uint32_t, RowOrder> registers_;  ///< by row
 };
 
-/// A stamp later than that of every one of `orders`, and not before `now`.
-Stamp later_than(const std::vector<RowOrder>& orders, Stamp now);
+/// A stamp later than those of all `orders` (messages::HoldOrder or RowOrder), and not before `now`: an order
+/// that carries it replaces them whatever the clocks of those who gave them.
+template <class Order>
+Stamp later_than(const std::vector<Order>& orders, Stamp now) {
+  Stamp stamp = now;
+  for (const Order& order : orders) stamp = std::max(stamp, order.stamp + Duration(1));
+  return stamp;
+}
 
 }  // namespace fleetmap::exchange
