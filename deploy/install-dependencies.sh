@@ -8,8 +8,8 @@ packages=(
   fastddsgen libfastrtps-dev libfastcdr-dev libtinyxml2-dev
   libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev libsleef-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
-  libsqlite3-dev libssl-dev liblzma-dev libzstd-dev liblz4-dev libbz2-dev zlib1g-dev libembree-dev libpng-dev libboost-dev libsystemd-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libsqlite3-dev libssl-dev liblzma-dev libzstd-dev liblz4-dev libbz2-dev zlib1g-dev libembree-dev libpng-dev libgdal-dev libboost-dev libsystemd-dev
+  libgtest-dev libgmock-dev libbenchmark-dev cyclonedds-dev cyclonedds-tools
   iproute2 procps python3
 )
 

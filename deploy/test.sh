@@ -20,7 +20,7 @@ with_addresses_for() {
 
 build() {
   local preset=$1
-  cmake --preset "${preset/shipped/release}" >/dev/null  # its program, fewer of its targets
+  cmake --preset "${preset/shipped/release}" -DFLEETMAP_UNITY=ON >/dev/null  # shipped: its program, fewer of its targets
   with_addresses_for "$preset" cmake --build --preset "$preset"  # which also runs test programs, to list their tests
 }
 

@@ -23,8 +23,7 @@ namespace {
 
 constexpr Duration kNavigatorPeriod = std::chrono::milliseconds(500);
 constexpr Duration kStatusPeriod = std::chrono::seconds(1);
-/// Shortest time between two sessions that begin because another robot holds items under the session's
-/// number.
+/// Shortest time between two sessions that begin because another robot holds items of their number.
 constexpr Duration kSessionPause = std::chrono::minutes(1);
 
 }  // namespace
@@ -166,9 +165,16 @@ void Agent::on_perceived(Perceived&& perceived) {
   const odometry::OdometryUpdate& update = perceived.odometry;
   scan_seconds_.add(perceived.cpu_seconds);
   if (navigator_) navigator_->on_perceived(perceived);
-  if (live_placement_) live_placement_->publish({config_.id, session_}, {update.stamp, update.T_odom_base});
+  const graph::FrameId frame{config_.id, session_};
+  if (live_placement_) live_placement_->publish(frame, {update.stamp, update.T_odom_base});
+  const auto placed = live_placement_ ? live_placement_->placed(frame) : std::nullopt;
+  if (on_pose_) on_pose_({update.stamp, update.T_odom_base, perceived.G, placed});
   tracks_.add(perceived);
   if (nodes_.add(std::move(perceived), bus_.now())) freeze_node();
+}
+
+std::shared_ptr<const graph::PlacedFleet> Agent::placed_fleet() const {
+  return live_placement_ ? live_placement_->fleet() : nullptr;
 }
 
 void Agent::keep_lidar_mount() {

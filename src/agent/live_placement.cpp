@@ -8,6 +8,7 @@
 #include "fleetmap/core/cpu_time.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "fleetmap/geometry/rotated_covariance.hpp"
 #include "fleetmap/graph/located_nodes.hpp"
 #include "fleetmap/output/placed_store.hpp"
 
@@ -22,14 +23,11 @@ Duration pause_after(std::size_t nodes, const LivePlacementConfig& config) {
 }  // namespace
 
 struct LivePlacement::Job {
-  GeoPoint origin;
+  graph::PlacedFleet fleet;
   graph::PlacementConfig config;
   std::optional<NodeId> newest;  ///< of this session
-  std::vector<graph::Node> nodes;
-  std::vector<graph::Alignment> alignments;
-  std::vector<graph::Alignment> used;
   std::map<AgentId, graph::Contradiction> contradicting;
-  std::optional<Solution> solution;
+  std::optional<graph::PlacedFrame> solution;
   double cpu_seconds = 0.0;
 };
 
@@ -59,21 +57,23 @@ void LivePlacement::refresh(std::uint16_t session) {
   if (!origin) return;
   items_ = store_.revision();
   auto job = std::make_shared<Job>();
-  job->origin = *origin;
+  job->fleet.origin = *origin;
   job->config = config_.placement;
   job->newest = newest;
-  job->nodes = output::nodes_of(store_);
-  job->alignments = output::alignments_of(store_);
+  job->fleet.nodes = output::nodes_of(store_);
+  job->fleet.alignments = output::alignments_of(store_);
+  const std::size_t nodes = job->fleet.nodes.size();
   under_way_ = true;
   const bool taken = bus_.offload(bus::Lane::kBackground, {"placement", [job] { solve(*job); }}, [this, job] {
     under_way_ = false;
     cpu_seconds_ += job->cpu_seconds;
     solution_ = job->solution;
     name(job->contradicting);
-    on_used_(job->used);
+    fleet_ = std::make_shared<const graph::PlacedFleet>(std::move(job->fleet));
+    on_used_(fleet_->placement.used);
   });
   if (taken) {
-    paused_until_ = bus_.now() + pause_after(job->nodes.size(), config_.live_placement);
+    paused_until_ = bus_.now() + pause_after(nodes, config_.live_placement);
     if (newest) solved_session_ = session;
     return;
   }
@@ -84,24 +84,26 @@ void LivePlacement::refresh(std::uint16_t session) {
 void LivePlacement::solve(Job& job) {
   const CpuTimer timer(job.cpu_seconds);
   const std::span newest(job.newest ? &*job.newest : nullptr, job.newest ? 1 : 0);
-  graph::Placement placement =
-      graph::compute_placement(job.nodes, job.alignments, LocalFrame(job.origin), job.config, newest);
-  job.contradicting = graph::contradict_the_fleet(placement, job.nodes, LocalFrame(job.origin));
-  job.used = std::move(placement.used);
-  const auto nowhere = graph::not_georeferenced(job.nodes, placement.components);
-  for (const graph::Node& node : job.nodes) {
+  const graph::PlacedFleet& fleet = job.fleet;
+  job.fleet.placement =
+      graph::compute_placement(fleet.nodes, fleet.alignments, LocalFrame(fleet.origin), job.config, newest);
+  const graph::Placement& placement = fleet.placement;
+  job.contradicting = graph::contradict_the_fleet(placement, fleet.nodes, LocalFrame(fleet.origin));
+  const auto nowhere = graph::not_georeferenced(fleet.nodes, placement.components);
+  for (const graph::Node& node : fleet.nodes) {
     const auto T_enu_odom = placement.T_enu_odom.find(node.frame());
     if (node.id != job.newest || T_enu_odom == placement.T_enu_odom.end()) continue;
-    if (std::ranges::count(nowhere, node.frame()) > 0) return;
-    Solution solution{job.origin, node.frame(), T_enu_odom->second, Matrix6d::Zero()};
-    if (const auto C = placement.covariance.find(node.id); C != placement.covariance.end()) {
-      Matrix6d R = Matrix6d::Zero();
-      R.topLeftCorner<3, 3>() = R.bottomRightCorner<3, 3>() = placement.T_enu_node.at(node.id).linear();
-      solution.covariance = R * C->second * R.transpose();
-    }
+    graph::PlacedFrame solution{fleet.origin, node.frame(), T_enu_odom->second, Matrix6d::Zero(),
+                                std::ranges::count(nowhere, node.frame()) == 0};
+    if (const auto C = placement.covariance.find(node.id); C != placement.covariance.end())
+      solution.covariance = rotated(C->second, placement.T_enu_node.at(node.id).linear());
     job.solution = solution;
     return;
   }
+}
+
+std::optional<graph::PlacedFrame> LivePlacement::placed(const graph::FrameId& frame) const {
+  return solution_ && solution_->frame == frame ? solution_ : std::nullopt;
 }
 
 void LivePlacement::name(const std::map<AgentId, graph::Contradiction>& contradicting) {
@@ -113,7 +115,7 @@ void LivePlacement::name(const std::map<AgentId, graph::Contradiction>& contradi
 }
 
 void LivePlacement::publish(const graph::FrameId& frame, const output::StampedPose& odometry) {
-  if (!solution_ || solution_->frame != frame) return;
+  if (!solution_ || solution_->frame != frame || !solution_->georeferenced) return;
   const LocalFrame site(solution_->origin);
   const Pose T_enu_base = solution_->T_enu_odom * odometry.T_w_base;
   GlobalPose pose;

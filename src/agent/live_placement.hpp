@@ -11,6 +11,7 @@
 #include "fleetmap/agent/agent_config.hpp"
 #include "fleetmap/bus/bus.hpp"
 #include "fleetmap/graph/contradictions.hpp"
+#include "fleetmap/graph/placed_fleet.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 
 namespace fleetmap::agent {
@@ -33,14 +34,12 @@ class LivePlacement {
   double cpu_seconds() const { return cpu_seconds_; }
   /// Publishes the corrected pose for a pose of the odometry, once its frame is placed on Earth.
   void publish(const graph::FrameId& frame, const output::StampedPose& odometry);
+  /// A frame of this robot by the last solution; empty if it is not part of it.
+  std::optional<graph::PlacedFrame> placed(const graph::FrameId& frame) const;
+  /// The last solution; null before the first.
+  std::shared_ptr<const graph::PlacedFleet> fleet() const { return fleet_; }
 
  private:
-  struct Solution {
-    GeoPoint origin;
-    graph::FrameId frame;
-    Pose T_enu_odom = Pose::Identity();
-    Matrix6d covariance = Matrix6d::Zero();  ///< of the newest own node, axes of ENU: [m, rad]
-  };
   struct Job;
   /// Logs each agent that contradicts the fleet once.
   void name(const std::map<AgentId, graph::Contradiction>& contradicting);
@@ -58,7 +57,8 @@ class LivePlacement {
   Stamp paused_until_;
   std::optional<std::uint16_t> solved_session_;  ///< of the newest node in the last solution
   double cpu_seconds_ = 0.0;
-  std::optional<Solution> solution_;
+  std::optional<graph::PlacedFrame> solution_;
+  std::shared_ptr<const graph::PlacedFleet> fleet_;
   std::set<AgentId> named_;  ///< that contradict the fleet
 };
 

@@ -167,12 +167,11 @@ bool Navigator::stuck(Stamp now) const {
 }
 
 void Navigator::obey(const messages::HoldOrder& order) {
-  using Kind = messages::HoldOrder::Kind;
-  const bool hold = order.kind == Kind::kHold, home = order.kind == Kind::kHome;
+  const bool hold = order.stops(), home = order.calls_home();
   if (hold == guard_.held() && home == called_home_) return;
   guard_.set_held(hold);
   called_home_ = home;
-  const char* what = hold ? "held" : home ? "called home" : "let go";
+  const char* what = hold ? "held" : home ? "on its way home" : "let go";
   spdlog::warn("{}: {} by order of {}", self_.str(), what, order.issuer.str());
   watch();
 }

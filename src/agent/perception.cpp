@@ -57,8 +57,9 @@ void Perception::subscribe() {
   subscriptions_.push_back(
       bus_.subscribe(ros_codec::topics::tf_static(), [this](const Bytes& cdr) { on_transforms(cdr); }));
   const SensorTopics& names = config_.topics;
-  subscriptions_.push_back(bus_.subscribe(named(ros_codec::topics::points(), names.points),
-                                          [this](const Bytes& cdr) { on_scan(cdr); }));
+  bus::Topic points = named(ros_codec::topics::points(), names.points);
+  points.type = ros_codec::dds_name(names.points_type);
+  subscriptions_.push_back(bus_.subscribe(points, [this](const Bytes& cdr) { on_scan(cdr); }));
   on_sample<sensor::Imu>(named(ros_codec::topics::imu(), names.imu), sensor::Source::kImu, counters_.imu,
                          [this](const sensor::Imu& imu) {
                            ekf_.add(imu);
@@ -166,7 +167,7 @@ void Perception::start_next() {
                       if (job->q_base_imu) loam_.set_imu_rotation(*job->q_base_imu);
                       for (const sensor::Imu& imu : job->imu) loam_.add_imu(imu);
                       for (const sensor::Wheel& wheel : job->wheel) loam_.add_wheel(wheel);
-                      Result<ros_codec::DecodedScan> decoded = ros_codec::decode_scan(job->scan);
+                      auto decoded = ros_codec::decode_points(job->scan, config_.topics.points_type);
                       if (decoded) {
                         decoded->scan.stamp += job->clock_correction;
                         job->times_in_microseconds = decoded->times_in_microseconds;
@@ -199,8 +200,8 @@ void Perception::finish(Job& job) {
   if (job.update) {
     const odometry::OdometryUpdate& update = *job.update;
     report_loss(update);
-    bus_.publish(ros_codec::topics::odometry(), ros_codec::encode(ros_codec::OdometryMsg{
-                                                    update.stamp, update.T_odom_base, update.covariance}));
+    bus_.publish(ros_codec::topics::odometry(),
+                 ros_codec::encode(odometry_messages_.next(update, loam_counters_)));
     const localization::Filter& filter = ekf_.newest();
     const Eigen::Matrix3d R = filter.attitude_set ? filter.R : Eigen::Matrix3d(update.T_odom_base.linear());
     Perceived perceived{std::move(*job.update),

@@ -1,8 +1,11 @@
 #include "fleetmap/agent/sensor_mounts.hpp"
 
+#include <algorithm>
 #include <cstdio>
-#include <numbers>
+#include <iterator>
 #include <utility>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::agent {
 namespace {
@@ -10,7 +13,6 @@ namespace {
 using sensor::Source;
 
 constexpr char kBase[] = "base_link";
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// A drawing and a configuration are rounded by less.
 constexpr double kSamePlace = 0.01, kSameTurn = 0.5 * kDegree;  // m, rad
 constexpr std::array kPlaced{Source::kLidar, Source::kImu, Source::kGps};
@@ -47,7 +49,11 @@ std::string SensorMounts::name_of_frame(Source source) const {
 }
 
 void SensorMounts::add(const std::vector<sensor::FrameTransform>& transforms) {
-  frames_.add(transforms);
+  std::vector<sensor::FrameTransform> others;
+  std::ranges::copy_if(transforms, std::back_inserter(others),
+                       [this](const sensor::FrameTransform& one) { return !published(one); });
+  for (const sensor::FrameTransform& one : others) check_parent(one);
+  frames_.add(others);
   for (const std::string& refused : frames_.refused) warn("/tf_static: " + refused + "; it is left out");
   for (const Source source : kPlaced) {
     if (!of(source).decided) continue;
@@ -116,6 +122,35 @@ void SensorMounts::apply_to(PerceptionConfig& config) const {
   for (const Source source : kPlaced) {
     if (of(source).decided) apply_to(config, source);
   }
+}
+
+std::vector<sensor::FrameTransform> SensorMounts::take_unpublished(Stamp now) {
+  // A frame has one parent: who publishes it may start a moment later.
+  if (!waits_since_ || now - *waits_since_ < patience_) return {};
+  const std::size_t before = published_.size();
+  for (const Source source : kPlaced) {
+    const std::string id = sensor::FrameTree::name_of(frames_.ids[index(source)]);
+    const bool known = frames_.tree.has_parent(id) || frames_.tree.find(kBase, id).has_value();
+    const bool stated = std::ranges::find(published_, id, &sensor::FrameTransform::child) != published_.end();
+    if (!of(source).decided || !of(source).given || id.empty() || known || stated) continue;
+    const Pose& T = of(source).T_base_sensor;
+    published_.push_back({kBase, id, T.translation(), Eigen::Quaterniond(T.linear())});
+  }
+  return published_.size() > before ? published_ : std::vector<sensor::FrameTransform>();
+}
+
+bool SensorMounts::published(const sensor::FrameTransform& transform) const {
+  return std::ranges::any_of(published_, [&](const sensor::FrameTransform& own) {
+    return own.parent == transform.parent && own.child == transform.child &&
+           own.translation == transform.translation && own.rotation.coeffs() == transform.rotation.coeffs();
+  });
+}
+
+void SensorMounts::check_parent(const sensor::FrameTransform& transform) {
+  const std::string child = sensor::FrameTree::name_of(transform.child);
+  if (std::ranges::find(published_, child, &sensor::FrameTransform::child) == published_.end()) return;
+  warn("/tf_static: frame '" + child + "' has two publishers: another one came later, with the parent '" +
+       sensor::FrameTree::name_of(transform.parent) + "'. Start it before the agent, or set ros.tf: false");
 }
 
 std::string SensorMounts::summary(Source source) const {

@@ -1,8 +1,9 @@
+#include <iostream>
 #include <memory>
 
 #include "agent_run.hpp"
 #include "commands.hpp"
-#include "options.hpp"
+#include "validators.hpp"
 
 namespace fleetmap::apps {
 
@@ -19,7 +20,8 @@ void add_agent(CLI::App& app, int& exit_code) {
       ->needs(as)
       ->check(some_path());
   command
-      ->add_option("--record", options->record, "write the sensor topics as a rosbag2 bag into this folder")
+      ->add_option("--record", options->record,
+                   "write the sensor topics and the robot's own output as a rosbag2 bag into this folder")
       ->check(some_path());
   command
       ->add_option("--exit-after-idle", options->exit_after_idle,
@@ -29,7 +31,7 @@ void add_agent(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   add_page_options(*command, options->monitor, "with what this robot holds");
-  command->callback([options, &exit_code] { exit_code = run_agent(*options); });
+  command->callback([options, &exit_code] { exit_code = report(run_agent(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

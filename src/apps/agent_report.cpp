@@ -1,14 +1,13 @@
 #include "agent_report.hpp"
 
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 json misbehaved_json(const exchange::ExchangeStats& stats) {
   json by_robot = json::object();
@@ -70,6 +69,7 @@ json perception_json(const agent::Agent& agent) {
           {"waited_for_frames", counters.waited_for_frames},
           {"unclear_stamps", counters.unclear_stamps},
           {"repeated_scans", loam.refused_repeated},
+          {"odometry_updates", loam.updates},
           {"lost_scans", loam.lost},
           {"local_maps_begun_anew", loam.map_restarts},
           {"local_map_full", loam.map_overflows},

@@ -2,11 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 #include "agent_lifetime.hpp"
-#include "commands.hpp"
 #include "drive_watchdog.hpp"
 #include "fleetmap/agent/agent.hpp"
 #include "fleetmap/agent/navigator.hpp"
@@ -29,8 +28,10 @@
 #include "monitor_access.hpp"
 #include "options.hpp"
 #include "report.hpp"
+#include "ros_publisher.hpp"
 #include "sensor_recorder.hpp"
 #include "twin_setup.hpp"
+#include "version.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -56,7 +57,7 @@ Result<config::RobotConfig> member_of_fleet(const AgentOptions& options,
     if (member.agent.id.str() != options.as) continue;
     member.agent.directory = std::filesystem::path(options.out) / options.as;
     return config::RobotConfig{std::move(member.agent), std::nullopt, std::move(member.dds),
-                               std::move(member.recording)};
+                               std::move(member.recording), member.ros};
   }
   return failure(options.config + ": has no agent '" + options.as + "'");
 }
@@ -91,27 +92,44 @@ void log_keys(const bus::DdsBusConfig& dds) {
 
 /// Null without a folder.
 Result<std::unique_ptr<SensorRecorder>> recorder_into(const std::string& folder,
-                                                      const agent::SensorTopics& topics, bus::Bus& bus) {
+                                                      const config::RobotConfig& config, bus::Bus& bus) {
   if (folder.empty()) return std::unique_ptr<SensorRecorder>();
-  return SensorRecorder::create(folder, topics, bus);
+  return SensorRecorder::create(folder, config.agent.perception.topics, config.ros.publish, bus);
 }
 
-void print_map(const std::filesystem::path& directory, const output::Results& results) {
-  std::cout << (directory / "map.ply").string() << "  " << results.map.points << " points from "
-            << results.map.submaps << " submaps, " << results.missing_submaps << " missing, hash "
-            << results.map.hash << '\n';
+/// Null if it is switched off.
+std::unique_ptr<RosPublisher> ros_publisher_of(const ros_output::RosOutputConfig& config, agent::Agent& agent,
+                                               bus::DdsBus& bus, const LinkLog& log) {
+  if (!config.publish) return nullptr;
+  return std::make_unique<RosPublisher>(
+      agent, bus, config,
+      RosPublisher::Edges{
+          [&bus](const bus::Topic& topic) { return bus.matches(topic).readers; },
+          [&bus](std::function<void()> work, std::function<void()> done) {
+            return bus.offload(bus::Lane::kBackground, {"ROS 2 map", std::move(work)}, std::move(done));
+          },
+          [&log] { return log.last_heard(); }});
 }
 
-/// Writes the map and the report of an agent whose work has ended; the exit code.
-int write_outcome(const config::RobotConfig& config, agent::Agent& agent, const bus::DdsBus& bus) {
+void print_map(std::ostream& out, const std::filesystem::path& directory, const output::Results& results) {
+  out << (directory / "map.ply").string() << "  " << results.map.points << " points from "
+      << results.map.submaps << " submaps, " << results.missing_submaps << " missing, hash "
+      << results.map.hash << '\n';
+}
+
+/// Writes the map and the report of an agent whose work has ended.
+CommandResult<ExitCode> write_outcome(const config::RobotConfig& config, agent::Agent& agent,
+                                      const bus::DdsBus& bus, const AgentOptions& options,
+                                      std::ostream& out) {
   const auto results = output::write_results(agent.store(), agent.config().results());
   if (!results) spdlog::warn("{}", results.error().message);
-  const Status written = write_report(config.agent.directory, agent, results ? &*results : nullptr,
-                                      radio_access(config.dds, bus), bus.stalls());
-  if (!written) return report(written.error(), kFailed);
-  if (results) print_map(config.agent.directory, *results);
+  const Status written = write_report(agent, results ? &*results : nullptr, radio_access(config.dds, bus),
+                                      bus.stalls(), {kVersion, options.config, options.set});
+  if (!written) return exit_with(kFailed, written.error());
+  if (results) print_map(out, config.agent.directory, *results);
+  out << "report: " << (config.agent.directory / "report.html").string() << '\n';
   if (const std::string lost = lost_ways(agent.perception().odometry_counters()); !lost.empty())
-    std::cout << lost << '\n';
+    out << lost << '\n';
   if (results && results->missing_submaps > 0) {
     spdlog::warn(
         "{} submaps are missing: their robots were out of reach; run the agent again near one that has them",
@@ -122,31 +140,32 @@ int write_outcome(const config::RobotConfig& config, agent::Agent& agent, const 
 
 }  // namespace
 
-int run_agent(const AgentOptions& options) {
+CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out) {
   const auto overrides = parse_overrides(options.set);
-  if (!overrides) return report(overrides.error(), kUsage);
+  if (!overrides) return exit_with(kUsage, overrides.error());
   const auto page_config = config_of_page(options.monitor);
-  if (!page_config) return report(page_config.error(), kUsage);
+  if (!page_config) return exit_with(kUsage, page_config.error());
   auto config =
       options.as.empty() ? robot_of_its_own(options, *overrides) : member_of_fleet(options, *overrides);
-  if (!config) return report(config.error(), kBadConfiguration);
+  if (!config) return exit_with(kBadConfiguration, config.error());
   config->agent.perception.frame_patience = agent::kFramePatience;
   auto bus = join_dds(config->dds);
-  if (!bus) return report(bus.error(), kBadConfiguration);
+  if (!bus) return exit_with(kBadConfiguration, bus.error());
   for (const std::string& warning : config::peer_warnings(config->dds, config->agent.exchange))
     spdlog::warn("{}: {}", config->agent.id.str(), warning);
   log_keys(config->dds);
   auto agent = agent::Agent::create(config->agent, **bus);
-  if (!agent) return report(agent.error(), kFailed);
+  if (!agent) return exit_with(kFailed, agent.error());
   auto log = LinkLog::open(config->agent.directory, config->agent.id);
-  if (!log) return report(log.error(), kFailed);
-  const auto recorder = recorder_into(options.record, config->agent.perception.topics, **bus);
-  if (!recorder) return report(recorder.error(), kFailed);
-  const auto lidar = publish_velodyne(config->agent.perception, **bus);
-  if (!lidar) return report(lidar.error(), kFailed);
+  if (!log) return exit_with(kFailed, log.error());
+  const auto recorder = recorder_into(options.record, *config, **bus);
+  if (!recorder) return exit_with(kFailed, recorder.error());
+  const auto lidar = publish_lidar(config->agent.perception, **bus);
+  if (!lidar) return exit_with(kFailed, lidar.error());
   const auto devices = publish_devices(config->agent.perception, **bus);
   const auto page = page_of_robot(*page_config, config->agent.directory);
-  if (!page) return report(page.error(), kFailed);
+  if (!page) return exit_with(kFailed, page.error());
+  const auto ros = ros_publisher_of(config->ros, **agent, **bus, *log);
   spdlog::info("{}: ready, store {}", config->agent.id.str(),
                (config->agent.directory / "store.db").string());
   std::optional<DriveWatchdog> watchdog;
@@ -166,7 +185,7 @@ int run_agent(const AgentOptions& options) {
   // Work under way uses the agent; it must have ended before the agent goes.
   (*agent)->stop();
   (*bus)->finish_work();
-  return write_outcome(*config, **agent, **bus);
+  return write_outcome(*config, **agent, **bus, options, out);
 }
 
 }  // namespace fleetmap::apps

@@ -1,24 +1,13 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include <iosfwd>
 
-#include "monitor_access.hpp"
+#include "agent_options.hpp"
+#include "command_result.hpp"
 
 namespace fleetmap::apps {
 
-/// One robot over DDS, as the command line has it.
-struct AgentOptions {
-  std::string config;            ///< AGENT.yaml, or FLEET.yaml with `as`
-  std::string record;            ///< folder of the bag to write; empty: none
-  std::string as;                ///< agent of the fleet; empty: the file has one robot
-  std::string out = ".";         ///< with `as`: parent of the agent's folder
-  double exit_after_idle = 0.0;  ///< s; 0: never
-  std::vector<std::string> set;  ///< key=value
-  MonitorAccess monitor;
-};
-
-/// Runs it until it is stopped, then writes its map and report. Returns the exit code; errors are printed.
-int run_agent(const AgentOptions& options);
+/// Runs a robot until it is stopped, then writes its map and report and prints a line on the map to `out`.
+CommandResult<ExitCode> run_agent(const AgentOptions& options, std::ostream& out);
 
 }  // namespace fleetmap::apps

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
-#include "fleetmap/core/result.hpp"
+namespace CLI {
+class App;
+}
 
 namespace fleetmap::apps {
-
-/// Exit codes that scripts rely on.
-enum ExitCode : int { kDone = 0, kFailed = 1, kUsage = 2, kBadConfiguration = 78 };
 
 /// Each adds its subcommand; when it is chosen, its exit code goes to `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
@@ -18,6 +15,7 @@ void add_sim(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_odometry(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 void add_experiment(CLI::App& app, int& exit_code);
@@ -30,8 +28,5 @@ void add_eval(CLI::App& app, int& exit_code);
 void add_monitor(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_fuzz_fleet(CLI::App& app, int& exit_code);
-
-/// Prints the error for a person and gives the code to exit with.
-int report(const Error& error, ExitCode code);
 
 }  // namespace fleetmap::apps

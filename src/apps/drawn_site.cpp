@@ -3,19 +3,13 @@
 #include <fstream>
 #include <iomanip>
 #include <iterator>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/planning/site/geojson.hpp"
 
 namespace fleetmap::apps {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-}  // namespace
-
 std::optional<GeoPoint> first_position_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return planning::first_position({std::istreambuf_iterator<char>(in), {}});

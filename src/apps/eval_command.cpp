@@ -1,51 +1,20 @@
-#include <filesystem>
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "commands.hpp"
-#include "fleetmap/core/paths.hpp"
-#include "fleetmap/run_evaluation/evaluation.hpp"
-#include "fleetmap/run_evaluation/evaluation_summary.hpp"
-#include "options.hpp"
+#include "run_measurement.hpp"
 
 namespace fleetmap::apps {
 namespace {
-
-struct EvalOptions {
-  std::string directory;
-  run_evaluation::EvaluationInputs inputs;
-  bool no_pictures = false;
-  std::vector<std::string> modes{"all"};
-  bool no_overlap = false;
-};
 
 /// Values that --modes accepts.
 std::set<std::string> mode_choices() {
   std::set<std::string> choices = run_evaluation::mode_names();
   choices.insert({"all", "none"});
   return choices;
-}
-
-int run(EvalOptions& options) {
-  options.inputs.pictures = !options.no_pictures;
-  options.inputs.modes = {options.modes.begin(), options.modes.end()};
-  if (options.inputs.modes.contains("all")) options.inputs.modes = run_evaluation::mode_names();
-  options.inputs.modes.erase("none");
-  options.inputs.overlap = !options.no_overlap;
-  if (is_folder(options.directory)) {
-    if (const Status writable = check_writable(options.directory); !writable)
-      return report(writable.error(), kFailed);
-  }
-  const auto evaluation = run_evaluation::evaluate_run(options.directory, options.inputs);
-  if (!evaluation) return report(evaluation.error(), kFailed);
-  run_evaluation::print_summary(std::cout, options.directory, *evaluation);
-  if (!run_evaluation::measured_anything(*evaluation))
-    return report({options.directory + ": nothing could be measured, see the notes"}, kFailed);
-  return kDone;
 }
 
 }  // namespace
@@ -85,7 +54,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       "register the run's loop candidates anew with this program, by the run's own method too: what "
       "another version of fleetmap would have made of the same clouds");
   command->add_flag("--no-overlap", options->no_overlap, "not what two robots saw");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = report(measure_run(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

@@ -1,21 +1,11 @@
+#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
-#include "fleetmap/experiment/run_case.hpp"
-#include "grid_command.hpp"
-#include "options.hpp"
+#include "twin_grid.hpp"
+#include "validators.hpp"
 
 namespace fleetmap::apps {
-namespace {
-
-int run(const GridOptions& options) {
-  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-  return run_grid(options, [&](const std::atomic<bool>& stop) {
-    return experiment::ChildEngine(stop, std::max(1U, cores / options.jobs));
-  });
-}
-
-}  // namespace
 
 void add_experiment(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<GridOptions>();
@@ -25,7 +15,7 @@ void add_experiment(CLI::App& app, int& exit_code) {
   command->add_option("--jobs", options->jobs, "cases at a time, each a process of its own; else one a core")
       ->check(whole_number(1, 1024));
   add_grid_options(*command, *options);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = report(run_grid_in_twin(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <memory>
+#include <ostream>
 
-#include "commands.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "fleetmap/config/fleet_file.hpp"
 #include "fleetmap/config/override.hpp"
 #include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/output/trajectory_file.hpp"
 #include "live_monitor.hpp"
 #include "options.hpp"
@@ -23,6 +23,7 @@
 #include "twin_feed.hpp"
 #include "twin_results.hpp"
 #include "twin_setup.hpp"
+#include "version.hpp"
 #include "virtual_fleet.hpp"
 
 namespace fleetmap::apps {
@@ -73,9 +74,7 @@ Result<std::unique_ptr<FleetFeed>> feed_of(config::FleetConfig& config, const Ru
     const auto prepared = prepare(member.recording->path, member.recording->reader, member.agent.perception);
     if (!prepared) return tl::unexpected(prepared.error());
     log_clocks.push_back(prepared->log_clock);
-    for (const std::string& mount : prepared->mounts) spdlog::info("{}: {}", member.agent.id.str(), mount);
-    for (const std::string& finding : prepared->findings)
-      spdlog::warn("{}: {}", member.agent.id.str(), finding);
+    log_preparation(*prepared, member.agent.id.str());
   }
   return RecordingFeed::create(recordings, log_clocks, config.members.front().agent.site_origin);
 }
@@ -91,12 +90,16 @@ Result<std::vector<output::Trajectory>> write_truths(const TwinFeed* twin, const
   return truths;
 }
 
-/// Writes the report, prints the summary and returns the exit code.
-int report_outcome(const FleetOutcome& outcome, const RunProfile& profile, const std::string& out) {
-  if (const Status written = write_report(out, outcome, profile); !written)
-    return report(written.error(), kFailed);
-  print_summary(std::cout, outcome, out);
-  std::cout << summary_of(profile) << '\n';
+/// Writes the report into `folder` and prints the summary.
+CommandResult<ExitCode> report_outcome(const FleetOutcome& outcome, const RunProfile& profile,
+                                       const RunOptions& options, std::ostream& out) {
+  RunSettings settings{kVersion, options.config, options.set};
+  for (const std::string& recording : options.recordings) append_to_list(settings.configuration, recording);
+  const std::string& folder = options.out;
+  if (const Status written = write_report(folder, outcome, profile, settings); !written)
+    return exit_with(kFailed, written.error());
+  print_summary(out, outcome, folder);
+  out << summary_of(profile) << '\n';
   const bool whole = std::ranges::all_of(outcome.agents, [](const auto& entry) {
     return (entry.results || !entry.agent) && entry.problem.empty();
   });
@@ -105,21 +108,21 @@ int report_outcome(const FleetOutcome& outcome, const RunProfile& profile, const
 
 }  // namespace
 
-int run_fleet(const RunOptions& options) {
+CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out) {
   if (options.config.empty() == options.recordings.empty()) {
-    return report({"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"},
-                  kUsage);
+    return exit_with(
+        kUsage, {"fleetmap run: give either -c FLEET.yaml or --recording NAME=PATH (once for each robot)"});
   }
   const auto overrides = parse_overrides(options.set);
-  if (!overrides) return report(overrides.error(), kUsage);
+  if (!overrides) return exit_with(kUsage, overrides.error());
   const auto page_config = config_of_page(options.monitor);
-  if (!page_config) return report(page_config.error(), kUsage);
+  if (!page_config) return exit_with(kUsage, page_config.error());
   auto config = fleet_config(options, *overrides);
-  if (!config) return report(config.error(), kBadConfiguration);
+  if (!config) return exit_with(kBadConfiguration, config.error());
   if (options.agents && *options.agents > config->members.size()) {
-    return report({"--agents " + std::to_string(*options.agents) + ": " + options.config + " has only " +
-                   std::to_string(config->members.size()) + " agents; give at most so many"},
-                  kUsage);
+    return exit_with(kUsage,
+                     {"--agents " + std::to_string(*options.agents) + ": " + options.config + " has only " +
+                      std::to_string(config->members.size()) + " agents; give at most so many"});
   }
   if (options.agents) config->keep_first(*options.agents);
   const auto start = std::chrono::steady_clock::now();
@@ -130,29 +133,29 @@ int run_fleet(const RunOptions& options) {
   const int every = config->twin ? config->twin->mission.rows.every : 1;
   std::optional<TwinSetup> setup;
   auto feed = feed_of(*config, options, setup);
-  if (!feed) return report(feed.error(), config->twin ? kBadConfiguration : kFailed);
+  if (!feed) return exit_with(config->twin ? kBadConfiguration : kFailed, feed.error());
   const auto* twin = dynamic_cast<const TwinFeed*>(feed->get());
   auto fleet =
       VirtualFleet::create(std::move(*config), std::move(*feed), options.out, record, options.first_session);
-  if (!fleet) return report(fleet.error(), kFailed);
+  if (!fleet) return exit_with(kFailed, fleet.error());
   if (setup) {
     Status written = write_truth_cloud(options.out, *setup->world);
     if (written) written = write_site(options.out, *setup);
-    if (!written) return report(written.error(), kFailed);
+    if (!written) return exit_with(kFailed, written.error());
   }
   const auto page = page_of_run(*page_config, options.out);
-  if (!page) return report(page.error(), kFailed);
+  if (!page) return exit_with(kFailed, page.error());
   if (*page) (*fleet)->show_on((*page)->server());
   const double cpu_before = process_cpu_seconds();
   auto outcome = (*fleet)->run();
-  if (!outcome) return report(outcome.error(), kFailed);
+  if (!outcome) return exit_with(kFailed, outcome.error());
   const auto truths = write_truths(twin, *outcome);
-  if (!truths) return report(truths.error(), kFailed);
+  if (!truths) return exit_with(kFailed, truths.error());
   if (setup && outcome->completion && on_own_drawing)
     outcome->completion->lane_share = share_of_lanes_driven(*setup->world, every, *truths);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const RunProfile profile = profile_of(*outcome, cpu_before, process_cpu_seconds(), wall.count());
-  return report_outcome(*outcome, profile, options.out);
+  return report_outcome(*outcome, profile, options, out);
 }
 
 }  // namespace fleetmap::apps

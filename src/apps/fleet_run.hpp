@@ -1,32 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <thread>
-#include <vector>
+#include <iosfwd>
 
-#include "monitor_access.hpp"
+#include "command_result.hpp"
+#include "run_options.hpp"
 
 namespace fleetmap::apps {
 
-/// A fleet in virtual time, as the command line has it.
-struct RunOptions {
-  std::string config;                   ///< FLEET.yaml, or
-  std::vector<std::string> recordings;  ///< NAME=PATH of each robot
-  std::string out;
-  std::string record;                 ///< folder of the bags to write; empty: none
-  std::optional<std::size_t> agents;  ///< the first so many of the file
-  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-  std::uint16_t first_session = 0;
-  std::vector<std::string> set;  ///< key=value
-  MonitorAccess monitor;
-};
-
-/// Runs the fleet and writes maps, trajectories, the twin's truth and the report. Returns the exit code;
-/// errors are printed.
-int run_fleet(const RunOptions& options);
+/// Runs the fleet, writes maps, trajectories, the twin's truth and the report, and prints a summary to `out`.
+/// kFailed if an agent has no results or its recording could not be read to its end.
+CommandResult<ExitCode> run_fleet(const RunOptions& options, std::ostream& out);
 
 }  // namespace fleetmap::apps

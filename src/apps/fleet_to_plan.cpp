@@ -1,8 +1,9 @@
 #include "fleet_to_plan.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <sstream>
 
 #include "drawn_site.hpp"
@@ -12,13 +13,12 @@
 #include "fleetmap/config/robot_config.hpp"
 #include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "mission_setup.hpp"
 #include "twin_setup.hpp"
 
 namespace fleetmap::apps {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// An agent's file may be planned with before it has the origin of ENU: then at the drawing's first position.
 Result<config::RobotConfig> robot_of(const std::string& site, const std::string& file,
@@ -53,7 +53,7 @@ Result<FleetToPlan> fleet_to_plan(const std::string& site, const std::string& fi
     FleetToPlan fleet{*settings, {}, std::nullopt};
     for (std::size_t k = 1; k <= agents; ++k) {
       planning::RobotAbility& robot = fleet.robots.emplace_back();
-      robot.id = *AgentId::parse("r" + std::to_string(k));
+      robot.id = *AgentId::parse(fmt::format("r{}", k));
       robot.speed = fleet.settings.speed;
     }
     return fleet;

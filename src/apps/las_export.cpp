@@ -9,11 +9,26 @@
 
 #include "fleetmap/graph/frame_name.hpp"
 #include "fleetmap/output/las_map.hpp"
-#include "fleetmap/output/map_parts.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
 namespace {
+
+void print(std::ostream& out, const output::WrittenLas& written, const std::string& path,
+           const output::MapCrs& crs, const LasOptions& options) {
+  out << path << ": ";
+  if (options.tile_m) out << written.files << " files of " << *options.tile_m << " m, ";
+  out << written.points << " points from " << written.outline.submaps << " submaps\n" << crs.text() << '\n';
+  if (crs.name() != "enu") {
+    out << "Scale at the origin: " << std::fixed << std::setprecision(6) << crs.scale()
+        << " (lengths in it over lengths on the ellipsoid).\n";
+  }
+  if (written.left_out > 0)
+    std::cerr << written.left_out << " points are not finite or too far away and are left out\n";
+  name_unreadable(written.outline);
+}
+
+}  // namespace
 
 Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace& place,
                               const std::string& store) {
@@ -30,21 +45,6 @@ Result<output::MapCrs> crs_of(const LasOptions& options, const output::MapPlace&
   return crs;
 }
 
-void print(const output::WrittenLas& written, const std::string& out, const output::MapCrs& crs,
-           const LasOptions& options) {
-  std::cout << out << ": ";
-  if (options.tile_m) std::cout << written.files << " files of " << *options.tile_m << " m, ";
-  std::cout << written.points << " points from " << written.outline.submaps << " submaps\n"
-            << crs.text() << '\n';
-  if (crs.name() != "enu") {
-    std::cout << "Scale at the origin: " << std::fixed << std::setprecision(6) << crs.scale()
-              << " (lengths in it over lengths on the ellipsoid).\n";
-  }
-  if (written.left_out > 0)
-    std::cerr << written.left_out << " points are not finite or too far away and are left out\n";
-  name_unreadable(written.outline);
-}
-
 void name_parts_apart(const output::MapParts& parts) {
   for (const output::MapPart& part : parts.apart) {
     std::cerr << "not in it, for nobody knows where to lay them:";
@@ -53,24 +53,22 @@ void name_parts_apart(const output::MapParts& parts) {
   }
 }
 
-}  // namespace
-
-bool wants_las(const std::string& out, const LasOptions& options) {
-  std::string extension = std::filesystem::path(out).extension();
+bool wants_las(const std::string& path, const LasOptions& options) {
+  std::string extension = std::filesystem::path(path).extension();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return options.tile_m || extension == ".las";
 }
 
-Status export_las(StoredMap& map, const std::string& store, const std::string& out,
-                  const LasOptions& options) {
+Status export_las(StoredMap& map, const std::string& store, const std::string& path,
+                  const LasOptions& options, std::ostream& out) {
   const output::MapParts parts = output::map_parts(map.items.nodes, map.placement);
   const auto crs = crs_of(options, {map.recipe.origin, parts.main.georeferenced}, store);
   if (!crs) return tl::unexpected(crs.error());
-  const output::LasMapConfig config{out, options.tile_m, std::string("fleetmap ") + kVersion};
+  const output::LasMapConfig config{path, options.tile_m, std::string("fleetmap ") + kVersion};
   const auto written = output::write_las(map.store, parts.main.T_map_node, map.recipe.merge, *crs, config);
   if (!written) return tl::unexpected(written.error());
-  print(*written, out, *crs, options);
+  print(out, *written, path, *crs, options);
   name_parts_apart(parts);
   return {};
 }

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fleetmap/cloud/codec.hpp"
-#include "fleetmap/output/robot_folders.hpp"
+#include "fleetmap/output/registrations_file.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -18,38 +18,38 @@ constexpr std::chrono::milliseconds kPeriod{2000};
 constexpr int kPauseFactor = 20;  // of the time that a reading takes
 
 /// Sizes and times of the files that a view is made of. SQLite writes to the log beside the store first.
-std::string fingerprint(const std::vector<fs::path>& folders) {
+std::string fingerprint(const std::vector<fs::path>& stores) {
   std::ostringstream print;
-  for (const fs::path& folder : folders) {
-    for (const char* name : {"store.db", "store.db-wal", "registrations.csv"}) {
+  for (const fs::path& store : stores) {
+    for (const fs::path& file :
+         {store, fs::path(store.string() + "-wal"), store.parent_path() / output::kRegistrationsFile}) {
       std::error_code missing;
-      const auto bytes = fs::file_size(folder / name, missing);
+      const auto bytes = fs::file_size(file, missing);
       if (missing) continue;
-      const auto time = fs::last_write_time(folder / name, missing);
-      print << folder.string() << '/' << name << ' ' << bytes << ' ' << time.time_since_epoch().count()
-            << '\n';
+      const auto time = fs::last_write_time(file, missing);
+      print << file.string() << ' ' << bytes << ' ' << time.time_since_epoch().count() << '\n';
     }
   }
   return std::move(print).str();
 }
 
 Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::ServerConfig>& config,
-                                               LiveMonitor::Folders folders, LiveMonitor::Read read) {
+                                               LiveMonitor::Stores stores, LiveMonitor::Read read) {
   if (!config) return nullptr;
   monitor::ServerConfig beside_robots = *config;
   beside_robots.background = true;
-  auto page = LiveMonitor::start(beside_robots, std::move(folders), std::move(read), true);
+  auto page = LiveMonitor::start(beside_robots, std::move(stores), std::move(read), true);
   if (page) spdlog::info("page: open {} in a browser", (*page)->server().url());
   return page;
 }
 
 }  // namespace
 
-LiveMonitor::LiveMonitor(Folders folders, Read read) : folders_(std::move(folders)), read_(std::move(read)) {}
+LiveMonitor::LiveMonitor(Stores stores, Read read) : stores_(std::move(stores)), read_(std::move(read)) {}
 
-Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerConfig& config, Folders folders,
+Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerConfig& config, Stores stores,
                                                         Read read, bool patient) {
-  auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(folders), std::move(read)));
+  auto live = std::unique_ptr<LiveMonitor>(new LiveMonitor(std::move(stores), std::move(read)));
   const auto load = [self = live.get()](const NodeId& id) -> Result<cloud::PointCloud> {
     const auto encoded = [&]() -> Result<Bytes> {
       const std::lock_guard reading(self->reading_);
@@ -66,7 +66,10 @@ Result<std::unique_ptr<LiveMonitor>> LiveMonitor::start(const monitor::ServerCon
   auto server = monitor::Server::start(with_previews, load);
   if (!server) return tl::unexpected(server.error());
   live->server_ = std::move(*server);
-  if (const Status shown = live->show_if_changed(); !shown && !patient) return tl::unexpected(shown.error());
+  if (const Status shown = live->show_if_changed(); !shown) {
+    if (!patient) return tl::unexpected(shown.error());
+    live->failed_ = shown.error().message;  // not worth a line: the robots have only begun
+  }
   live->thread_ = std::thread([self = live.get()] { self->follow(); });
   return live;
 }
@@ -98,11 +101,11 @@ void LiveMonitor::follow() {
 
 Status LiveMonitor::show_if_changed() {
   // Before the files are read: what is written meanwhile is read the next time.
-  std::string print = fingerprint(folders_());
+  std::string print = fingerprint(stores_());
   if (print == shown_) return {};
   auto run = read_();
-  shown_ = std::move(print);
   if (!run) return tl::unexpected(run.error());
+  shown_ = std::move(print);
   {
     const std::lock_guard lock(mutex_);
     store_ = std::move(run->store);
@@ -113,14 +116,15 @@ Status LiveMonitor::show_if_changed() {
 
 Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::ServerConfig>& config,
                                                    const fs::path& folder) {
+  const fs::path file = folder / "store.db";
   return open_page(
-      config, [folder] { return std::vector{folder}; }, [folder] { return open_one(folder / "store.db"); });
+      config, [file] { return std::vector{file}; }, [file] { return open_one(file); });
 }
 
 Result<std::unique_ptr<LiveMonitor>> page_of_run(const std::optional<monitor::ServerConfig>& config,
                                                  const fs::path& directory) {
   return open_page(
-      config, [directory] { return output::robot_folders(directory, "store.db"); },
+      config, [directory] { return robot_stores(directory); },
       [directory] { return open_run(directory, ""); });
 }
 

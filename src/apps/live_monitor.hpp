@@ -21,11 +21,12 @@ namespace fleetmap::apps {
 class LiveMonitor {
  public:
   using Read = std::function<Result<ShownRun>()>;
-  using Folders = std::function<std::vector<std::filesystem::path>()>;
+  using Stores = std::function<std::vector<std::filesystem::path>()>;
 
-  /// `folders`: of the robots whose stores are watched. A reading that fails later leaves what was shown.
+  /// `stores`: the files that are watched, if there are any yet. A reading that fails later leaves what was
+  /// shown, and is tried again.
   /// Fails if the address cannot be listened on, or, unless `patient`, if there is nothing to show yet.
-  static Result<std::unique_ptr<LiveMonitor>> start(const monitor::ServerConfig& config, Folders folders,
+  static Result<std::unique_ptr<LiveMonitor>> start(const monitor::ServerConfig& config, Stores stores,
                                                     Read read, bool patient);
   ~LiveMonitor();
   LiveMonitor(const LiveMonitor&) = delete;
@@ -34,19 +35,19 @@ class LiveMonitor {
   monitor::Server& server() const { return *server_; }
 
  private:
-  LiveMonitor(Folders folders, Read read);
+  LiveMonitor(Stores stores, Read read);
   void follow();
   Status show_if_changed();
 
-  const Folders folders_;
+  const Stores stores_;
   const Read read_;
   std::mutex mutex_;  ///< of `stop_` and `store_`
   std::condition_variable stopped_;
   bool stop_ = false;
   std::mutex reading_;  ///< of the store that is shown, whose submaps are decoded on several threads
   std::shared_ptr<store::Store> store_;
-  std::string shown_;   ///< fingerprint of the files that were read last
-  std::string failed_;  ///< why the last reading failed, which is said once
+  std::optional<std::string> shown_;  ///< fingerprint of the files that are shown; none before the first
+  std::string failed_;                ///< why the last reading failed, which is said once
   std::unique_ptr<monitor::Server> server_;
   std::thread thread_;
 };

@@ -1,60 +1,15 @@
 #include "live_publisher.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 
+#include "fleet_now.hpp"
 #include "fleetmap/agent/navigator.hpp"
-#include "robots_now.hpp"
 
 namespace fleetmap::apps {
 namespace {
 
-constexpr Duration kNoScan = std::chrono::seconds(5);
 constexpr std::array<const char*, exchange::kPriorities> kPriorityNames{"safety", "control",  "news",
                                                                         "state",  "backfill", "cloud"};
-
-std::vector<std::string> problems_of(const agent::Agent& agent, Stamp now) {
-  std::vector<std::string> problems;
-  const agent::Perception& perception = agent.perception();
-  if (const Duration silence = now - perception.last_scan(); silence > kNoScan)
-    problems.push_back(fmt::format("no scan for {:.0f} s", to_seconds(silence)));
-  if (const auto& loam = perception.odometry_counters(); loam.lost > 0)
-    problems.push_back(fmt::format("the odometry could not match {} scans", loam.lost));
-  if (const auto dropped = perception.counters().dropped_scans; dropped > 0)
-    problems.push_back(fmt::format("{} scans were dropped, since the odometry is too slow", dropped));
-  if (const auto failures = agent.store_failures(); failures > 0)
-    problems.push_back(fmt::format("the disk refused {} writes", failures));
-  return problems;
-}
-
-void add_mission(const agent::Navigator& navigator, FleetNow& fleet) {
-  const planning::MissionExecutive& mission = navigator.executive();
-  for (messages::MissionReport& report : mission.heard_reports()) {
-    const AgentId from = report.from;
-    fleet.reports.emplace(from, std::move(report));
-  }
-  fleet.reports.insert_or_assign(fleet.self, mission.report());
-  fleet.rows = mission.plan().mission.rows;
-  if (const auto reason = navigator.stop_reason()) fleet.stop_reason = to_string(*reason);
-}
-
-FleetNow fleet_now(const agent::Agent& agent, const LivePublisher::LastHeard& last_heard, Stamp now) {
-  const exchange::Exchange& exchange = agent.exchange();
-  FleetNow fleet;
-  fleet.self = agent.config().id;
-  fleet.fleet = agent.config().exchange.fleet;
-  fleet.now = now;
-  fleet.statuses = exchange.statuses();
-  fleet.driving = exchange.driving();
-  fleet.orders = exchange.hold_orders();
-  fleet.row_orders = exchange.row_orders();
-  fleet.heard = last_heard;
-  fleet.misbehaved = exchange.stats().misbehaved;
-  fleet.problems[fleet.self] = problems_of(agent, now);
-  if (agent.navigator() != nullptr) add_mission(*agent.navigator(), fleet);
-  return fleet;
-}
 
 /// Passes an order on. Stamp zero: it replaces all others.
 void give(agent::Agent& agent, const AgentId& issuer, const monitor::OrderRequest& request) {
@@ -68,12 +23,6 @@ void give(agent::Agent& agent, const AgentId& issuer, const monitor::OrderReques
                     : request.kind == Request::kHome ? Kind::kHome
                                                      : Kind::kResume;
   agent.give_order(messages::HoldOrder{{}, robot, issuer, kind});
-}
-
-double lost_after(const agent::Agent& agent) {
-  if (agent.navigator() != nullptr) return agent.navigator()->executive().plan().config.executive.lost_after;
-  const exchange::ExchangeConfig& config = agent.config().exchange;
-  return to_seconds(exchange::for_fleet(config.reconcile.peer_timeout, config));
 }
 
 void add_missing_submaps(const store::Store& store, double rate, monitor::RadioNow& radio) {
@@ -120,9 +69,8 @@ void LivePublisher::publish(const std::vector<bus::HeardTraffic>& heard, const L
   for (const agent::Agent* other : others)
     fleet.problems[other->config().id] = problems_of(*other, bus_.now());
   status.robots = robots_now(fleet);
-  status.sensors = sensors();
+  status.sensors = sensors_.add(agent_.perception(), bus_.now());
   status.radio = radio(heard);
-  published_ = bus_.now();
   server_.publish(std::make_shared<const monitor::LiveStatus>(std::move(status)));
 }
 
@@ -144,23 +92,6 @@ monitor::RadioNow LivePublisher::radio(const std::vector<bus::HeardTraffic>& hea
   }
   add_missing_submaps(agent_.store(), rates_.submap_rate(), radio);
   return radio;
-}
-
-std::vector<monitor::SensorNow> LivePublisher::sensors() {
-  const agent::PerceptionCounters& counters = agent_.perception().counters();
-  const std::array<std::uint64_t, sensor::kSources> samples{counters.scans, counters.imu, counters.fixes,
-                                                            counters.wheel};
-  const double elapsed = published_ ? to_seconds(bus_.now() - *published_) : 0.0;
-  std::vector<monitor::SensorNow> sensors;
-  for (std::size_t k = 0; k < sensor::kSources; ++k) {
-    const auto source = static_cast<sensor::Source>(k);
-    const auto more = static_cast<double>(samples[k] - samples_[k]);
-    sensors.push_back({sensor::to_string(source), samples[k], elapsed > 0.0 ? more / elapsed : 0.0,
-                       agent_.perception().clock_offsets().behind(source),
-                       agent_.perception().clock_offsets().slow_ppm(source)});
-  }
-  samples_ = samples;
-  return sensors;
 }
 
 }  // namespace fleetmap::apps

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +10,7 @@
 #include "fleetmap/monitor/server.hpp"
 #include "link_log.hpp"
 #include "radio_rates.hpp"
+#include "sensor_rates.hpp"
 
 namespace fleetmap::apps {
 
@@ -36,15 +35,13 @@ class LivePublisher {
 
  private:
   monitor::RadioNow radio(const std::vector<bus::HeardTraffic>& heard);
-  std::vector<monitor::SensorNow> sensors();
 
   agent::Agent& agent_;
   bus::Bus& bus_;
   monitor::Server& server_;
   std::string who_may_join_;
   RadioRates rates_;
-  std::array<std::uint64_t, sensor::kSources> samples_{};  ///< at the last call
-  std::optional<Stamp> published_;
+  SensorRates sensors_;
 };
 
 }  // namespace fleetmap::apps

@@ -4,16 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "command_result.hpp"
 #include "commands.hpp"
 #include "manual.hpp"
 #include "version.hpp"
 
 namespace fleetmap::apps {
-
-int report(const Error& error, ExitCode code) {
-  std::cerr << error.message << '\n';
-  return code;
-}
 
 namespace {
 
@@ -34,6 +30,7 @@ int run(int argc, char** argv) {
   add_replay(app, exit_code);
   add_odometry(app, exit_code);
   add_inspect(app, exit_code);
+  add_calibrate(app, exit_code);
   add_doctor(app, exit_code);
   add_register(app, exit_code);
   add_map(app, exit_code);

@@ -1,41 +1,12 @@
 // `fleetmap map diff`: what changed on a site between two days.
 #include <iostream>
 #include <memory>
-#include <string>
 
-#include "commands.hpp"
-#include "day_changes.hpp"
-#include "fleetmap/change/change_files.hpp"
-#include "fleetmap/core/whole_file.hpp"
+#include "day_comparison.hpp"
 #include "map_subcommands.hpp"
-#include "options.hpp"
+#include "validators.hpp"
 
 namespace fleetmap::apps {
-namespace {
-
-struct DiffOptions {
-  std::string before, after;
-  std::string geojson, ply;
-};
-
-int diff(const DiffOptions& options) {
-  const auto compared = changes_between(options.before, options.after);
-  if (!compared) return report(compared.error(), kFailed);
-  print_changes(std::cout, *compared);
-  if (!options.ply.empty()) {
-    if (const Status written = change::write_coloured(options.ply, compared->changes); !written)
-      return report(written.error(), kFailed);
-  }
-  if (options.geojson.empty()) return kDone;
-  if (!compared->origin)
-    return report({options.geojson + ": neither day has GPS, so nobody knows where on Earth the changes are"},
-                  kFailed);
-  const Status written =
-      write_whole_file(options.geojson, change::to_geojson(compared->changes, *compared->origin));
-  return written ? kDone : report(written.error(), kFailed);
-}
-
-}  // namespace
 
 void add_map_diff(CLI::App& map, int& exit_code) {
   auto options = std::make_shared<DiffOptions>();
@@ -46,7 +17,7 @@ void add_map_diff(CLI::App& map, int& exit_code) {
   command->add_option("--geojson", options->geojson, "FILE.geojson of the changes, in WGS84")
       ->check(some_path());
   command->add_option("--ply", options->ply, "FILE.ply of both days' surfaces, coloured")->check(some_path());
-  command->callback([options, &exit_code] { exit_code = diff(*options); });
+  command->callback([options, &exit_code] { exit_code = report(compare_days(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <numbers>
 #include <ostream>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/graph/contradictions.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 
 namespace fleetmap::apps {
 
 void print_info(std::ostream& out, const StoredMap& map) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   const auto submaps = std::ranges::count_if(
       map.items.nodes, [&](const graph::Node& node) { return map.store.has_submap(node.id); });
   out << "store of " << map.store.self().str() << '\n'

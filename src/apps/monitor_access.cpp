@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "fleetmap/monitor/request_check.hpp"
-#include "options.hpp"
+#include "validators.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -25,7 +25,7 @@ Result<std::string> token_in(const std::string& file) {
 
 }  // namespace
 
-void add_access_options(CLI::App& command, MonitorAccess& access, const std::string& prefix) {
+void add_access_options(CLI::App& command, AccessOptions& access, const std::string& prefix) {
   command.add_option("--" + prefix + "address", access.address,
                      "address that the page listens on; any but 127.0.0.1 needs the token that is printed");
   command
@@ -38,7 +38,7 @@ void add_access_options(CLI::App& command, MonitorAccess& access, const std::str
       ->check(whole_number(1, 64));
 }
 
-void add_page_options(CLI::App& command, MonitorAccess& access, const std::string& content) {
+void add_page_options(CLI::App& command, AccessOptions& access, const std::string& content) {
   command
       .add_option("--monitor", access.port,
                   "TCP port, 0 for any that is free: serve the page of `fleetmap monitor` " + content)
@@ -46,7 +46,7 @@ void add_page_options(CLI::App& command, MonitorAccess& access, const std::strin
   add_access_options(command, access, "monitor-");
 }
 
-Result<monitor::ServerConfig> server_config(const MonitorAccess& access) {
+Result<monitor::ServerConfig> server_config(const AccessOptions& access) {
   monitor::ServerConfig config;
   config.address = access.address;
   config.port = access.port.value_or(0);
@@ -62,7 +62,7 @@ Result<monitor::ServerConfig> server_config(const MonitorAccess& access) {
   return config;
 }
 
-Result<std::optional<monitor::ServerConfig>> config_of_page(const MonitorAccess& access) {
+Result<std::optional<monitor::ServerConfig>> config_of_page(const AccessOptions& access) {
   auto config = server_config(access);
   if (!config) return tl::unexpected(config.error());
   return access.port ? std::optional(std::move(*config)) : std::nullopt;

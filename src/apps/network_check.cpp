@@ -191,7 +191,7 @@ Status find_in_other_domains(const RobotConfig& robot, const NetworkCheckOptions
 
 }  // namespace
 
-Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& options) {
+Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& options, std::ostream& out) {
   std::vector<LinkCheck> checks;
   {
     const auto bus = join_dds(observer_of(robot));
@@ -204,7 +204,7 @@ Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& 
   }
   bool fine = true;
   for (const std::string& warning : config::peer_warnings(robot.dds, robot.agent.exchange)) {
-    std::cout << "! " << warning << '\n';
+    out << "! " << warning << '\n';
     fine = false;
   }
   std::size_t k = 0;
@@ -215,11 +215,11 @@ Result<bool> check_network(const RobotConfig& robot, const NetworkCheckOptions& 
       if (const Status searched = find_in_other_domains(robot, options, link, check); !searched)
         return tl::unexpected(searched.error());
     }
-    check.print(std::cout);
+    check.print(out);
     fine = fine && check.fine();
   }
-  std::cout << (fine ? "all are heard, and nothing differs\n"
-                     : "not all are heard, or something differs: see above\n");
+  out << (fine ? "all are heard, and nothing differs\n"
+               : "not all are heard, or something differs: see above\n");
   return fine;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fleetmap/core/cpu_time.hpp"
+#include "fleetmap/sensor/turn_direction.hpp"
 #include "sample_check.hpp"
 
 namespace fleetmap::apps {
@@ -16,14 +17,23 @@ namespace {
 /// and wheels saw during its sweep, so scans wait until these have passed their end.
 class OdometryFeed {
  public:
-  OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock)
-      : config_(config), loam_(config.odometry, config.lidar), check_(log_clock, config) {}
+  OdometryFeed(const agent::PerceptionConfig& config, const recording::LogClock& log_clock,
+               const SampleObservers& observers)
+      : config_(config),
+        observers_(observers),
+        loam_(config.odometry, config.lidar),
+        check_(log_clock, config),
+        turns_(config.odometry.T_base_lidar.linear(), config.odometry.q_base_imu) {}
 
   /// `recorded` as Reader::recorded() has it.
   void add(recording::Sample sample, std::optional<Stamp> recorded) {
+    if (observers_.as_read) observers_.as_read(sample);
     const bool sound = check_.admit(sample, recorded);
     take_warnings();
     if (!sound) return;
+    if (observers_.as_used) observers_.as_used(sample);
+    if (const auto* imu = std::get_if<sensor::Imu>(&sample)) turns_.add(*imu);
+    if (const auto* wheel = std::get_if<sensor::Wheel>(&sample)) turns_.add(*wheel);
     if (auto* scan = std::get_if<sensor::Scan>(&sample)) {
       const Stamp end = sensor::end_of(*scan);
       waiting_.push_back({std::move(*scan), end});
@@ -45,6 +55,10 @@ class OdometryFeed {
     for (const Waiting& waiting : waiting_) add_scan(waiting.scan);
     take_warnings();
     run_.counters = loam_.counters();
+    // While it keeps its way, the odometry's own turns are compared.
+    const auto finding = run_.kept_its_way() ? std::nullopt : turns_.finding();
+    if (finding && std::ranges::find(run_.findings, *finding) == run_.findings.end())
+      run_.findings.push_back(*finding);
     return std::move(run_);
   }
 
@@ -65,6 +79,7 @@ class OdometryFeed {
   void take_warnings() { std::ranges::move(check_.take_warnings(), std::back_inserter(run_.findings)); }
 
   void add_scan(const sensor::Scan& scan) {
+    turns_.add(scan);
     const double cpu = thread_cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
     const auto update = loam_.add_scan(scan);
@@ -85,24 +100,24 @@ class OdometryFeed {
   }
 
   const agent::PerceptionConfig& config_;
+  const SampleObservers& observers_;
   odometry::Loam loam_;
   OdometryRun run_;
   std::deque<Waiting> waiting_;
   std::optional<Stamp> imu_, wheel_;  ///< last heard
   SampleCheck check_;
+  sensor::TurnDirection turns_;
 };
 
 }  // namespace
 
 Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
-                                 const agent::PerceptionConfig& config,
-                                 const std::function<void(const recording::Sample&)>& on_sample) {
-  OdometryFeed feed(config, log_clock);
+                                 const agent::PerceptionConfig& config, const SampleObservers& observers) {
+  OdometryFeed feed(config, log_clock, observers);
   while (true) {
     auto sample = reader.next();
     if (!sample) return tl::unexpected(sample.error());
     if (!*sample) return feed.finish();
-    if (on_sample) on_sample(**sample);
     feed.add(std::move(**sample), reader.recorded());
   }
 }

@@ -33,10 +33,16 @@ struct OdometryRun {
   bool kept_its_way() const { return counters.map_restarts == 0 && way.warnings().empty(); }
 };
 
-/// Runs the odometry over the whole recording; `on_sample` sees each sample before. Fails if it cannot be
-/// read to its end.
+/// Called for samples of a recording, if they are set.
+struct SampleObservers {
+  std::function<void(const recording::Sample&)> as_read;
+  /// Those that may be used, corrected where their clock or unit is wrong.
+  std::function<void(const recording::Sample&)> as_used;
+};
+
+/// Runs the odometry over the whole recording. Fails if it cannot be read to its end.
 Result<OdometryRun> run_odometry(recording::Reader& reader, const recording::LogClock& log_clock,
                                  const agent::PerceptionConfig& config,
-                                 const std::function<void(const recording::Sample&)>& on_sample = {});
+                                 const SampleObservers& observers = {});
 
 }  // namespace fleetmap::apps

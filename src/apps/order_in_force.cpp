@@ -22,6 +22,13 @@ constexpr Duration kRepeat = std::chrono::seconds(1);
 /// this one; another operator may insist longer.
 constexpr int kMaxRenewals = 3;
 
+/// The robot that obeys `in_force` has heard of `order`, which robots complete (HoldOrders::give).
+bool confirms(const HoldOrder& in_force, const HoldOrder& order) {
+  return in_force.stamp == order.stamp && in_force.issuer == order.issuer;
+}
+
+bool confirms(const RowOrder& in_force, const RowOrder& order) { return in_force == order; }
+
 /// The order that a robot which sent `hold` obeys in place of `order`; none if it has not heard of that.
 std::optional<HoldOrder> obeyed(const HoldOrder& order, const Hold& hold) {
   const auto in_force = exchange::order_for(hold.from, hold.orders);
@@ -78,7 +85,7 @@ void OrderInForce::on_hold(const Hold& hold) {
       [&](auto& order) {
         const auto in_force = obeyed(order, hold);
         if (!in_force) return;
-        if (*in_force == order) {
+        if (confirms(*in_force, order)) {
           confirmed_[hold.from] = hold.driving;
         } else if (renewals_ < kMaxRenewals) {
           ++renewals_;

@@ -1,24 +1,16 @@
 #include "recording_input.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "fleetmap/agent/sensor_mounts.hpp"
-#include "fleetmap/config/robot_file.hpp"
 #include "fleetmap/recording/survey.hpp"
-#include "options.hpp"
+#include "sensor_settings.hpp"
 
 namespace fleetmap::apps {
-
-void add_recording_options(CLI::App& command, RecordingOptions& options) {
-  command
-      .add_option("recording", options.recording,
-                  "rosbag2 folder, .db3, .mcap, .bag or .pcap, KITTI folder, or a folder of scans")
-      ->required();
-  command.add_option("-c,--config", options.config, "AGENT.yaml or FLEET.yaml for the sensors");
-  command.add_option("--set", options.set, "key=value, e.g. lidar.model=hdl64e")->allow_extra_args(false);
-}
 
 Result<Preparation> prepare(const std::filesystem::path& recording, const recording::ReaderConfig& reader,
                             agent::PerceptionConfig& config) {
@@ -30,21 +22,23 @@ Result<Preparation> prepare(const std::filesystem::path& recording, const record
   return Preparation{survey->clock, mounts.summaries(), mounts.take_warnings()};
 }
 
-tl::expected<RecordingInput, int> open_recording(const RecordingOptions& options) {
-  const auto failed = [](const Error& error, ExitCode code) { return tl::unexpected(report(error, code)); };
-  const auto overrides = parse_overrides(options.set);
-  if (!overrides) return failed(overrides.error(), kUsage);
-  std::optional<std::filesystem::path> file;
-  if (!options.config.empty()) file = options.config;
-  auto config = config::load_sensors(file, *overrides);
-  if (!config) return failed(config.error(), kBadConfiguration);
+void log_preparation(const Preparation& prepared, const std::string& source) {
+  const std::string start = source.empty() ? "" : source + ": ";
+  for (const std::string& mount : prepared.mounts) spdlog::info("{}{}", start, mount);
+  for (const std::string& finding : prepared.findings) spdlog::warn("{}{}", start, finding);
+}
+
+CommandResult<RecordingInput> open_recording(const RecordingOptions& options) {
+  auto config = sensor_settings(options.config, options.set);
+  if (!config) return tl::unexpected(config.error());
   recording::ReaderConfig reader_config =
       config->recording ? config->recording->reader : recording::ReaderConfig{};
+  reader_config.ouster_metadata = config->agent.perception.ouster.metadata;
   reader_config.scans_needed = options.scans_needed;
   auto reader = recording::open(options.recording, reader_config);
-  if (!reader) return failed(reader.error(), kFailed);
+  if (!reader) return exit_with(kFailed, reader.error());
   auto prepared = prepare(options.recording, reader_config, config->agent.perception);
-  if (!prepared) return failed(prepared.error(), kFailed);
+  if (!prepared) return exit_with(kFailed, prepared.error());
   return RecordingInput{std::move(*config), std::move(*reader), std::move(*prepared)};
 }
 

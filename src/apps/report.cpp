@@ -1,17 +1,14 @@
 #include "report.hpp"
 
-#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 
 #include "agent_report.hpp"
-#include "fleetmap/core/text_list.hpp"
 #include "fleetmap/core/whole_file.hpp"
-#include "fleetmap/eval/html_page.hpp"
-#include "fleetmap/eval/plot.hpp"
-#include "fleetmap/output/trajectory_file.hpp"
+#include "report_page.hpp"
+#include "shown_run.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -89,74 +86,30 @@ json stalls_json(const std::vector<bus::StallCounters>& threads) {
   return rows;
 }
 
-/// Robots with a session that lies nowhere on Earth, since neither it nor one that it is aligned with had a
-/// fix.
-std::vector<std::string> not_georeferenced(const FleetOutcome& outcome) {
-  std::vector<std::string> names;
+/// Bytes that are no UTF-8, such as those of a file's name, are replaced, so that the report is never lost.
+std::string text_of(const json& report) {
+  return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+json settings_json(const RunSettings& settings) {
+  return {{"version", settings.version}, {"configuration", settings.configuration}, {"set", settings.set}};
+}
+
+/// The fleet as a robot holds it that made a map: what joins each pair, and the map's files.
+void add_fleet_map(const FleetOutcome& outcome, ReportFacts& facts) {
   for (const auto& entry : outcome.agents) {
-    if (!entry.results) continue;
-    const auto is_own = [&](const graph::FrameId& frame) { return frame.agent == entry.id; };
-    if (std::ranges::any_of(entry.results->not_georeferenced, is_own)) names.push_back(entry.id.str());
-  }
-  return names;
-}
-
-std::string title_of_map(const std::vector<std::string>& nowhere, std::size_t tracks) {
-  if (nowhere.empty()) return "Trajectories in ENU, north up";
-  if (nowhere.size() >= tracks)
-    return "Trajectories from above; no robot had a GPS fix, so place and north are unknown";
-  std::string names;
-  for (const std::string& name : nowhere) append_to_list(names, name);
-  return "Trajectories in ENU, north up, but those of " + names +
-         ": without a GPS fix their place is unknown";
-}
-
-/// Trajectories seen from above; empty when there is none.
-std::string map_svg(const std::filesystem::path& out, const FleetOutcome& outcome) {
-  std::vector<eval::LineSeries> tracks;
-  for (const auto& entry : outcome.agents) {
-    const std::string id = entry.id.str();
-    const auto poses = output::read_growing_tum(out / id / "trajectory.tum");
-    if (!poses || poses->empty()) continue;
-    eval::LineSeries& track = tracks.emplace_back();
-    track.name = id;
-    track.markers = false;
-    for (const output::StampedPose& pose : *poses) {
-      track.x.push_back(pose.T_w_base.translation().x());
-      track.y.push_back(pose.T_w_base.translation().y());
+    const store::Store* store = entry.agent ? &entry.agent->store() : entry.store ? &*entry.store : nullptr;
+    if (!entry.results || store == nullptr) continue;
+    monitor::FleetView view = view_of(*store, *entry.results);
+    for (const auto& other : outcome.agents) add_attempts(other.directory, other.id, view);
+    monitor::PairRules rules;
+    if (entry.agent) {
+      rules.search_radius_m = entry.agent->config().loop_closure.proximity.max_radius;
+      facts.long_range_rate = entry.agent->config().exchange.long_range.fleet_bytes_per_second;
     }
+    facts.pairs = monitor::explain_pairs(view, rules);
+    return add_map(entry.directory / "map.ply", facts);
   }
-  if (tracks.empty()) return "";
-  const std::vector<std::string> nowhere = not_georeferenced(outcome);
-  const bool known = nowhere.size() < tracks.size();
-  return eval::line_plot({.title = title_of_map(nowhere, tracks.size()),
-                          .x_label = known ? "east [m]" : "x [m]",
-                          .y_label = known ? "north [m]" : "y [m]",
-                          .height = 480,
-                          .equal = true},
-                         tracks);
-}
-
-eval::HtmlPage html(const json& report, const std::string& svg) {
-  eval::HtmlPage page("fleetmap report");
-  if (!svg.empty()) page.figure(svg);
-  page.heading("Agents");
-  eval::Table rows{{"agent", "scans", "nodes", "alignments", "submaps", "map points", "map hash",
-                    "odometry ms (p50)", "long-range bytes"}};
-  for (const auto& [id, agent] : report["agents"].items()) {
-    if (agent.contains("switched_off")) {
-      rows.push_back({id + " (switched off)", "", agent.value("nodes", json()).dump(),
-                      agent.value("alignments", json()).dump(), agent.value("submaps", json()).dump(),
-                      std::to_string(agent.value("map_points", 0)), agent.value("map_hash", ""), "", ""});
-      continue;
-    }
-    rows.push_back({id, agent["sensors"]["scans"].dump(), agent["nodes"].dump(), agent["alignments"].dump(),
-                    agent["submaps"].dump(), std::to_string(agent.value("map_points", 0)),
-                    agent.value("map_hash", ""),
-                    eval::short_number(agent["sensors"]["odometry_cpu_ms"]["p50"].get<double>()),
-                    agent["exchange"]["long_range_wire_bytes"].dump()});
-  }
-  return page.table(rows).details("Everything", report.dump(2));
 }
 
 }  // namespace
@@ -170,12 +123,13 @@ std::string lost_ways(const odometry::LoamCounters& odometry) {
   return text;
 }
 
-Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome,
-                    const RunProfile& profile) {
+Status write_report(const std::filesystem::path& out, const FleetOutcome& outcome, const RunProfile& profile,
+                    const RunSettings& settings) {
   json report = {{"virtual_time_s", to_seconds(outcome.virtual_time)},
                  {"exchange_time_s", to_seconds(outcome.exchange_time)},
                  {"exchange_ended", outcome.exchange_ended},
                  {"wall_time_s", profile.wall},
+                 {"settings", settings_json(settings)},
                  {"profile", to_json(profile)},
                  {"links", links_json(outcome.links)}};
   if (outcome.completion) report["completion"] = completion_json(*outcome.completion);
@@ -188,21 +142,42 @@ Status write_report(const std::filesystem::path& out, const FleetOutcome& outcom
     if (!entry.problem.empty()) agent["problem"] = entry.problem;
     for (const auto& [name, count] : entry.recording.named()) agent["recording"][name] = count;
   }
-  if (const Status written = write_whole_file(out / "report.json", report.dump(2) + "\n"); !written)
-    return written;
-  return html(report, map_svg(out, outcome)).write(out / "report.html");
+  if (const Status written = write_whole_file(out / "report.json", text_of(report)); !written) return written;
+  ReportFacts facts;
+  facts.title = "fleetmap: report of a fleet";
+  for (const auto& entry : outcome.agents) add_robot(entry.id, out / entry.id.str(), facts);
+  add_fleet_map(outcome, facts);
+  facts.report = std::move(report);
+  return report_page(facts).write(out / "report.html");
 }
 
 const char* who_may_join(bool keys) { return keys ? "members of the fleet" : "anyone"; }
 
-Status write_report(const std::filesystem::path& directory, const agent::Agent& agent,
-                    const output::Results* results, const RadioAccess& access,
-                    const std::vector<bus::StallCounters>& stalls) {
+Status write_report(const agent::Agent& agent, const output::Results* results, const RadioAccess& access,
+                    const std::vector<bus::StallCounters>& stalls, const RunSettings& settings) {
+  const std::filesystem::path& directory = agent.config().directory;
+  const AgentId self = agent.config().id;
   json report = agent_report(agent, results);
   report["radio_access"] = {{"who_may_join", who_may_join(access.keys)}, {"refused", access.refused}};
   report["topics"] = topics_json(agent.bus_stats());
   report["stalls"] = stalls_json(stalls);
-  return write_whole_file(directory / "report.json", report.dump(2) + "\n");
+  report["settings"] = settings_json(settings);
+  if (const Status written = write_whole_file(directory / "report.json", text_of(report)); !written)
+    return written;
+  ReportFacts facts;
+  facts.title = "fleetmap: report of " + self.str();
+  facts.report = report;
+  facts.report["agents"] = {{self.str(), report}};
+  facts.long_range_rate = agent.config().exchange.long_range.fleet_bytes_per_second;
+  add_robot(self, directory, facts);
+  if (results != nullptr) {
+    monitor::FleetView view = view_of(agent.store(), *results);
+    add_attempts(directory, self, view);
+    facts.pairs =
+        monitor::explain_pairs(view, {.search_radius_m = agent.config().loop_closure.proximity.max_radius});
+    add_map(directory / "map.ply", facts);
+  }
+  return report_page(facts).write(directory / "report.html");
 }
 
 }  // namespace fleetmap::apps

@@ -44,10 +44,11 @@ std::string words_of(const MissionReport& report, const std::vector<planning::Ro
   return "is lost";
 }
 
-std::string activity_now(const FleetNow& fleet, const AgentId& id, bool is_held) {
+std::string activity_now(const FleetNow& fleet, const AgentId& id, bool is_held, bool called_home) {
   const auto report = fleet.reports.find(id);
   if (id == fleet.self && !fleet.stop_reason.empty()) return "stands still: " + fleet.stop_reason;
-  if (is_held) return "stands still: an operator holds it";
+  if (is_held)
+    return std::string("stands still: an operator holds it") + (called_home ? " on its way home" : "");
   const auto status = fleet.statuses.find(id);
   if (report != fleet.reports.end())
     return activity_of(
@@ -68,9 +69,9 @@ std::vector<std::uint32_t> rows_of(const MissionReport& report, const std::vecto
 /// Orders that the robot has not confirmed by what it does.
 void add_unconfirmed(const FleetNow& fleet, bool stands, bool on_way_home, monitor::RobotNow& robot) {
   if (robot.driven && robot.ordered_to_hold && !stands)
-    robot.problems.push_back("has not confirmed the order to stand still");
-  if (robot.driven && robot.called_home && !on_way_home)
-    robot.problems.push_back("has not confirmed the order to drive home");
+    robot.problems.emplace_back("has not confirmed the order to stand still");
+  if (robot.driven && robot.called_home && !robot.ordered_to_hold && !on_way_home)
+    robot.problems.emplace_back("has not confirmed the order to drive home");
   const auto report = fleet.reports.find(robot.id);
   if (report == fleet.reports.end()) return;
   for (const messages::RowOrder& order : fleet.row_orders) {
@@ -108,8 +109,8 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
   if (const auto status = fleet.statuses.find(id); status != fleet.statuses.end())
     add_status(status->second, robot);
   const auto order = exchange::order_for(id, fleet.orders);
-  robot.ordered_to_hold = order && order->kind == messages::HoldOrder::Kind::kHold;
-  robot.called_home = order && order->kind == messages::HoldOrder::Kind::kHome;
+  robot.ordered_to_hold = order && order->stops();
+  robot.called_home = order && order->calls_home();
   if (const auto report = fleet.reports.find(id); report != fleet.reports.end())
     robot.rows = rows_of(report->second, fleet.rows);
   const auto driving = fleet.driving.find(id);
@@ -117,7 +118,7 @@ monitor::RobotNow robot_now(const FleetNow& fleet, const AgentId& id) {
   // A robot that has not said yet what it does can be stopped, too.
   robot.driven = !answered || driving->second != Hold::Driving::kNoMission;
   const bool is_held = answered && driving->second == Hold::Driving::kHeld && robot.ordered_to_hold;
-  robot.activity = activity_now(fleet, id, is_held);
+  robot.activity = activity_now(fleet, id, is_held, robot.called_home);
   add_unconfirmed(fleet, is_held, answered && driving->second == Hold::Driving::kHome, robot);
   if (const auto messages = fleet.misbehaved.find(id); messages != fleet.misbehaved.end())
     robot.problems.push_back(fmt::format("sent {} messages that contradict the rules", messages->second));

@@ -1,8 +1,9 @@
+#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "fleet_run.hpp"
-#include "options.hpp"
+#include "validators.hpp"
 
 namespace fleetmap::apps {
 
@@ -19,8 +20,9 @@ void add_run(CLI::App& app, int& exit_code) {
       ->required()
       ->check(some_path());
   command
-      ->add_option("--record", options->record,
-                   "also write each robot's sensor samples as a bag into DIR/NAME")
+      ->add_option(
+          "--record", options->record,
+          "also write each robot's sensor samples, and what it publishes for ROS 2, as a bag into DIR/NAME")
       ->check(some_path());
   command->add_option("--agents", options->agents, "only the first N agents of the file")
       ->check(whole_number(1));
@@ -35,7 +37,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--set", options->set, "key=value, overrides any configuration key")
       ->allow_extra_args(false);
   add_page_options(*command, options->monitor, "while the run goes on");
-  command->callback([options, &exit_code] { exit_code = run_fleet(*options); });
+  command->callback([options, &exit_code] { exit_code = report(run_fleet(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

@@ -12,6 +12,7 @@ std::vector<bus::Topic> sensor_topics(const agent::SensorTopics& names) {
   std::vector<bus::Topic> topics{ros_codec::topics::points(), ros_codec::topics::imu(),
                                  ros_codec::topics::fix(), ros_codec::topics::wheel_odometry()};
   topics[0].name = names.points;
+  topics[0].type = ros_codec::dds_name(names.points_type);
   topics[1].name = names.imu;
   topics[2].name = names.fix;
   topics[3].name = names.wheel;
@@ -20,8 +21,10 @@ std::vector<bus::Topic> sensor_topics(const agent::SensorTopics& names) {
 
 EncodedSample encode(const recording::Sample& sample, const agent::SensorTopics& names) {
   // The order of the variant is that of sensor_topics().
-  return {sensor_topics(names)[sample.index()],
-          std::visit([](const auto& s) { return ros_codec::encode(s); }, sample)};
+  const bus::Topic topic = sensor_topics(names)[sample.index()];
+  if (const auto* scan = std::get_if<sensor::Scan>(&sample))
+    return {topic, ros_codec::encode_points(*scan, names.points_type)};
+  return {topic, std::visit([](const auto& s) { return ros_codec::encode(s); }, sample)};
 }
 
 std::vector<sensor::FrameTransform> mounts_of(const sensor::SensorFrames& frames) {

@@ -11,6 +11,15 @@
 #include "sample_player.hpp"
 
 namespace fleetmap::apps {
+namespace {
+
+Result<sensor::Scan> scan_in(const Bytes& cdr, ros_codec::PointsType type) {
+  auto decoded = ros_codec::decode_points(cdr, type);
+  if (!decoded) return tl::unexpected(std::move(decoded.error()));
+  return std::move(decoded->scan);
+}
+
+}  // namespace
 
 SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& bus)
     : config_(config), bus_(bus), check_({}, config), mounts_(config) {
@@ -21,7 +30,7 @@ SensorListener::SensorListener(const agent::PerceptionConfig& config, bus::Bus& 
   }));
   const std::vector<bus::Topic> topics = sensor_topics(config.topics);
   subscriptions_.push_back(bus.subscribe(topics[0], [this, name = topics[0].name](const Bytes& cdr) {
-    add(ros_codec::decode<sensor::Scan>(cdr), cdr, name);
+    add(scan_in(cdr, config_.topics.points_type), cdr, name);
   }));
   listen<sensor::Imu>(topics[1]);
   listen<sensor::Fix>(topics[2]);

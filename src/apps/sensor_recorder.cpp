@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,10 +22,15 @@ std::filesystem::path free_folder(const std::filesystem::path& directory) {
 
 }  // namespace
 
-SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus)
+SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bool outputs,
+                               bus::Bus& bus)
     : writer_(std::move(writer)) {
   std::vector<bus::Topic> recorded = sensor_topics(topics);
   recorded.push_back(ros_codec::topics::tf_static());
+  for (const bus::Topic& output : outputs ? ros_codec::topics::outputs() : std::vector<bus::Topic>()) {
+    if (std::ranges::find(recorded, output.name, &bus::Topic::name) == recorded.end())
+      recorded.push_back(output);
+  }
   for (const bus::Topic& topic : recorded) {
     subscriptions_.push_back(bus.subscribe(topic, [this, topic, &bus](const Bytes& cdr) {
       const Status written = writer_.write(topic.name, topic.type, bus.now(), cdr);
@@ -36,10 +42,10 @@ SensorRecorder::SensorRecorder(recording::BagWriter writer, const agent::SensorT
 
 Result<std::unique_ptr<SensorRecorder>> SensorRecorder::create(const std::filesystem::path& directory,
                                                                const agent::SensorTopics& topics,
-                                                               bus::Bus& bus) {
+                                                               bool outputs, bus::Bus& bus) {
   auto writer = recording::BagWriter::create(free_folder(directory));
   if (!writer) return tl::unexpected(writer.error());
-  return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, bus));
+  return std::unique_ptr<SensorRecorder>(new SensorRecorder(std::move(*writer), topics, outputs, bus));
 }
 
 Status SensorRecorder::close() {

@@ -11,16 +11,18 @@
 
 namespace fleetmap::apps {
 
-/// Writes what arrives on the sensor topics into a bag.
+/// Writes what arrives on the sensor topics, and what the robot publishes for ROS 2, into a bag.
 class SensorRecorder {
  public:
-  /// In `directory`, or with a number behind it if it holds a bag of an earlier start.
+  /// `outputs`: the robot publishes them. In `directory`, or with a number behind it if it holds a bag of an
+  /// earlier start.
   static Result<std::unique_ptr<SensorRecorder>> create(const std::filesystem::path& directory,
-                                                        const agent::SensorTopics& topics, bus::Bus& bus);
+                                                        const agent::SensorTopics& topics, bool outputs,
+                                                        bus::Bus& bus);
   Status close();
 
  private:
-  SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bus::Bus& bus);
+  SensorRecorder(recording::BagWriter writer, const agent::SensorTopics& topics, bool outputs, bus::Bus& bus);
 
   recording::BagWriter writer_;
   bool failed_ = false;

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "fleetmap/core/paths.hpp"
 #include "fleetmap/output/map_recipe.hpp"
 #include "fleetmap/output/placed_store.hpp"
 #include "fleetmap/output/registrations_file.hpp"
@@ -28,17 +29,6 @@ void add_holdings(const store::Store& store, std::vector<monitor::Holding>& hold
   }
   for (const auto& [id, alignment] : store.alignments()) ++of(id.computed_by).alignments;
   for (const auto& [maker, holding] : by_maker) holdings.push_back(holding);
-}
-
-/// registrations.csv beside the store of `by`.
-void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
-  const fs::path file = folder / output::kRegistrationsFile;
-  const output::Registrations read = output::read_registrations(file);
-  if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
-  for (const output::RegistrationRow& row : read.rows) {
-    view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
-                             row.overlap, row.reason, row.T_target_source});
-  }
 }
 
 Result<std::unique_ptr<store::Store>> open_store(const fs::path& file) {
@@ -73,6 +63,30 @@ Status place_held(const store::Store& store, const fs::path& file, std::span<con
 
 }  // namespace
 
+monitor::FleetView view_of(const store::Store& store, const output::Results& results) {
+  monitor::FleetView view;
+  view.self = store.self();
+  view.origin = results.origin;
+  view.placement = results.placement;
+  for (const auto& [id, node] : store.nodes()) {
+    view.nodes.push_back(node);
+    view.has_submap.push_back(store.has_submap(id));
+  }
+  for (const auto& [id, alignment] : store.alignments()) view.alignments.push_back(alignment);
+  add_holdings(store, view.holdings);
+  return view;
+}
+
+void add_attempts(const fs::path& folder, const AgentId& by, monitor::FleetView& view) {
+  const fs::path file = folder / output::kRegistrationsFile;
+  const output::Registrations read = output::read_registrations(file);
+  if (auto note = output::damage_note(read, file)) view.notes.push_back(std::move(*note));
+  for (const output::RegistrationRow& row : read.rows) {
+    view.attempts.push_back({by, row.target, row.source, row.verdict, row.rmse, row.inlier_fraction,
+                             row.overlap, row.reason, row.T_target_source});
+  }
+}
+
 Result<ShownRun> open_one(const fs::path& file, std::span<const AgentId> without) {
   auto store = open_store(file);
   if (!store) return tl::unexpected(store.error());
@@ -85,23 +99,31 @@ Result<ShownRun> open_one(const fs::path& file, std::span<const AgentId> without
   return run;
 }
 
+std::vector<fs::path> robot_stores(const fs::path& directory) {
+  std::vector<fs::path> stores;
+  for (const fs::path& folder : output::robot_folders(directory, "store.db"))
+    stores.push_back(folder / "store.db");
+  return stores;
+}
+
 Result<ShownRun> open_run(const fs::path& directory, const std::string& robot,
                           std::span<const AgentId> without) {
+  if (!is_folder(directory)) return failure(directory.string() + ": no such folder; give the --out of a run");
   ShownRun run;
   fs::path shown;
-  for (const fs::path& folder : output::robot_folders(directory, "store.db")) {
-    auto store = open_store(folder / "store.db");
+  for (const fs::path& file : robot_stores(directory)) {
+    auto store = open_store(file);
     if (!store) {
       run.view.notes.push_back(store.error().message);
       continue;
     }
     add_holdings(**store, run.view.holdings);
-    add_attempts(folder, (*store)->self(), run.view);
+    add_attempts(file.parent_path(), (*store)->self(), run.view);
     const bool wanted = robot.empty() ? !run.store || (*store)->nodes().size() > run.store->nodes().size()
                                       : (*store)->self().str() == robot;
     if (!wanted) continue;
     run.store = std::move(*store);
-    shown = folder / "store.db";
+    shown = file;
   }
   if (!run.store)
     return failure(directory.string() + ": holds no " +

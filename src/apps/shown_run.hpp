@@ -4,9 +4,11 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/output/results.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::apps {
@@ -18,9 +20,17 @@ struct ShownRun {
   monitor::FleetView view;
 };
 
+/// All that a store holds, placed as its results were.
+monitor::FleetView view_of(const store::Store& store, const output::Results& results);
+/// Adds the registrations of robot `by`, if registrations.csv is in its folder.
+void add_attempts(const std::filesystem::path& folder, const AgentId& by, monitor::FleetView& view);
+
 /// One robot's store, but for the items of robots `without`. Fails if it holds no node yet, or nothing of one
 /// of these.
 Result<ShownRun> open_one(const std::filesystem::path& file, std::span<const AgentId> without = {});
+
+/// The stores of all robots below `directory`.
+std::vector<std::filesystem::path> robot_stores(const std::filesystem::path& directory);
 
 /// All robots below `directory`, on the map of one: of `robot`, or of the one that holds most if it is empty.
 /// Fails as open_one().

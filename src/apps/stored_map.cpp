@@ -14,7 +14,7 @@ namespace fleetmap::apps {
 // A file that SQLite would call damaged, or a disk error, is most often another one than was meant.
 Status check_store(const std::filesystem::path& file) {
   if (is_folder(file)) return failure(file.string() + ": is a folder; give the store.db of a robot in it");
-  if (!is_there(file)) return failure(file.string() + ": no such file");
+  if (!is_there(file)) return failure(file.string() + ": no such file; give the store.db of a robot");
   constexpr std::string_view kStart = "SQLite format 3";
   std::string start(kStart.size(), ' ');
   std::ifstream in(file, std::ios::binary);

@@ -1,45 +1,15 @@
-#include <filesystem>
+#include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
-#include "fleetmap/core/paths.hpp"
-#include "fleetmap/experiment/field_engine.hpp"
-#include "grid_command.hpp"
-#include "options.hpp"
+#include "field_trial.hpp"
 
 namespace fleetmap::apps {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// The script of the source tree that the program was built in, else that of the package.
-std::string field_script() {
-  return is_there(FLEETMAP_FIELD_SCRIPT) ? FLEETMAP_FIELD_SCRIPT : FLEETMAP_INSTALLED_FIELD_SCRIPT;
-}
-
-struct TrialOptions {
-  GridOptions grid;
-  std::string traces;
-  std::string script = field_script();
-};
-
-int run(TrialOptions options) {
-  if (!is_there(options.script)) {
-    return report(
-        {options.script + ": does not exist; give deploy/netns/field.sh of the source tree as --field"},
-        kUsage);
-  }
-  if (!options.traces.empty())
-    options.grid.set.push_back("field.trace=" + absolute_path(options.traces).string());
-  return run_grid(options.grid, [&](const std::atomic<bool>& stop) {
-    return experiment::FieldEngine(options.script, options.grid.out, stop);
-  });
-}
-
-}  // namespace
 
 void add_trial(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<TrialOptions>();
+  options->script = field_script();
   CLI::App* command = app.add_subcommand(
       "trial",
       "runs robots as processes in network namespaces over a grid of QoS profiles, settings "
@@ -55,7 +25,7 @@ void add_trial(CLI::App& app, int& exit_code) {
   command->add_option("--field", options->script, "deploy/netns/field.sh");
   options->grid.jobs = 1;  // each needs the machine for itself
   add_grid_options(*command, options->grid);
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = report(run_trial(*options, std::cout)); });
 }
 
 }  // namespace fleetmap::apps

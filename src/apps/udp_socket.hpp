@@ -4,12 +4,9 @@
 #include <system_error>
 #include <tl/expected.hpp>
 
-namespace fleetmap::apps {
+#include "udp_socket_options.hpp"
 
-struct UdpSocketOptions {
-  int receive_buffer = 0;        ///< B, up to net.core.rmem_max; 0: the system's usual size
-  bool stamps_arrivals = false;  ///< each datagram comes with the time at which the kernel received it
-};
+namespace fleetmap::apps {
 
 /// A socket that does not block and receives at `port` of all addresses of this machine; 0: any port that is
 /// free. The error std::errc::address_in_use means that another program receives there. Options that the

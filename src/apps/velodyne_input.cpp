@@ -1,132 +1,35 @@
 #include "velodyne_input.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <spdlog/spdlog.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <cstring>
 #include <utility>
 
-#include "fleetmap/core/utc.hpp"
-#include "udp_socket.hpp"
-
 namespace fleetmap::apps {
-namespace {
-
-/// Another device may take over after the first one was silent for so long.
-constexpr Duration kSilence = std::chrono::seconds(5);
-/// A second of packets; the system grants up to net.core.rmem_max.
-constexpr int kReceiveBuffer = 4 << 20;
-constexpr int kPollMilliseconds = 100;
-
-std::string text_of(std::uint32_t address) {
-  char text[INET_ADDRSTRLEN] = {};
-  const in_addr in{htonl(address)};
-  inet_ntop(AF_INET, &in, text, sizeof text);
-  return text;
-}
-
-/// When the system received a datagram.
-Stamp arrival_of(msghdr& message) {
-  for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
-    if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_TIMESTAMPNS) continue;
-    timespec time{};
-    std::memcpy(&time, CMSG_DATA(part), sizeof time);
-    return stamp_from_ns(std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec);
-  }
-  return system_now();
-}
-
-}  // namespace
 
 Result<std::unique_ptr<VelodyneInput>> VelodyneInput::open(std::uint16_t port, OnScan on_scan) {
-  const auto socket = open_udp_socket(port, {.receive_buffer = kReceiveBuffer, .stamps_arrivals = true});
-  if (!socket) {
-    const bool is_taken = socket.error() == std::errc::address_in_use;
-    return failure("lidar.velodyne_port " + std::to_string(port) + ": " +
-                   (is_taken ? "another program receives there; end it, or take its topic as topics.points"
-                             : socket.error().message()));
-  }
-  return std::unique_ptr<VelodyneInput>(new VelodyneInput(*socket, udp_port_of(*socket), std::move(on_scan)));
-}
-
-VelodyneInput::VelodyneInput(int socket, std::uint16_t port, OnScan on_scan)
-    : socket_(socket),
-      port_(port),
-      on_scan_(std::move(on_scan)),
-      thread_([this](const std::stop_token& stop) { receive(stop); }) {}
-
-VelodyneInput::~VelodyneInput() {
-  thread_.request_stop();
-  thread_.join();
-  ::close(socket_);
+  std::unique_ptr<VelodyneInput> made(new VelodyneInput(std::move(on_scan)));
+  auto input = DatagramInput::open(
+      port, "lidar.velodyne_port", "topics.points",
+      [lidar = made.get()](ByteView packet, Stamp arrival) { return lidar->add(packet, arrival); });
+  if (!input) return tl::unexpected(input.error());
+  made->input_ = std::move(*input);
+  return made;
 }
 
 VelodyneInput::Counters VelodyneInput::counters() const {
+  const DatagramInput::Counters input = input_->counters();
   const std::scoped_lock lock(mutex_);
-  return counters_;
+  Counters counters = counters_;
+  counters.input = input;
+  return counters;
 }
 
-void VelodyneInput::receive(const std::stop_token& stop) {
-  pollfd ready{socket_, POLLIN, 0};
-  while (!stop.stop_requested()) {
-    if (::poll(&ready, 1, kPollMilliseconds) <= 0) continue;
-    while (const auto datagram = read()) {
-      handle(*datagram);
-      if (stop.stop_requested()) return;
-    }
-  }
-}
-
-std::optional<VelodyneInput::Datagram> VelodyneInput::read() {
-  sockaddr_in from{};
-  iovec data{buffer_.data(), buffer_.size()};
-  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(timespec))] = {};
-  msghdr message{};
-  message.msg_name = &from;
-  message.msg_namelen = sizeof from;
-  message.msg_iov = &data;
-  message.msg_iovlen = 1;
-  message.msg_control = control;
-  message.msg_controllen = sizeof control;
-  const ssize_t size = ::recvmsg(socket_, &message, 0);
-  if (size < 0) return std::nullopt;
-  return Datagram{ByteView(buffer_).first(static_cast<std::size_t>(size)), ntohl(from.sin_addr.s_addr),
-                  arrival_of(message)};
-}
-
-/// The first address from which a packet came, or another one when it fell silent.
-bool VelodyneInput::is_device(const Datagram& datagram) {
-  return !device_ || *device_ == datagram.source || datagram.arrival - last_packet_ > kSilence;
-}
-
-void VelodyneInput::handle(const Datagram& datagram) {
-  std::vector<sensor::Scan> scans;
-  {
-    const std::scoped_lock lock(mutex_);
-    ++counters_.datagrams;
-    if (!is_device(datagram)) {
-      return warn(++counters_.of_other_devices, "packets come from " + text_of(datagram.source) +
-                                                    ", too, not only from " + text_of(*device_) +
-                                                    "; give each LiDAR a port of its own");
-    }
-    const auto added = sweeps_.add(datagram.payload, datagram.arrival);
-    if (!added) return warn(++counters_.refused, "refused: " + added.error().what);
-    device_ = datagram.source;
-    last_packet_ = datagram.arrival;
-    counters_.incomplete_sweeps = sweeps_.counters().incomplete_sweeps;
-    while (auto scan = sweeps_.take()) scans.push_back(std::move(*scan));
-    counters_.scans += scans.size();
-  }
-  for (const sensor::Scan& scan : scans) on_scan_(scan);
-}
-
-void VelodyneInput::warn(std::uint64_t count, const std::string& what) const {
-  if (count == 1 || count == 10 || count == 100 || count % 1000 == 0)
-    spdlog::warn("UDP port {} ({} so far): {}", port_, count, what);
+tl::expected<void, sensor::PacketRefusal> VelodyneInput::add(ByteView packet, Stamp arrival) {
+  auto added = sweeps_.add(packet, arrival);
+  std::uint64_t scans = 0;
+  for (; const auto scan = sweeps_.take(); ++scans) on_scan_(*scan);
+  const std::scoped_lock lock(mutex_);
+  counters_.incomplete_sweeps = sweeps_.counters().incomplete_sweeps;
+  counters_.scans += scans;
+  return added;
 }
 
 }  // namespace fleetmap::apps

@@ -58,12 +58,12 @@ Status VirtualFleet::add_agents(const std::filesystem::path& out,
     }
     Member& member = members_.emplace_back();
     member.id = config.id;
-    if (const Status started = start_agent(k); !started) return started;
     if (record) {
       auto bag = recording::BagWriter::create(*record / config.id.str());
       if (!bag) return tl::unexpected(bag.error());
       member.bag.emplace(std::move(*bag));
     }
+    if (const Status started = start_agent(k); !started) return started;
   }
   return {};
 }
@@ -75,6 +75,11 @@ Status VirtualFleet::start_agent(std::size_t member) {
   if (!agent) return tl::unexpected(agent.error());
   self.agent = std::move(*agent);
   self.rest_frozen = false;
+  if (self.bag && config_.members[member].ros.publish) {
+    self.outputs = std::make_unique<OutputRecording>(
+        *self.agent, *self.bus, config_.members[member].ros,
+        [this, member](const bus::Topic& topic, const Bytes& cdr) { record(member, topic, cdr); });
+  }
   return {};
 }
 
@@ -82,9 +87,15 @@ void VirtualFleet::deliver(std::size_t member, const recording::Sample& sample, 
   Member& self = members_[member];
   if (!self.agent) return;
   const EncodedSample encoded = encode(sample, self.agent->config().perception.topics);
+  self.bag_delay = network_->now() - stamp;
   self.bus->publish(encoded.topic, encoded.cdr);
+  record(member, encoded.topic, encoded.cdr);
+}
+
+void VirtualFleet::record(std::size_t member, const bus::Topic& topic, const Bytes& cdr) {
+  Member& self = members_[member];
   if (!self.bag) return;
-  const Status written = self.bag->write(encoded.topic.name, encoded.topic.type, stamp, encoded.cdr);
+  const Status written = self.bag->write(topic.name, topic.type, network_->now() - self.bag_delay, cdr);
   if (!written) error_ = written.error().message;
 }
 
@@ -304,6 +315,7 @@ Result<FleetOutcome::AgentOutcome> VirtualFleet::finish(std::size_t member) {
   // Work under way uses the agent and its store.
   self.agent->stop();
   network_->finish_work(self.id);
+  self.outputs.reset();
   FleetOutcome::AgentOutcome result;
   result.id = self.id;
   result.directory = self.agent->config().directory;

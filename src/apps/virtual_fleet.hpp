@@ -14,6 +14,7 @@
 #include "fleetmap/output/map_files.hpp"
 #include "fleetmap/output/results.hpp"
 #include "fleetmap/recording/bag_writer.hpp"
+#include "output_recording.hpp"
 #include "virtual_page.hpp"
 
 namespace fleetmap::apps {
@@ -61,7 +62,8 @@ struct FleetOutcome {
 class VirtualFleet {
  public:
   /// Agents keep their files in `out`/<id>, which must not hold an earlier run. With `record`, what each
-  /// agent's sensors gave goes to a bag in `record`/<id>. Sessions are numbered from `first_session`.
+  /// agent's sensors gave and it published goes to a bag in `record`/<id>. Sessions are numbered from
+  /// `first_session`.
   static Result<std::unique_ptr<VirtualFleet>> create(config::FleetConfig config,
                                                       std::unique_ptr<FleetFeed> feed,
                                                       const std::filesystem::path& out,
@@ -79,6 +81,8 @@ class VirtualFleet {
     bus::Bus* bus = nullptr;              ///< null while it is switched off
     std::unique_ptr<agent::Agent> agent;  ///< null while it is switched off
     std::optional<recording::BagWriter> bag;
+    Duration bag_delay{};                      ///< from the bag's time to the network's
+    std::unique_ptr<OutputRecording> outputs;  ///< into the bag
     std::vector<bus::Handle> base;             ///< its commands and its guide
     std::optional<bus::EnuPosition> position;  ///< the last known one
     bool rest_frozen = false;
@@ -91,6 +95,8 @@ class VirtualFleet {
                     std::uint16_t first_session);
   /// Starts the member's agent on a bus of its own. It continues from its store.
   Status start_agent(std::size_t member);
+  /// Writes to the member's bag, if it has one.
+  void record(std::size_t member, const bus::Topic& topic, const Bytes& cdr);
   /// Passes the agent's commands to the feed, and the guide's poses to the agent.
   void connect_base(std::size_t member);
   void schedule_power();

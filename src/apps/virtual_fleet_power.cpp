@@ -33,6 +33,7 @@ void VirtualFleet::switch_off(std::size_t member, bool for_ever) {
   network_->finish_work(self.id);
   if (page_) page_->forget_agents();
   if (self.agent) self.work_before += self.agent->work_seconds();
+  self.outputs.reset();
   self.agent.reset();
   self.bus = nullptr;
   network_->remove_robot(self.id);

@@ -26,7 +26,7 @@ void describe_world(std::ostream& out, const sim::World& world) {
 }
 
 Status write_world(std::ostream& out, const sim::World& world, const std::filesystem::path& folder,
-                   const WorldFiles& settings) {
+                   const WorldFileOptions& settings) {
   if (const Status writable = make_writable(folder); !writable) return writable;
   if (const Status written = sim::write_ply(folder / "world.ply", world.mesh()); !written) return written;
   if (const Status written = sim::write_obj(folder / "world.obj", world.mesh()); !written) return written;

@@ -5,17 +5,16 @@
 #include <cstring>
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <vector>
 
 #include "fleetmap/core/whole_file.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/geometry/utm.hpp"
 
 namespace fleetmap::change {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 using Colour = std::array<std::uint8_t, 3>;
 constexpr Colour kSame{150, 150, 150}, kUnobserved{90, 120, 200}, kGone{220, 40, 40}, kNew{30, 170, 60};
 constexpr std::size_t kPointBytes = 15;  // three float32 and three bytes

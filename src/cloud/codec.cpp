@@ -27,7 +27,7 @@ constexpr double kMaxSteps = 1073741824.0;  // 2^30
 constexpr double kMaxOrigin = 9007199254740992.0;
 constexpr int kDracoSpeed = 3;  // k-d tree level 6: the densest
 
-struct Grid {
+struct CodeGrid {
   double resolution = 0.0;
   std::array<std::int64_t, 3> origin{};
 };
@@ -88,7 +88,7 @@ Bytes draco_header(std::uint32_t count, bool intensities, std::uint32_t bits) {
   return header;
 }
 
-Result<Grid> grid_of(const PointCloud& cloud, double resolution) {
+Result<CodeGrid> grid_of(const PointCloud& cloud, double resolution) {
   Eigen::Array3d low = cloud.points.front().cast<double>();
   Eigen::Array3d high = low;
   for (const Eigen::Vector3f& p : cloud.points) {
@@ -101,12 +101,12 @@ Result<Grid> grid_of(const PointCloud& cloud, double resolution) {
     return failure("cloud encoding: the cloud spans more than 2^30 steps of " + std::to_string(resolution) +
                    " m");
   }
-  return Grid{resolution,
-              {static_cast<std::int64_t>(origin[0]), static_cast<std::int64_t>(origin[1]),
-               static_cast<std::int64_t>(origin[2])}};
+  return CodeGrid{resolution,
+                  {static_cast<std::int64_t>(origin[0]), static_cast<std::int64_t>(origin[1]),
+                   static_cast<std::int64_t>(origin[2])}};
 }
 
-std::vector<std::uint32_t> grid_points(const PointCloud& cloud, const Grid& grid) {
+std::vector<std::uint32_t> grid_points(const PointCloud& cloud, const CodeGrid& grid) {
   std::vector<std::uint32_t> steps;
   steps.reserve(3 * cloud.size());
   for (const Eigen::Vector3f& p : cloud.points) {
@@ -169,7 +169,7 @@ Result<draco::EncoderBuffer> draco_encode(const std::vector<std::uint32_t>& step
 struct Header {
   std::uint32_t count = 0;
   bool intensities = false;
-  Grid grid;
+  CodeGrid grid;
   IntensityRange range;
   std::uint8_t bits = 0;
 };

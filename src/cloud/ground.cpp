@@ -31,9 +31,9 @@ struct Cell {
   int surface = kNone;
 };
 
-class Grid {
+class GroundGrid {
  public:
-  Grid(const std::vector<Eigen::Vector3f>& levelled, const GroundConfig& config) : config_(config) {
+  GroundGrid(const std::vector<Eigen::Vector3f>& levelled, const GroundConfig& config) : config_(config) {
     for (const auto& p : levelled) add(p.cast<double>());
     fit_planes();
     const std::size_t surfaces = join_surfaces();
@@ -265,7 +265,7 @@ GroundSplit split_ground(const PointCloud& cloud, const GroundConfig& config) {
       indices.push_back(i);
     }
   }
-  const Grid grid(levelled, config);
+  const GroundGrid grid(levelled, config);
   for (std::size_t k = 0; k < indices.size(); ++k) {
     (grid.is_ground(levelled[k]) ? split.ground : split.kept).push_back(indices[k]);
   }

@@ -10,8 +10,6 @@
 namespace fleetmap::cloud {
 namespace {
 
-constexpr std::size_t kMaxNeighbors = NormalConfig::kMaxNeighbors;
-
 /// Covariance of the neighbours about their mean, relative to `origin` so that floats far from zero do no
 /// harm.
 Eigen::Matrix3d covariance_of(const PointCloud& cloud, std::span<const Neighbor> neighbors,
@@ -34,8 +32,8 @@ Normals estimate_normals(const PointCloud& cloud, const KdTree& tree, const Norm
   Normals result;
   result.normals.assign(indices.size(), Eigen::Vector3f::Zero());
   result.variations.assign(indices.size(), 1.0f);
-  std::array<Neighbor, kMaxNeighbors> buffer;
-  const std::span<Neighbor> wanted(buffer.data(), std::min(config.neighbors, kMaxNeighbors));
+  std::array<Neighbor, NormalConfig::kMaxNeighbors> buffer;
+  const std::span<Neighbor> wanted(buffer.data(), std::min(config.neighbors, NormalConfig::kMaxNeighbors));
   const float squared_radius = config.max_radius_m * config.max_radius_m;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   for (std::size_t k = 0; k < indices.size(); ++k) {

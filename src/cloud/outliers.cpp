@@ -12,7 +12,6 @@
 namespace fleetmap::cloud {
 namespace {
 
-constexpr std::size_t kMaxNeighbors = OutlierConfig::kMaxNeighbors;
 // Against rounding in bounds of distances.
 constexpr float kSlack = 1.001f;
 constexpr float kSlackM = 1e-3f;
@@ -20,8 +19,8 @@ constexpr float kSlackM = 1e-3f;
 /// Mean distance of each point to its neighbours in m; negative where it has none.
 std::vector<double> mean_distances(const PointCloud& cloud, std::size_t neighbors) {
   const KdTree tree(cloud);
-  std::array<Neighbor, kMaxNeighbors + 1> buffer;
-  const std::span<Neighbor> wanted(buffer.data(), std::min(neighbors, kMaxNeighbors) + 1);
+  std::array<Neighbor, OutlierConfig::kMaxNeighbors + 1> buffer;
+  const std::span<Neighbor> wanted(buffer.data(), std::min(neighbors, OutlierConfig::kMaxNeighbors) + 1);
   std::vector<double> means(cloud.size(), -1.0);
   // Neighbours of the previous point bound the search around this one.
   std::optional<Eigen::Vector3f> last;

@@ -3,6 +3,7 @@
 #include "agent_sections.hpp"
 #include "fleetmap/config/fleet_config.hpp"
 #include "recording_section.hpp"
+#include "ros_section.hpp"
 #include "twin_sections.hpp"
 
 namespace fleetmap::config {
@@ -14,6 +15,7 @@ std::set<std::string> agent_keys() {
   FleetConfig::Member member;
   read_agent(section, member.agent);
   read_recording(section);
+  read_ros(section);
   read_robot_twin(section, member.robot, member.switched_off);
   return section.known_keys();
 }

@@ -30,7 +30,7 @@ Status check(const std::string& name, const FieldConfig::Medium& medium) {
 }
 
 /// As a shell script reads it: 0.5, 1500.
-std::string text_of(double value) {
+std::string shortest_text(double value) {
   std::ostringstream text;
   text.precision(12);
   text << value;
@@ -77,14 +77,14 @@ std::vector<std::string> field_options(const FieldConfig& field) {
   // The scripts count whole kbit/s and seconds.
   add("radio", std::to_string(std::llround(field.radio.kbit_s)));
   add("wifi", std::to_string(std::llround(field.wifi.kbit_s)));
-  if (field.trace_from > 0.0) add("trace-from", text_of(field.trace_from));
+  if (field.trace_from > 0.0) add("trace-from", shortest_text(field.trace_from));
   add("wifi-from", std::to_string(std::llround(field.wifi_from)));
   add("patience", std::to_string(std::llround(field.patience)));
   const auto add_impairment = [&](const std::string& prefix, const FieldConfig::Medium& medium) {
     for (const auto& [name, value] :
          {std::pair{"loss", medium.loss}, std::pair{"duplicate", medium.duplicate},
           std::pair{"delay", medium.delay_ms}, std::pair{"jitter", medium.jitter_ms}}) {
-      if (value > 0.0) add(prefix + name, text_of(value));
+      if (value > 0.0) add(prefix + name, shortest_text(value));
     }
   };
   add_impairment("", field.radio);

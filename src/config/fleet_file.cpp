@@ -14,6 +14,7 @@
 #include "loopback_domains.hpp"
 #include "network_section.hpp"
 #include "recording_section.hpp"
+#include "ros_section.hpp"
 #include "twin_sections.hpp"
 #include "yaml_section.hpp"
 
@@ -37,6 +38,8 @@ FleetConfig::Member read_member(Section& section, const YAML::Node& own, const s
     section.problem("directory", "a run decides where its agents keep their files");
   if (section.has("fleet")) section.problem("fleet", "a fleet's file lists its agents under 'agents'");
   member.recording = read_recording(section);
+  if (member.recording) member.recording->reader.ouster_metadata = member.agent.perception.ouster.metadata;
+  member.ros = read_ros(section);
   read_robot_twin(section, member.robot, member.switched_off);
   if (!in_twin && !member.recording)
     section.problem("recording",

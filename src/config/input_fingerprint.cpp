@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargest = 64U << 20U;  ///< bytes of a file that is read whole
 constexpr std::size_t kMaxFiles = 10'000;
 
-std::string hash_of(const std::string& text) { return to_hex(content_hash(bytes_of(text))); }
+std::string hex_hash_of(const std::string& text) { return to_hex(content_hash(bytes_of(text))); }
 
 /// Everything a fleet's file leads to, as text.
 class Inputs {
@@ -35,13 +35,13 @@ class Inputs {
     if (size > kLargest) return add_stamp(file);
     std::ifstream in(file, std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(in), {}};
-    text_ += "file " + file.filename().string() + " " + hash_of(content) + "\n";
+    text_ += "file " + file.filename().string() + " " + hex_hash_of(content) + "\n";
     if (file.extension() != ".yaml" && file.extension() != ".yml") return;
     // A file that is not a map, or no YAML at all, is still an input by its bytes.
     if (const auto document = Document::load(file)) add_values(document->root(), file.parent_path());
   }
   void add_text(const std::string& text) { text_ += text + "\n"; }
-  std::string hash() const { return hash_of(text_); }
+  std::string hash() const { return hex_hash_of(text_); }
 
  private:
   void add_path(const fs::path& folder, const std::string& value) {

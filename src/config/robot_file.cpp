@@ -12,6 +12,7 @@
 #include "mission_section.hpp"
 #include "recording_section.hpp"
 #include "robot_document.hpp"
+#include "ros_section.hpp"
 #include "twin_sections.hpp"
 #include "yaml_section.hpp"
 
@@ -31,6 +32,8 @@ Result<RobotConfig> read_robot(Document& document) {
   Section dds = top.section("dds");
   if (dds.has("qos")) check_profiles(dds, robot.dds.qos_directory);
   robot.recording = read_recording(top);
+  if (robot.recording) robot.recording->reader.ouster_metadata = robot.agent.perception.ouster.metadata;
+  robot.ros = read_ros(top);
   robot.mission = read_mission(top, robot.agent);
   top.finish();
   if (robot.agent.directory.empty())
@@ -84,6 +87,8 @@ Result<RobotConfig> load_sensors(const std::optional<std::filesystem::path>& fil
   robot.dds.qos_directory = "qos";
   read_dds(top, robot.dds);
   robot.recording = read_recording(top);
+  if (robot.recording) robot.recording->reader.ouster_metadata = robot.agent.perception.ouster.metadata;
+  robot.ros = read_ros(top);
   top.has("keys");
   top.has("mission");  // irrelevant to the sensors
   top.finish();

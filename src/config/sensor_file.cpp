@@ -1,15 +1,14 @@
 #include "fleetmap/config/sensor_file.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "yaml_section.hpp"
 
 namespace fleetmap::config {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kMaxRings = 1024;
 
 /// A list of angles, or {first, last, rings} for evenly spaced ones.

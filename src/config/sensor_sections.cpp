@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "fleetmap/core/text_list.hpp"
+#include "fleetmap/ros_codec/points_type.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -20,6 +22,37 @@ std::uint16_t read_port(Section& section, const std::string& key, const char* us
 }
 
 bool states_mount(Section& sensor) { return sensor.has("translation") || sensor.has("rotation_rpy_deg"); }
+
+void read_ouster(Section& lidar, agent::PerceptionConfig& perception) {
+  agent::OusterConfig& ouster = perception.ouster;
+  std::filesystem::path file;
+  lidar.read_path("ouster_metadata", file);
+  if (!file.empty()) {
+    if (auto metadata = sensor::load_ouster_metadata(file)) {
+      ouster.metadata = std::move(*metadata);
+    } else {
+      lidar.problem(
+          "ouster_metadata",
+          metadata.error().message + "; expected what `curl http://SENSOR/api/v1/sensor/metadata` writes");
+    }
+  }
+  if (lidar.has("ouster_port")) ouster.lidar_port = read_port(lidar, "ouster_port", "7502");
+  if (lidar.has("ouster_imu_port")) ouster.imu_port = read_port(lidar, "ouster_imu_port", "7503");
+  if (ouster.lidar_port != 0 && !lidar.has("ouster_metadata"))
+    lidar.problem("ouster_port",
+                  "expected lidar.ouster_metadata as well: a file that "
+                  "`curl http://SENSOR/api/v1/sensor/metadata` writes");
+  if (ouster.lidar_port != 0 && perception.velodyne_port != 0)
+    lidar.problem("ouster_port", "lidar.velodyne_port is given as well; expected one of them");
+  if (ouster.imu_port == 0) return;
+  if (ouster.lidar_port == 0) lidar.problem("ouster_imu_port", "expected lidar.ouster_port as well");
+  if (ouster.lidar_port == ouster.imu_port)
+    lidar.problem("ouster_imu_port", "expected another port than lidar.ouster_port");
+  if (ouster.metadata && !ouster.metadata->has_imu_packets)
+    lidar.problem("ouster_imu_port",
+                  "the sensor's udp_profile_imu is not LEGACY; set it so, and store the metadata "
+                  "again");
+}
 
 void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   Section lidar = top.section("lidar");
@@ -38,6 +71,7 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
   lidar.read("scan_period", perception.lidar.scan_period);
   lidar.read_degrees("elevations_deg", perception.lidar.vertical_angles);
   if (lidar.has("velodyne_port")) perception.velodyne_port = read_port(lidar, "velodyne_port", "2368");
+  read_ouster(lidar, perception);
   lidar.finish();
 }
 
@@ -51,6 +85,13 @@ void read_topics(Section& top, agent::SensorTopics& topics) {
     section.read(key, *name);
     if (name->starts_with("/")) *name = "rt" + *name;
     if (name->empty()) section.problem(key, "expected the name of a topic, e.g. /velodyne_points");
+  }
+  std::string points_type(ros_codec::ros_name(topics.points_type));
+  section.read("points_type", points_type);
+  if (const auto known = ros_codec::points_type(points_type)) {
+    topics.points_type = *known;
+  } else {
+    section.problem("points_type", known.error().message);
   }
   section.finish();
 }
@@ -135,7 +176,7 @@ std::optional<agent::TcpServer> read_gpsd(Section& gps) {
   return server;
 }
 
-void read_mavlink(Section& top, agent::DeviceConfig& devices) {
+void read_mavlink(Section& top, bool lidar_has_imu, agent::DeviceConfig& devices) {
   Section mavlink = top.section("mavlink");
   if (const auto serial = read_serial(mavlink, "device", "baud", 57600)) devices.mavlink = *serial;
   if (mavlink.has("udp_port")) {
@@ -146,6 +187,11 @@ void read_mavlink(Section& top, agent::DeviceConfig& devices) {
   mavlink.read("imu", devices.mavlink_imu);
   if (devices.mavlink && !devices.mavlink_gps && !devices.mavlink_imu)
     mavlink.problem("imu", "neither gps nor imu of the autopilot is used; expected one of them to be true");
+  if (devices.mavlink && devices.mavlink_imu && lidar_has_imu)
+    mavlink.problem(
+        "imu",
+        "the LiDAR's IMU is used as well (lidar.ouster_imu_port); expected false, or that port left "
+        "out");
   mavlink.finish();
 }
 
@@ -188,7 +234,7 @@ void read_perception(Section& top, agent::PerceptionConfig& perception) {
   read_topics(top, perception.topics);
   read_lidar(top, perception);
   read_imu(top, perception);
-  read_mavlink(top, perception.devices);
+  read_mavlink(top, perception.ouster.imu_port != 0, perception.devices);
   read_gps(top, perception);
   read_wheel(top, perception.localization);
   read_odometry(top, perception);

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
 #include "fleetmap/core/edit_distance.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::config {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string text_of(const YAML::Node& node) {
   std::ostringstream out;

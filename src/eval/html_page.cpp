@@ -6,6 +6,8 @@
 namespace fleetmap::eval {
 namespace {
 
+constexpr std::size_t kShortCell = 40;  // characters; longer ones wrap
+
 constexpr const char* kStyle = R"(
 :root{color-scheme:light dark}
 body{font:15px/1.5 system-ui,sans-serif;margin:0 auto;padding:1.5rem;max-width:1400px;color:#1b1f24;background:#fff}
@@ -13,13 +15,19 @@ h1{font-size:1.6rem;margin:0 0 1rem}h2{font-size:1.15rem;margin:2rem 0 .6rem}
 .scroll{overflow-x:auto}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums}
 th,td{padding:.3rem .7rem;text-align:right;border-bottom:1px solid #d5d9de;white-space:nowrap}
-th{font-weight:600}th:first-child,td:first-child{text-align:left}
+th{font-weight:600}th:first-child,td:first-child,td.sentence{text-align:left}
+td.sentence{white-space:normal;min-width:15rem}
+h1,h2,p,li,td.sentence,figcaption{overflow-wrap:anywhere}
+ul.warnings{list-style:none;padding:0}
+.warnings li{border-left:4px solid #c2410c;background:#fff4ec;padding:.4rem .8rem;margin:.4rem 0}
 .figures{display:flex;flex-wrap:wrap;gap:1rem}
 figure{margin:0;flex:1 1 420px;max-width:100%}
 figure svg,figure img{width:100%;height:auto;border-radius:4px}
 figcaption{font-size:.85rem;opacity:.75}
 pre{overflow-x:auto;font-size:.8rem}
-@media(prefers-color-scheme:dark){body{color:#dfe3e8;background:#15181c}th,td{border-color:#3a4048}}
+@media(prefers-color-scheme:dark){body{color:#dfe3e8;background:#15181c}th,td{border-color:#3a4048}
+.warnings li{background:#33211a}}
+@media(max-width:600px){body{padding:1rem}th,td{padding:.25rem .35rem}th{white-space:normal}td{font-size:.9rem}}
 )";
 
 }  // namespace
@@ -64,10 +72,21 @@ HtmlPage& HtmlPage::table(const Table& rows) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::string tag = r == 0 ? "th" : "td";
     body_ += "<tr>";
-    for (const std::string& cell : rows[r]) body_ += "<" + tag + ">" + escaped(cell) + "</" + tag + ">";
+    for (const std::string& cell : rows[r]) {
+      const bool wraps = r > 0 && cell.size() > kShortCell;
+      body_ += "<" + tag + (wraps ? " class=\"sentence\"" : "") + ">" + escaped(cell) + "</" + tag + ">";
+    }
     body_ += "</tr>\n";
   }
   body_ += "</table></div>\n";
+  return *this;
+}
+
+HtmlPage& HtmlPage::warnings(const std::vector<std::string>& sentences) {
+  close_figures();
+  body_ += "<ul class=\"warnings\">\n";
+  for (const std::string& sentence : sentences) body_ += "<li>" + escaped(sentence) + "</li>\n";
+  body_ += "</ul>\n";
   return *this;
 }
 

@@ -237,6 +237,8 @@ MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& co
   return metrics;
 }
 
+double mapped_area(const cloud::PointCloud& map) { return area_of(usable(map, Eigen::Vector3f::Zero())); }
+
 std::vector<float> errors_of(const cloud::PointCloud& map, const cloud::PointCloud& truth, double cap) {
   std::vector<float> errors(map.size(), static_cast<float>(cap));
   cloud::PointCloud points{usable(truth, Eigen::Vector3f::Zero()), {}};

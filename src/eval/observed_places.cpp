@@ -7,7 +7,7 @@
 namespace fleetmap::eval {
 namespace {
 
-constexpr double kFarthest = 1e6;  ///< cubes from the origin, per axis: keys hold 21 bits of each
+constexpr double kFarthestCube = 1e6;  ///< cubes from the origin, per axis: keys hold 21 bits of each
 
 }  // namespace
 
@@ -22,10 +22,10 @@ struct ObservedPlaces::Cubes {
 
   bool key_of(const Eigen::Vector3f& point, std::uint64_t& key) const {
     const Eigen::Vector3d at = (point.cast<double>() / edge).array().floor();
-    if (!at.allFinite() || at.cwiseAbs().maxCoeff() >= kFarthest) return false;
+    if (!at.allFinite() || at.cwiseAbs().maxCoeff() >= kFarthestCube) return false;
     key = 0;
     for (int k = 0; k < 3; ++k) {
-      const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(at[k] + kFarthest));
+      const auto index = static_cast<std::uint64_t>(static_cast<std::int64_t>(at[k] + kFarthestCube));
       key = (key << 21) | index;
     }
     return true;

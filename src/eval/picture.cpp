@@ -6,7 +6,9 @@
 #include <numbers>
 #include <optional>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "lettering.hpp"
+#include "usable_point.hpp"
 
 namespace fleetmap::eval {
 namespace {
@@ -14,18 +16,15 @@ namespace {
 constexpr int kOversampling = 2;
 constexpr double kMargin = 0.06;        // share of the picture left free on each side
 constexpr double kOutermost = 0.004;    // share of points on each side that the view is not fitted to
-constexpr float kFarthest = 1e6f;       // m: nothing of a site lies farther from its origin
 constexpr double kLargestSquare = 9.0;  // pixels, so that a point before the camera hides nothing
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-
-bool usable(const Eigen::Vector3f& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest; }
 
 /// Some of the points in the frame whose axes are the rows of `axes`.
 std::vector<Eigen::Vector3d> samples_of(const cloud::PointCloud& cloud, const Eigen::Matrix3d& axes) {
   std::vector<Eigen::Vector3d> samples;
   const std::size_t step = cloud.size() / 200'000 + 1;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
-    if (usable(cloud.points[i])) samples.push_back(axes * cloud.points[i].cast<double>());
+    if (is_usable(cloud.points[i])) samples.push_back(axes * cloud.points[i].cast<double>());
   }
   return samples;
 }
@@ -58,7 +57,6 @@ class Camera {
  public:
   Camera(const View& view, const cloud::PointCloud& cloud, int width, int height)
       : perspective_(view.projection == Projection::kPerspective), width_(width), height_(height) {
-    constexpr double kDegree = std::numbers::pi / 180.0;
     const double elevation = perspective_ ? view.elevation_deg * kDegree : std::numbers::pi / 2;
     const double azimuth = perspective_ ? view.azimuth_deg * kDegree : -std::numbers::pi / 2;
     const Eigen::Vector3d back(std::cos(elevation) * std::cos(azimuth),
@@ -216,7 +214,7 @@ Result<Image> render(const cloud::PointCloud& cloud, const std::vector<Rgb>& col
   canvas.image = {width, height, std::vector<Rgb>(pixels, view.background)};
   canvas.depth.assign(pixels, kNothing);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!usable(cloud.points[i])) continue;
+    if (!is_usable(cloud.points[i])) continue;
     const Camera::Projected at = camera.project(cloud.points[i]);
     if (camera.perspective() && at.depth < 0.1) continue;
     splat(canvas, at, view.point_size, colours[i]);

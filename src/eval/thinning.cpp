@@ -6,16 +6,9 @@
 #include <random>
 
 #include "fleetmap/cloud/voxel_grid.hpp"
+#include "usable_point.hpp"
 
 namespace fleetmap::eval {
-namespace {
-
-constexpr float kFarthest = 1e6f;  // m: nothing of a site lies farther from its origin
-
-bool is_usable(const Eigen::Vector3f& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() < kFarthest; }
-
-}  // namespace
-
 cloud::PointCloud thinned(const cloud::PointCloud& cloud, double voxel) {
   cloud::VoxelMerger merger(static_cast<float>(voxel), cloud::VoxelPoint::first);
   merger.add(cloud);

@@ -190,14 +190,16 @@ void Exchange::State::tick_holds(Stamp now) {
     orders_to_store = !stored;
     if (!stored) events.push_back(StoreFailed{stored.error()});
   }
-  outbox.broadcast(Priority::kSafety, Hold{members.self(), own_driving(), holds.all(), holds.rows().all()});
+  for (std::vector<HoldOrder>& part : holds.parts())
+    outbox.broadcast(Priority::kSafety,
+                     Hold{members.self(), own_driving(), std::move(part), holds.rows().all()});
 }
 
 Hold::Driving Exchange::State::own_driving() const {
   if (!drives) return Hold::Driving::kNoMission;
   if (holds.held()) return Hold::Driving::kHeld;
   const auto order = holds.in_force();
-  return order && order->kind == HoldOrder::Kind::kHome ? Hold::Driving::kHome : Hold::Driving::kFree;
+  return order && order->calls_home() ? Hold::Driving::kHome : Hold::Driving::kFree;
 }
 
 AgentStatus Exchange::State::own_status() const {

@@ -11,7 +11,7 @@ constexpr const char* kAnyone = "*";
 constexpr const char* kGive = "give";
 
 /// A total order, so that all robots choose the same one of two that were given at once.
-auto precedence(const RowOrder& order) {
+auto row_precedence(const RowOrder& order) {
   return std::tie(order.stamp, order.row, order.to, order.robot, order.issuer);
 }
 
@@ -19,11 +19,12 @@ auto precedence(const RowOrder& order) {
 
 bool RowOrders::add(const RowOrder& order) {
   const auto [entry, fresh] = registers_.try_emplace(order.row, order);
-  if (!fresh && precedence(order) <= precedence(entry->second)) return false;
+  if (!fresh && row_precedence(order) <= row_precedence(entry->second)) return false;
   entry->second = order;
   if (registers_.size() <= messages::Hold::kMaxRows) return true;
-  const auto first = std::ranges::min_element(
-      registers_, [](const auto& a, const auto& b) { return precedence(a.second) < precedence(b.second); });
+  const auto first = std::ranges::min_element(registers_, [](const auto& a, const auto& b) {
+    return row_precedence(a.second) < row_precedence(b.second);
+  });
   const bool kept = first->first != order.row;
   registers_.erase(first);
   return kept;
@@ -32,7 +33,7 @@ bool RowOrders::add(const RowOrder& order) {
 bool RowOrders::more_than(const std::vector<RowOrder>& theirs) const {
   return std::ranges::any_of(registers_, [&](const auto& entry) {
     const auto same = std::ranges::find(theirs, entry.first, &RowOrder::row);
-    return same == theirs.end() || precedence(entry.second) > precedence(*same);
+    return same == theirs.end() || row_precedence(entry.second) > row_precedence(*same);
   });
 }
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chunk_size.hpp"
+
 namespace fleetmap::exchange {
 namespace {
 
-constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 static_assert(kChunk == SubmapChunk::kMaxPayload);
 /// A download without any arrival for so many of the longest timeouts is stopped.
 constexpr int kSilentTimeouts = 3;

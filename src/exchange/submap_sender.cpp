@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "chunk_size.hpp"
 #include "digest_part.hpp"
 
 namespace fleetmap::exchange {
 namespace {
 
-constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
 constexpr std::size_t kMaxLoaded = 4;  // submaps in memory
 
 }  // namespace

@@ -3,15 +3,10 @@
 #include <cmath>
 #include <string>
 
+#include "chunk_size.hpp"
 #include "fleetmap/store/store.hpp"
 
 namespace fleetmap::exchange {
-
-namespace {
-
-constexpr std::uint32_t kChunk = store::Store::kChunkBytes;
-
-}  // namespace
 
 Status SubmapTransferConfig::validate() const {
   if (!(bytes_per_second > 0.0) || !std::isfinite(bytes_per_second)) {

@@ -9,14 +9,14 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr std::array<const char*, kFaultKinds> kNames{
+constexpr std::array<const char*, kFaultKinds> kKindNames{
     "loss",       "delay",         "duplication", "one_way",     "partition", "crash",
     "lost_store", "old_store",     "full_disk",   "clock_step",  "stranger",  "forged",
     "liar",       "damaged_store", "compromised", "many_starts", "new_origin"};
 
 }  // namespace
 
-const char* to_string(FaultKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
+const char* to_string(FaultKind kind) { return kKindNames.at(static_cast<std::size_t>(kind)); }
 
 bool stops_robot(FaultKind kind) {
   switch (kind) {
@@ -33,7 +33,7 @@ bool stops_robot(FaultKind kind) {
 }
 
 Result<std::set<FaultKind>> parse_fault_kinds(std::string_view names) {
-  return parse_names<FaultKind>(names, kNames);
+  return parse_names<FaultKind>(names, kKindNames);
 }
 
 std::string to_string(const Fault& fault) {

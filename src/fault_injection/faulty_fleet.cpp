@@ -6,11 +6,11 @@
 #include "convergence.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "fleetmap/fleet_codec/topics.hpp"
+#include "tick.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr Duration kTick = std::chrono::milliseconds(100);
 constexpr double kWifi = 50.0;  // m
 
 std::string backup_name(std::size_t fault) { return std::string(".").append(std::to_string(fault)); }

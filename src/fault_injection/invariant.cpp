@@ -9,16 +9,16 @@
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr std::array<const char*, kInvariants> kNames{"converges", "completes", "same_map", "nothing_lost",
-                                                      "budget",    "bounded",   "alive",    "own_items",
-                                                      "starts",    "truth",     "rows",     "named"};
+constexpr std::array<const char*, kInvariants> kInvariantNames{
+    "converges", "completes", "same_map", "nothing_lost", "budget", "bounded",
+    "alive",     "own_items", "starts",   "truth",        "rows",   "named"};
 
 }  // namespace
 
-const char* to_string(Invariant invariant) { return kNames.at(static_cast<std::size_t>(invariant)); }
+const char* to_string(Invariant invariant) { return kInvariantNames.at(static_cast<std::size_t>(invariant)); }
 
 Result<std::set<Invariant>> parse_invariants(std::string_view names) {
-  return parse_names<Invariant>(names, kNames);
+  return parse_names<Invariant>(names, kInvariantNames);
 }
 
 std::string to_string(const Violation& violation) {

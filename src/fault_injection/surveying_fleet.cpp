@@ -8,11 +8,11 @@
 #include "fleetmap/exchange/reissue.hpp"
 #include "fleetmap/fleet_codec/messages.hpp"
 #include "session_draw.hpp"
+#include "tick.hpp"
 
 namespace fleetmap::fault_injection {
 namespace {
 
-constexpr Duration kTick = std::chrono::milliseconds(100);
 constexpr Duration kStartRetry = std::chrono::seconds(5);
 constexpr Duration kSessionPause = std::chrono::minutes(1);  // as agent::Agent
 constexpr Duration kPlacementPeriod = std::chrono::seconds(40);

@@ -37,7 +37,7 @@ graph::AlignmentMode decoded(const msg::AlignmentMode& in, FieldCheck& check) {
 }
 
 /// Without schema version and signature.
-msg::Alignment unsigned_message(const graph::Alignment& alignment) {
+msg::Alignment unsigned_alignment(const graph::Alignment& alignment) {
   msg::Alignment out;
   out.computed_by(agent_name(alignment.computed_by));
   out.agent_i(agent_name(alignment.i.agent));
@@ -50,15 +50,15 @@ msg::Alignment unsigned_message(const graph::Alignment& alignment) {
   return out;
 }
 
-bool is_encoding_of(const graph::Alignment& alignment, const msg::Alignment& message) {
-  msg::Alignment again = unsigned_message(alignment);
+bool encodes_alignment(const graph::Alignment& alignment, const msg::Alignment& message) {
+  msg::Alignment again = unsigned_alignment(alignment);
   again.schema(message.schema());
   again.signature(message.signature());
   return again == message;
 }
 
 /// Also a message that encoding the item again changes.
-Result<graph::Alignment> read(const msg::Alignment& in) {
+Result<graph::Alignment> read_alignment(const msg::Alignment& in) {
   FieldCheck check(type_name::kAlignment);
   graph::Alignment alignment;
   alignment.i = check.node(in.agent_i(), in.seq_i(), "agent_i");
@@ -78,20 +78,20 @@ Result<graph::Alignment> read(const msg::Alignment& in) {
 }  // namespace
 
 Bytes encode(const graph::Alignment& alignment) {
-  msg::Alignment out = unsigned_message(alignment);
+  msg::Alignment out = unsigned_alignment(alignment);
   out.schema(kSchemaVersion);
   out.signature(signature_bytes(alignment.signature));
   return bus::to_cdr(out);
 }
 
-Bytes signed_bytes(const graph::Alignment& alignment) { return bus::to_cdr(unsigned_message(alignment)); }
+Bytes signed_bytes(const graph::Alignment& alignment) { return bus::to_cdr(unsigned_alignment(alignment)); }
 
 template <>
 Result<graph::Alignment> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Alignment>(cdr, type_name::kAlignment);
   if (!in) return tl::unexpected(in.error());
-  auto alignment = read(*in);
-  if (!alignment || is_encoding_of(*alignment, *in)) return alignment;
+  auto alignment = read_alignment(*in);
+  if (!alignment || encodes_alignment(*alignment, *in)) return alignment;
   // Else another content than the signed one could bear the signature.
   if (alignment->signature)
     return failure(std::string(type_name::kAlignment) +
@@ -101,7 +101,7 @@ Result<graph::Alignment> decode(ByteView cdr) {
 }
 
 Result<graph::Alignment> quantised(const graph::Alignment& alignment) {
-  return rounded<msg::Alignment>(alignment, type_name::kAlignment, read);
+  return rounded<msg::Alignment>(alignment, type_name::kAlignment, read_alignment);
 }
 
 }  // namespace fleetmap::fleet_codec

@@ -331,7 +331,7 @@ Result<messages::Hold> decode(ByteView cdr) {
   check.require(in->orders().size() <= kMaxHoldOrders, "orders are more than 32");
   for (const msg::HoldOrder& order : in->orders()) {
     const bool all = order.robot() == AgentName{};
-    check.require(order.kind() <= 2, "kind of an order is not known");
+    check.require(order.kind() <= 3, "kind of an order is not known");
     hold.orders.push_back({check.stamp(order.stamp()), all ? AgentId{} : check.agent(order.robot(), "robot"),
                            check.agent(order.issuer(), "issuer"),
                            static_cast<messages::HoldOrder::Kind>(order.kind())});

@@ -91,7 +91,7 @@ Eigen::Vector3d read_up(const std::array<std::int16_t, 3>& codes, FieldCheck& ch
 }
 
 /// Without schema version and signature.
-msg::Node unsigned_message(const graph::Node& node) {
+msg::Node unsigned_node(const graph::Node& node) {
   msg::Node out;
   out.agent(agent_name(node.id.agent));
   out.seq(node.id.seq);
@@ -107,15 +107,15 @@ msg::Node unsigned_message(const graph::Node& node) {
   return out;
 }
 
-bool is_encoding_of(const graph::Node& node, const msg::Node& message) {
-  msg::Node again = unsigned_message(node);
+bool encodes_node(const graph::Node& node, const msg::Node& message) {
+  msg::Node again = unsigned_node(node);
   again.schema(message.schema());
   again.signature(message.signature());
   return again == message;
 }
 
 /// Also a message that encoding the item again changes.
-Result<graph::Node> read(const msg::Node& in) {
+Result<graph::Node> read_node(const msg::Node& in) {
   FieldCheck check(type_name::kNode);
   graph::Node node;
   node.id = check.node(in.agent(), in.seq(), "agent");
@@ -140,20 +140,20 @@ Result<graph::Node> read(const msg::Node& in) {
 }  // namespace
 
 Bytes encode(const graph::Node& node) {
-  msg::Node out = unsigned_message(node);
+  msg::Node out = unsigned_node(node);
   out.schema(kSchemaVersion);
   out.signature(signature_bytes(node.signature));
   return bus::to_cdr(out);
 }
 
-Bytes signed_bytes(const graph::Node& node) { return bus::to_cdr(unsigned_message(node)); }
+Bytes signed_bytes(const graph::Node& node) { return bus::to_cdr(unsigned_node(node)); }
 
 template <>
 Result<graph::Node> decode(ByteView cdr) {
   const auto in = fleet_type_from_cdr<msg::Node>(cdr, type_name::kNode);
   if (!in) return tl::unexpected(in.error());
-  auto node = read(*in);
-  if (!node || is_encoding_of(*node, *in)) return node;
+  auto node = read_node(*in);
+  if (!node || encodes_node(*node, *in)) return node;
   // Else another content than the signed one could bear the signature.
   if (node->signature)
     return failure(std::string(type_name::kNode) + ": is signed and is not what encoding it again gives");
@@ -162,7 +162,7 @@ Result<graph::Node> decode(ByteView cdr) {
 }
 
 Result<graph::Node> quantised(const graph::Node& node) {
-  return rounded<msg::Node>(node, type_name::kNode, read);
+  return rounded<msg::Node>(node, type_name::kNode, read_node);
 }
 
 }  // namespace fleetmap::fleet_codec

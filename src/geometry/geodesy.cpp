@@ -5,12 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/geometry/portable_math.hpp"
 
 namespace fleetmap {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const GeographicLib::LocalCartesian& cast(const std::shared_ptr<const void>& projection) {
   return *static_cast<const GeographicLib::LocalCartesian*>(projection.get());

@@ -2,7 +2,8 @@
 
 #include <GeographicLib/Geoid.hpp>
 #include <exception>
-#include <numbers>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap {
 
@@ -20,7 +21,6 @@ Result<Geoid> Geoid::load(const std::string& name) {
 }
 
 Result<double> Geoid::undulation(const GeoPoint& point) const {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   if (!is_valid(point)) return failure("geoid " + name_ + ": a place that is not on Earth");
   const auto& data = *static_cast<const GeographicLib::Geoid*>(data_.get());
   try {

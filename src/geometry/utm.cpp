@@ -3,15 +3,10 @@
 #include <GeographicLib/TransverseMercator.hpp>
 #include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
-#include <numbers>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-}  // namespace
-
 std::optional<UtmZone> utm_zone_at(const GeoPoint& point) {
   if (!is_valid(point)) return std::nullopt;
   const int number = GeographicLib::UTMUPS::StandardZone(point.latitude / kDegree, point.longitude / kDegree);

@@ -12,7 +12,7 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr std::size_t kMinRejected = 3;  ///< alignments of a pair of agents
-constexpr std::size_t kMinPeers = 2;
+constexpr std::size_t kMinContradictingPeers = 2;
 constexpr std::size_t kMinSteps = 4;
 /// Bounds of a step's difference between fixes and odometry. GPS in the field may jump by some metres.
 constexpr double kStepSigmas = 6.0;
@@ -118,7 +118,7 @@ std::map<AgentId, Contradiction> contradict_the_fleet(const Placement& placement
     const auto worst = std::ranges::max_element(by_agent, {}, [](const auto& one) {
       return std::pair(one.second.with.size(), one.second.alignments);
     });
-    if (worst->second.with.size() < kMinPeers) break;
+    if (worst->second.with.size() < kMinContradictingPeers) break;
     found.insert(*worst);
     std::erase_if(left, [&](const auto& one) {
       return one.first.first == worst->first || one.first.second == worst->first;

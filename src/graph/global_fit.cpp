@@ -10,7 +10,7 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr int kMaxIterations = 20;
-constexpr double kConverged = 1e-10;
+constexpr double kMinStep = 1e-10;
 
 /// Number of nodes of each agent that share one independent GPS error.
 std::map<AgentId, double> nodes_per_independent_fix(std::span<const Node> nodes, double correlation_time) {
@@ -71,7 +71,7 @@ Pose fit_to_global_poses(std::span<const Node> nodes, std::span<const Pose> T_co
     T_enu_common =
         make_pose(Eigen::Matrix3d(R * T_enu_common.linear()),
                   Eigen::Vector3d(R * (T_enu_common.translation() - centre) + centre + step.head<3>()));
-    if (step.norm() < kConverged) break;
+    if (step.norm() < kMinStep) break;
   }
   return T_enu_common;
 }

@@ -24,7 +24,9 @@ std::deque<std::string> spread(const std::vector<std::string>& all) {
   return order;
 }
 
-Reply plain(unsigned status, std::string text) { return {.status = status, .body = std::move(text) + '\n'}; }
+Reply plain_reply(unsigned status, std::string text) {
+  return {.status = status, .body = std::move(text) + '\n'};
+}
 
 }  // namespace
 
@@ -54,7 +56,12 @@ void Content::show(const FleetView& view) {
   for (std::size_t k = 0; k < view.nodes.size(); ++k) {
     if (!view.has_submap[k]) continue;
     const std::string hash = to_hex(view.nodes[k].submap_hash);
-    if (submaps_.emplace(hash, view.nodes[k].id).second && !made_.contains(hash)) missing.push_back(hash);
+    if (!submaps_.emplace(hash, view.nodes[k].id).second || made_.contains(hash)) continue;
+    if (has_preview(hash)) {
+      made_.insert(hash);
+    } else {
+      missing.push_back(hash);
+    }
   }
   std::erase_if(made_, [this](const std::string& hash) { return !submaps_.contains(hash); });
   waiting_ = spread(missing);
@@ -79,9 +86,26 @@ std::pair<std::string, Content::Make> Content::begin_preview() {
 
 void Content::end_preview(const std::string& hash, const Cloud& preview) {
   being_made_.erase(hash);
-  if (!preview) return;  // a page that asks for it is told why
+  if (preview) keep_new(hash, preview);  // else a page that asks for it is told why
+}
+
+void Content::keep_new(const std::string& hash, const Cloud& preview) {
   coarse_.keep(hash, preview);
   made_.insert(hash);
+  ++new_previews_;
+}
+
+void Content::keep(const Previews& previews) {
+  for (const auto& [hash, preview] : previews) coarse_.keep(hash, preview);
+}
+
+Previews Content::previews() {
+  Previews kept;
+  for (const auto& [hash, node] : submaps_) {
+    if (auto preview = coarse_.find(hash)) kept[hash] = std::move(preview);
+  }
+  new_previews_ = 0;
+  return kept;
 }
 
 void Content::show(const LiveStatus& status, bool operated) {
@@ -102,8 +126,9 @@ Reply Content::page_file(std::string_view path) const {
     if (path == file.path)
       return {.type = file.type, .body = std::string(file.gzip.begin(), file.gzip.end()), .gzip = true};
   }
-  if (path == "/index.html") return plain(200, why_no_page() + "\nThe fleet's state is at /state.json.");
-  return plain(404, "nothing is here");
+  if (path == "/index.html")
+    return plain_reply(200, why_no_page() + "\nThe fleet's state is at /state.json.");
+  return plain_reply(404, "nothing is here");
 }
 
 Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const graph::Node& node) {
@@ -119,11 +144,11 @@ Result<std::shared_ptr<const QuantisedCloud>> Content::cloud(const NodeId& node,
 
 Reply Content::submap(std::string_view target) {
   const auto request = parse_submap_request(target);
-  if (!request) return plain(400, "expected /submap/HASH?from=N&count=N");
+  if (!request) return plain_reply(400, "expected /submap/HASH?from=N&count=N");
   const auto node = submaps_.find(request->hash);
-  if (node == submaps_.end()) return plain(404, "no such submap");
+  if (node == submaps_.end()) return plain_reply(404, "no such submap");
   const auto loaded = cloud(node->second, request->hash);
-  if (!loaded) return plain(503, "the submap cannot be read: " + loaded.error().message);
+  if (!loaded) return plain_reply(503, "the submap cannot be read: " + loaded.error().message);
   cache_.keep(request->hash, *loaded);
   const Bytes points = encoded_points(**loaded, request->from, std::min(request->count, kMaxPointsAtOnce));
   return {.type = "application/octet-stream", .body = {points.begin(), points.end()}, .immutable = true};
@@ -137,14 +162,13 @@ std::shared_ptr<const QuantisedCloud> Content::coarse(const NodeId& node, const 
   const auto whole = cloud(node, hash);
   if (!whole) return std::make_shared<const QuantisedCloud>();
   auto prefix = std::make_shared<const QuantisedCloud>(prefix_of(**whole, kCoarsePoints));
-  coarse_.keep(hash, prefix);
-  made_.insert(hash);
+  keep_new(hash, prefix);
   return prefix;
 }
 
 Reply Content::submaps(std::string_view target) {
   const auto request = parse_submaps_request(target);
-  if (!request) return plain(400, "expected /submaps?count=N&of=HASH,HASH");
+  if (!request) return plain_reply(400, "expected /submaps?from=N&count=N&of=HASH,HASH");
   Reply reply{.type = "application/octet-stream", .body = {}};
   std::size_t decodable = being_made_.empty() ? kDecodedAtOnce : kDecodedBesideOthers;
   for (const std::string& hash : request->hashes) {
@@ -152,7 +176,7 @@ Reply Content::submaps(std::string_view target) {
     if (node == submaps_.end()) continue;
     const auto points = coarse(node->second, hash, decodable);
     if (!points) continue;
-    const Bytes part = encoded_points(*points, 0, request->count);
+    const Bytes part = encoded_points(*points, request->from, request->count);
     reply.body.append(hash).append(part.begin(), part.end());
   }
   if (reply.body.empty() && !being_made_.empty() && decodable > 0) {

@@ -18,6 +18,7 @@
 #include "fleetmap/monitor/server.hpp"
 #include "fleetmap/store/map_merge.hpp"
 #include "point_levels.hpp"
+#include "preview_file.hpp"
 
 namespace fleetmap::monitor {
 
@@ -80,6 +81,13 @@ class Content {
   std::pair<std::string, Make> begin_preview();
   /// Keeps what its work returned.
   void end_preview(const std::string& hash, const Cloud& preview);
+  /// Keeps previews that were made before, so that those of submaps that are shown later need no work.
+  void keep(const Previews& previews);
+  /// Those of the submaps that are shown, as far as they are kept.
+  Previews previews();
+  /// Number of them that were made since keep() or previews().
+  std::size_t new_previews() const { return new_previews_; }
+  std::size_t kept_previews() const { return made_.size(); }
   /// A node's submap, of those kept or freshly decoded; it is kept only if the page asks for it (reply()).
   Result<std::shared_ptr<const QuantisedCloud>> cloud(const graph::Node& node);
 
@@ -92,6 +100,7 @@ class Content {
   /// be decoded first and `decodable` is 0, or are being made.
   std::shared_ptr<const QuantisedCloud> coarse(const NodeId& node, const std::string& hash,
                                                std::size_t& decodable);
+  void keep_new(const std::string& hash, const Cloud& preview);
 
   std::span<const PageFile> page_;
   store::SubmapLoader load_;
@@ -103,6 +112,7 @@ class Content {
   std::deque<std::string> waiting_;        ///< submaps whose previews are to be made
   std::set<std::string> made_;             ///< of those shown, also if the cache lacks them by now
   std::set<std::string> being_made_;       ///< by the work of begin_preview()
+  std::size_t new_previews_ = 0;
 };
 
 }  // namespace fleetmap::monitor

@@ -1,26 +1,26 @@
 #include "http_answer.hpp"
 
-#include <boost/beast/websocket/rfc6455.hpp>
+#include <memory>
 #include <string_view>
 
 #include "fleetmap/monitor/request_check.hpp"
+#include "foxglove/client_session.hpp"
 #include "foxglove/protocol.hpp"
+#include "viewer.hpp"
 
 namespace fleetmap::monitor {
 namespace {
 
-std::string_view view_of(boost::string_view text) { return {text.data(), text.size()}; }
-
-void add_security_headers(Response& response, std::string_view host) {
+void add_security_headers(HttpResponse& response, std::string_view host) {
   const std::string policy =
       "default-src 'self'; img-src 'self' data: blob:; connect-src 'self' "
       "ws://" +
       std::string(host) + "; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
-  response.set("Content-Security-Policy", policy);
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("X-Frame-Options", "DENY");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Cross-Origin-Resource-Policy", "same-origin");
+  response.headers.emplace_back("Content-Security-Policy", policy);
+  response.headers.emplace_back("X-Content-Type-Options", "nosniff");
+  response.headers.emplace_back("X-Frame-Options", "DENY");
+  response.headers.emplace_back("Referrer-Policy", "no-referrer");
+  response.headers.emplace_back("Cross-Origin-Resource-Policy", "same-origin");
 }
 
 /// An order of an operator. `head` has passed refusal().
@@ -36,13 +36,11 @@ Reply reply_to_order(ServerState& state, const RequestHead& head, std::string_vi
   return {.status = 202, .body = "ordered\n"};
 }
 
-Response refused(ServerState& state, http::status status, std::string_view text) {
-  ++state.refused;
-  Response response;
-  response.result(status);
-  response.set(http::field::content_type, "text/plain; charset=utf-8");
-  response.body() = std::string(text) + '\n';
-  return response;
+HttpResponse refused(ServerState& state, unsigned status, std::string_view text) {
+  ++state.counters.refused;
+  return {.status = status,
+          .headers = {{"Content-Type", "text/plain; charset=utf-8"}},
+          .body = std::string(text) + '\n'};
 }
 
 /// Refusal of a Foxglove client, which cannot send headers: its token is in its address. Who has the token
@@ -56,64 +54,62 @@ std::optional<std::string_view> foxglove_refusal(const ServerState& state, const
   return refusal(head, token, state.cookie);
 }
 
-/// The subprotocol of Foxglove that a request offers; empty if it offers none.
-std::string offered_subprotocol(const Request& request) {
-  std::string offered;
-  const auto [begin, end] = request.equal_range(http::field::sec_websocket_protocol);
-  for (auto field = begin; field != end; ++field) offered += std::string(view_of(field->value())) + ',';
-  return std::string(foxglove::chosen_subprotocol(offered));
-}
-
-Response answer_upgrade(ServerState& state, const Request& request, const RequestHead& head,
-                        std::string_view target) {
-  const std::string subprotocol = offered_subprotocol(request);
+HttpResponse answer_upgrade(ServerState& state, const HttpRequest& request, const RequestHead& head) {
+  const std::string subprotocol(foxglove::chosen_subprotocol(request.subprotocols));
+  const std::string_view target = request.target;
   const auto why = subprotocol.empty() ? refusal(head, state.config.token, state.cookie)
                                        : foxglove_refusal(state, head, target);
-  if (why) return refused(state, http::status::forbidden, *why);
+  if (why) return refused(state, 403, *why);
   const std::string_view path = target.substr(0, target.find('?'));
   if (subprotocol.empty() ? target != "/live" : path != "/live" && path != "/")
-    return refused(state, http::status::not_found,
+    return refused(state, 404,
                    "the page's WebSocket is at /live, Foxglove's at / with subprotocol foxglove.sdk.v1");
-  if (state.viewers_now >= state.config.max_viewers)
-    return refused(state, http::status::service_unavailable, "too many pages are open; close one");
-  Response response;
-  response.result(http::status::switching_protocols);
-  if (!subprotocol.empty()) response.set(http::field::sec_websocket_protocol, subprotocol);
+  if (state.counters.viewers >= state.config.max_viewers)
+    return refused(state, 503, "too many pages are open; close one");
+  HttpResponse response{.status = 101};
+  if (subprotocol.empty()) {
+    response.session = std::make_unique<Viewer>(state);
+  } else {
+    response.headers.emplace_back("Sec-WebSocket-Protocol", subprotocol);
+    response.session = std::make_unique<foxglove::ClientSession>(state);
+  }
+  return response;
+}
+
+/// The page's address with the right token: the page follows, and its browser keeps the token as a cookie.
+bool exchanges_token(const ServerState& state, const RequestHead& head, std::string_view target) {
+  constexpr std::string_view kWithToken = "/?token=";
+  return !state.config.token.empty() && target.starts_with(kWithToken) && !refusal(head, "", "") &&
+         equal_secrets(target.substr(kWithToken.size()), state.config.token);
+}
+
+HttpResponse response_of(Reply reply, std::string_view host) {
+  HttpResponse response{.status = reply.status, .headers = {{"Content-Type", reply.type}}};
+  if (reply.gzip) response.headers.emplace_back("Content-Encoding", "gzip");
+  response.headers.emplace_back("Cache-Control",
+                                reply.immutable ? "private, max-age=31536000, immutable" : "no-store");
+  add_security_headers(response, host);
+  response.body = std::move(reply.body);
   return response;
 }
 
 }  // namespace
 
-Response answer(ServerState& state, const Request& request) {
-  const std::string_view target = view_of(request.target()), host = view_of(request[http::field::host]);
-  const RequestHead head{host, view_of(request[http::field::origin]), view_of(request[http::field::cookie]),
-                         view_of(request[http::field::authorization])};
-  if (beast::websocket::is_upgrade(request)) return answer_upgrade(state, request, head, target);
-  Response response;
-  constexpr std::string_view kWithToken = "/?token=";
-  if (!state.config.token.empty() && target.starts_with(kWithToken) && !refusal(head, "", "") &&
-      equal_secrets(target.substr(kWithToken.size()), state.config.token)) {
-    response.result(http::status::see_other);
-    response.set(http::field::location, "/");
-    response.set(http::field::set_cookie,
-                 state.cookie + '=' + state.config.token + "; HttpOnly; SameSite=Strict; Path=/");
-    return response;
+HttpResponse answer(ServerState& state, const HttpRequest& request) {
+  using Method = HttpRequest::Method;
+  const RequestHead head{request.host, request.origin, request.cookie, request.authorization};
+  if (request.upgrade) return answer_upgrade(state, request, head);
+  if (exchanges_token(state, head, request.target)) {
+    const std::string cookie = state.cookie + '=' + state.config.token;
+    return {.status = 303,
+            .headers = {{"Location", "/"}, {"Set-Cookie", cookie + "; HttpOnly; SameSite=Strict; Path=/"}}};
   }
-  if (const auto why = refusal(head, state.config.token, state.cookie))
-    return refused(state, http::status::forbidden, *why);
-  const bool orders = request.method() == http::verb::post;
-  if (!orders && request.method() != http::verb::get && request.method() != http::verb::head)
-    return refused(state, http::status::method_not_allowed, "everything here is read only");
-  Reply reply = orders ? reply_to_order(state, head, target) : state.content.reply(target);
-  if (reply.status >= 400) ++state.refused;
-  response.result(reply.status);
-  response.set(http::field::content_type, reply.type);
-  if (reply.gzip) response.set(http::field::content_encoding, "gzip");
-  response.set(http::field::cache_control,
-               reply.immutable ? "private, max-age=31536000, immutable" : "no-store");
-  add_security_headers(response, host);
-  response.body() = std::move(reply.body);
-  return response;
+  if (const auto why = refusal(head, state.config.token, state.cookie)) return refused(state, 403, *why);
+  if (request.method == Method::other) return refused(state, 405, "everything here is read only");
+  Reply reply = request.method == Method::post ? reply_to_order(state, head, request.target)
+                                               : state.content.reply(request.target);
+  if (reply.status >= 400) ++state.counters.refused;
+  return response_of(std::move(reply), request.host);
 }
 
 }  // namespace fleetmap::monitor

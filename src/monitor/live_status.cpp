@@ -3,16 +3,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "rounded_json.hpp"
+
 namespace fleetmap::monitor {
 namespace {
 
 using nlohmann::json;
-
-double rounded(double value, double steps) { return std::round(value * steps) / steps; }
-
-json optional_json(const std::optional<double>& value, double steps) {
-  return value ? json(rounded(*value, steps)) : json();
-}
 
 json clock_json(const std::optional<ClockNow>& clock) {
   return clock ? json{{"sensor", clock->sensor}, {"behind_s", clock->behind_s}} : json();

@@ -1,4 +1,4 @@
-#include "pair_answer.hpp"
+#include "fleetmap/monitor/pair_answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ struct Evidence {
   std::map<AlignmentStatus, std::size_t> alignments;
 };
 
-struct Placed {
+struct PlacedNode {
   NodeId id;
   Eigen::Vector3d p_enu;
 };
@@ -46,7 +46,7 @@ struct Placed {
 /// The fleet, sorted so that each pair's answer is a look-up.
 struct Facts {
   std::map<Pair, Evidence> pairs;
-  std::map<AgentId, std::vector<Placed>> placed;
+  std::map<AgentId, std::vector<PlacedNode>> placed;
   std::map<AgentId, std::size_t> nodes;
   std::map<AgentId, std::set<std::size_t>> components;  ///< indices in Placement::components
   std::map<AgentId, bool> located;                      ///< some node of the robot has a place on Earth
@@ -77,10 +77,10 @@ Facts facts_of(const FleetView& view) {
   return facts;
 }
 
-void find_nearest(const std::vector<Placed>& a, const std::vector<Placed>& b, PairAnswer& answer) {
+void find_nearest(const std::vector<PlacedNode>& a, const std::vector<PlacedNode>& b, PairAnswer& answer) {
   double min_squared = std::numeric_limits<double>::infinity();
-  for (const Placed& one : a) {
-    for (const Placed& other : b) {
+  for (const PlacedNode& one : a) {
+    for (const PlacedNode& other : b) {
       const double squared = (one.p_enu - other.p_enu).squaredNorm();
       if (squared >= min_squared) continue;
       min_squared = squared;

@@ -37,7 +37,7 @@ Box box_of(const cloud::PointCloud& cloud) {
 constexpr float kMaxSteps = 0x1fffff;  // 21 bits an axis
 
 /// Every third bit, from the lowest on, is one of `axis` (Morton 1966).
-std::uint64_t spread(std::uint32_t axis) {
+std::uint64_t spread_bits(std::uint32_t axis) {
   std::uint64_t bits = axis & 0x1fffffu;
   bits = (bits | bits << 32) & 0x1f00000000ffffu;
   bits = (bits | bits << 16) & 0x1f0000ff0000ffu;
@@ -47,16 +47,16 @@ std::uint64_t spread(std::uint32_t axis) {
 }
 
 /// A point and its place along the Z-order curve of the finest grid.
-struct Placed {
+struct PlacedPoint {
   std::uint64_t code;
   std::uint32_t index;
 };
 
 /// The finite points along the curve.
-std::vector<Placed> along_curve(const cloud::PointCloud& cloud, const Box& box) {
+std::vector<PlacedPoint> along_curve(const cloud::PointCloud& cloud, const Box& box) {
   const float coarsest = std::max(box.half_extent() / 4.0f, 1e-3f);
   const float per_metre = static_cast<float>(1u << (kLevels - 1)) / coarsest;
-  std::vector<Placed> placed;
+  std::vector<PlacedPoint> placed;
   placed.reserve(cloud.size());
   for (std::uint32_t k = 0; k < cloud.size(); ++k) {
     const Eigen::Vector3f& p = cloud.points[k];
@@ -64,11 +64,11 @@ std::vector<Placed> along_curve(const cloud::PointCloud& cloud, const Box& box) 
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float steps = std::fmin(std::fmax((p[axis] - box.low[axis]) * per_metre, 0.0f), kMaxSteps);
-      code |= spread(static_cast<std::uint32_t>(steps)) << axis;
+      code |= spread_bits(static_cast<std::uint32_t>(steps)) << axis;
     }
     placed.push_back({code, k});
   }
-  std::ranges::sort(placed, {}, [](const Placed& one) { return std::pair(one.code, one.index); });
+  std::ranges::sort(placed, {}, [](const PlacedPoint& one) { return std::pair(one.code, one.index); });
   return placed;
 }
 
@@ -94,13 +94,13 @@ static_assert(sizeof(PointHeader) == kPointHeaderBytes);
 std::vector<std::uint32_t> coarse_to_fine(const cloud::PointCloud& cloud) {
   const Box box = box_of(cloud);
   if (box.empty()) return {};
-  const std::vector<Placed> placed = along_curve(cloud, box);
+  const std::vector<PlacedPoint> placed = along_curve(cloud, box);
   std::array<std::vector<std::uint32_t>, kLevels + 1> levels;
   for (std::size_t k = 0; k < placed.size(); ++k)
     levels[k == 0 ? 0 : level_of(placed[k].code, placed[k - 1].code)].push_back(placed[k].index);
   std::vector<std::uint32_t> order;
   order.reserve(placed.size());
-  // Mixed within a level, so that the part of one that a prefix holds is spread over the whole, too.
+  // Mixed within a level, so that the part of one that a prefix holds is spread_bits over the whole, too.
   std::minstd_rand random(1);
   for (std::vector<std::uint32_t>& level : levels) {
     for (std::size_t k = level.size(); k > 1; --k) std::swap(level[k - 1], level[random() % k]);
@@ -156,6 +156,23 @@ Bytes encoded_points(const QuantisedCloud& cloud, std::size_t from, std::size_t 
   std::memcpy(bytes.data(), &header, kPointHeaderBytes);
   if (count > 0) std::memcpy(bytes.data() + kPointHeaderBytes, cloud.values.data() + 4 * from, 8 * count);
   return bytes;
+}
+
+std::optional<QuantisedCloud> decoded_points(ByteView bytes) {
+  PointHeader header;
+  if (bytes.size() < kPointHeaderBytes) return std::nullopt;
+  std::memcpy(&header, bytes.data(), kPointHeaderBytes);
+  const bool meant = header.magic == PointHeader{}.magic && header.from == 0 && header.count <= header.whole;
+  if (!meant || (bytes.size() - kPointHeaderBytes) / 8 < header.count) return std::nullopt;
+  QuantisedCloud cloud;
+  cloud.centre = {header.centre[0], header.centre[1], header.centre[2]};
+  cloud.scale = header.scale;
+  cloud.whole = header.whole;
+  if (!cloud.centre.allFinite() || !std::isfinite(cloud.scale) || cloud.scale <= 0.0f) return std::nullopt;
+  cloud.values.resize(4 * std::size_t{header.count});
+  if (header.count > 0)
+    std::memcpy(cloud.values.data(), bytes.data() + kPointHeaderBytes, 8 * std::size_t{header.count});
+  return cloud;
 }
 
 }  // namespace fleetmap::monitor

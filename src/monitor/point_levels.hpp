@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,5 +39,8 @@ QuantisedCloud prefix_of(const QuantisedCloud& cloud, std::size_t points);
 /// points.
 Bytes encoded_points(const QuantisedCloud& cloud, std::size_t from, std::size_t count);
 inline constexpr std::size_t kPointHeaderBytes = 36;
+/// The cloud of which encoded_points() made the front of `bytes`, from its first point on. Nothing where they
+/// are cut short or no such points.
+std::optional<QuantisedCloud> decoded_points(ByteView bytes);
 
 }  // namespace fleetmap::monitor

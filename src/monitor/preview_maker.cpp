@@ -2,7 +2,6 @@
 
 #include <sched.h>
 
-#include <boost/asio/post.hpp>
 #include <memory>
 #include <utility>
 
@@ -19,10 +18,33 @@ void yield_to_all() {
   static_cast<void>(sched_setscheduler(0, SCHED_IDLE, &none));  // 0: this thread
 }
 
+/// A file is written again when so large a share of it is new; the rest is soon made again.
+constexpr std::size_t kNewShare = 8;
+
 }  // namespace
+
+PreviewMaker::PreviewMaker(EventLoop& loop, Content& content, unsigned threads, bool background,
+                           std::filesystem::path file)
+    : loop_(loop),
+      content_(content),
+      threads_(threads),
+      background_(background),
+      file_(std::move(file)),
+      pool_(threads) {
+  if (!file_.empty()) content_.keep(read_previews(file_));
+}
 
 void PreviewMaker::refresh() {
   while (given_ < kAheadPerThread * threads_ && content_.misses_previews()) start_one();
+  if (given_ == 0 && threads_ > 0 && !file_.empty()) save();
+}
+
+void PreviewMaker::save() {
+  if (content_.new_previews() * kNewShare <= content_.kept_previews()) return;
+  pool_.run([file = file_, previews = content_.previews()] {
+    // In a read-only folder there is none, and they are made again the next time.
+    static_cast<void>(write_previews(file, previews));
+  });
 }
 
 void PreviewMaker::start_one() {
@@ -30,7 +52,7 @@ void PreviewMaker::start_one() {
   ++given_;
   pool_.run([this, hash = std::move(hash), make = std::move(make)] {
     if (background_) yield_to_all();
-    boost::asio::post(io_, [this, hash, preview = make()] {
+    loop_.post([this, hash, preview = make()] {
       --given_;
       content_.end_preview(hash, preview);
       refresh();

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <boost/asio/io_context.hpp>
-#include <cstddef>
-#include <string>
+#include <filesystem>
 
 #include "content.hpp"
+#include "event_loop.hpp"
 #include "fleetmap/core/thread_pool.hpp"
 
 namespace fleetmap::monitor {
@@ -13,20 +12,23 @@ namespace fleetmap::monitor {
 /// server's. Used by the server's thread alone, which hands out the work and keeps what comes back.
 class PreviewMaker {
  public:
-  /// `io` is run by the server's thread. In the `background`, all other work of the machine goes first.
-  PreviewMaker(boost::asio::io_context& io, Content& content, unsigned threads, bool background)
-      : io_(io), content_(content), threads_(threads), background_(background), pool_(threads) {}
+  /// `loop` is the server's thread. In the `background`, all other work of the machine goes first. Reads what
+  /// is in `file` and keeps it up to date, unless its name is empty.
+  PreviewMaker(EventLoop& loop, Content& content, unsigned threads, bool background,
+               std::filesystem::path file);
 
   /// Goes on with what is shown now.
   void refresh();
 
  private:
   void start_one();
+  void save();
 
-  boost::asio::io_context& io_;
+  EventLoop& loop_;
   Content& content_;
   unsigned threads_;
   bool background_;
+  std::filesystem::path file_;
   unsigned given_ = 0;  ///< to the pool, and not back yet
   ThreadPool pool_;     ///< last: its threads end first
 };

@@ -46,6 +46,15 @@ std::optional<std::size_t> number_after(std::string_view text, std::string_view 
   return value;
 }
 
+/// The first point and the number of points in "from=N&count=N".
+std::optional<std::pair<std::size_t, std::size_t>> points_in(std::string_view query) {
+  const std::size_t between = std::min(query.find('&'), query.size());
+  const auto from = number_after(query.substr(0, between), "from=");
+  const auto count = number_after(query.substr(between), "&count=");
+  if (!from || !count) return std::nullopt;
+  return std::pair(*from, *count);
+}
+
 /// Takes "NAME=ROBOT" off the front of `query`; nothing if that is not there.
 std::optional<AgentId> take_agent(std::string_view& query, std::string_view name) {
   if (!query.starts_with(name)) return std::nullopt;
@@ -64,6 +73,12 @@ bool is_hash(std::string_view text) {
 }
 
 }  // namespace
+
+bool is_ip_address(const std::string& address) {
+  const std::size_t zone = address.find('%');
+  return is_ip(address, AF_INET) || (is_ip(address.substr(0, zone), AF_INET6) &&
+                                     (zone == std::string::npos || zone + 1 < address.size()));
+}
 
 bool is_own_host(std::string_view host) {
   const std::string name = without_port(host);
@@ -138,12 +153,9 @@ std::optional<SubmapRequest> parse_submap_request(std::string_view target) {
   const std::size_t question = target.find('?');
   if (question != kHashDigits) return std::nullopt;
   const std::string_view hash = target.substr(0, question), query = target.substr(question + 1);
-  const std::size_t between = query.find('&');
-  if (!is_hash(hash) || between == std::string_view::npos) return std::nullopt;
-  const auto from = number_after(query.substr(0, between), "from=");
-  const auto count = number_after(query.substr(between + 1), "count=");
-  if (!from || !count) return std::nullopt;
-  return SubmapRequest{std::string(hash), *from, *count};
+  const auto points = points_in(query);
+  if (!is_hash(hash) || !points) return std::nullopt;
+  return SubmapRequest{std::string(hash), points->first, points->second};
 }
 
 std::optional<SubmapsRequest> parse_submaps_request(std::string_view target) {
@@ -152,9 +164,9 @@ std::optional<SubmapsRequest> parse_submaps_request(std::string_view target) {
   target.remove_prefix(kStart.size());
   const std::size_t between = target.find("&of=");
   if (between == std::string_view::npos) return std::nullopt;
-  const auto count = number_after(target.substr(0, between), "count=");
-  if (!count) return std::nullopt;
-  SubmapsRequest request{{}, *count};
+  const auto points = points_in(target.substr(0, between));
+  if (!points) return std::nullopt;
+  SubmapsRequest request{{}, points->first, points->second};
   for (std::string_view left = target.substr(between + 4);;) {
     const std::string_view hash = left.substr(0, kHashDigits);
     if (!is_hash(hash) || request.hashes.size() == kMaxSubmapsAtOnce) return std::nullopt;

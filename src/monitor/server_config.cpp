@@ -1,15 +1,11 @@
 #include "fleetmap/monitor/server_config.hpp"
 
-#include <boost/asio/ip/address.hpp>
-
 #include "fleetmap/monitor/request_check.hpp"
 
 namespace fleetmap::monitor {
 
 Status ServerConfig::validate() const {
-  boost::system::error_code error;
-  boost::asio::ip::make_address(address, error);
-  if (error) return failure(address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
+  if (!is_ip_address(address)) return failure(address + " is no IP address, as 127.0.0.1 or 0.0.0.0 are");
   if (token.empty() && !is_loopback(address))
     return failure(address + " is seen by others: a token is needed");
   if (!token.empty() && token.size() < kMinTokenLength)

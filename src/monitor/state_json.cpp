@@ -9,16 +9,15 @@
 #include <set>
 
 #include "fleetmap/graph/located_nodes.hpp"
-#include "pair_answer.hpp"
+#include "fleetmap/monitor/pair_answer.hpp"
+#include "rounded_json.hpp"
 
 namespace fleetmap::monitor {
 namespace {
 
 using nlohmann::json;
 
-/// 0.1 mm, or 1e-6 of a quaternion: shorter text, and far below what a pixel shows.
-double rounded(double value, double steps) { return std::round(value * steps) / steps; }
-
+/// Position and quaternion, rounded to 0.1 mm and 1e-6: shorter text, and far below what a pixel shows.
 json pose_json(const Pose& T) {
   const Eigen::Vector3d t = T.translation();
   const Eigen::Quaterniond q(T.linear());
@@ -27,8 +26,6 @@ json pose_json(const Pose& T) {
   for (const double value : {q.x(), q.y(), q.z(), q.w()}) values.push_back(rounded(value, 1e6));
   return values;
 }
-
-json optional_json(const std::optional<double>& value) { return value ? json(rounded(*value, 1e5)) : json(); }
 
 double horizontal_sigma(const Matrix6d& covariance) {
   return std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
@@ -113,9 +110,9 @@ json attempts_json(const FleetView& view, const Outcomes& outcomes) {
                         {"by", attempt.by.str()},
                         {"verdict", attempt.verdict},
                         {"status", status ? json(graph::to_string(*status)) : json()},
-                        {"rmse_m", optional_json(attempt.rmse_m)},
-                        {"inlier_fraction", optional_json(attempt.inlier_fraction)},
-                        {"overlap", optional_json(attempt.overlap)},
+                        {"rmse_m", optional_json(attempt.rmse_m, 1e5)},
+                        {"inlier_fraction", optional_json(attempt.inlier_fraction, 1e5)},
+                        {"overlap", optional_json(attempt.overlap, 1e5)},
                         {"reason", attempt.reason},
                         {"sentence", sentence(attempt, status)}});
     if (attempt.T_target_source) attempts.back()["pose"] = pose_json(*attempt.T_target_source);
@@ -206,7 +203,7 @@ json answers_json(const FleetView& view) {
              {"attempts", answer.attempts},
              {"accepted", answer.accepted},
              {"used", answer.used},
-             {"nearest_m", optional_json(answer.nearest_m)}};
+             {"nearest_m", optional_json(answer.nearest_m, 1e5)}};
     if (answer.nearest)
       one["nearest"] = {to_string(answer.nearest->first), to_string(answer.nearest->second)};
     answers.push_back(std::move(one));

@@ -4,12 +4,10 @@
 #include <numbers>
 
 #include "fleetmap/core/text_list.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::odometry {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::size_t kMaxRings = 256;
 
 /// `count` angles, evenly spaced from `first` to `last` degrees, in radians.
 void append_angles(std::vector<double>& angles, int count, double first, double last) {

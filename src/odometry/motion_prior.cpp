@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "square.hpp"
+
 namespace fleetmap::odometry {
 namespace {
 
@@ -12,8 +14,6 @@ namespace {
 constexpr double kPoseNoise = 0.003;       // m
 constexpr double kRotationNoise = 0.0005;  // rad
 constexpr double kNominalPeriod = 0.1;     // s, for which the accelerations of the configuration are meant
-
-double square(double value) { return value * value; }
 
 }  // namespace
 

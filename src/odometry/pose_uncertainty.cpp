@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "square.hpp"
+
 namespace fleetmap::odometry {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double kLargeUnheldShare = 0.3;  // share of the map near that is as b
 constexpr double kStrange = 1.0;   // variance of a prior's misfit: no robot drives so where all is held
 constexpr double kMapTurn = 1.0;   // rad, the same for a LiDAR that looks ahead
 constexpr double kMapReach = 5.0;  // m of way on which most of the map that is seen is replaced
-
-double square(double value) { return value * value; }
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fleetmap/geometry/symmetric.hpp"
+#include "square.hpp"
 
 namespace fleetmap::odometry {
 namespace {
@@ -26,10 +27,8 @@ constexpr double kSpuriousFactor = 6.0;
 constexpr double kMinShare = 5e-5;
 /// Within this factor noisy normals can still be most of what constrains a direction: it is weak.
 constexpr double kWeakFactor = 40.0;
-constexpr double kLevel = 0.7;      // upward part of the normal of what lies level, at least
-constexpr std::size_t kBlock = 16;  // features whose windows are fetched together
-
-double square(double value) { return value * value; }
+constexpr double kLevel = 0.7;             // upward part of the normal of what lies level, at least
+constexpr std::size_t kFeatureBlock = 16;  // features whose windows are fetched together
 
 double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   for (const FeaturePoint& p : points) longest = std::max(longest, std::abs(static_cast<double>(p.time)));
@@ -175,9 +174,9 @@ void ScanMatcher::linearise(const std::vector<FeaturePoint>& planes, const std::
 
 void ScanMatcher::add_planes(const Linearisation& at, const std::vector<FeaturePoint>& planes,
                              LocalMap& map) {
-  std::array<Eigen::Vector3d, kBlock> p, q, unknown;  // base_link, map frame
-  for (std::size_t begin = 0; begin < planes.size(); begin += kBlock * at.stride) {
-    const std::size_t count = std::min(kBlock, (planes.size() - begin + at.stride - 1) / at.stride);
+  std::array<Eigen::Vector3d, kFeatureBlock> p, q, unknown;  // base_link, map frame
+  for (std::size_t begin = 0; begin < planes.size(); begin += kFeatureBlock * at.stride) {
+    const std::size_t count = std::min(kFeatureBlock, (planes.size() - begin + at.stride - 1) / at.stride);
     std::size_t unknowns = 0;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t i = begin + k * at.stride;

@@ -26,7 +26,7 @@ constexpr double kUpright = 0.9;
 constexpr float kBehind = 0.1f;
 constexpr float kNormalUnit = 32767.0f;
 /// Points whose windows are fetched together before they are used.
-constexpr std::size_t kBlock = 16;
+constexpr std::size_t kQueryBlock = 16;
 constexpr std::size_t kCorners = 8;
 
 }  // namespace
@@ -70,8 +70,8 @@ SurfaceGrid::Window& SurfaceGrid::other_side_of(Window& window) {
 }
 
 void SurfaceGrid::add(std::span<const ObservedPoint> points) {
-  for (std::size_t begin = 0; begin < points.size(); begin += kBlock) {
-    add_block(points.subspan(begin, std::min(kBlock, points.size() - begin)));
+  for (std::size_t begin = 0; begin < points.size(); begin += kQueryBlock) {
+    add_block(points.subspan(begin, std::min(kQueryBlock, points.size() - begin)));
   }
 }
 
@@ -80,8 +80,8 @@ void SurfaceGrid::add_block(std::span<const ObservedPoint> points) {
     CellKey cell;
     std::uint32_t window;
   };
-  std::array<Target, kBlock * kCorners> targets;
-  std::array<Eigen::Array3d, kBlock> in_cell;  // m, from its least corner
+  std::array<Target, kQueryBlock * kCorners> targets;
+  std::array<Eigen::Array3d, kQueryBlock> in_cell;  // m, from its least corner
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Eigen::Array3d scaled = points[k].point.array() * inverse_step_;
     const std::int64_t cell[3] = {fast_floor(scaled.x()), fast_floor(scaled.y()), fast_floor(scaled.z())};
@@ -227,7 +227,7 @@ void SurfaceGrid::prune(const Eigen::Vector3d& center, double radius) {
   surfaces_ = std::move(kept_surfaces);
   index_.clear_for(kept);
   for (std::size_t i = 0; i < kept; ++i) {
-    index_.prefetch(cells[std::min(i + kBlock, kept - 1)]);
+    index_.prefetch(cells[std::min(i + kQueryBlock, kept - 1)]);
     index_.insert(cells[i]);
   }
 }

@@ -9,7 +9,6 @@ namespace fleetmap::odometry {
 namespace {
 
 constexpr std::uint16_t kNoRing = 0xffff;
-constexpr std::size_t kMaxRings = 256;
 constexpr std::size_t kSlopeBins = 8192;
 constexpr float kMaxSlope = 4.0f;  // 76 degrees
 constexpr float kTwoPi = 2.0f * std::numbers::pi_v<float>;

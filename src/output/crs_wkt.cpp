@@ -2,9 +2,10 @@
 
 #include <array>
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 #include <string_view>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::output {
 namespace {
@@ -85,7 +86,6 @@ std::string local_wkt(const std::optional<GeoPoint>& origin) {
 }
 
 std::string origin_text(const GeoPoint& origin) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   std::ostringstream text;
   text << std::fixed << std::setprecision(9) << origin.latitude / kDegree << ", "
        << origin.longitude / kDegree << " deg, " << std::setprecision(3) << origin.altitude

@@ -3,15 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::output {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr const char* kHeader =
+constexpr const char* kTrackHeader =
     "stamp_s,latitude_deg,longitude_deg,altitude_m,qx,qy,qz,qw,sigma_e_m,sigma_n_m,sigma_u_m,sigma_yaw_deg";
 
 bool parse(const std::string& line, GlobalPose& G) {
@@ -38,7 +37,7 @@ bool parse(const std::string& line, GlobalPose& G) {
 Result<GlobalTrackFile> GlobalTrackFile::append_to(const std::filesystem::path& file) {
   std::error_code error;
   const bool goes_on = is_there(file) && std::filesystem::file_size(file, error) > 0;
-  Result<LineFile> lines = LineFile::open(file, std::ios::app, {kMaxTrackBytes, kHeader});
+  Result<LineFile> lines = LineFile::open(file, std::ios::app, {kMaxTrackBytes, kTrackHeader});
   if (!lines) return tl::unexpected(lines.error());
   // LineFile ends a line that a kill cut off; the empty one behind it marks that line as cut off, not
   // damaged.
@@ -73,7 +72,7 @@ Status read_part(const std::filesystem::path& file, std::vector<GlobalPose>& tra
     }
     if (cut_off)
       return failure(file.string() + ":" + std::to_string(number - 1) + ": not a line of a global track");
-    if (line == kHeader) continue;
+    if (line == kTrackHeader) continue;
     GlobalPose G;
     if (parse(line, G)) {
       track.push_back(G);

@@ -9,7 +9,7 @@
 namespace fleetmap::output {
 namespace {
 
-void write_pose(std::ostream& out, const Pose& T) {
+void write_g2o_pose(std::ostream& out, const Pose& T) {
   const Eigen::Quaterniond q(T.linear());
   out << ' ' << T.translation().x() << ' ' << T.translation().y() << ' ' << T.translation().z() << ' '
       << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
@@ -30,7 +30,7 @@ void write_edge(std::ostream& out, std::size_t i, std::size_t j, const Pose& T_i
   const auto information = information_of(covariance);
   if (!information) return;
   out << "EDGE_SE3:QUAT " << i << ' ' << j;
-  write_pose(out, T_i_j);
+  write_g2o_pose(out, T_i_j);
   for (Eigen::Index row = 0; row < 6; ++row) {
     for (Eigen::Index column = row; column < 6; ++column) out << ' ' << (*information)(row, column);
   }
@@ -51,7 +51,7 @@ GraphText to_g2o(const std::vector<graph::Node>& nodes, const graph::Placement& 
     vertices.emplace(node.id, vertex);
     names << vertex << ',' << to_string(node.id) << ',' << to_ns(node.stamp) << '\n';
     out << "VERTEX_SE3:QUAT " << vertex;
-    write_pose(out, placed->second);
+    write_g2o_pose(out, placed->second);
     out << '\n';
   }
   std::map<graph::FrameId, const graph::Node*> last;

@@ -13,7 +13,8 @@
 namespace fleetmap::output {
 namespace {
 
-constexpr const char* kHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
+constexpr const char* kPresentHeader =
+    "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,pose,reason";
 /// Former versions wrote no poses.
 constexpr const char* kFormerHeader = "target,source,verdict,rmse_m,inlier_fraction,overlap,cpu_s,reason";
 constexpr std::array kVerdicts{"accepted", "ambiguous", "rejected", "failed"};
@@ -32,7 +33,7 @@ std::vector<std::string_view> cells_of(std::string_view line, std::size_t count)
 }
 
 /// Empty unless it is seven finite numbers of which the last four are a rotation.
-std::optional<Pose> pose_of(std::string_view text) {
+std::optional<Pose> pose_in_cell(std::string_view text) {
   std::array<double, 7> numbers{};
   for (double& number : numbers) {
     const std::string_view word = text.substr(0, text.find(' '));
@@ -82,7 +83,7 @@ class Columns {
                            finite_number(cell("overlap")),
                            finite_number(cell("cpu_s")).value_or(0.0),
                            std::string(reason),
-                           pose_of(cell("pose"))};
+                           pose_in_cell(cell("pose"))};
   }
 
  private:
@@ -94,7 +95,7 @@ class Columns {
 Status append_registration(const std::filesystem::path& file, const RegistrationRow& row) {
   const bool with_pose = !lacks_poses(file);
   Result<LineFile> lines =
-      LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kHeader : kFormerHeader});
+      LineFile::open(file, std::ios::app, {kMaxTableBytes, with_pose ? kPresentHeader : kFormerHeader});
   if (!lines) return tl::unexpected(lines.error());
   std::ostringstream out;
   out << to_string(row.target) << ',' << to_string(row.source) << ',' << row.verdict << ',';

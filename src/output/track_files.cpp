@@ -3,16 +3,14 @@
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "fleetmap/core/utc.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/graph/frame_name.hpp"
 
 namespace fleetmap::output {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct TrackPoint {
   NodeId id;

@@ -38,7 +38,7 @@ std::optional<Stamp> stamp_of(const std::string& text) {
 }
 
 /// Empty when the line is not a pose.
-std::optional<StampedPose> pose_of(const std::string& line) {
+std::optional<StampedPose> stamped_pose_of(const std::string& line) {
   std::istringstream fields(line);
   std::string stamp_text, text;
   std::array<double, 7> v{};
@@ -61,7 +61,7 @@ Status read_lines(const std::filesystem::path& file, bool complete, Trajectory& 
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-    const auto pose = pose_of(line);
+    const auto pose = stamped_pose_of(line);
     const std::string where = file.string() + ":" + std::to_string(number);
     if (!pose) {
       if (!complete && in.peek() == std::ifstream::traits_type::eof()) break;

@@ -8,6 +8,7 @@
 #include "bag_topics.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "fleetmap/ros_codec/frame_transforms.hpp"
+#include "fleetmap/ros_codec/livox_points.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 #include "packet_reader.hpp"
@@ -140,7 +141,8 @@ class BagReader : public PacketReader {
       case Kind::kPackets:
         add_packets(cdr, message);
         return std::nullopt;  // a message ends within a turn; next_scan() returns those that are complete
-      case Kind::kScan: {
+      case Kind::kScan:
+      case Kind::kLivox: {
         note_frame(sensor::Source::kLidar, cdr);
         if (content_ == ScanContent::kStampOnly) {
           const auto stamp = ros_codec::stamp_of_scan(cdr);
@@ -149,7 +151,7 @@ class BagReader : public PacketReader {
           scan.stamp = *stamp;
           return Sample(std::move(scan));
         }
-        auto decoded = ros_codec::decode_scan(cdr);
+        auto decoded = kind == Kind::kLivox ? ros_codec::decode_livox(cdr) : ros_codec::decode_scan(cdr);
         if (!decoded) return undecodable(topic, decoded.error());
         if (!admit_points(*decoded, "a scan on " + topic)) return std::nullopt;
         return Sample(std::move(decoded->scan));

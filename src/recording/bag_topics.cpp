@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "fleetmap/core/text_list.hpp"
 
@@ -29,13 +30,25 @@ const Role kRoles[] = {
      false},
 };
 
-/// Read for the points where there are no clouds.
-const Role kPackets{"recording.topics.points",
-                    "velodyne_msgs/msg/VelodyneScan",
-                    "/velodyne_packets",
-                    &Topics::points,
-                    Kind::kPackets,
-                    true};
+/// Read for the points where there are no clouds, the first that a bag has.
+const Role kInsteadOfClouds[] = {
+    {"recording.topics.points", "livox_ros_driver2/msg/CustomMsg", "/livox/lidar", &Topics::points,
+     Kind::kLivox, true},
+    {"recording.topics.points", "livox_ros_driver/msg/CustomMsg", "/livox/lidar", &Topics::points,
+     Kind::kLivox, true},
+    {"recording.topics.points", "livox_interfaces/msg/CustomMsg", "/livox/lidar", &Topics::points,
+     Kind::kLivox, true},
+    {"recording.topics.points", "velodyne_msgs/msg/VelodyneScan", "/velodyne_packets", &Topics::points,
+     Kind::kPackets, true},
+};
+
+/// Written by this program: topics below /fleetmap, and the odometry beside them.
+bool is_own_output(const BagTopic& topic, const std::vector<BagTopic>& topics) {
+  constexpr std::string_view kOwn = "/fleetmap/";
+  if (topic.name.starts_with(kOwn)) return true;
+  return topic.name == "/odometry" &&
+         std::ranges::any_of(topics, [&](const BagTopic& other) { return other.name.starts_with(kOwn); });
+}
 
 std::string list(const std::vector<BagTopic>& topics) {
   std::string out;
@@ -50,31 +63,44 @@ std::vector<BagTopic> of_type(const std::vector<BagTopic>& topics, const char* t
   return found;
 }
 
-/// Whether the points come from packets: those that are wanted, or all that there is.
-bool takes_packets(const std::vector<BagTopic>& topics, const Role& clouds, const std::string& wanted,
-                   const std::string& bag) {
-  const std::vector<BagTopic> packets = of_type(topics, kPackets.type);
-  if (!wanted.empty())
-    return std::ranges::any_of(packets, [&](const BagTopic& topic) { return topic.name == wanted; });
-  const bool has_clouds = !of_type(topics, clouds.type).empty();
-  if (has_clouds && !packets.empty())
-    spdlog::info("{}: holds clouds and packets of a LiDAR; the clouds are taken, not {}", bag, list(packets));
-  return !has_clouds && !packets.empty();
+std::vector<BagTopic> sensors_of_type(const std::vector<BagTopic>& topics, const char* type) {
+  std::vector<BagTopic> found = of_type(topics, type);
+  std::erase_if(found, [&](const BagTopic& topic) { return is_own_output(topic, topics); });
+  return found;
+}
+
+/// The type that the points are read from: that of the topic that is wanted, or the first that there is.
+Role role_of_points(const Role& clouds, const std::vector<BagTopic>& topics, const std::string& wanted,
+                    const std::string& bag) {
+  const bool has_clouds = !sensors_of_type(topics, clouds.type).empty();
+  const Role* chosen = has_clouds ? &clouds : nullptr;
+  for (const Role& role : kInsteadOfClouds) {
+    const std::vector<BagTopic> candidates = of_type(topics, role.type);
+    if (candidates.empty()) continue;
+    if (std::ranges::find(candidates, wanted, &BagTopic::name) != candidates.end()) return role;
+    if (chosen == nullptr) {
+      chosen = &role;
+    } else if (wanted.empty()) {
+      spdlog::info("{}: holds points in several forms; the {} are taken, not {}", bag,
+                   chosen == &clouds ? "clouds" : chosen->type, list(candidates));
+    }
+  }
+  return chosen != nullptr && wanted.empty() ? *chosen : clouds;
 }
 
 Result<std::string> select(const Role& role, const std::vector<BagTopic>& topics, const std::string& wanted,
                            const std::string& bag) {
-  const std::vector<BagTopic> candidates = of_type(topics, role.type);
-  const auto named = [&](const std::string& name) {
-    return std::ranges::any_of(candidates, [&](const BagTopic& topic) { return topic.name == name; });
+  const auto named = [](const std::vector<BagTopic>& among, const std::string& name) {
+    return std::ranges::find(among, name, &BagTopic::name) != among.end();
   };
   if (!wanted.empty()) {
-    if (named(wanted)) return wanted;
+    if (named(of_type(topics, role.type), wanted)) return wanted;
     return failure(bag + ": " + role.key + " is '" + wanted + "', but the bag has no such topic of type " +
                    role.type + "; it has: " + list(topics));
   }
+  const std::vector<BagTopic> candidates = sensors_of_type(topics, role.type);
   if (candidates.size() == 1) return candidates.front().name;
-  if (named(role.own_name)) return std::string(role.own_name);
+  if (named(candidates, role.own_name)) return std::string(role.own_name);
   if (candidates.empty() && !role.needed) return std::string();
   if (candidates.empty()) {
     return failure(bag + ": no topic of type " + role.type + "; the bag has: " + list(topics));
@@ -89,7 +115,7 @@ Result<std::map<std::string, Kind>> select_topics(const std::vector<BagTopic>& t
                                                   const std::string& bag, bool scans_needed) {
   std::map<std::string, Kind> chosen;
   for (Role role : kRoles) {
-    if (role.kind == Kind::kScan && takes_packets(topics, role, wanted.points, bag)) role = kPackets;
+    if (role.kind == Kind::kScan) role = role_of_points(role, topics, wanted.points, bag);
     role.needed = role.needed && scans_needed;
     if (wanted.*role.wanted == kNone && !role.needed) continue;
     const auto name = select(role, topics, wanted.*role.wanted, bag);

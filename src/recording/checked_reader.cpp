@@ -16,6 +16,7 @@ constexpr Counter kCounters[] = {
     {"wheels", &Counters::wheels},
     {"non_finite_points", &Counters::non_finite_points},
     {"origin_points", &Counters::origin_points},
+    {"noise_points", &Counters::noise_points},
     {"undecodable_messages", &Counters::undecodable_messages},
     {"damaged_parts", &Counters::damaged_parts},
     {"empty_scans", &Counters::empty_scans},
@@ -99,6 +100,7 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   }
   counters_.non_finite_points += decoded.non_finite_points;
   counters_.origin_points += decoded.origin_points;
+  counters_.noise_points += decoded.noise_points;
   if (decoded.times_in_microseconds) {
     skip(&Counters::microsecond_scans,
          where +
@@ -108,7 +110,7 @@ bool CheckedReader::admit_points(const ros_codec::DecodedScan& decoded, const st
   if (decoded.foreign_clock) {
     skip(&Counters::foreign_clock_scans, where +
                                              ": point times are far from the header's stamp; "
-                                             "they are counted from the first point");
+                                             "they are counted from the stamp or the first point");
   }
   return true;
 }

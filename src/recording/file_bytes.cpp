@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 256u << 20;
 constexpr std::uint64_t kMaxDecoderMemory = 256u << 20;
-constexpr std::size_t kStep = 1u << 20;
+constexpr std::size_t kReadStep = 1u << 20;
 
 Result<Bytes> unpack(const Bytes& packed, const std::string& file) {
   lzma_stream stream = LZMA_STREAM_INIT;
@@ -25,11 +25,11 @@ Result<Bytes> unpack(const Bytes& packed, const std::string& file) {
   while (code == LZMA_OK) {
     const std::size_t done = bytes.size();
     if (done >= kMaxBytes) return failure(file + ": unpacks to more than 256 MiB");
-    bytes.resize(done + kStep);
+    bytes.resize(done + kReadStep);
     stream.next_out = bytes.data() + done;
-    stream.avail_out = kStep;
+    stream.avail_out = kReadStep;
     code = lzma_code(&stream, LZMA_FINISH);
-    bytes.resize(done + kStep - stream.avail_out);
+    bytes.resize(done + kReadStep - stream.avail_out);
   }
   if (code == LZMA_BUF_ERROR) return failure(file + ": the xz file is truncated");
   if (code != LZMA_STREAM_END)

@@ -2,22 +2,9 @@
 
 #include <utility>
 
+#include "packet_counters.hpp"
+
 namespace fleetmap::recording {
-namespace {
-
-std::uint64_t Counters::*counter_of(sensor::VelodyneFault fault) {
-  switch (fault) {
-    case sensor::VelodyneFault::kSize:
-      return &Counters::packets_of_wrong_size;
-    case sensor::VelodyneFault::kBlock:
-      return &Counters::packets_of_wrong_blocks;
-    default:
-      return &Counters::packets_of_unknown_device;
-  }
-}
-
-}  // namespace
-
 void PacketReader::add_packet(ByteView packet, Stamp arrival, Stamp recorded) {
   recorded_ = recorded;
   if (const auto added = sweeps_.add(packet, arrival); !added)
@@ -45,8 +32,7 @@ std::optional<PacketReader::PacketScan> PacketReader::next_scan() {
 
 void PacketReader::count_incomplete() {
   const std::uint64_t more = sweeps_.counters().incomplete_sweeps - counters_.incomplete_sweeps;
-  if (more > 0)
-    skip(&Counters::incomplete_sweeps, "a part of a turn without beginning or end is left out", more);
+  if (more > 0) skip(&Counters::incomplete_sweeps, kIncompleteSweep, more);
 }
 
 }  // namespace fleetmap::recording

@@ -1,5 +1,6 @@
 #include "pcap_file.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -100,14 +101,19 @@ Result<std::optional<Datagram>> PcapFile::next() {
 std::optional<Datagram> PcapFile::datagram_in(ByteView frame) {
   const ByteView ip = ipv4_in(frame);
   if (ip.size() < kIpv4HeaderBytes || ip[0] >> 4 != 4 || ip[9] != kUdp) return std::nullopt;
-  if ((u16(ip, 6) & kFragment) != 0) return std::nullopt;
   const std::size_t header = std::size_t{ip[0] & 0xfu} * 4;
   if (header < kIpv4HeaderBytes) return std::nullopt;
-  if (ip.size() < header + kUdpHeaderBytes) {
+  ByteView udp = ip.subspan(std::min(header, ip.size()));
+  if ((u16(ip, 6) & kFragment) != 0) {
+    auto whole = fragments_.add(ip);
+    if (!whole) return std::nullopt;
+    joined_ = std::move(*whole);
+    udp = joined_;
+  }
+  if (udp.size() < kUdpHeaderBytes) {
     ++cut_datagrams_;
     return std::nullopt;
   }
-  const ByteView udp = ip.subspan(header);
   const std::size_t length = u16(udp, 4);
   if (length < kUdpHeaderBytes) return std::nullopt;
   if (length > udp.size()) {

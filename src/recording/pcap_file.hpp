@@ -9,6 +9,7 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "ip_fragments.hpp"
 
 namespace fleetmap::recording {
 
@@ -29,12 +30,13 @@ class PcapFile {
   /// Refuses pcapng and other link types with what to do.
   static Result<PcapFile> open(const std::filesystem::path& file);
 
-  /// The next datagram; empty at the end. Frames of other protocols and fragments are passed over. Errors
+  /// The next datagram; empty at the end. Frames of other protocols are passed over, fragments are put
+  /// together. Errors
   /// name the byte at which the file is damaged; the end follows.
   Result<std::optional<Datagram>> next();
   std::uint64_t frames() const { return frames_; }  ///< read so far, of any protocol
   /// Datagrams of which the capture holds only a part, so far.
-  std::uint64_t cut_datagrams() const { return cut_datagrams_; }
+  std::uint64_t cut_datagrams() const { return cut_datagrams_ + fragments_.incomplete(); }
   bool ended_within_record() const { return ended_within_record_; }
 
  private:
@@ -49,7 +51,8 @@ class PcapFile {
   bool big_endian_ = false, nanoseconds_ = false;
   bool ended_ = false, ended_within_record_ = false;
   std::uint64_t at_ = 0, frames_ = 0, cut_datagrams_ = 0;
-  Bytes header_, frame_;
+  Bytes header_, frame_, joined_;
+  IpFragments fragments_;
 };
 
 }  // namespace fleetmap::recording

@@ -1,7 +1,13 @@
 #include "pcap_reader.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
+#include "datagram_stream.hpp"
+#include "fleetmap/core/paths.hpp"
+#include "ouster_reader.hpp"
+#include "packet_counters.hpp"
 #include "packet_reader.hpp"
 #include "pcap_file.hpp"
 
@@ -10,25 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Source and destination of the packets of a device.
-struct Stream {
-  std::uint32_t source = 0;
-  std::uint16_t port = 0;
-  bool operator==(const Stream&) const = default;
-};
-
-Stream stream_of(const Datagram& datagram) { return {datagram.source, datagram.port}; }
-
-std::string text_of(const Stream& stream) {
-  std::string text;
-  for (int shift = 24; shift >= 0; shift -= 8)
-    text += std::to_string(stream.source >> shift & 0xff) + (shift > 0 ? "." : "");
-  return text + " to port " + std::to_string(stream.port);
-}
-
 class PcapReader : public PacketReader {
  public:
-  PcapReader(std::string source, ScanContent content, PcapFile file, Stream device)
+  PcapReader(std::string source, ScanContent content, PcapFile file, DatagramStream device)
       : PacketReader(std::move(source), content), file_(std::move(file)), device_(device) {}
 
   Result<std::optional<Sample>> next() override {
@@ -56,25 +46,27 @@ class PcapReader : public PacketReader {
       return add_packet(datagram.payload, datagram.captured, datagram.captured);
     if (sensor::read_velodyne_packet(datagram.payload))
       skip(&Counters::packets_of_other_devices, "packets of another LiDAR, from " +
-                                                    text_of(stream_of(datagram)) + ", beside those from " +
-                                                    text_of(device_));
+                                                    to_string(stream_of(datagram)) + ", beside those from " +
+                                                    to_string(device_));
   }
   void end() {
     ended_ = true;
     finish_packets();
     if (file_.ended_within_record()) skip(&Counters::damaged_parts, "the capture ends within a frame");
-    if (const std::uint64_t cut = file_.cut_datagrams())
-      skip(&Counters::damaged_parts, "datagrams are cut; capture whole frames (tcpdump -s 0)", cut);
+    if (const std::uint64_t cut = file_.cut_datagrams()) skip(&Counters::damaged_parts, kCutDatagrams, cut);
   }
 
   PcapFile file_;
-  Stream device_;
+  DatagramStream device_;
   bool ended_ = false;
   std::optional<Stamp> captured_;
 };
 
+/// Ouster's tools store a capture and its metadata under one name.
+fs::path metadata_beside(fs::path capture) { return capture.replace_extension(".json"); }
+
 /// The first device whose packets are decoded.
-Result<Stream> find_device(const fs::path& path) {
+Result<DatagramStream> find_device(const fs::path& path) {
   auto file = PcapFile::open(path);
   if (!file) return tl::unexpected(file.error());
   std::string reason;
@@ -84,18 +76,32 @@ Result<Stream> find_device(const fs::path& path) {
     if (!*datagram) break;
     const auto packet = sensor::read_velodyne_packet((*datagram)->payload);
     if (packet) return stream_of(**datagram);
-    if (packet.error().fault != sensor::VelodyneFault::kSize && reason.empty())
+    if (packet.error().fault != sensor::PacketFault::kSize && reason.empty())
       reason = "; one of its size is refused: " + packet.error().what;
   }
   return failure(path.string() + ": no data packet of a Velodyne LiDAR (1206 bytes over UDP) among " +
-                 std::to_string(file->frames()) + " frames" + reason);
+                 std::to_string(file->frames()) + " frames" + reason +
+                 "; for an Ouster LiDAR name its metadata (lidar.ouster_metadata), or put them beside as " +
+                 metadata_beside(path).filename().string());
 }
 
 }  // namespace
 
 bool is_capture(const fs::path& path) { return path.extension() == ".pcap" || path.extension() == ".pcapng"; }
 
-Result<std::unique_ptr<Reader>> open_capture(const fs::path& path, ScanContent content) {
+Result<std::unique_ptr<Reader>> open_capture(const fs::path& path,
+                                             const std::optional<sensor::OusterMetadata>& ouster,
+                                             ScanContent content) {
+  if (ouster) return open_ouster_capture(path, *ouster, content);
+  if (const fs::path beside = metadata_beside(path); is_there(beside)) {
+    if (const auto metadata = sensor::load_ouster_metadata(beside)) {
+      spdlog::info("{}: of {}, by {}", path.string(), metadata->device, beside.string());
+      return open_ouster_capture(path, *metadata, content);
+    } else {
+      spdlog::warn("{}; so {} is not read as a capture of an Ouster LiDAR", metadata.error().message,
+                   path.string());
+    }
+  }
   const auto device = find_device(path);
   if (!device) return tl::unexpected(device.error());
   auto file = PcapFile::open(path);

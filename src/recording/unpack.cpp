@@ -13,7 +13,7 @@ namespace fleetmap::recording {
 namespace {
 
 constexpr std::uint8_t kZstdMagic[] = {0x28, 0xb5, 0x2f, 0xfd};
-constexpr std::size_t kStep = 256u << 10;
+constexpr std::size_t kUnpackStep = 256u << 10;
 
 using ZstdStream = std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)>;
 
@@ -35,7 +35,7 @@ Result<Bytes> unpack_zstd(ByteView packed, std::size_t max_bytes) {
   Bytes bytes;
   std::size_t left = 1;  // 0 at the end of a frame
   while (in.pos < in.size || left > 0) {
-    const std::size_t done = bytes.size(), step = std::min(kStep, max_bytes + 1 - done);
+    const std::size_t done = bytes.size(), step = std::min(kUnpackStep, max_bytes + 1 - done);
     bytes.resize(done + step);
     ZSTD_outBuffer out{bytes.data() + done, step, 0};
     const std::size_t read_before = in.pos;
@@ -58,7 +58,7 @@ Result<Bytes> unpack_lz4(ByteView packed, std::size_t max_bytes) {
   std::size_t at = 0, left = 1;
   while (at < packed.size() || left > 0) {
     const std::size_t done = bytes.size();
-    std::size_t step = std::min(kStep, max_bytes + 1 - done), taken = packed.size() - at;
+    std::size_t step = std::min(kUnpackStep, max_bytes + 1 - done), taken = packed.size() - at;
     bytes.resize(done + step);
     left = LZ4F_decompress(stream.get(), bytes.data() + done, &step, packed.data() + at, &taken, nullptr);
     if (LZ4F_isError(left) != 0) return failure(std::string("damaged lz4: ") + LZ4F_getErrorName(left));
@@ -80,7 +80,7 @@ Result<Bytes> unpack_bz2(ByteView packed, std::size_t max_bytes) {
   Bytes bytes;
   int code = BZ_OK;
   while (code != BZ_STREAM_END) {
-    const std::size_t done = bytes.size(), step = std::min(kStep, max_bytes + 1 - done);
+    const std::size_t done = bytes.size(), step = std::min(kUnpackStep, max_bytes + 1 - done);
     bytes.resize(done + step);
     stream.next_out = reinterpret_cast<char*>(bytes.data() + done);
     stream.avail_out = static_cast<unsigned>(step);
@@ -101,7 +101,7 @@ Status unpack_zstd_file(const std::filesystem::path& packed, const std::filesyst
   std::ofstream out(into, std::ios::binary | std::ios::trunc);
   const ZstdStream stream(ZSTD_createDCtx(), ZSTD_freeDCtx);
   if (!stream) return failure("no memory to unpack zstd");
-  Bytes read(kStep), write(kStep);
+  Bytes read(kUnpackStep), write(kUnpackStep);
   std::size_t left = 1;
   while (in.read(reinterpret_cast<char*>(read.data()), static_cast<std::streamsize>(read.size())) ||
          in.gcount() > 0) {

@@ -99,7 +99,7 @@ void silence_pcl() {
   std::call_once(once, [] { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); });
 }
 
-RegistrationResult rejected(std::string reason) {
+RegistrationResult refused_pair(std::string reason) {
   RegistrationResult result;
   result.reason = std::move(reason);
   return result;
@@ -250,7 +250,7 @@ void measure(const FeatureCloud::Data& target, const FeatureCloud::Data& source,
   result.overlap = result.agreement = result.inlier_fraction;
 }
 
-void set_verdict(const PaperConfig& config, RegistrationResult& result) {
+void set_paper_verdict(const PaperConfig& config, RegistrationResult& result) {
   char reason[160] = "";
   if (result.inlier_fraction < config.min_inlier_fraction) {
     std::snprintf(reason, sizeof reason,
@@ -286,15 +286,15 @@ RegistrationResult register_by_features(const FeatureCloud& target, const Featur
                                         const PaperConfig& config) {
   const std::size_t fewest = std::min(target.size(), source.size());
   if (fewest < config.min_points) {
-    return rejected("a cloud has only " + std::to_string(fewest) + " points after thinning, at least " +
-                    std::to_string(config.min_points) + " are needed");
+    return refused_pair("a cloud has only " + std::to_string(fewest) + " points after thinning, at least " +
+                        std::to_string(config.min_points) + " are needed");
   }
   const auto start = pose_by_features(*target.data(), *source.data(), config);
-  if (!start) return rejected("the features of the clouds give no common pose");
+  if (!start) return refused_pair("the features of the clouds give no common pose");
   RegistrationResult result;
   result.T_target_source = refined(*target.data(), *source.data(), *start, config);
   measure(*target.data(), *source.data(), config, result);
-  set_verdict(config, result);
+  set_paper_verdict(config, result);
   Mode mode;
   mode.T_target_source = result.T_target_source;
   mode.score = result.inlier_fraction;

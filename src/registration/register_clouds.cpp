@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "fleetmap/geometry/rotated_covariance.hpp"
 #include "modes.hpp"
 #include "prepared_data.hpp"
 
@@ -29,9 +30,7 @@ Mode mode_of(const FoundMode& found, const PreparedCloud::Data& target, const Pr
       Eigen::Matrix3d(target.R_level_cloud.transpose() * found.T_level.linear() * source.R_level_cloud),
       Eigen::Vector3d(target.R_level_cloud.transpose() * found.T_level.translation()));
   // The right tangent lives in the source's frame.
-  Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = source.R_level_cloud.transpose();
-  mode.covariance = turn * found.icp.covariance * turn.transpose();
+  mode.covariance = rotated(found.icp.covariance, source.R_level_cloud.transpose());
   mode.covariance = Matrix6d(0.5 * (mode.covariance + mode.covariance.transpose()));
   const auto scored = static_cast<double>(std::max<std::size_t>(1, found.fit.scored));
   mode.score = found.fit.score;

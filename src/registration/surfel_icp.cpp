@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "fleetmap/geometry/rotated_covariance.hpp"
 #include "fleetmap/geometry/symmetric.hpp"
 
 namespace fleetmap::registration {
@@ -296,10 +297,10 @@ IcpResult align(const SurfelMap& target, const MovingPoints& source, const Pose&
         linearize(target, source, result.T_target_source, config.kernels_m.size() <= config.far_stages,
                   config.kernels_m.back(), config, true);
     result.unconstrained = solve(system, lever, config.degenerate_share).unconstrained;
-    Matrix6d turn = Matrix6d::Zero();  // to the right tangent
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = result.T_target_source.linear().transpose();
     const Matrix6d drift = drift_of(system, source, result.T_target_source, *drift_models);
-    result.covariance = turn * covariance_of(system, drift, lever, config) * turn.transpose();
+    // To the right tangent.
+    result.covariance =
+        rotated(covariance_of(system, drift, lever, config), result.T_target_source.linear().transpose());
   }
   return result;
 }

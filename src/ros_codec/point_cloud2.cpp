@@ -12,6 +12,7 @@
 #include "cdr_header.hpp"
 #include "fleetmap/bus/cdr.hpp"
 #include "fleetmap/core/text_list.hpp"
+#include "point_datatype.hpp"
 #include "ros_time.hpp"
 #include "sensor_msgs.h"
 #include "type_names.hpp"
@@ -22,7 +23,6 @@ namespace {
 using sensor_msgs::msg::dds_::PointCloud2_;
 using sensor_msgs::msg::dds_::PointField_;
 
-enum Datatype : std::uint8_t { kInt8 = 1, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 constexpr std::array<std::size_t, 9> kSizes{0, 1, 1, 2, 2, 4, 4, 4, 8};
 
 constexpr std::uint32_t kMaxFields = 256;
@@ -72,7 +72,7 @@ struct Layout {
   std::optional<Field> intensity, ring, time;
 };
 
-tl::unexpected<Error> refused(const std::string& what) {
+tl::unexpected<Error> refused_cloud(const std::string& what) {
   return failure(std::string(type_name::kPointCloud2) + ": " + what);
 }
 
@@ -80,16 +80,16 @@ Status check_extent(const PointCloud2_& in) {
   const std::uint64_t height = in.height(), width = in.width();
   const std::uint64_t point_step = in.point_step(), row_step = in.row_step();
   if (height == 0 || width == 0) return {};
-  if (point_step == 0) return refused("point_step is 0");
+  if (point_step == 0) return refused_cloud("point_step is 0");
   // Unorganised clouds of some drivers leave row_step at 0.
   const std::uint64_t row_bytes = row_step == 0 && height == 1 ? width * point_step : row_step;
   if (row_bytes < width * point_step) {
-    return refused("row_step " + std::to_string(row_step) + " is less than width " + std::to_string(width) +
-                   " x point_step " + std::to_string(point_step));
+    return refused_cloud("row_step " + std::to_string(row_step) + " is less than width " +
+                         std::to_string(width) + " x point_step " + std::to_string(point_step));
   }
   if (in.data().size() < (height - 1) * row_bytes + width * point_step) {
-    return refused("data has " + std::to_string(in.data().size()) + " bytes, too few for height " +
-                   std::to_string(height) + " x row_step " + std::to_string(row_bytes));
+    return refused_cloud("data has " + std::to_string(in.data().size()) + " bytes, too few for height " +
+                         std::to_string(height) + " x row_step " + std::to_string(row_bytes));
   }
   return {};
 }
@@ -97,7 +97,7 @@ Status check_extent(const PointCloud2_& in) {
 /// The field of one of the `names`, if its datatype is among `types`.
 template <std::size_t N, std::size_t M>
 std::optional<Field> find_field(const PointCloud2_& in, const std::array<const char*, N>& names,
-                                const std::array<Datatype, M>& types) {
+                                const std::array<PointDatatype, M>& types) {
   for (const char* name : names) {
     for (const PointField_& field : in.fields()) {
       const bool wanted = field.name() == name && std::ranges::find(types, field.datatype()) != types.end();
@@ -118,8 +118,8 @@ Result<Layout> read_layout(const PointCloud2_& in) {
     if (!field) {
       std::string present;
       for (const PointField_& f : in.fields()) append_to_list(present, f.name().substr(0, 32));
-      return refused(std::string("no field '") + kNames[axis] +
-                     "' of float32 or float64 within point_step; fields: " + present);
+      return refused_cloud(std::string("no field '") + kNames[axis] +
+                           "' of float32 or float64 within point_step; fields: " + present);
     }
     layout.xyz[axis] = *field;
   }
@@ -201,7 +201,7 @@ void peek_fields(eprosima::fastcdr::Cdr& cdr) {
   if (fields > kMaxFields) throw std::length_error(std::to_string(fields) + " point fields");
 }
 
-void add_field(PointCloud2_& out, const char* name, std::uint32_t offset, Datatype datatype) {
+void add_field(PointCloud2_& out, const char* name, std::uint32_t offset, PointDatatype datatype) {
   PointField_ field;
   field.name(name);
   field.offset(offset);

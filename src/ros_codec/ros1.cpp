@@ -114,6 +114,18 @@ void velodyne_scan(Transcoder& message) {
   }
 }
 
+void livox_points(Transcoder& message) {
+  message.header();
+  message.numbers(8, 1);  // timebase
+  message.numbers(4, 1);  // point_num
+  message.numbers(1, 4);  // lidar_id, rsvd
+  const std::uint32_t points = message.count();
+  for (std::uint32_t k = 0; k < points && message.more(); ++k) {
+    message.numbers(4, 4);  // offset_time, x, y, z
+    message.numbers(1, 3);  // reflectivity, tag, line
+  }
+}
+
 }  // namespace
 
 Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message) {
@@ -130,6 +142,8 @@ Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message) {
     tf_message(transcoder);
   } else if (type == "velodyne_msgs/msg/VelodyneScan") {
     velodyne_scan(transcoder);
+  } else if (type == "livox_ros_driver/msg/CustomMsg" || type == "livox_ros_driver2/msg/CustomMsg") {
+    livox_points(transcoder);
   } else {
     return failure(std::string(type) + ": is not read from ROS 1");
   }

@@ -2,10 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "fleetmap/bus/cdr.hpp"
+#include "fleetmap/geometry/degree.hpp"
 #include "nav_msgs.h"
+#include "ros_geometry.hpp"
 #include "ros_time.hpp"
 #include "sensor_msgs.h"
 #include "type_names.hpp"
@@ -17,36 +18,9 @@ namespace geometry = geometry_msgs::msg::dds_;
 namespace sensors = sensor_msgs::msg::dds_;
 using nav_msgs::msg::dds_::Odometry_;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kYawRateVariance = 35;
 constexpr std::int8_t kNoFix = -1;
 enum CovarianceType : std::uint8_t { kUnknown = 0, kKnown = 3 };
-
-geometry::Vector3_ to_ros(const Eigen::Vector3d& v) {
-  geometry::Vector3_ out;
-  out.x(v.x());
-  out.y(v.y());
-  out.z(v.z());
-  return out;
-}
-geometry::Quaternion_ to_ros(const Eigen::Quaterniond& q) {
-  geometry::Quaternion_ out;
-  out.x(q.x());
-  out.y(q.y());
-  out.z(q.z());
-  out.w(q.w());
-  return out;
-}
-geometry::Pose_ to_ros(const Pose& T) {
-  geometry::Pose_ out;
-  out.position().x(T.translation().x());
-  out.position().y(T.translation().y());
-  out.position().z(T.translation().z());
-  out.orientation(to_ros(Eigen::Quaterniond(T.linear())));
-  return out;
-}
-Eigen::Vector3d from_ros(const geometry::Vector3_& v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Quaterniond from_ros(const geometry::Quaternion_& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 /// Unit, or close enough that rounding explains the rest.
 bool is_rotation(const Eigen::Quaterniond& q) { return std::abs(q.norm() - 1.0) <= 1e-2; }
@@ -172,9 +146,10 @@ Bytes encode(const OdometryMsg& odometry) {
   out.header().frame_id("odom");
   out.child_frame_id("base_link");
   out.pose().pose(to_ros(odometry.T_odom_base));
-  for (std::size_t k = 0; k < 36; ++k) {
-    out.pose().covariance()[k] = odometry.covariance(static_cast<int>(k) / 6, static_cast<int>(k) % 6);
-  }
+  out.pose().covariance(to_ros(odometry.covariance));
+  out.twist().twist().linear(to_ros(Eigen::Vector3d(odometry.twist.head<3>())));
+  out.twist().twist().angular(to_ros(Eigen::Vector3d(odometry.twist.tail<3>())));
+  out.twist().covariance(to_ros(odometry.twist_covariance));
   return bus::to_cdr(out);
 }
 
@@ -189,11 +164,16 @@ Result<OdometryMsg> decode(ByteView cdr) {
   const Eigen::Vector3d t(position.x(), position.y(), position.z());
   if (!t.allFinite()) return refused(type_name::kOdometry, "pose.position is not finite");
   if (!is_rotation(q)) return refused(type_name::kOdometry, "pose.orientation is not a unit quaternion");
-  OdometryMsg odometry{*stamp, make_pose(q, t), Matrix6d::Zero()};
-  for (std::size_t k = 0; k < 36; ++k) {
-    odometry.covariance(static_cast<int>(k) / 6, static_cast<int>(k) % 6) = in->pose().covariance()[k];
-  }
+  OdometryMsg odometry;
+  odometry.stamp = *stamp;
+  odometry.T_odom_base = make_pose(q, t);
+  odometry.covariance = covariance_from_ros(in->pose().covariance());
+  odometry.twist << from_ros(in->twist().twist().linear()), from_ros(in->twist().twist().angular());
+  odometry.twist_covariance = covariance_from_ros(in->twist().covariance());
   if (!odometry.covariance.allFinite()) return refused(type_name::kOdometry, "pose.covariance is not finite");
+  if (!odometry.twist.allFinite()) return refused(type_name::kOdometry, "twist is not finite");
+  if (!odometry.twist_covariance.allFinite())
+    return refused(type_name::kOdometry, "twist.covariance is not finite");
   return odometry;
 }
 

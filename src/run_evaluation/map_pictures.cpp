@@ -83,6 +83,22 @@ Result<MapPicture> drawn(std::string file, std::string caption, const cloud::Poi
   return MapPicture{std::move(file), std::move(caption), std::move(*png)};
 }
 
+/// A band of points along the path at height `z`, without gaps and wide enough to be seen.
+void add_path(const Path& path, float z, std::vector<Eigen::Vector3f>& points) {
+  constexpr double kStep = 0.5 * kPointSize;  // m
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector3d step = path[i] - path[i - 1];
+    const int parts = static_cast<int>(std::clamp(std::ceil(step.norm() / kStep), 1.0, 1000.0));
+    for (int part = 0; part < parts; ++part) {
+      const Eigen::Vector3d at = path[i - 1] + step * part / parts;
+      for (const auto& [east, north] :
+           {std::pair{0.0, 0.0}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}})
+        points.emplace_back(static_cast<float>(at.x() + kPointSize * east),
+                            static_cast<float>(at.y() + kPointSize * north), z);
+    }
+  }
+}
+
 /// 1, 2 or 5 times a power of ten, at least `value`.
 double rounded_up(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -110,6 +126,27 @@ Result<std::vector<MapPicture>> pictures_by_robot(const store::MergedMap& map) {
   auto perspective = drawn("map_perspective.png", "Map by robot", map.cloud, colours, view);
   if (!perspective) return tl::unexpected(perspective.error());
   return std::vector<MapPicture>{std::move(*top), std::move(*perspective)};
+}
+
+Result<MapPicture> picture_with_paths(const cloud::PointCloud& map, const std::vector<std::string>& robots,
+                                      const std::vector<Path>& paths) {
+  constexpr eval::Rgb kMap{150, 158, 168};
+  const std::vector<float> heights = heights_above_ground(map);
+  cloud::PointCloud shown{map.points, {}};
+  std::vector<eval::Rgb> colours;
+  float top = 0.0f;
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    colours.push_back(toned(kMap, heights[i]));
+    if (map.points[i].allFinite()) top = std::max(top, map.points[i].z());
+  }
+  eval::View view;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    view.legend.push_back({robots[k], eval::robot_colour(k)});
+    // Above all that the map shows, or a roof would hide where a robot drove.
+    add_path(paths[k], top + 1.0f, shown.points);
+    colours.resize(shown.size(), eval::robot_colour(k));
+  }
+  return drawn("map_plan.png", "Map from above, with the paths of the robots", shown, colours, view);
 }
 
 Result<MapPicture> picture_of_errors(const cloud::PointCloud& points, const std::vector<float>& errors) {

@@ -6,22 +6,23 @@ namespace fleetmap::sensor {
 namespace {
 
 /// Clocks of 50 ppm drift apart by 1.5 ms in that time.
-constexpr Duration kKept = std::chrono::seconds(30);
+constexpr Duration kRoundTripsKept = std::chrono::seconds(30);
 /// An answer that took longer tells less than the lag of messages.
-constexpr Duration kLongest = std::chrono::milliseconds(100);
+constexpr Duration kMaxRoundTrip = std::chrono::milliseconds(100);
 
 }  // namespace
 
 bool DeviceClock::add(Duration device, Stamp arrival) {
   const bool stepped = envelope_.add(Stamp(device), arrival);
   if (stepped) round_trips_.clear();
-  while (!round_trips_.empty() && arrival - round_trips_.front().received > kKept) round_trips_.pop_front();
+  while (!round_trips_.empty() && arrival - round_trips_.front().received > kRoundTripsKept)
+    round_trips_.pop_front();
   return stepped;
 }
 
 void DeviceClock::add_round_trip(Stamp sent, Duration device, Stamp received) {
   const Duration length = received - sent;
-  if (length < Duration::zero() || length > kLongest) return;
+  if (length < Duration::zero() || length > kMaxRoundTrip) return;
   round_trips_.push_back({received, (sent - Stamp(device)) + length / 2, length});
 }
 

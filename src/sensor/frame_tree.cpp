@@ -10,12 +10,14 @@ namespace {
 /// A quaternion's length may differ from 1 by this: files state four decimals.
 constexpr double kUnitLength = 1e-3;
 
-/// tf, before tf2, began names with a slash.
-std::string name_of(const std::string& frame) { return frame.starts_with('/') ? frame.substr(1) : frame; }
-
 std::string in_quotes(const std::string& name) { return "'" + name + "'"; }
 
 }  // namespace
+
+/// tf, before tf2, began names with a slash.
+std::string FrameTree::name_of(const std::string& frame) {
+  return frame.starts_with('/') ? frame.substr(1) : frame;
+}
 
 Status FrameTree::add(const FrameTransform& transform) {
   const std::string parent = name_of(transform.parent), child = name_of(transform.child);

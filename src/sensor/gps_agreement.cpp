@@ -3,31 +3,26 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "short_number.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr std::size_t kMaxWaiting = 100;
+constexpr std::size_t kMaxFixesWaiting = 100;
 constexpr double kUnknownSigma = 3.0;  // m
-constexpr double kLeastJump = 10.0;    // m, more than its error changes from fix to fix
+constexpr double kMinJump = 10.0;      // m, more than its error changes from fix to fix
 constexpr double kSigmas = 5.0;
 constexpr double kSpacing = 2.0;  // m between places of the track
 constexpr std::size_t kFewest = 10, kMost = 100;
 constexpr double kCheckedEvery = 5.0;  // m
-constexpr double kLeastMisfit = 3.0;   // m
+constexpr double kMinMisfit = 3.0;     // m
 constexpr double kMisfitSigmas = 2.0;
 constexpr double kSameSize = 1.4;
 constexpr double kMirroredFits = 0.5;  // of the misfit without mirroring
-constexpr double kLeastWidth = 0.15;   // of the track's length: a straight line is its own mirror image
+constexpr double kMinWidth = 0.15;     // of the track's length: a straight line is its own mirror image
 constexpr int kContradictions = 2;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 double sigma_of(const Fix& fix) {
   const double variance = 0.5 * (fix.covariance(0, 0) + fix.covariance(1, 1));
@@ -72,7 +67,7 @@ void GpsAgreement::interrupt() {
 void GpsAgreement::add(const Fix& fix) {
   if (!fix.valid || !is_valid(fix.position)) return;
   waiting_.push_back(fix);
-  if (waiting_.size() > kMaxWaiting) waiting_.pop_front();
+  if (waiting_.size() > kMaxFixesWaiting) waiting_.pop_front();
 }
 
 void GpsAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
@@ -106,9 +101,10 @@ void GpsAgreement::check_jump(const Place& place) {
   if (!last_place_ || jump_said_) return;
   const double moved = (place.odom - last_place_->odom).norm();
   const double jump = (place.gps - last_place_->gps).norm() - moved;
-  if (jump < std::max(kLeastJump, kSigmas * (place.sigma + last_place_->sigma))) return;
+  if (jump < std::max(kMinJump, kSigmas * (place.sigma + last_place_->sigma))) return;
   jump_said_ = true;
-  findings_.push_back("GPS: it jumped by " + number(jump) + " m while the robot moved " + number(moved) +
+  findings_.push_back("GPS: it jumped by " + short_number(jump) + " m while the robot moved " +
+                      short_number(moved) +
                       " m: reflections, a changed base station, or another receiver on the topic. Fixes that "
                       "contradict the motion are not used; check the antenna and its surroundings");
 }
@@ -125,17 +121,17 @@ void GpsAgreement::check_track() {
     sigma = std::max(sigma, place.sigma);
   }
   const Fit fit = fit_of(gps, odom);
-  contradictions_ = fit.rotated > std::max(kLeastMisfit, kMisfitSigmas * sigma) ? contradictions_ + 1 : 0;
+  contradictions_ = fit.rotated > std::max(kMinMisfit, kMisfitSigmas * sigma) ? contradictions_ + 1 : 0;
   if (contradictions_ < kContradictions) return;
   track_said_ = true;
   std::string why = "it is of another robot or time, or the position is wrong";
-  if (fit.width > kLeastWidth && fit.mirrored < kMirroredFits * fit.rotated_sized) {
+  if (fit.width > kMinWidth && fit.mirrored < kMirroredFits * fit.rotated_sized) {
     why = "it is mirrored: latitude and longitude are swapped, or one of them has the wrong sign";
   } else if (fit.size > kSameSize || fit.size < 1.0 / kSameSize) {
-    why = "it is " + number(fit.size) +
+    why = "it is " + short_number(fit.size) +
           " times as large: latitude and longitude are swapped, or their unit is not the degree";
   }
-  findings_.push_back("GPS: its track misses the way that was driven by " + number(fit.rotated) +
+  findings_.push_back("GPS: its track misses the way that was driven by " + short_number(fit.rotated) +
                       " m: " + why +
                       ". The map's place on the Earth is wrong; correct the driver or leave the topic away");
 }

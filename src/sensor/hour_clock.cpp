@@ -12,7 +12,7 @@ constexpr Duration kStep = std::chrono::seconds(5);
 constexpr Stamp kEarliest = stamp_from_ns(0), kLatest = stamp_from_ns(4'000'000'000'000'000'000);
 
 /// The time nearest to another that lies at a place within the hour.
-Stamp nearest(Stamp time, Duration within_hour) {
+Stamp nearest_within_hour(Stamp time, Duration within_hour) {
   Duration ahead = (within_hour - time.time_since_epoch()) % kHour;
   if (ahead > kHour / 2) ahead -= kHour;
   if (ahead <= -kHour / 2) ahead += kHour;
@@ -29,11 +29,11 @@ HourClock::Reading HourClock::read(std::uint32_t microseconds, Stamp arrival) {
   Reading reading;
   if (last_) {
     // From the time before, since half an hour from the arrival either hour is the nearer one now and then.
-    reading.device = nearest(last_->device + (arrival - last_->arrival), within_hour);
+    reading.device = nearest_within_hour(last_->device + (arrival - last_->arrival), within_hour);
     reading.restarted = magnitude((reading.device - last_->device) - (arrival - last_->arrival)) > kStep;
   }
   if (!last_ || reading.restarted) {
-    reading.device = nearest(arrival, within_hour);
+    reading.device = nearest_within_hour(arrival, within_hour);
     lag_ = {};
     synchronised_ = magnitude(arrival - reading.device) <= kSynchronised;
   }

@@ -4,14 +4,14 @@
 #include <chrono>
 
 #include "fleetmap/core/byte_fields.hpp"
+#include "standard_gravity.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
 constexpr std::uint64_t kFirstUnixTime = 1'000'000'000'000'000;  // us: 2001; nothing runs for so long
 constexpr std::uint64_t kLastUnixTime = 4'102'444'800'000'000;   // us: 2100
-constexpr double kStandardGravity = 9.80665;                     // m/s^2, of the unit mG
-constexpr std::size_t kLongest = 64;                             // bytes of the types below
+constexpr std::size_t kMaxPayload = 64;                          // bytes of the types below
 
 /// Fields in the order in which they are sent; those that v2 left out are zero.
 class Fields {

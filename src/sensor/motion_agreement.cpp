@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
+
+#include "fleetmap/geometry/degree.hpp"
+#include "short_number.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Duration kLongestStep = std::chrono::milliseconds(700);
-constexpr std::size_t kMaxWaiting = 50;
+constexpr std::size_t kMaxMotionsWaiting = 50;
 // A step that counts: the LiDAR's noise is a tenth of it.
-constexpr double kLeastMove = 0.03, kLeastTurn = 0.01;          // m, rad
+constexpr double kMinMove = 0.03, kMinTurn = 0.01;              // m, rad
 constexpr double kJudgedAfter = 10.0, kTurnsJudgedAfter = 1.2;  // m, rad
 // Tyres, slip and skid steering explain less.
 constexpr double kSpeedScale = 1.25, kLidarYaw = 15.0 * kDegree;
@@ -23,18 +24,12 @@ constexpr double kWheelTurnsJudgedAfter = 2.0;  // rad
 constexpr Duration kWheelStep = std::chrono::milliseconds(150);
 constexpr double kNothing = 0.2;  // of the motion
 // A lag that is one: as large, and leaving so little of the misfit.
-constexpr double kLeastLag = 0.05, kMisfitLeft = 0.5;  // s
+constexpr double kMinLag = 0.05, kMisfitLeft = 0.5;  // s
 constexpr std::size_t kStampSteps = 25;
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 bool agrees(double slope, double scale) { return slope > 1.0 / scale && slope < scale; }
 
-const char* unit_of(double scale) {
+const char* wheel_unit_of(double scale) {
   if (std::abs(scale - 3.6) < 0.4) return ": its unit seems to be km/h and not m/s";
   if (std::abs(scale - 2.24) < 0.15) return ": its unit seems to be miles per hour and not m/s";
   if (scale > 500.0 && scale < 1500.0) return ": its unit seems to be mm/s and not m/s";
@@ -68,7 +63,7 @@ void MotionAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
   const Duration reach = from_seconds((kLags + 1) * kLagStep);
   while (!waiting_.empty() &&
          ((passed(gyro_, waiting_.front().to + reach) && passed(wheels_, waiting_.front().to)) ||
-          waiting_.size() > kMaxWaiting)) {
+          waiting_.size() > kMaxMotionsWaiting)) {
     compare(waiting_.front());
     waiting_.pop_front();
   }
@@ -82,7 +77,7 @@ void MotionAgreement::compare(const Step& step) {
 
 void MotionAgreement::compare_drive(const Step& step) {
   const auto wheels = wheels_.between(step.from, step.to);
-  if (drive_judged_ || !wheels || step.moved.norm() < kLeastMove) return;
+  if (drive_judged_ || !wheels || step.moved.norm() < kMinMove) return;
   driven_ += step.moved.norm();
   drive_squares_ += step.moved.squaredNorm();
   drive_products_ += wheels->x() * step.moved;
@@ -93,7 +88,7 @@ void MotionAgreement::judge_drive() {
   drive_judged_ = true;
   const Eigen::Vector2d slope = drive_products_ / drive_squares_;
   const double scale = slope.norm();
-  const std::string since = " over the first " + number(driven_) + " m";
+  const std::string since = " over the first " + short_number(driven_) + " m";
   if (scale < kNothing) {
     findings_.push_back("wheel odometry: it stands while the LiDAR moves" + since +
                         ": the twist is not filled, or the topic is dead. Correct the driver, or set "
@@ -106,18 +101,20 @@ void MotionAgreement::judge_drive() {
                         ": the sign of twist.linear.x is wrong, or the LiDAR is turned by 180 deg and "
                         "lidar.rotation_rpy_deg does not say so");
   } else if (std::abs(yaw) > kLidarYaw) {
-    findings_.push_back("LiDAR: it moves " + number(std::abs(yaw) / kDegree) + " deg to the " +
+    findings_.push_back("LiDAR: it moves " + short_number(std::abs(yaw) / kDegree) + " deg to the " +
                         (yaw > 0.0 ? "left" : "right") + " of where the wheels drive" + since +
-                        ": lidar.rotation_rpy_deg should have " + number(-yaw / kDegree) + " deg more yaw");
+                        ": lidar.rotation_rpy_deg should have " + short_number(-yaw / kDegree) +
+                        " deg more yaw");
   }
   if (!agrees(scale, kSpeedScale)) {
-    findings_.push_back("wheel odometry: it is " + number(scale) + " times as fast as the LiDAR" + since +
-                        unit_of(scale) + ", or the LiDAR's points are not in metres. Correct the driver");
+    findings_.push_back("wheel odometry: it is " + short_number(scale) + " times as fast as the LiDAR" +
+                        since + wheel_unit_of(scale) +
+                        ", or the LiDAR's points are not in metres. Correct the driver");
   }
 }
 
 void MotionAgreement::compare_turn(const Step& step) {
-  if (turns_judged_ || std::abs(step.turned) < kLeastTurn) return;
+  if (turns_judged_ || std::abs(step.turned) < kMinTurn) return;
   if (const auto gyro = gyro_.between(step.from, step.to)) {
     gyro_turned_ += std::abs(step.turned);
     gyro_squares_ += step.turned * step.turned;
@@ -152,7 +149,7 @@ void MotionAgreement::judge_turns() {
                                 ? "twist.angular.z is not filled: let the driver set its variance "
                                   "(twist.covariance[35]) to -1"
                                 : "the unit or the track width is wrong";
-    findings_.push_back("wheel odometry: in turns its turn rate is " + number(wheels) +
+    findings_.push_back("wheel odometry: in turns its turn rate is " + short_number(wheels) +
                         " times that of the LiDAR: " + how);
   }
   if (!with_gyro) return;
@@ -168,7 +165,7 @@ void MotionAgreement::compare_gyro_and_wheels(Stamp to) {
   const auto wheels = wheels_.between(from, to), gyro = gyro_.between(from, to);
   if (!gyro && gyro_.last() && *gyro_.last() < to) return;  // it comes
   compared_to_ = to;
-  if (!wheels || !gyro || wheels->z() < 0.99 * to_seconds(to - from) || std::abs(wheels->y()) < kLeastTurn)
+  if (!wheels || !gyro || wheels->z() < 0.99 * to_seconds(to - from) || std::abs(wheels->y()) < kMinTurn)
     return;
   wheels_turned_ += std::min(std::abs(wheels->y()), gyro->norm());
   wheels_squares_ += wheels->y() * wheels->y();
@@ -191,8 +188,8 @@ void MotionAgreement::judge_gyro(const Eigen::Vector3d& slope, const std::string
     findings_.push_back("IMU: its gyro turns right where " + others +
                         " turn left: the sign of its z axis is wrong, or the IMU is upside down" + mount);
   } else {
-    findings_.push_back("IMU: in turns its gyro turns " + number(slope.z()) + " times as fast as " + others +
-                        ": its unit, scale or mount is wrong" + mount);
+    findings_.push_back("IMU: in turns its gyro turns " + short_number(slope.z()) + " times as fast as " +
+                        others + ": its unit, scale or mount is wrong" + mount);
   }
 }
 
@@ -208,8 +205,8 @@ void MotionAgreement::compare_stamps(const Step& step) {
   }
   for (std::size_t k = 0; k < misfits.size(); ++k) misfits_.at(k) += misfits.at(k);
   // A lag shows where the turn rate changes; in steady turns and at standstill it does not.
-  const auto [least, most] = std::ranges::minmax_element(misfits);
-  misfit_steps_ += *most - *least > kLeastTurn * kLeastTurn / 4.0 ? 1 : 0;
+  const auto [smallest, largest] = std::ranges::minmax_element(misfits);
+  misfit_steps_ += *largest - *smallest > kMinTurn * kMinTurn / 4.0 ? 1 : 0;
   if (misfit_steps_ >= kStampSteps) judge_stamps();
 }
 
@@ -217,9 +214,10 @@ void MotionAgreement::judge_stamps() {
   stamps_judged_ = true;
   const auto best = std::ranges::min_element(misfits_);
   const double lag = (static_cast<double>(best - misfits_.begin()) - kLags) * kLagStep;
-  if (std::abs(lag) < kLeastLag || *best > kMisfitLeft * misfits_.at(kLags)) return;
+  if (std::abs(lag) < kMinLag || *best > kMisfitLeft * misfits_.at(kLags)) return;
   findings_.push_back(
-      "clocks: the gyro turns " + number(1e3 * std::abs(lag)) + " ms " + (lag > 0.0 ? "after" : "before") +
+      "clocks: the gyro turns " + short_number(1e3 * std::abs(lag)) + " ms " +
+      (lag > 0.0 ? "after" : "before") +
       " the LiDAR, by the stamps: one of the two stamps its samples wrongly (at the end of a sweep "
       "instead of its start, when they arrive, or by a clock of its own). Correct the driver, or "
       "synchronise both (PTP)");

@@ -11,7 +11,7 @@ constexpr Duration kDay = std::chrono::hours(24);
 constexpr Duration kGstExpected = std::chrono::seconds(5);
 
 /// The moment nearest to another at a time of the day.
-Stamp nearest(Stamp moment, Duration time) {
+Stamp nearest_at_time_of_day(Stamp moment, Duration time) {
   Duration ahead = (time - moment.time_since_epoch()) % kDay;
   if (ahead > kDay / 2) ahead -= kDay;
   if (ahead <= -kDay / 2) ahead += kDay;
@@ -34,7 +34,7 @@ DeviceSamples NmeaFixes::add(ByteView bytes, Stamp arrival) {
 }
 
 Stamp NmeaFixes::utc(Duration time, Stamp arrival) const {
-  return nearest(dated_ ? dated_->utc + (arrival - dated_->arrival) : arrival, time);
+  return nearest_at_time_of_day(dated_ ? dated_->utc + (arrival - dated_->arrival) : arrival, time);
 }
 
 void NmeaFixes::handle(const NmeaRmc& rmc, Stamp arrival, DeviceSamples&) {

@@ -10,13 +10,13 @@ namespace fleetmap::sensor {
 namespace {
 
 /// The standard allows 82; receivers with more digits send a little more.
-constexpr std::size_t kLongest = 120;
+constexpr std::size_t kMaxSentence = 120;
 constexpr std::size_t kMaxFields = 24;
 
 /// A field that is absent is empty; one that is malformed makes the sentence so.
-class Fields {
+class SentenceFields {
  public:
-  explicit Fields(std::string_view sentence) {
+  explicit SentenceFields(std::string_view sentence) {
     for (std::string_view& field : fields_) {
       const auto comma = sentence.find(',');
       field = sentence.substr(0, comma);
@@ -87,7 +87,7 @@ class Fields {
   bool malformed_ = false;
 };
 
-NmeaSentence read_gga(Fields& fields) {
+NmeaSentence read_gga(SentenceFields& fields) {
   const auto time = fields.time(1);
   NmeaGga gga{.time = time.value_or(Duration::zero())};
   const auto latitude = fields.angle(2, 2, 'N', 'S'), longitude = fields.angle(4, 3, 'E', 'W');
@@ -101,14 +101,14 @@ NmeaSentence read_gga(Fields& fields) {
   return time ? NmeaSentence(gga) : NmeaOther{};
 }
 
-NmeaSentence read_rmc(Fields& fields) {
+NmeaSentence read_rmc(SentenceFields& fields) {
   const auto time = fields.time(1);
   const auto midnight = fields.date(9);
   if (!time || !midnight) return NmeaOther{};
   return NmeaRmc{*time, fields.text(2) == "A", *midnight};
 }
 
-NmeaSentence read_gst(Fields& fields) {
+NmeaSentence read_gst(SentenceFields& fields) {
   const auto time = fields.time(1);
   const auto north = fields.number(6), east = fields.number(7), up = fields.number(8);
   if (!time || !north || !east || !up) return NmeaOther{};
@@ -127,7 +127,7 @@ std::vector<std::string> NmeaSentences::add(ByteView bytes) {
       continue;
     } else if (byte == '\n' || byte == '\r') {
       end(sentences);
-    } else if (sentence_->size() == kLongest) {
+    } else if (sentence_->size() == kMaxSentence) {
       ++counters_.cut;
       sentence_.reset();
     } else {
@@ -151,7 +151,7 @@ void NmeaSentences::end(std::vector<std::string>& sentences) {
 }
 
 std::optional<NmeaSentence> read_nmea(std::string_view sentence) {
-  Fields fields(sentence);
+  SentenceFields fields(sentence);
   const std::string_view name = fields.text(0);
   const std::string_view type = name.size() == 5 ? name.substr(2) : std::string_view();
   NmeaSentence read;

@@ -5,7 +5,7 @@
 namespace fleetmap::sensor {
 namespace {
 
-constexpr Duration kKept = std::chrono::seconds(3);
+constexpr Duration kEntriesKept = std::chrono::seconds(3);
 constexpr Duration kGap = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -20,7 +20,7 @@ void RunningIntegral::add(Stamp stamp, const Eigen::Vector3d& rate) {
     sum = last.sum + 0.5 * to_seconds(stamp - last.stamp) * (last.rate + rate);
   }
   entries_.push_back({stamp, rate, sum});
-  while (stamp - entries_.front().stamp > kKept) entries_.pop_front();
+  while (stamp - entries_.front().stamp > kEntriesKept) entries_.pop_front();
 }
 
 std::optional<Stamp> RunningIntegral::last() const {

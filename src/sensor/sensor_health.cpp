@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <utility>
 
+#include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/geometry/se3.hpp"
+#include "short_number.hpp"
+#include "standard_gravity.hpp"
 
 namespace fleetmap::sensor {
 namespace {
 
-constexpr double kStandardGravity = 9.80665;  // m/s^2
 constexpr std::size_t kFirstNorms = 25;
 constexpr double kNoAccelerometer = 0.05;  // m/s^2: the field is not filled
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// No ground robot turns that fast, and one that turns by 8 deg/s seems to if the unit is deg/s.
 constexpr double kImpossibleRate = 8.0;  // rad/s
 constexpr int kImpossibleRates = 5;      // in a row; a single one is an error of the sensor
@@ -47,18 +46,12 @@ struct ForceUnit {
 constexpr std::array kForceUnits{ForceUnit{"m/s^2", 1.0}, ForceUnit{"g", kStandardGravity},
                                  ForceUnit{"milli-g", 1e-3 * kStandardGravity}};
 
-const ForceUnit* unit_of(double norm) {
+const ForceUnit* force_unit_of(double norm) {
   const auto fits = [norm](const ForceUnit& unit) {
     return std::abs(norm * unit.scale - kStandardGravity) < 0.35 * kStandardGravity;
   };
   const auto* unit = std::ranges::find_if(kForceUnits, fits);
   return unit == kForceUnits.end() ? nullptr : unit;
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 /// Component by component, which ground that is seen askew now and then does not shift.
@@ -121,7 +114,7 @@ void SensorHealth::check_gaps(Stamp stamp) {
   const double heard = to_seconds(stamp - *first_imu_);
   if (stamp - *first_imu_ < kGapsJudgedAfter || imu_gaps_ < kGapShare * heard) return;
   imu_gaps_said_ = true;
-  state("IMU: samples are missing: " + number(100.0 * imu_gaps_ / heard) +
+  state("IMU: samples are missing: " + short_number(100.0 * imu_gaps_ / heard) +
         " % of the time is in gaps of more than 0.25 s, in which the motion is not measured. Check its "
         "cable, the "
         "load of the computer and the rate of the driver (100 Hz)");
@@ -135,11 +128,11 @@ void SensorHealth::check_gravity(const Imu& imu) {
   const double tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
   if (tilt < kSteepest) return;
   const Eigen::Vector3d turn = rpy_from_rotation(levelling(up)) / kDegree;
-  state("IMU: gravity is " + number(tilt / kDegree) +
+  state("IMU: gravity is " + short_number(tilt / kDegree) +
         " deg off base_link's z at the start, so the IMU is not mounted as imu.rotation_rpy_deg says: it "
         "should be "
         "turned by [" +
-        number(turn.x()) + ", " + number(turn.y()) + ", 0] deg more; or its axes are swapped");
+        short_number(turn.x()) + ", " + short_number(turn.y()) + ", 0] deg more; or its axes are swapped");
 }
 
 void SensorHealth::correct_force(Imu& imu) {
@@ -150,23 +143,23 @@ void SensorHealth::correct_force(Imu& imu) {
   }
   if (!std::isfinite(norm)) return;
   // Until the unit is decided, each sample stands for itself.
-  if (const ForceUnit* unit = unit_of(norm)) imu.specific_force *= unit->scale;
+  if (const ForceUnit* unit = force_unit_of(norm)) imu.specific_force *= unit->scale;
   first_norms_.push_back(norm);
   if (first_norms_.size() < kFirstNorms) return;
   std::ranges::nth_element(first_norms_, first_norms_.begin() + kFirstNorms / 2);
   const double median = first_norms_[kFirstNorms / 2];
-  const ForceUnit* unit = unit_of(median);
+  const ForceUnit* unit = force_unit_of(median);
   force_scale_ = unit ? unit->scale : 1.0;
   if (median <= kNoAccelerometer) {
     state(
         "IMU: the acceleration is 0 at the start: it is not filled, or gravity was taken out; roll and pitch "
         "are not measured. Let the driver report the specific force");
   } else if (!unit) {
-    state("IMU: the acceleration is " + number(median) +
+    state("IMU: the acceleration is " + short_number(median) +
           " at the start, which gravity is in no known unit; the attitude will be wrong. Correct the "
           "driver's scale, or leave the topic away");
   } else if (unit->scale != 1.0) {
-    state("IMU: the acceleration is " + number(median) + " at the start, so its unit is " + unit->name +
+    state("IMU: the acceleration is " + short_number(median) + " at the start, so its unit is " + unit->name +
           " and not m/s^2; it is converted. Correct the driver");
   }
 }
@@ -203,7 +196,7 @@ bool SensorHealth::correct_rate(Imu& imu) {
     ++compared_rates_;
     if (slope > 30.0 && slope < 100.0) {
       if (compared_rates_ < kComparedRates) return false;
-      return in_degrees("it turns " + number(slope) + " times as fast as the wheels");
+      return in_degrees("it turns " + short_number(slope) + " times as fast as the wheels");
     }
   }
   if (rate <= kImpossibleRate) {
@@ -212,7 +205,7 @@ bool SensorHealth::correct_rate(Imu& imu) {
   }
   if (++impossible_rates_ == 1) impossible_since_ = imu.stamp;
   if (impossible_rates_ < kImpossibleRates || imu.stamp - impossible_since_ < kLongerThanAShock) return false;
-  return in_degrees("it turns at " + number(rate) + " rad/s, which no ground robot does");
+  return in_degrees("it turns at " + short_number(rate) + " rad/s, which no ground robot does");
 }
 
 bool SensorHealth::check(Wheel& wheel) {
@@ -276,8 +269,8 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
     return;
   scans_missing_ = true;
   state("LiDAR: " + std::to_string(missing_scans_) + " of " + std::to_string(scans_ + missing_scans_) +
-        " scans are missing: a sweep takes " + number(to_seconds(sweep)) + " s, and one came every " +
-        number(to_seconds(sweep) * all / static_cast<double>(scans_)) +
+        " scans are missing: a sweep takes " + short_number(to_seconds(sweep)) + " s, and one came every " +
+        short_number(to_seconds(sweep) * all / static_cast<double>(scans_)) +
         " s. Raise net.core.rmem_max and rmem_default to 16 MB, or use a wire; if the driver crops the "
         "cloud, ignore this");
 }
@@ -294,10 +287,10 @@ void SensorHealth::check_ground(const Eigen::Vector3d& normal) {
   const double tilt = std::acos(std::min(1.0, up.z()));
   if (tilt < kLevel) return;
   const Eigen::Vector3d turn = rpy_from_rotation(levelling(up)) / kDegree;
-  state("LiDAR: the ground is tilted by " + number(tilt / kDegree) + " deg in base_link, in the median of " +
-        std::to_string(kGrounds) +
+  state("LiDAR: the ground is tilted by " + short_number(tilt / kDegree) +
+        " deg in base_link, in the median of " + std::to_string(kGrounds) +
         " scans, so the LiDAR is not mounted as lidar.rotation_rpy_deg says: it should be turned by [" +
-        number(turn.x()) + ", " + number(turn.y()) + ", 0] deg more");
+        short_number(turn.x()) + ", " + short_number(turn.y()) + ", 0] deg more");
 }
 
 }  // namespace fleetmap::sensor

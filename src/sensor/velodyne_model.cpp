@@ -1,13 +1,12 @@
 #include "fleetmap/sensor/velodyne_model.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <span>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::sensor {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Degrees, in the order of firing.
 constexpr std::array kElevationsVlp16{-15.0, 1.0, -13.0, 3.0,  -11.0, 5.0,  -9.0, 7.0,

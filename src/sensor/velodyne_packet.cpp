@@ -26,10 +26,6 @@ T little_endian(ByteView bytes, std::size_t at) {
   return value;
 }
 
-tl::unexpected<VelodyneRefusal> refused(VelodyneFault fault, std::string what) {
-  return tl::unexpected(VelodyneRefusal{fault, std::move(what)});
-}
-
 std::string hex(unsigned value) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string text = "0x";
@@ -73,30 +69,32 @@ void set_steps(std::vector<VelodyneBlock>& blocks, double period) {
 
 }  // namespace
 
-tl::expected<VelodynePacket, VelodyneRefusal> read_velodyne_packet(ByteView bytes) {
+tl::expected<VelodynePacket, PacketRefusal> read_velodyne_packet(ByteView bytes) {
   if (bytes.size() != kVelodynePacketBytes)
-    return refused(VelodyneFault::kSize, "a packet of " + std::to_string(bytes.size()) + " bytes, not 1206");
+    return refused_packet(PacketFault::kSize,
+                          "a packet of " + std::to_string(bytes.size()) + " bytes, not 1206");
   VelodynePacket packet;
   const std::uint8_t mode = bytes[kReturnModeAt];
   packet.model = velodyne_model(bytes[kProductAt]);
   if (packet.model == nullptr)
-    return refused(VelodyneFault::kDevice,
-                   "product id " + hex(bytes[kProductAt]) +
-                       " is none of VLP-16 (0x22), Puck Hi-Res (0x24), HDL-32E (0x21) "
-                       "and VLP-32C (0x28)");
+    return refused_packet(PacketFault::kDevice,
+                          "product id " + hex(bytes[kProductAt]) +
+                              " is none of VLP-16 (0x22), Puck Hi-Res (0x24), HDL-32E (0x21) "
+                              "and VLP-32C (0x28)");
   if (mode != kStrongest && mode != kLast && mode != kDual)
-    return refused(VelodyneFault::kDevice,
-                   "return mode " + hex(mode) + " is none of strongest (0x37), last (0x38) and dual (0x39)");
+    return refused_packet(
+        PacketFault::kDevice,
+        "return mode " + hex(mode) + " is none of strongest (0x37), last (0x38) and dual (0x39)");
   packet.microseconds = little_endian<std::uint32_t>(bytes, kTimestampAt);
   for (std::size_t k = 0; k < kBlocks; ++k) {
     const ByteView block = bytes.subspan(k * kBlockBytes, kBlockBytes);
     if (const auto flag = little_endian<std::uint16_t>(block, 0); flag != kFlag)
-      return refused(VelodyneFault::kBlock,
-                     "block " + std::to_string(k) + " begins with " + hex(flag) + ", not 0xeeff");
+      return refused_packet(PacketFault::kBlock,
+                            "block " + std::to_string(k) + " begins with " + hex(flag) + ", not 0xeeff");
     const auto azimuth = little_endian<std::uint16_t>(block, 2);
     if (azimuth >= kFullTurn)
-      return refused(VelodyneFault::kBlock, "block " + std::to_string(k) + " has an azimuth of " +
-                                                std::to_string(azimuth) + "/100 deg");
+      return refused_packet(PacketFault::kBlock, "block " + std::to_string(k) + " has an azimuth of " +
+                                                     std::to_string(azimuth) + "/100 deg");
     // The last one of dual returns comes first.
     if (mode != kDual || k % 2 == 0)
       packet.blocks.push_back({.azimuth = azimuth, .returns = block.subspan(kReturnsAt)});

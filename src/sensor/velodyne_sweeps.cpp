@@ -7,15 +7,15 @@ namespace {
 
 /// 1/100 deg. A step back by more ends the sweep; smaller ones are packets that overtook each other.
 constexpr int kStepBack = 500;
-constexpr int kFullTurn = 36000, kMayBeMissing = kFullTurn / 10;
+constexpr int kTurn = 36000, kMayBeMissing = kTurn / 10;
 /// The slowest devices turn at 5 Hz.
 constexpr Duration kLongestSweep = std::chrono::milliseconds(300);
 /// Twice what a device fires in that time: packets whose clock stands still would fill the memory.
-constexpr std::size_t kMaxPoints = 720'000;
+constexpr std::size_t kMaxSweepPoints = 720'000;
 
 }  // namespace
 
-tl::expected<void, VelodyneRefusal> VelodyneSweeps::add(ByteView bytes, Stamp arrival) {
+tl::expected<void, PacketRefusal> VelodyneSweeps::add(ByteView bytes, Stamp arrival) {
   auto packet = read_velodyne_packet(bytes);
   if (!packet) return tl::unexpected(std::move(packet.error()));
   ++counters_.packets;
@@ -31,7 +31,7 @@ void VelodyneSweeps::add_block(const VelodyneModel& model, const VelodyneBlock& 
   bool passed_zero = false;
   if (sweep_) {
     const Duration age = fired - sweep_->begun;
-    if (age < Duration::zero() || age > kLongestSweep || sweep_->scan.points.size() > kMaxPoints) {
+    if (age < Duration::zero() || age > kLongestSweep || sweep_->scan.points.size() > kMaxSweepPoints) {
       discard();
     } else if (sweep_->azimuth - block.azimuth > kStepBack) {
       end_sweep(true);
@@ -60,7 +60,7 @@ void VelodyneSweeps::discard() {
 }
 
 void VelodyneSweeps::finish() {
-  if (sweep_) end_sweep(sweep_->azimuth >= kFullTurn - kMayBeMissing);
+  if (sweep_) end_sweep(sweep_->azimuth >= kTurn - kMayBeMissing);
 }
 
 std::optional<Scan> VelodyneSweeps::take() {

@@ -11,7 +11,6 @@
 namespace fleetmap::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kBlock = 16;                   ///< columns cast together: one packet a ring
 constexpr float kPulseLength = 1.0f;                 ///< m, echoes closer than this are one
 constexpr std::size_t kLasers = 4;                   ///< behind the prisms, firing in turn
@@ -162,7 +161,7 @@ void cast_spinning(const LidarSpec& spec, const PoseTrack& poses, const Firings&
     const std::size_t size = std::min(kBlock, firings.end - begin);
     for (std::size_t c = 0; c < size; ++c) {
       const double turn = static_cast<double>(begin + c) / spec.columns, time = firing_time(spec, begin + c);
-      const double azimuth = kPi + (spec.clockwise ? -2.0 : 2.0) * kPi * turn;
+      const double azimuth = std::numbers::pi + (spec.clockwise ? -2.0 : 2.0) * std::numbers::pi * turn;
       Eigen::Matrix3d R;
       Eigen::Vector3d origin;
       poses.at(time, R, origin);
@@ -193,9 +192,9 @@ struct Deflection {
   Eigen::Vector2d side;
 };
 Deflection rosette(double field_of_view, double seconds, std::size_t laser) {
-  const auto angle = [](double turns) { return 2.0 * kPi * (turns - std::floor(turns)); };
+  const auto angle = [](double turns) { return 2.0 * std::numbers::pi * (turns - std::floor(turns)); };
   const double middle = angle(0.5 * (kPrismRates[0] + kPrismRates[1]) * seconds) +
-                        kPi * static_cast<double>(laser) / static_cast<double>(kLasers);
+                        std::numbers::pi * static_cast<double>(laser) / static_cast<double>(kLasers);
   const double apart = angle(0.5 * (kPrismRates[0] - kPrismRates[1]) * seconds);
   return {0.5 * field_of_view * std::cos(apart), {std::cos(middle), std::sin(middle)}};
 }

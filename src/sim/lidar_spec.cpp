@@ -9,7 +9,6 @@
 namespace fleetmap::sim {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMaxRays = 4'000'000;  // a scan
 
 }  // namespace
@@ -20,7 +19,7 @@ Status LidarSpec::validate() const {
       return failure("vertical_angles: a spinning LiDAR needs 1 to 1024 rings");
     }
     for (const double angle : vertical_angles) {
-      if (!(std::abs(angle) < kPi / 2)) {
+      if (!(std::abs(angle) < std::numbers::pi / 2)) {
         return failure("vertical_angles: each must lie between -90 and 90 degrees");
       }
     }
@@ -29,7 +28,7 @@ Status LidarSpec::validate() const {
     }
   } else {
     if (rays < 1 || rays > kMaxRays) return failure("rays: must be 1 to 4 million a scan");
-    if (!(field_of_view > 0.0 && field_of_view <= 2.0 * kPi)) {
+    if (!(field_of_view > 0.0 && field_of_view <= 2.0 * std::numbers::pi)) {
       return failure("field_of_view: must be above 0 and at most 360 degrees");
     }
   }
@@ -41,13 +40,14 @@ Status LidarSpec::validate() const {
       within("range_noise", range_noise, 0.0, 10.0, "m"),
       within("beam_divergence", beam_divergence, 0.0, 0.2, "rad"),
       within("dropout", dropout, 0.0, 1.0, "(a share)"),
-      within("glass_grazing", glass_grazing, 0.0, kPi / 2, "rad"),
+      within("glass_grazing", glass_grazing, 0.0, std::numbers::pi / 2, "rad"),
   });
 }
 
 LidarSpec vlp16_spec() {
   LidarSpec spec;
-  for (int ring = 0; ring < 16; ++ring) spec.vertical_angles.push_back((2.0 * ring - 15.0) * kPi / 180.0);
+  for (int ring = 0; ring < 16; ++ring)
+    spec.vertical_angles.push_back((2.0 * ring - 15.0) * std::numbers::pi / 180.0);
   spec.fixed_firing_rate = true;
   return spec;
 }

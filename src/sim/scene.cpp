@@ -1,12 +1,12 @@
 #include "fleetmap/sim/scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
+
+#include "embree_functions.hpp"
 
 namespace fleetmap::sim {
 namespace {
@@ -49,13 +49,16 @@ bool usable(const Ray& ray) {
 }  // namespace
 
 struct Scene::State {
+  explicit State(const EmbreeFunctions& functions) : embree(functions) {}
+
+  EmbreeFunctions embree;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<Material> materials;
 
   ~State() {
-    if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
+    if (scene != nullptr) embree.release_scene(scene);
+    if (device != nullptr) embree.release_device(device);
   }
 
   void cast_packet(std::span<const Ray> rays, float min_range, float max_range, std::span<Hit> hits) const;
@@ -66,32 +69,36 @@ Scene::~Scene() = default;
 
 Result<std::shared_ptr<const Scene>> Scene::create(const Mesh& mesh) {
   if (const Status sound = check(mesh); !sound) return tl::unexpected(sound.error());
-  auto state = std::make_unique<State>();
-  state->device = rtcNewDevice("threads=1");  // the tree does not depend on the number of cores
+  const auto embree = load_embree();
+  if (!embree) return tl::unexpected(embree.error());
+  auto state = std::make_unique<State>(*embree);
+  state->device = embree->new_device("threads=1");  // the tree does not depend on the number of cores
   if (state->device == nullptr) {
     return failure("Embree does not start on this computer (error " +
-                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) +
+                   std::to_string(static_cast<int>(embree->device_error(nullptr))) +
                    "); it needs a CPU with SSE2");
   }
-  RTCGeometry geometry = rtcNewGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(Eigen::Vector3f), mesh.vertices.size());
-  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(std::array<std::uint32_t, 3>), mesh.triangles.size());
+  RTCGeometry geometry = embree->new_geometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* vertices = embree->set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                   sizeof(Eigen::Vector3f), mesh.vertices.size());
+  void* triangles =
+      embree->set_new_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                      sizeof(std::array<std::uint32_t, 3>), mesh.triangles.size());
   if (vertices != nullptr && triangles != nullptr) {
     // A vertex is three floats in a row.
     std::memcpy(vertices, static_cast<const void*>(mesh.vertices.data()),
                 mesh.vertices.size() * sizeof(Eigen::Vector3f));
     std::memcpy(triangles, mesh.triangles.data(),
                 mesh.triangles.size() * sizeof(std::array<std::uint32_t, 3>));
-    rtcCommitGeometry(geometry);
-    state->scene = rtcNewScene(state->device);
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
-    rtcAttachGeometry(state->scene, geometry);
-    rtcCommitScene(state->scene);
+    embree->commit_geometry(geometry);
+    state->scene = embree->new_scene(state->device);
+    embree->set_scene_flags(state->scene,
+                            RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+    embree->attach_geometry(state->scene, geometry);
+    embree->commit_scene(state->scene);
   }
-  rtcReleaseGeometry(geometry);
-  const RTCError error = rtcGetDeviceError(state->device);
+  embree->release_geometry(geometry);
+  const RTCError error = embree->device_error(state->device);
   if (error != RTC_ERROR_NONE || state->scene == nullptr) {
     return failure("a mesh of " + std::to_string(mesh.triangles.size()) +
                    " triangles cannot be made ready for rays" +
@@ -130,7 +137,7 @@ void Scene::State::cast_packet(std::span<const Ray> rays, float min_range, float
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, scene, &context, &packet);
+  embree.intersect_16(valid, scene, &context, &packet);
   for (std::size_t k = 0; k < rays.size(); ++k) {
     if (packet.hit.geomID[k] == kNothing) {
       hits[k] = Hit{};

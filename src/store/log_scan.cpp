@@ -10,7 +10,7 @@
 namespace fleetmap::store {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 32, kFrameHeaderBytes = 24;
+constexpr std::size_t kFrameHeaderBytes = 24;
 constexpr std::uint32_t kMagic = 0x377f0682;  // its last bit is set where the sums are of big-endian words
 constexpr std::uint32_t kFormat = 3007000;
 constexpr std::size_t kMinPage = 512, kMaxPage = 65536;
@@ -46,7 +46,7 @@ bool read(std::ifstream& in, Bytes& bytes) {
 LogContent scan_log(const std::filesystem::path& log) {
   LogContent content;
   std::ifstream in(log, std::ios::binary);
-  Bytes header(kHeaderBytes);
+  Bytes header(kLogHeaderBytes);
   if (!in || !read(in, header)) return content;
   const ByteView head(header);
   const bool big_endian = (word(head, 0) & 1u) != 0;
@@ -77,7 +77,7 @@ LogContent scan_log(const std::filesystem::path& log) {
 }
 
 std::size_t end_of_frames(std::size_t frames, std::size_t page_bytes) {
-  return kHeaderBytes + frames * (kFrameHeaderBytes + page_bytes);
+  return kLogHeaderBytes + frames * (kFrameHeaderBytes + page_bytes);
 }
 
 }  // namespace fleetmap::store

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 
 namespace fleetmap::store {
 
-constexpr std::size_t kGenerationInLog = 12;  ///< offset, B, of 4 bytes, the first one the highest
+inline constexpr std::size_t kLogHeaderBytes = 32;
+inline constexpr std::size_t kGenerationInLog = 12;  ///< offset, B, of 4 bytes, the first one the highest
 
 /// The content of a SQLite write-ahead log.
 struct LogContent {

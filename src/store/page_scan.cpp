@@ -18,7 +18,7 @@
 namespace fleetmap::store {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 100;  // of the file, at the begin of page 1
+constexpr std::size_t kFileHeaderBytes = 100;  // of the file, at the begin of page 1
 constexpr std::size_t kUsualPage = 4096;
 
 /// Reads from the front of bytes that may end anywhere.
@@ -133,7 +133,7 @@ class Pages {
   /// A destroyed header gives no page size; stores then have the usual one.
   void read_header() {
     constexpr std::string_view kMagic("SQLite format 3\0", 16);
-    const Bytes header = read_at(file_, 0, kHeaderBytes);
+    const Bytes header = read_at(file_, 0, kFileHeaderBytes);
     if (header.empty() || std::memcmp(header.data(), kMagic.data(), kMagic.size()) != 0) return;
     const auto stored = big_endian(ByteView(header).subspan(16, 2));
     const std::uint64_t size = stored == 1 ? 65536 : stored;
@@ -166,7 +166,7 @@ class CellReader {
 
   void read(std::size_t number) {
     const Bytes page = pages_.read(number);
-    const std::size_t begin = number == 1 ? kHeaderBytes : 0;
+    const std::size_t begin = number == 1 ? kFileHeaderBytes : 0;
     if (page.size() < begin + 12) return;
     const auto kind = static_cast<PageKind>(page[begin]);
     const bool interior = kind == PageKind::kIndexInterior;

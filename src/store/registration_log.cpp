@@ -11,7 +11,7 @@ namespace fleetmap::store {
 namespace {
 
 // A power cut may lose the last of it; nothing else depends on this file.
-constexpr const char* kTables = R"sql(
+constexpr const char* kLogTable = R"sql(
   PRAGMA synchronous = OFF;
   CREATE TABLE IF NOT EXISTS cloud(hash TEXT PRIMARY KEY, bytes BLOB NOT NULL);
   CREATE TABLE IF NOT EXISTS registration(
@@ -123,7 +123,7 @@ Result<RegistrationLog> RegistrationLog::open(const std::filesystem::path& file,
   if (const Status valid = config.validate(); !valid) return tl::unexpected(valid.error());
   auto db = Database::open(file, false);
   if (!db) return tl::unexpected(db.error());
-  if (const Status made = db->execute(kTables); !made) return tl::unexpected(made.error());
+  if (const Status made = db->execute(kLogTable); !made) return tl::unexpected(made.error());
   return RegistrationLog(std::make_unique<State>(State{file, config, std::move(*db)}));
 }
 

@@ -13,6 +13,7 @@
 #include "database.hpp"
 #include "fleetmap/core/paths.hpp"
 #include "item_codec.hpp"
+#include "log_scan.hpp"
 #include "page_scan.hpp"
 #include "row_hash.hpp"
 #include "schema.hpp"
@@ -22,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLogHeaderBytes = 32;
 constexpr const char* kLog = "-wal";
 constexpr const char* kSharedMemory = "-shm";
 constexpr const char* kBuilding = ".salvaging";  ///< the new store, not complete

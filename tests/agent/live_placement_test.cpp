@@ -96,6 +96,9 @@ TEST_F(LivePlacementTest, ARobotThatNobodyCanPlaceHasNoCorrectedPoseUntilTheFlee
   solve();
   EXPECT_EQ(used_, std::vector<std::size_t>{0});
   EXPECT_TRUE(heard_at(11).empty());
+  const auto nowhere = live_->placed({kSelf, 0});
+  ASSERT_TRUE(nowhere) << "it has a map all the same";
+  EXPECT_FALSE(nowhere->georeferenced);
 
   for (const std::uint32_t seq : {2u, 6u, 10u}) add_alignment(seq);
   solve();
@@ -105,6 +108,13 @@ TEST_F(LivePlacementTest, ARobotThatNobodyCanPlaceHasNoCorrectedPoseUntilTheFlee
   const Pose T = pose_in(LocalFrame(origin_), heard.front());
   EXPECT_LT((T_enu_node(kSelf, 11).inverse() * T).translation().norm(), 0.3);
   EXPECT_LT(so3_log(T.linear()).norm(), 0.05);
+  const auto placed = live_->placed({kSelf, 0});
+  ASSERT_TRUE(placed);
+  EXPECT_TRUE(placed->georeferenced);
+  EXPECT_LT(((placed->T_enu_odom * T_odom_base(11)).translation() - T.translation()).norm(), 1e-6);
+  EXPECT_FALSE(live_->placed({kSelf, 1})) << "of another start";
+  EXPECT_EQ(live_->fleet()->nodes.size(), 24u);
+  EXPECT_EQ(live_->fleet()->placement.T_enu_node.size(), 24u);
   EXPECT_GT(heard.front().covariance(0, 0), 0.0);
   EXPECT_LT(heard.front().covariance(0, 0), 1.0);
 }

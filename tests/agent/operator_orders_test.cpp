@@ -73,6 +73,23 @@ TEST_F(OperatorOrders, ResumeUndoesTheCall) {
   EXPECT_NE(status("r1").state, MissionState::kCalledHome);
 }
 
+TEST_F(OperatorOrders, ARobotThatIsHeldOnItsWayHomeGoesOnHomeAfterResume) {
+  ASSERT_TRUE(fleet_.run_until_driving());
+  ASSERT_GT(farthest("r1", 20s), 10.0);
+  fleet_.call_home("r1");
+  ASSERT_TRUE(run_until(60s, [&] { return status("r1").state == MissionState::kCalledHome; }));
+  fleet_.order("r1", true);
+  fleet_.run_for(4s);
+  const Eigen::Vector2d held = place("r1");
+  ASSERT_GT(from_start("r1"), 5.0) << "it is under way";
+  fleet_.run_for(10s);
+  EXPECT_LT((place("r1") - held).norm(), 0.02);
+  fleet_.order("r1", false);
+  EXPECT_TRUE(run_until(120s, [&] { return from_start("r1") < 3.0; })) << from_start("r1");
+  EXPECT_EQ(status("r1").state, MissionState::kCalledHome);
+  EXPECT_EQ(status("r1").mine, 0u);
+}
+
 TEST_F(OperatorOrders, AGivenRowIsDrivenByItsReceiver) {
   ASSERT_TRUE(fleet_.run_until_driving());
   const auto& row = fleet_.robot("r2").agent->navigator()->executive().plan().mission.rows.at(1);

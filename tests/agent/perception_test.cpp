@@ -207,6 +207,24 @@ TEST_F(RenamedTopic, IsHeardAndOursIsNot) {
   EXPECT_EQ(perception_->counters().scans, 1u);
 }
 
+/// A robot whose LiDAR's driver publishes Livox's own message.
+class LivoxDriver : public PerceptionTest {
+ protected:
+  LivoxDriver() { config_.topics.points_type = ros_codec::PointsType::kLivoxDriver2; }
+};
+
+TEST_F(LivoxDriver, ItsScansAreUsed) {
+  bus::Topic topic = topics::points();
+  topic.type = ros_codec::dds_name(ros_codec::PointsType::kLivoxDriver2);
+  sensor::Scan scan = yard_scan();
+  scan.stamp = network_->now();
+  bus_->publish(topic, ros_codec::encode_points(scan, ros_codec::PointsType::kLivoxDriver2));
+  run_for(500ms);
+  EXPECT_EQ(perception_->counters().refused_scans, 0u);
+  ASSERT_EQ(perceived_.size(), 1u);
+  EXPECT_GT(perceived_[0].odometry.points.points.size(), 1000u);
+}
+
 /// A robot whose configuration leaves the mounts away.
 class FramedSensors : public PerceptionTest {
  protected:

@@ -72,6 +72,67 @@ TEST(SensorMounts, AConfiguredOneThatAgreesIsSilentAndWaitsForNothing) {
   EXPECT_THAT(mounts.take_warnings(), IsEmpty());
 }
 
+/// With a LiDAR that is configured, and a patience of 2 s.
+PerceptionConfig patient(double height) {
+  PerceptionConfig config = stated(height);
+  config.frame_patience = 2s;
+  return config;
+}
+
+TEST(SensorMounts, ThoseConfiguredThatNobodyPublishesAreTakenOnce) {
+  PerceptionConfig config = patient(0.8);
+  config.mount_given[1] = config.mount_given[2] = true;
+  SensorMounts mounts(config);
+  EXPECT_THAT(mounts.take_unpublished(kStart + 9s), IsEmpty()) << "nothing is decided";
+  mounts.on_message(Source::kLidar, "/velodyne", kStart);
+  mounts.on_message(Source::kImu, "base_link", kStart);  // it is there by its name
+  mounts.on_message(Source::kGps, "velodyne", kStart);   // two parents of one frame are no tree
+  EXPECT_THAT(mounts.take_unpublished(kStart + 1999ms), IsEmpty()) << "another may publish it";
+  const auto taken = mounts.take_unpublished(kStart + 2s);
+  ASSERT_EQ(taken.size(), 1u);
+  EXPECT_EQ(taken[0].parent + ">" + taken[0].child, "base_link>velodyne");
+  EXPECT_TRUE(taken[0].translation.isApprox(config.odometry.T_base_lidar.translation()));
+  EXPECT_TRUE(taken[0].rotation.toRotationMatrix().isApprox(config.odometry.T_base_lidar.linear(), 1e-12));
+  EXPECT_THAT(mounts.take_unpublished(kStart + 3s), IsEmpty());
+}
+
+/// An own transform is no source of a mount: else that of the GPS would be taken from the LiDAR's.
+TEST(SensorMounts, AnOwnTransformThatComesBackIsNeitherAWarningNorAMount) {
+  SensorMounts mounts(patient(0.8));
+  mounts.on_message(Source::kLidar, "velodyne", kStart);
+  const auto taken = mounts.take_unpublished(kStart + 2s);
+  ASSERT_EQ(taken.size(), 1u);
+  for (int repeated = 0; repeated < 2; ++repeated) mounts.add(taken);
+  mounts.on_message(Source::kGps, "velodyne", kStart + 3s);
+  EXPECT_FALSE(mounts.by_frames(Source::kGps));
+  EXPECT_THAT(mounts.take_warnings(), IsEmpty());
+}
+
+TEST(SensorMounts, AGuessedOneIsNotPublished) {
+  SensorMounts mounts{PerceptionConfig()};
+  EXPECT_EQ(mounts.on_message(Source::kLidar, "velodyne", kStart), State::kDecided);
+  EXPECT_THAT(mounts.take_unpublished(kStart + 9s), IsEmpty());
+}
+
+TEST(SensorMounts, ThoseThatSomebodyPublishesAreLeftToHim) {
+  for (const bool at_once : {true, false}) {
+    SensorMounts mounts(patient(0.9));
+    if (at_once) mounts.add({kMast, kLidar});
+    mounts.on_message(Source::kLidar, "velodyne", kStart);
+    if (!at_once) mounts.add({kLidar});  // of the chain a part
+    EXPECT_THAT(mounts.take_unpublished(kStart + 2s), IsEmpty()) << "though the configuration states another";
+  }
+}
+
+TEST(SensorMounts, ASecondPublisherOfAPublishedFrameIsToldOnce) {
+  SensorMounts mounts(patient(0.8));
+  mounts.on_message(Source::kLidar, "velodyne", kStart);
+  ASSERT_EQ(mounts.take_unpublished(kStart + 2s).size(), 1u);
+  for (int repeated = 0; repeated < 2; ++repeated) mounts.add({kMast, kLidar});
+  EXPECT_THAT(mounts.take_warnings(),
+              ElementsAre(AllOf(HasSubstr("'velodyne' has two publishers"), HasSubstr("'mast'"))));
+}
+
 TEST(SensorMounts, ADefaultWaitsForTheFramesForAMoment) {
   PerceptionConfig config;
   config.frame_patience = 2s;

@@ -35,6 +35,15 @@ TEST_F(FleetRun, ARecordingHasANameAndAPath) {
   EXPECT_FALSE(std::filesystem::exists(path("out"))) << "nothing was begun";
 }
 
+TEST_F(FleetRun, FilesThatAreMissingAreNamed) {
+  run({"run", "-c", path("none.yaml"), "--out", path("out")});
+  EXPECT_EQ(exit_code_, 78);
+  EXPECT_THAT(output_, HasSubstr("none.yaml: no such file"));
+  run({"run", "--recording", "r1=" + path("nothing"), "--out", path("out")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr(path("nothing")));
+}
+
 TEST_F(FleetRun, NoMoreAgentsThanTheFileHas) {
   run({"run", "-c", FLEETMAP_SOURCE_DIR "/config/fleets/farm_small.yaml", "--agents", "6", "--out",
        path("out")});

@@ -22,15 +22,26 @@
 namespace fleetmap {
 namespace {
 
-/// The recording of the run gives the same odometry as its input.
+/// The recording of the run gives the same odometry as its input, and states the mount itself.
 void expect_same_odometry_of_recorded(const std::filesystem::path& folder) {
   for (const char* bags : {"bags", "recorded"}) {
-    testing::Process odometry({testing::kProgram, "odometry", (folder / bags / "r1").string(), "--out",
-                               (folder / bags / "r1.tum").string()});
+    std::vector<std::string> arguments{testing::kProgram, "odometry", (folder / bags / "r1").string(),
+                                       "--out", (folder / bags / "r1.tum").string()};
+    if (std::string(bags) == "bags")
+      arguments.insert(arguments.end(), {"--set", "lidar.translation=[0,0,0.8]"});
+    testing::Process odometry(arguments);
     ASSERT_EQ(odometry.wait(), 0) << odometry.output();
   }
   EXPECT_FALSE(testing::file_text(folder / "bags/r1.tum").empty());
   EXPECT_TRUE(testing::file_text(folder / "bags/r1.tum") == testing::file_text(folder / "recorded/r1.tum"));
+}
+
+/// The recording of a robot has all that ROS 2's tools would have shown.
+void expect_recorded_outputs(const std::filesystem::path& bag) {
+  const std::string metadata = testing::file_text(bag / "metadata.yaml");
+  for (const bus::Topic& topic : ros_codec::topics::outputs())
+    EXPECT_THAT(metadata, ::testing::HasSubstr("name: " + topic.name.substr(2) + "\n"))
+        << "rt/ is not in bags";
 }
 
 /// The graph corrects a rotation by the positions of several alignments, so each is compared alone, too.
@@ -81,6 +92,7 @@ TEST(GeneratedFleet, TwoRobotsThatMeetMakeOneMap) {
     trajectories.push_back(T);
   }
   expect_same_odometry_of_recorded(folder.path());
+  expect_recorded_outputs(folder.path() / "recorded/r1");
 
   // The start of r2 relative to that of r1 is compared with the truth.
   const Pose T_12 = trajectories[0].front().inverse() * trajectories[1].front();

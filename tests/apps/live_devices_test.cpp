@@ -17,9 +17,11 @@
 #include "support/command_line.hpp"
 #include "support/eventually.hpp"
 #include "support/mavlink_packets.hpp"
+#include "support/ouster_packets.hpp"
 #include "support/process.hpp"
 #include "support/pseudo_terminal.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/udp_sender.hpp"
 #include "support/velodyne_packets.hpp"
 
 namespace fleetmap {
@@ -28,6 +30,7 @@ namespace {
 using namespace fleetmap::testing;
 using namespace std::chrono_literals;
 using Eigen::Vector3d;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -124,21 +127,10 @@ class Lidar {
   std::optional<Ticker> ticker_;
 };
 
-std::uint16_t free_udp_port() {
-  const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  socklen_t size = sizeof address;
-  EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), size), 0);
-  EXPECT_EQ(::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  ::close(socket);
-  return ntohs(address.sin_port);
-}
-
 TEST(LiveDevices, TheJackalMakesAGeoreferencedNode) {
   const TemporaryFolder folder;
   const Autopilot autopilot;
-  const std::uint16_t port = free_udp_port();
+  const std::uint16_t port = testing::free_udp_port();
   const std::uint32_t domain = bus::testing::first_test_domain();
   std::vector<std::string> command{testing::kProgram, "agent", "-c",
                                    FLEETMAP_SOURCE_DIR "/config/robots/jackal_vlp16.yaml"};
@@ -172,6 +164,48 @@ TEST(LiveDevices, TheJackalMakesAGeoreferencedNode) {
   EXPECT_GT(node->submap_bytes, 1000u);
   EXPECT_THAT(agent.output(), Not(HasSubstr("wrong checksum")));
   EXPECT_THAT(agent.output(), Not(HasSubstr("refused")));
+}
+
+/// An OS1 that was switched on 1000 s ago, in a round room, with its IMU at 100 Hz.
+class Ouster {
+ public:
+  Ouster(std::uint16_t lidar_port, std::uint16_t imu_port) : lidar_(lidar_port), imu_(imu_port) {}
+
+ private:
+  void step(Duration time) {
+    for (; next_.sent < time + 1000s; next_ = device_.next()) lidar_.send(next_.bytes);
+    imu_.send(OusterDevice::imu(time + 1000s, {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}));
+  }
+
+  UdpSender lidar_, imu_;
+  OusterDevice device_{1000s};
+  OusterDevice::Packet next_ = device_.next();
+  Ticker ticker_{10ms, [this](Duration time) { step(time); }};
+};
+
+TEST(LiveDevices, TheDoctorHearsAnOusterLidarAndItsImu) {
+  const TemporaryFolder folder;
+  folder.write("os.json", OusterDevice(Duration::zero()).metadata());
+  const std::uint16_t port = free_udp_port(), imu_port = free_udp_port();
+  const std::uint32_t domain = bus::testing::first_test_domain();
+  std::vector<std::string> command{
+      testing::kProgram, "doctor", "-c", FLEETMAP_SOURCE_DIR "/config/robots/rover_ouster.yaml",
+      "--seconds",       "5"};
+  for (const std::string& set :
+       {"directory=" + folder.path().string(),
+        "lidar.ouster_metadata=" + (folder.path() / "os.json").string(),
+        "lidar.ouster_port=" + std::to_string(port), "lidar.ouster_imu_port=" + std::to_string(imu_port),
+        "dds.onboard.domain=" + std::to_string(domain), "dds.long_range.domain=" + std::to_string(domain + 1),
+        "dds.short_range.domain=" + std::to_string(domain + 2)})
+    command.insert(command.end(), {"--set", set});
+  const Ouster ouster(port, imu_port);
+  Process doctor(command);
+  doctor.wait();
+  EXPECT_THAT(doctor.output(), HasSubstr("receives OS-1-16 122 for rt/points"));
+  EXPECT_THAT(doctor.output(), ContainsRegex("LiDAR +[1-9]"));
+  EXPECT_THAT(doctor.output(), ContainsRegex("IMU +[1-9][0-9][0-9]"));
+  EXPECT_THAT(doctor.output(), Not(HasSubstr("its unit is"))) << "m/s^2 and rad/s";
+  EXPECT_THAT(doctor.output(), Not(HasSubstr("refused")));
 }
 
 }  // namespace

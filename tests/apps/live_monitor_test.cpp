@@ -1,8 +1,12 @@
-// `fleetmap monitor` beside a robot that still writes its store.
+// Pages of files that robots still write, or that are not there yet.
+#include "apps/live_monitor.hpp"
+
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
+#include "fleetmap/cloud/codec.hpp"
 #include "fleetmap/store/store.hpp"
 #include "monitor/browser.hpp"
 #include "store/items.hpp"
@@ -31,12 +35,18 @@ class LiveMonitor : public ::testing::Test {
     return state.is_object() && state.contains("nodes") ? state["nodes"].size() : 0;
   }
 
+  std::unique_ptr<store::Store> store_of(const std::string& name) const {
+    const std::filesystem::path file = folder_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    return std::make_unique<store::Store>(store::Store::open(file, agent("r1")).value());
+  }
+
   testing::TemporaryFolder folder_;
 };
 
 TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
-  auto store = store::Store::open(folder_ / "store.db", agent("r1")).value();
-  put_node(store, 0);
+  const auto store = store_of("store.db");
+  put_node(*store, 0);
   testing::Process monitor(
       {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
   ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
@@ -44,7 +54,7 @@ TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
   const std::uint16_t port = testing::announced_port(monitor.output());
   EXPECT_EQ(nodes_shown(port), 1u);
   for (std::uint32_t seq = 1; seq <= 3; ++seq) {
-    put_node(store, seq);
+    put_node(*store, seq);
     EXPECT_TRUE(eventually([&] { return nodes_shown(port) == seq + 1; }, 60s)) << seq;
   }
   monitor.signal(SIGTERM);
@@ -52,7 +62,7 @@ TEST_F(LiveMonitor, shows_the_nodes_that_come_while_it_runs) {
 }
 
 TEST_F(LiveMonitor, keeps_what_it_showed_when_the_store_is_taken_away) {
-  put_node(*std::make_unique<store::Store>(store::Store::open(folder_ / "store.db", agent("r1")).value()), 0);
+  put_node(*store_of("store.db"), 0);
   testing::Process monitor(
       {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
   ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
@@ -61,6 +71,66 @@ TEST_F(LiveMonitor, keeps_what_it_showed_when_the_store_is_taken_away) {
   EXPECT_TRUE(eventually([&] { return monitor.output().find("page: ") != std::string::npos; }, 60s))
       << monitor.output();
   EXPECT_EQ(nodes_shown(testing::announced_port(monitor.output())), 1u);
+}
+
+TEST_F(LiveMonitor, shows_a_store_of_any_name) {
+  const auto store = store_of("merged.db");
+  put_node(*store, 0);
+  testing::Process monitor(
+      {testing::kProgram, "monitor", "--store", (folder_ / "merged.db").string(), "--port", "0"});
+  ASSERT_TRUE(eventually([&] { return testing::announced_port(monitor.output()) != 0; }, 60s))
+      << monitor.output();
+  const std::uint16_t port = testing::announced_port(monitor.output());
+  EXPECT_EQ(nodes_shown(port), 1u);
+  put_node(*store, 1);
+  EXPECT_TRUE(eventually([&] { return nodes_shown(port) == 2; }, 60s));
+}
+
+TEST_F(LiveMonitor, keeps_first_points_beside_the_store_for_the_next_start) {
+  const auto store = store_of("store.db");
+  cloud::PointCloud cloud;
+  for (int k = 0; k < 500; ++k) cloud.points.emplace_back(0.1f * static_cast<float>(k), 1.0f, 0.0f);
+  const Bytes submap = cloud::encode(cloud, {}).value();
+  ASSERT_TRUE(store->put_node_with_submap(testing::make_node(agent("r1"), 0, submap, 0.0), submap));
+  const auto file = folder_ / "store.db.previews";
+  testing::Process monitor(
+      {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
+  ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }, 60s)) << monitor.output();
+  monitor.signal(SIGTERM);
+  EXPECT_EQ(monitor.wait(), 0) << monitor.output();
+}
+
+TEST_F(LiveMonitor, of_a_run_that_only_begins_shows_the_robots_that_come) {
+  monitor::ServerConfig any_port;
+  any_port.port = 0;
+  const auto page = apps::page_of_run(any_port, folder_ / "out");
+  ASSERT_TRUE(page) << page.error().message;
+  const std::uint16_t port = (*page)->server().port();
+  EXPECT_EQ(nodes_shown(port), 0u);
+  const auto store = store_of("out/r1/store.db");
+  EXPECT_EQ(nodes_shown(port), 0u);
+  put_node(*store, 0);
+  EXPECT_TRUE(eventually([&] { return nodes_shown(port) == 1; }, 60s));
+}
+
+// The fingerprint of the files is the same before and after.
+TEST_F(LiveMonitor, reads_again_what_could_not_be_read) {
+  put_node(*store_of("store.db"), 0);
+  std::atomic<bool> busy = true;
+  monitor::ServerConfig any_port;
+  any_port.port = 0;
+  const std::filesystem::path file = folder_ / "store.db";
+  const auto page = apps::LiveMonitor::start(
+      any_port, [file] { return std::vector{file}; },
+      [file, &busy]() -> Result<apps::ShownRun> {
+        if (busy) return failure("busy");
+        return apps::open_one(file);
+      },
+      true);
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(nodes_shown((*page)->server().port()), 0u);
+  busy = false;
+  EXPECT_TRUE(eventually([&] { return nodes_shown((*page)->server().port()) == 1; }, 60s));
 }
 
 }  // namespace

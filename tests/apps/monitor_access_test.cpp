@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+
 #include "support/temporary_folder.hpp"
 
 namespace fleetmap::apps {
@@ -10,14 +12,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-MonitorAccess at(const std::string& address) {
-  MonitorAccess access;
+AccessOptions at(const std::string& address) {
+  AccessOptions access;
   access.port = 8080;
   access.address = address;
   return access;
 }
 
-TEST(MonitorAccess, OnThisMachineAloneNoTokenIsNeeded) {
+TEST(AccessOptions, OnThisMachineAloneNoTokenIsNeeded) {
   const auto config = server_config(at("127.0.0.1"));
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->token, "");
@@ -25,16 +27,16 @@ TEST(MonitorAccess, OnThisMachineAloneNoTokenIsNeeded) {
   EXPECT_EQ(config->max_viewers, 8u);
 }
 
-TEST(MonitorAccess, OthersNeedARandomToken) {
+TEST(AccessOptions, OthersNeedARandomToken) {
   const auto one = server_config(at("0.0.0.0")), other = server_config(at("0.0.0.0"));
   ASSERT_TRUE(one && other);
   EXPECT_GE(one->token.size(), 16u);
   EXPECT_NE(one->token, other->token);
 }
 
-TEST(MonitorAccess, TheTokenOfAFileIsUsedWithoutItsLineEnd) {
+TEST(AccessOptions, TheTokenOfAFileIsUsedWithoutItsLineEnd) {
   const testing::TemporaryFolder folder;
-  MonitorAccess access = at("0.0.0.0");
+  AccessOptions access = at("0.0.0.0");
   access.token_file = (folder.path() / "token").string();
   folder.write("token", "abcdefgh12345678\r\n");
   const auto config = server_config(access);
@@ -50,8 +52,8 @@ TEST(MonitorAccess, TheTokenOfAFileIsUsedWithoutItsLineEnd) {
   EXPECT_FALSE(server_config(access));
 }
 
-TEST(MonitorAccess, WithoutAPortThereIsNoPageButWrongOptionsAreRefused) {
-  MonitorAccess access = at("127.0.0.1");
+TEST(AccessOptions, WithoutAPortThereIsNoPageButWrongOptionsAreRefused) {
+  AccessOptions access = at("127.0.0.1");
   access.port.reset();
   const auto none = config_of_page(access);
   ASSERT_TRUE(none);
@@ -61,8 +63,8 @@ TEST(MonitorAccess, WithoutAPortThereIsNoPageButWrongOptionsAreRefused) {
   EXPECT_FALSE(config_of_page(access));
 }
 
-TEST(MonitorAccess, OptionsHaveTheirPrefixAndBounds) {
-  MonitorAccess access;
+TEST(AccessOptions, OptionsHaveTheirPrefixAndBounds) {
+  AccessOptions access;
   CLI::App app;
   add_page_options(app, access, "of it");
   app.parse("--monitor 0 --monitor-address 10.0.0.1 --monitor-viewers 64");

@@ -45,7 +45,8 @@ class FleetReport : public ::testing::Test {
     }
   }
   nlohmann::json written() {
-    const Status done = write_report(folder_.path(), outcome_, RunProfile{});
+    const Status done =
+        write_report(folder_.path(), outcome_, RunProfile{}, {"1.2 abc", "farm.yaml", {"seed=2"}});
     EXPECT_TRUE(done) << done.error().message;
     page_ = testing::file_text(folder_.path() / "report.html");
     return nlohmann::json::parse(testing::file_text(folder_.path() / "report.json"));
@@ -85,17 +86,18 @@ TEST_F(FleetReport, TheBytesOfEachLinkAreThere) {
   EXPECT_EQ(links[0]["airtime_s"], 0.056);
 }
 
-TEST_F(FleetReport, ThePictureSaysWhoseFrameLiesNowhere) {
+TEST_F(FleetReport, VersionAndSettingsAreThere) {
+  const auto settings = written()["settings"];
+  EXPECT_EQ(settings["version"], "1.2 abc");
+  EXPECT_EQ(settings["configuration"], "farm.yaml");
+  EXPECT_EQ(settings["set"], nlohmann::json({"seed=2"}));
+  EXPECT_THAT(page_, HasSubstr("fleetmap 1.2 abc, configuration farm.yaml."));
+}
+
+TEST_F(FleetReport, ThePageShowsTheTracksOfTheFolder) {
   written();
-  EXPECT_THAT(page_, HasSubstr("Trajectories in ENU, north up"));
-  EXPECT_THAT(page_, Not(HasSubstr("GPS fix")));
-  outcome_.agents[1].results->not_georeferenced = {{robot("r2"), 0}};
-  written();
-  EXPECT_THAT(page_, HasSubstr("north up, but those of r2: without a GPS fix"));
-  outcome_.agents[0].results->not_georeferenced = {{robot("r1"), 0}};
-  written();
-  EXPECT_THAT(page_, HasSubstr("no robot had a GPS fix, so place and north are unknown"));
-  EXPECT_THAT(page_, Not(HasSubstr("north [m]")));
+  EXPECT_THAT(page_, HasSubstr("2 robots drove 18 m in"));
+  EXPECT_THAT(page_, HasSubstr("no robot has a place on Earth")) << "none has a map";
 }
 
 TEST_F(FleetReport, OfARobotThatIsOffTheProblemIsThere) {

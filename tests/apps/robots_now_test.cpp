@@ -148,6 +148,12 @@ TEST_F(RobotsNow, ACallHomeAndAGivenRowCountOnceTheRobotHasAnswered) {
   fleet_.reports[kR2].state = MissionState::kCalledHome;
   EXPECT_THAT(of(kR2).problems, IsEmpty());
   EXPECT_THAT(of(kR2).activity, HasSubstr("was called home and gave its rows away"));
+  fleet_.orders[0].kind = Kind::kHoldHome;
+  EXPECT_TRUE(of(kR2).called_home && of(kR2).ordered_to_hold);
+  EXPECT_THAT(of(kR2).problems, ElementsAre("has not confirmed the order to stand still"));
+  fleet_.driving[kR2] = Hold::Driving::kHeld;
+  EXPECT_THAT(of(kR2).problems, IsEmpty());
+  EXPECT_EQ(of(kR2).activity, "stands still: an operator holds it on its way home");
 }
 
 TEST_F(RobotsNow, HealthAndClockOfAnotherRobotComeWithItsStatus) {

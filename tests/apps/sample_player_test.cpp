@@ -28,6 +28,21 @@ TEST(SamplePlayer, EachSampleGoesToTheTopicOfItsKind) {
   EXPECT_EQ(encode(recording::Sample(sensor::Wheel{}), names).topic.name, names.wheel);
 }
 
+TEST(SamplePlayer, AScanIsOfTheTypeThatTheRobotHears) {
+  agent::SensorTopics names;
+  EXPECT_EQ(encode(recording::Sample(sensor::Scan{}), names).topic.type,
+            "sensor_msgs::msg::dds_::PointCloud2_");
+  names.points_type = ros_codec::PointsType::kLivoxDriver;
+  sensor::Scan scan;
+  scan.stamp = stamp_from_ns(7);
+  scan.points.push_back({{1.0f, 2.0f, 3.0f}});
+  const EncodedSample livox = encode(recording::Sample(scan), names);
+  EXPECT_EQ(livox.topic.type, "livox_ros_driver::msg::dds_::CustomMsg_");
+  const auto decoded = ros_codec::decode_points(livox.cdr, names.points_type);
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(decoded->scan.points.size(), 1u);
+}
+
 TEST(SamplePlayer, MountsAreNamedByTheFramesOfThePlayedMessages) {
   sensor::SensorFrames frames;
   EXPECT_THAT(mounts_of(frames), IsEmpty());

@@ -25,6 +25,20 @@ class ShownRunTest : public ::testing::Test {
   DrivenDays days_;
 };
 
+TEST_F(ShownRunTest, AViewOfResultsHoldsTheStoreAndTheirPlacement) {
+  days_.drive("a.db", 0, {0.0, 0.0, 0.0});
+  const auto store = store::Store::open_read_only(days_.path("a.db"));
+  ASSERT_TRUE(store) << store.error().message;
+  output::Results results;
+  results.placement.T_enu_node[{AgentId::parse("r1").value(), 0}] = Pose::Identity();
+  const monitor::FleetView view = view_of(*store, results);
+  EXPECT_EQ(view.self, AgentId::parse("r1").value());
+  EXPECT_THAT(view.nodes, SizeIs(4));
+  EXPECT_THAT(view.has_submap, ElementsAre(true, true, true, true));
+  EXPECT_THAT(view.holdings, SizeIs(1));
+  EXPECT_THAT(view.placement.T_enu_node, SizeIs(1)) << "as the results have it, not placed anew";
+}
+
 TEST_F(ShownRunTest, OneStoreIsPlacedWithWhatItHolds) {
   days_.drive("a.db", 0, {0.0, 0.0, 0.0});
   const auto run = open_one(days_.path("a.db"));
@@ -59,7 +73,7 @@ TEST_F(ShownRunTest, WithoutTheRobotThatWasAskedForNothingIsShown) {
   EXPECT_THAT(run.error().message, HasSubstr("holds no store of r7; give the --out of a run"));
   const auto none = open_run(days_.path("nowhere"), "");
   ASSERT_FALSE(none);
-  EXPECT_THAT(none.error().message, HasSubstr("holds no robot's store.db"));
+  EXPECT_THAT(none.error().message, HasSubstr("nowhere: no such folder"));
 }
 
 }  // namespace

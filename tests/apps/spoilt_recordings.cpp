@@ -176,7 +176,7 @@ std::vector<Spoilt> of_lidar() {
       {"lidar_pitched", turned_points(0.0, 20.0 * kDegree, 0.0), "the ground is tilted by"},
       {"lidar_turned_left", turned_points(0.0, 0.0, -90.0 * kDegree), "deg more yaw"},
       {"lidar_mirrored", points([](sensor::ScanPoint& point) { point.position.y() *= -1.0f; }),
-       "the odometry lost its way"},
+       "its points are mirrored"},
       {"points_in_millimetres", points([](sensor::ScanPoint& point) { point.position *= 1000.0f; }),
        "millimetres"},
       {"half_of_each_scan", each<Scan>([](Scan& scan) {

@@ -28,13 +28,14 @@ class VirtualPage : public ::testing::Test {
         testing::kProgram, "run", "-c", twin_.path("fleet.yaml").string(), "--agents", "2", "--out",
         twin_.path("out").string(), "--monitor", "0", "--monitor-token-file", twin_.path("token").string()});
   }
-  /// Null until the fleet has published.
-  json live() const {
+  json get(const std::string& path) const {
     Browser browser(port_);
-    browser.get("/live.json", kAuthorization);
+    browser.get(path, kAuthorization);
     const std::string answer = browser.answer();
-    return json::parse(answer.substr(answer.find("\r\n\r\n") + 4), nullptr, false).value("live", json());
+    return json::parse(answer.substr(answer.find("\r\n\r\n") + 4), nullptr, false);
   }
+  /// Null until the fleet has published.
+  json live() const { return get("/live.json").value("live", json()); }
   json robot(std::size_t index) const {
     const json now = live();
     return now.is_null() ? json::object({{"activity", ""}, {"heard", json::array()}})
@@ -58,6 +59,8 @@ TEST_F(VirtualPage, ShowsTheFleetAndItsRadiosAndHoldsARobot) {
   EXPECT_EQ(post("/operator/hold?robot=r9"), "503");
   ASSERT_EQ(post("/operator/hold?robot=r2"), "202");
   // The run does not end while r2 stands, so there is time to look.
+  EXPECT_TRUE(eventually([&] { return get("/state.json").value("nodes", json::array()).size() > 2; }, 60s))
+      << "the map grows from files that were not there when the run began";
   ASSERT_TRUE(eventually([&] { return robot(1)["activity"] == "stands still: an operator holds it"; }, 60s))
       << live();
   const auto talks = [&] {

@@ -20,7 +20,7 @@ using ::testing::Not;
 
 class WorldFilesTest : public ::testing::Test {
  protected:
-  std::string write(const WorldFiles& settings) const {
+  std::string write(const WorldFileOptions& settings) const {
     std::ostringstream out;
     const Status written = write_world(out, *world_, folder_.path() / "world", settings);
     EXPECT_TRUE(written) << written.error().message;

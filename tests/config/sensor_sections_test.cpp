@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "section_problems.hpp"
+#include "support/ouster_packets.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::config {
 namespace {
@@ -31,6 +33,16 @@ TEST(SensorSections, TopicsAreThoseOfRos2OnTheWire) {
               HasSubstr("robot.yaml:2: topics.wheel: expected the name"));
 }
 
+TEST(SensorSections, PointsMayBeOfALivoxDriver) {
+  EXPECT_EQ(read("{}").perception.topics.points_type, ros_codec::PointsType::kPointCloud2);
+  const Read r = read("topics: {points: /livox/lidar, points_type: livox_ros_driver2/msg/CustomMsg}\n");
+  EXPECT_EQ(r.problems, "");
+  EXPECT_EQ(r.perception.topics.points_type, ros_codec::PointsType::kLivoxDriver2);
+  EXPECT_THAT(read("topics:\n  points_type: CustomMsg\n").problems,
+              HasSubstr("robot.yaml:2: topics.points_type: CustomMsg is no type of points that is read; "
+                        "expected one of sensor_msgs/msg/PointCloud2"));
+}
+
 TEST(SensorSections, TheLidarIsAModelWithItsMountAndRanges) {
   const Read r = read(
       "lidar: {model: os1-64, translation: [0.1, 0, 0.35], rotation_rpy_deg: [0, 0, 90], max_range: 55,\n"
@@ -44,6 +56,56 @@ TEST(SensorSections, TheLidarIsAModelWithItsMountAndRanges) {
   EXPECT_EQ(r.perception.odometry.min_range, 1.5);
   EXPECT_EQ(r.perception.odometry.range_noise, 0.05);
   EXPECT_EQ(r.perception.velodyne_port, 2368);
+}
+
+/// Metadata of a LiDAR in a folder, and `lidar` with what names them.
+class OusterSections : public ::testing::Test {
+ protected:
+  Read read_lidar(const std::string& keys, const std::string& more = "") const {
+    return read("lidar:\n  ouster_metadata: " + (folder_.path() / "os.json").string() + "\n" + keys + more);
+  }
+  void SetUp() override {
+    folder_.write("os.json", fleetmap::testing::OusterDevice(Duration::zero()).metadata());
+  }
+  fleetmap::testing::TemporaryFolder folder_;
+};
+
+TEST_F(OusterSections, NameTheMetadataAndThePorts) {
+  const Read r = read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7503\n");
+  EXPECT_EQ(r.problems, "");
+  ASSERT_TRUE(r.perception.ouster.metadata);
+  EXPECT_EQ(r.perception.ouster.metadata->device, "OS-1-16 122");
+  EXPECT_EQ(r.perception.ouster.lidar_port, 7502);
+  EXPECT_EQ(r.perception.ouster.imu_port, 7503);
+  EXPECT_EQ(read_lidar("").problems, "") << "for captures";
+  EXPECT_EQ(read("{}").perception.ouster.lidar_port, 0);
+}
+
+TEST_F(OusterSections, ProblemsSayWhatToDo) {
+  EXPECT_THAT(
+      read("lidar:\n  ouster_port: 7502\n").problems,
+      HasSubstr("robot.yaml:2: lidar.ouster_port: expected lidar.ouster_metadata as well: a file that "
+                "`curl http://SENSOR/api/v1/sensor/metadata` writes"));
+  EXPECT_THAT(read_lidar("  ouster_port: 70000\n").problems, HasSubstr("expected a UDP port, usually 7502"));
+  EXPECT_THAT(read_lidar("  ouster_imu_port: 7503\n").problems,
+              HasSubstr("expected lidar.ouster_port as well"));
+  EXPECT_THAT(read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7502\n").problems,
+              HasSubstr("lidar.ouster_imu_port: expected another port"));
+  EXPECT_THAT(read_lidar("  ouster_port: 7502\n  velodyne_port: 2368\n").problems,
+              HasSubstr("lidar.velodyne_port is given as well"));
+  EXPECT_THAT(
+      read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7503\n", "mavlink: {udp_port: 14550}\n").problems,
+      HasSubstr("mavlink.imu: the LiDAR's IMU is used as well"));
+  EXPECT_EQ(
+      read_lidar("  ouster_port: 7502\n  ouster_imu_port: 7503\n", "mavlink: {udp_port: 14550, imu: false}\n")
+          .problems,
+      "");
+  folder_.write("os.json", "{}");
+  EXPECT_THAT(read_lidar("").problems,
+              HasSubstr("os.json: beam_altitude_angles, beam_azimuth_angles: expected"));
+  EXPECT_THAT(
+      read("lidar:\n  ouster_metadata: /no/such.json\n").problems,
+      HasSubstr("robot.yaml:2: lidar.ouster_metadata: /no/such.json: cannot be read; expected what `curl"));
 }
 
 TEST(SensorSections, TheMapReachesAsFarAsTheScans) {

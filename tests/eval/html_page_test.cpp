@@ -36,6 +36,19 @@ TEST(HtmlPage, TheFirstRowOfATableNamesItsColumns) {
             "<tr><td>r1</td><td>&lt;3</td></tr>\n</table></div>\n");
 }
 
+TEST(HtmlPage, ASentenceInATableWrapsAndANumberDoesNot) {
+  HtmlPage page("t");
+  page.table({{"pair", "why"}, {"r1 - r2", std::string(40, 'x')}, {"r1 - r3", std::string(41, '<')}});
+  EXPECT_THAT(body(page), HasSubstr("<td>" + std::string(40, 'x') + "</td>"));
+  EXPECT_THAT(body(page), HasSubstr("<td>r1 - r3</td><td class=\"sentence\">&lt;"));
+}
+
+TEST(HtmlPage, WarningsAreAListAndEscaped) {
+  HtmlPage page("t");
+  page.warnings({"r1 <b>", "two"});
+  EXPECT_EQ(body(page), "<ul class=\"warnings\">\n<li>r1 &lt;b&gt;</li>\n<li>two</li>\n</ul>\n");
+}
+
 TEST(HtmlPage, FiguresThatFollowEachOtherStandTogether) {
   HtmlPage page("t");
   page.figure("<svg/>", "a & b").figure("<svg/>").paragraph("p").figure("<svg/>");

@@ -94,6 +94,10 @@ TEST_F(ExchangeTest, ReportsWhetherEachRobotStandsByAnOrder) {
   EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHeld);
   exchange_.on_local_order(HoldOrder{{}, kSelf, kSelf, HoldOrder::Kind::kHome}, kStart);
   EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHome);
+  exchange_.on_local_order(HoldOrder{{}, kSelf, kSelf, HoldOrder::Kind::kHold}, kStart);
+  EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHeld);
+  exchange_.on_local_order(HoldOrder{{}, kSelf, kSelf, HoldOrder::Kind::kResume}, kStart);
+  EXPECT_EQ(exchange_.driving().at(kSelf), Hold::Driving::kHome) << "as before it was held";
   exchange_.on_message(Hold{kPeer, Hold::Driving::kFree, {}}, kStart);
   EXPECT_EQ(exchange_.driving().at(kPeer), Hold::Driving::kFree);
   EXPECT_FALSE(exchange_.driving().contains(kThird));

@@ -27,14 +27,14 @@ TEST(HoldOrders, TheLatestOrderThatConcernsARobotIsInForce) {
   HoldOrders orders(agent("r1"), kFleet);
   EXPECT_FALSE(orders.in_force());
   EXPECT_FALSE(orders.held());
-  EXPECT_TRUE(orders.add(order("", true, 1s)));
+  EXPECT_TRUE(orders.give(order("", true, 1s)));
   EXPECT_TRUE(orders.held());
-  EXPECT_TRUE(orders.add(order("r1", false, 2s)));
+  EXPECT_TRUE(orders.give(order("r1", false, 2s)));
   EXPECT_FALSE(orders.held()) << "it alone was let go";
   EXPECT_TRUE(order_for(agent("r2"), orders.all())->kind == HoldOrder::Kind::kHold);
-  EXPECT_TRUE(orders.add(order("r2", true, 3s)));
+  EXPECT_TRUE(orders.give(order("r2", true, 3s)));
   EXPECT_FALSE(orders.held()) << "that was for another";
-  EXPECT_TRUE(orders.add(order("", true, 4s)));
+  EXPECT_TRUE(orders.give(order("", true, 4s)));
   EXPECT_TRUE(orders.held());
 }
 
@@ -45,8 +45,8 @@ TEST(HoldOrders, OrdersMayComeInAnyOrderAndAnyNumberOfTimes) {
   std::optional<std::vector<HoldOrder>> first;
   do {
     HoldOrders orders(agent("r1"), kFleet);
-    for (const std::size_t k : turn) orders.add(received[k]);
-    for (const std::size_t k : turn) EXPECT_FALSE(orders.add(received[k])) << "it is known";
+    for (const std::size_t k : turn) orders.give(received[k]);
+    for (const std::size_t k : turn) EXPECT_FALSE(orders.give(received[k])) << "it is known";
     EXPECT_TRUE(orders.held()) << "of two at one time the one to stand";
     if (!first) first = orders.all();
     EXPECT_EQ(orders.all(), *first);
@@ -55,18 +55,18 @@ TEST(HoldOrders, OrdersMayComeInAnyOrderAndAnyNumberOfTimes) {
 
 TEST(HoldOrders, AnOrderAfterAnotherReplacesItWhateverTheClock) {
   HoldOrders orders(agent("r1"), kFleet);
-  orders.add(order("", true, 1h));
+  orders.give(order("", true, 1h));
   HoldOrder resume = order("r1", false, 0s);
-  orders.add(resume);
+  orders.give(resume);
   EXPECT_TRUE(orders.held()) << "by its stamp it was given before";
   resume.stamp = later_than(orders.all(), kStart);
-  EXPECT_TRUE(orders.add(resume));
+  EXPECT_TRUE(orders.give(resume));
   EXPECT_FALSE(orders.held());
 }
 
 TEST(HoldOrders, OrdersForStrangersAreIgnored) {
   HoldOrders orders(agent("r1"), kFleet);
-  EXPECT_FALSE(orders.add(order("r9", true, 1s)));
+  EXPECT_FALSE(orders.give(order("r9", true, 1s)));
   EXPECT_TRUE(orders.all().empty());
 }
 
@@ -79,16 +79,169 @@ TEST(HoldOrders, OfOrdersAtOneTimeTheSaferOneIsInForce) {
   EXPECT_TRUE(replaces(hold, home) && replaces(home, resume) && replaces(hold, resume));
   EXPECT_FALSE(replaces(home, hold) || replaces(resume, home) || replaces(home, home));
   HoldOrders orders(agent("r1"), kFleet);
-  orders.add(home);
+  orders.give(home);
   EXPECT_FALSE(orders.held()) << "it drives home";
   EXPECT_EQ(orders.in_force()->kind, HoldOrder::Kind::kHome);
+}
+
+HoldOrder order(const char* robot, HoldOrder::Kind kind, Duration at) {
+  HoldOrder one = order(robot, false, at);
+  one.kind = kind;
+  return one;
+}
+
+class HoldOnTheWayHome : public ::testing::Test {
+ protected:
+  using Kind = HoldOrder::Kind;
+  /// Kinds in force for robots r1, r2 and r3.
+  std::vector<Kind> kinds() const {
+    std::vector<Kind> all;
+    for (const char* name : {"r1", "r2", "r3"}) {
+      const auto in_force = order_for(agent(name), orders_.all());
+      all.push_back(in_force ? in_force->kind : Kind::kResume);
+    }
+    return all;
+  }
+  HoldOrders orders_{agent("r1"), kFleet};
+};
+
+TEST_F(HoldOnTheWayHome, ResumeGoesOnWithTheCallAndASecondOneEndsIt) {
+  orders_.give(order("r1", Kind::kHome, 1s));
+  orders_.give(order("r1", Kind::kHold, 2s));
+  EXPECT_TRUE(orders_.held());
+  EXPECT_TRUE(orders_.in_force()->calls_home());
+  orders_.give(order("r1", Kind::kHold, 3s));
+  EXPECT_TRUE(orders_.in_force()->calls_home()) << "also when it is held twice";
+  EXPECT_TRUE(orders_.give(order("r1", Kind::kResume, 4s)));
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kHome);
+  EXPECT_FALSE(orders_.give(order("r1", Kind::kResume, 4s)))
+      << "an operator repeats it until it is confirmed";
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kHome);
+  orders_.give(order("r1", Kind::kResume, 65s));
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kResume);
+  orders_.give(order("r1", Kind::kHold, 66s));
+  orders_.give(order("r1", Kind::kResume, 67s));
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kResume) << "the call has ended";
+}
+
+TEST_F(HoldOnTheWayHome, OrdersForAllKeepTheCallOfOne) {
+  orders_.give(order("r1", Kind::kHome, 1s));
+  orders_.give(order("", Kind::kHold, 2s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHoldHome, Kind::kHold, Kind::kHold}));
+  orders_.give(order("", Kind::kResume, 3s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHome, Kind::kResume, Kind::kResume}));
+  EXPECT_FALSE(orders_.give(order("", Kind::kResume, 3s)));
+  orders_.give(order("", Kind::kResume, 4s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHome, Kind::kResume, Kind::kResume})) << "it was renewed";
+  orders_.give(order("", Kind::kResume, 65s));
+  EXPECT_EQ(kinds(), (std::vector(3, Kind::kResume)));
+}
+
+TEST_F(HoldOnTheWayHome, AResumeThatIsRenewedIsTheSameOrder) {
+  for (const char* whom : {"r1", ""}) {
+    orders_ = HoldOrders(agent("r1"), kFleet);
+    orders_.give(order(whom, Kind::kHome, 1s));
+    orders_.give(order(whom, Kind::kHold, 2s));
+    for (const Duration at : {3s, 4s, 63s, 123s}) {
+      EXPECT_TRUE(orders_.give(order(whom, Kind::kResume, at))) << "the operator waits for its stamp";
+      EXPECT_EQ(orders_.in_force()->kind, Kind::kHome);
+      EXPECT_EQ(orders_.in_force()->stamp, kStart + at);
+    }
+    orders_.give(order(whom, Kind::kResume, 123s + HoldOrders::kSameResume + 1ns));
+    EXPECT_EQ(orders_.in_force()->kind, Kind::kResume) << "it is a second one";
+  }
+}
+
+TEST_F(HoldOnTheWayHome, ACallOfItsOwnEndsWithTheFirstResume) {
+  orders_.give(order("r1", Kind::kHome, 1s));
+  orders_.give(order("r1", Kind::kHold, 2s));
+  orders_.give(order("r1", Kind::kResume, 3s));
+  orders_.give(order("r1", Kind::kHome, 4s));
+  orders_.give(order("r1", Kind::kResume, 5s));
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kResume) << "it was called again, not resumed twice";
+}
+
+TEST_F(HoldOnTheWayHome, OneThatWasLetGoIsNotCalledAgain) {
+  orders_.give(order("", Kind::kHome, 1s));
+  orders_.give(order("r2", Kind::kResume, 2s));
+  orders_.give(order("r3", Kind::kHold, 3s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHome, Kind::kResume, Kind::kHoldHome}));
+  orders_.give(order("", Kind::kHold, 4s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHoldHome, Kind::kHold, Kind::kHoldHome}));
+  orders_.give(order("", Kind::kResume, 5s));
+  EXPECT_EQ(kinds(), (std::vector{Kind::kHome, Kind::kResume, Kind::kHome}));
+}
+
+TEST_F(HoldOnTheWayHome, ACallLetsAHeldRobotDriveHome) {
+  orders_.give(order("r1", Kind::kHold, 1s));
+  orders_.give(order("r1", Kind::kHome, 2s));
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kHome);
+}
+
+TEST_F(HoldOnTheWayHome, RobotsThatHeardDifferentOrdersComeToAgree) {
+  HoldOrders other(agent("r2"), kFleet);
+  orders_.give(order("r1", Kind::kHome, 1s));  // r2 misses it
+  for (HoldOrders* one : {&orders_, &other}) one->on_hold(from_operator(order("r1", Kind::kHold, 2s)));
+  const auto exchange = [&] {
+    other.on_hold({agent("r1"), Hold::Driving::kHeld, orders_.all()});
+    orders_.on_hold({agent("r2"), Hold::Driving::kFree, other.all()});
+    EXPECT_EQ(orders_.all(), other.all());
+  };
+  exchange();
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kHoldHome);
+  other.on_hold(from_operator(order("r1", Kind::kResume, 3s)));  // r1 misses it
+  exchange();
+  EXPECT_EQ(orders_.in_force()->kind, Kind::kHome);
+}
+
+TEST_F(HoldOnTheWayHome, OrdersThatOthersRepeatKeepTheCallThatTheyDidNotHearOf) {
+  HoldOrders other(agent("r2"), kFleet);
+  const auto exchange = [&] {
+    orders_.on_hold({agent("r2"), Hold::Driving::kFree, other.all()});
+    other.on_hold({agent("r1"), Hold::Driving::kHeld, orders_.all()});
+    EXPECT_EQ(kinds().front(), order_for(agent("r1"), other.all())->kind);
+    return kinds().front();
+  };
+  // r1 is called home; r2 misses that, and alone hears what follows.
+  orders_.give(order("r1", Kind::kHome, 1s));
+  other.give(order("", Kind::kHold, 2s));
+  EXPECT_EQ(exchange(), Kind::kHoldHome);
+  EXPECT_EQ(kinds()[2], Kind::kHold) << "of others it knows no more than r2";
+  other.give(order("r1", Kind::kResume, 3s));
+  EXPECT_EQ(exchange(), Kind::kHome);
+  other.give(order("r1", Kind::kResume, 4s));  // renewed
+  EXPECT_EQ(exchange(), Kind::kHome);
+  orders_.give(order("r1", Kind::kResume, 5s));  // and once more
+  EXPECT_EQ(exchange(), Kind::kHome);
+  other.give(order("r1", Kind::kResume, 70s));
+  EXPECT_EQ(exchange(), Kind::kResume);
+}
+
+TEST_F(HoldOnTheWayHome, AResumeIsRenewedAlsoAfterARestart) {
+  orders_.give(order("r1", Kind::kHome, 1s));
+  orders_.give(order("r1", Kind::kHold, 2s));
+  orders_.give(order("r1", Kind::kResume, 3s));
+  HoldOrders again(agent("r1"), kFleet);
+  again.load(orders_.encoded());
+  EXPECT_EQ(again.all(), orders_.all());
+  again.give(order("r1", Kind::kResume, 4s));
+  EXPECT_EQ(again.in_force()->kind, Kind::kHome);
+}
+
+TEST_F(HoldOnTheWayHome, SurvivesTheStore) {
+  orders_.give(order("r1", Kind::kHome, 1s));
+  orders_.give(order("r1", Kind::kHold, 2s));
+  HoldOrders again(agent("r1"), kFleet);
+  again.load(orders_.encoded());
+  again.give(order("r1", Kind::kResume, 3s));
+  EXPECT_EQ(again.in_force()->kind, Kind::kHome);
 }
 
 TEST(HoldOrders, RowsAreGivenAmongMembersAndRepeatedLikeTheOthers) {
   HoldOrders orders(agent("r1"), kFleet);
   const RowOrder row{kStart, agent("r1"), agent("r2"), agent("operator"), 7};
-  EXPECT_FALSE(orders.add(RowOrder{kStart, agent("r9"), {}, agent("operator"), 7}));
-  EXPECT_FALSE(orders.add(RowOrder{kStart, agent("r1"), agent("r9"), agent("operator"), 7}));
+  EXPECT_FALSE(orders.give(RowOrder{kStart, agent("r9"), {}, agent("operator"), 7}));
+  EXPECT_FALSE(orders.give(RowOrder{kStart, agent("r1"), agent("r9"), agent("operator"), 7}));
   EXPECT_FALSE(orders.tick(kStart));
   EXPECT_TRUE(orders.on_hold({agent("operator"), Hold::Driving::kNoRobot, {}, {row}}));
   EXPECT_TRUE(orders.tick(kStart + 20ms));
@@ -105,9 +258,9 @@ TEST(HoldOrders, RowsAreGivenAmongMembersAndRepeatedLikeTheOthers) {
 
 TEST(HoldOrders, SurviveTheStore) {
   HoldOrders orders(agent("r1"), kFleet);
-  orders.add(order("", true, 1s));
-  orders.add(HoldOrder{kStart, agent("r3"), agent("operator"), HoldOrder::Kind::kHome});
-  orders.add(order("r2", false, 2s));
+  orders.give(order("", true, 1s));
+  orders.give(HoldOrder{kStart, agent("r3"), agent("operator"), HoldOrder::Kind::kHome});
+  orders.give(order("r2", false, 2s));
   HoldOrders again(agent("r1"), kFleet);
   again.load(orders.encoded());
   EXPECT_EQ(again.all(), orders.all());

@@ -180,7 +180,7 @@ TEST(LongRange, WhatHasNoMeaningIsRefusedWithTheReason) {
               HasSubstr("driving is not known"));
   EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), id("r2"), {}, Kind::kHold}}}),
               HasSubstr("issuer: agent id"));
-  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), {}, id("op"), static_cast<Kind>(3)}}}),
+  EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {{stamp_from_ns(1), {}, id("op"), static_cast<Kind>(4)}}}),
               HasSubstr("kind of an order is not known"));
   EXPECT_THAT(refusal(messages::Hold{id("op"), {}, {}, {{stamp_from_ns(1), {}, id("r2"), id("op"), 7}}}),
               HasSubstr("robot: agent id"));

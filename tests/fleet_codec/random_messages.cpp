@@ -139,7 +139,7 @@ messages::Hold RandomMessages::hold() {
   messages::Hold hold{agent(), static_cast<messages::Hold::Driving>(integer(0, 4)), {}};
   for (std::uint32_t k = integer(0, 8); k > 0; --k)
     hold.orders.push_back({stamp(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(),
-                           static_cast<messages::HoldOrder::Kind>(integer(0, 2))});
+                           static_cast<messages::HoldOrder::Kind>(integer(0, 3))});
   for (std::uint32_t k = integer(0, 8); k > 0; --k)
     hold.rows.push_back(
         {stamp(), agent(), integer(0, 1) == 0 ? AgentId{} : agent(), agent(), integer(0, 4000)});

@@ -21,9 +21,12 @@
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
 #include "fleetmap/store/store.hpp"
 #include "fleetmap/trust/introduction.hpp"
+#include "monitor/preview_file.hpp"
 #include "recording/pcap_bytes.hpp"
 #include "store/item_codec.hpp"
 #include "store/items.hpp"
+#include "support/livox_message.hpp"
+#include "support/ouster_packets.hpp"
 #include "support/velodyne_packets.hpp"
 #include "trust/key_files.hpp"
 
@@ -96,6 +99,10 @@ void ros_messages(const fs::path& corpus) {
   seeds.add("wheel", 3, ros_codec::encode(sensor::Wheel{kNow, 1.0, 0.1}));
   seeds.add("battery", 4, ros_codec::encode(sensor::Battery{}));
   seeds.add("odometry", 5, ros_codec::encode(ros_codec::OdometryMsg{.stamp = kNow}));
+  testing::LivoxMessage livox{.stamp = 1'700'000'000'000'000'000, .timebase = 1'700'000'000'000'000'000};
+  for (std::uint8_t k = 0; k < 8; ++k)
+    livox.points.push_back({.offset_time = k * 1'000u, .tag = k, .line = k});
+  seeds.add("livox_points", 8, livox.cdr());
   seeds.add("velocity", 6, ros_codec::encode(ros_codec::VelocityCommand{1.0, 0.1}));
 }
 
@@ -262,6 +269,31 @@ void velodyne(const fs::path& corpus) {
       .add("hdl32e", ByteView(reinterpret_cast<const std::uint8_t*>(capture.data()), capture.size()));
 }
 
+/// The last packet of a turn of 64 columns, one of the IMU and the first of the next turn, in every format.
+void ouster(const fs::path& corpus) {
+  const Seeds seeds(corpus, "ouster");
+  std::size_t choice = 0;
+  for (const char* profile : {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL",
+                              "RNG15_RFL8_NIR8", "RNG15_RFL8_NIR8_DUAL", "FUSA_RNG15_RFL8_NIR8_DUAL"}) {
+    testing::OusterDevice device(std::chrono::seconds(140), 60);
+    device.profile = profile;
+    device.columns = 64;
+    device.columns_per_packet = 4;
+    Bytes datagrams;
+    const auto add = [&](std::uint8_t kind, const Bytes& packet) {
+      datagrams.insert(datagrams.end(), {10, 0, kind});
+      datagrams.insert(datagrams.end(), packet.begin(), packet.end());
+    };
+    add(0, device.next().bytes);
+    add(1, testing::OusterDevice::imu(std::chrono::seconds(140), {0.0f, 0.0f, 1.0f}, {1.0f, 2.0f, 3.0f}));
+    add(0, device.next().bytes);
+    seeds.add(profile, choice++, datagrams);
+  }
+  testing::OusterDevice device(Duration::zero());
+  seeds.add("metadata", choice, device.metadata());
+  seeds.add("metadata_in_sections", choice, device.metadata(true));
+}
+
 void scans(const fs::path& corpus) {
   const Seeds seeds(corpus, "kitti");
   const Bytes scan(64, 0x41);
@@ -275,6 +307,17 @@ void scans(const fs::path& corpus) {
   seeds.add("xz", 1, packed);
 }
 
+/// Without the header, which the target puts before its input.
+void previews(const fs::path& corpus) {
+  monitor::QuantisedCloud cloud;
+  cloud.whole = 15'000;
+  cloud.values = {1, 2, 3, 4, -5, 6, 7, 8};
+  const auto three = std::make_shared<const monitor::QuantisedCloud>(cloud);
+  const Bytes file =
+      monitor::encoded_previews({{std::string(32, '1'), three}, {std::string(32, 'f'), three}});
+  Seeds(corpus, "preview_file").add("two_submaps", ByteView(file).subspan(monitor::kPreviewHeaderBytes));
+}
+
 }  // namespace
 }  // namespace fleetmap::fuzz
 
@@ -284,8 +327,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   using namespace fleetmap::fuzz;
-  for (const auto make :
-       {fleet_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, velodyne, scans})
+  for (const auto make : {fleet_messages, ros_messages, encoded_clouds, radio, keys, bag, stores, velodyne,
+                          ouster, scans, previews})
     make(argv[1]);
   return 0;
 }

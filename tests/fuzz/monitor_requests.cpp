@@ -3,9 +3,8 @@
 
 #include "checks.hpp"
 #include "fleetmap/monitor/request_check.hpp"
-#include "monitor/connection.hpp"
 #include "monitor/http_answer.hpp"
-#include "monitor/viewer.hpp"
+#include "monitor/web_server.hpp"
 
 namespace fleetmap::fuzz {
 namespace {
@@ -31,24 +30,18 @@ struct Robot {
   }
 };
 
-/// As Connection reads it.
 void ask(Robot& robot, ByteView bytes) {
-  monitor::http::request_parser<monitor::http::empty_body> parser;
-  parser.header_limit(monitor::Connection::kMaxHeaderBytes);
-  parser.body_limit(0);
-  parser.eager(true);
-  monitor::error_code error;
-  parser.put(monitor::net::buffer(bytes.data(), bytes.size()), error);
-  if (error || !parser.is_done()) return;
-  const monitor::Request request = parser.release();
+  const auto request = monitor::parse_request(text_of(bytes));
+  if (!request) return;
   const int before = robot.orders;
-  const monitor::Response response = monitor::answer(robot.state, request);
-  require(response.result_int() >= 101 && response.result_int() < 600, "a status that is none");
+  const monitor::HttpResponse response = monitor::answer(robot.state, *request);
+  require(response.status >= 101 && response.status < 600, "a status that is none");
+  require((response.status == 101) == (response.session != nullptr), "a WebSocket without session");
   const bool ordered = robot.orders != before;
-  require(ordered == (response.result_int() == 202), "an order whose answer tells otherwise");
+  require(ordered == (response.status == 202), "an order whose answer tells otherwise");
   const bool has_token = text_of(bytes).find(kToken) != std::string_view::npos;
-  require(has_token || response.result_int() >= 400, "answered without a token");
-  require(!ordered || request.method() == monitor::http::verb::post, "an order without POST");
+  require(has_token || response.status >= 400, "answered without a token");
+  require(!ordered || request->method == monitor::HttpRequest::Method::post, "an order without POST");
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // The ROS 2 messages of sensors and of the base, as a driver or a bag gives them.
 #include <array>
+#include <cmath>
 
 #include "checks.hpp"
 #include "fleetmap/ros_codec/frame_transforms.hpp"
+#include "fleetmap/ros_codec/livox_points.hpp"
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 
@@ -29,6 +31,18 @@ void decode_scan(ByteView cdr) {
   decode<sensor::Scan>(cdr);
 }
 
+void decode_livox_points(ByteView cdr) {
+  const MemoryPeak memory;
+  const auto decoded = ros_codec::decode_livox(cdr);
+  require(memory.bytes() <= 65'536 + 32 * cdr.size(), "decoding allocates far more than its bytes");
+  if (!decoded) return require(!decoded.error().message.empty(), "refused without a reason");
+  for (const auto& point : decoded->scan.points)
+    require(point.position.allFinite() && std::abs(point.time) < 15.0f,
+            "a point is not finite or not of its scan");
+  require(ros_codec::decode_livox(ros_codec::encode_livox(decoded->scan)).has_value(),
+          "what was accepted is refused when recorded");
+}
+
 void decode_frames(ByteView cdr) {
   ros_codec::frame_id_of(cdr);
   const MemoryPeak memory;
@@ -46,14 +60,15 @@ void decode_frames(ByteView cdr) {
 }
 
 using Decoder = void (*)(ByteView);
-constexpr std::array<Decoder, 8> kDecoders{&decode_scan,
+constexpr std::array<Decoder, 9> kDecoders{&decode_scan,
                                            &decode<sensor::Imu>,
                                            &decode<sensor::Fix>,
                                            &decode<sensor::Wheel>,
                                            &decode<sensor::Battery>,
                                            &decode<ros_codec::OdometryMsg>,
                                            &decode<ros_codec::VelocityCommand>,
-                                           &decode_frames};
+                                           &decode_frames,
+                                           &decode_livox_points};
 
 }  // namespace
 }  // namespace fleetmap::fuzz

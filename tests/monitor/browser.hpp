@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace fleetmap::testing {
 
@@ -58,6 +59,12 @@ class Browser {
     const std::size_t length = head.find("Content-Length: ");
     const bool has_body = length != std::string::npos && head.find(" 101 ") == std::string::npos;
     return head + (has_body ? take(std::stoul(head.substr(length + 16))) : "");
+  }
+  /// All that comes until the other side closes.
+  std::string rest() {
+    while (more()) {
+    }
+    return std::exchange(pending_, {});
   }
   /// "200"
   std::string status() {

@@ -1,5 +1,5 @@
-// Shared by the tests of the page: headless Chromium, screenshots, and what holds for every page. Ends with exit code 77,
-// skipped, where Chromium is missing.
+// Shared by the tests of the page: headless Chromium, screenshots, and what holds for every page. Ends with exit code
+// 77, skipped, where Chromium is missing.
 import assert from 'node:assert/strict';
 import {existsSync, mkdtempSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -27,7 +27,10 @@ export async function shot(page, name) {
 
 /** Every control has a name for screen readers. */
 export async function everythingIsNamed(page) {
-  const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, canvas, [role=tab]')].filter((one) =>
-    !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length)).map((one) => one.outerHTML.slice(0, 80)));
+  const nameless = await page.evaluate(() =>
+    [...document.querySelectorAll('button, input, select, canvas, [role=tab]')]
+      .filter((one) => !(one.getAttribute('aria-label') || one.textContent.trim() || one.labels?.length))
+      .map((one) => one.outerHTML.slice(0, 80)),
+  );
   assert.deepEqual(nameless, []);
 }

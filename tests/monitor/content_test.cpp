@@ -90,7 +90,7 @@ class ManySubmaps : public ::testing::Test {
   }
   std::string hash(std::size_t k) const { return to_hex(fleet.view.nodes[k].submap_hash); }
   std::string ask(std::size_t count, std::initializer_list<std::size_t> nodes = {}) {
-    std::string target = "/submaps?count=" + std::to_string(count) + "&of=";
+    std::string target = "/submaps?from=0&count=" + std::to_string(count) + "&of=";
     for (std::size_t k = 0; k < 40 && nodes.size() == 0; ++k) target += hash(k) + (k < 39 ? "," : "");
     for (const std::size_t k : nodes) target += (target.back() == '=' ? "" : ",") + hash(k);
     return content.reply(target).body;
@@ -118,6 +118,8 @@ TEST_F(ManySubmaps, come_in_one_answer_each_after_its_hash) {
   }
   EXPECT_EQ(ask(5000, {0}).size(), 32 + kPointHeaderBytes + 8 * Content::kCoarsePoints)
       << "the first ones alone";
+  const std::string later = content.reply("/submaps?from=100&count=50&of=" + hash(0)).body;
+  EXPECT_EQ(later, hash(0) + content.reply("/submap/" + hash(0) + "?from=100&count=50").body);
 }
 
 TEST_F(ManySubmaps, previews_are_made_once_and_spread_over_the_site) {
@@ -136,6 +138,32 @@ TEST_F(ManySubmaps, previews_are_made_once_and_spread_over_the_site) {
   content.show(fleet.view);
   EXPECT_FALSE(content.misses_previews()) << "a newer state decodes nothing again";
   EXPECT_EQ(loads, 40);
+}
+
+TEST_F(ManySubmaps, previews_that_were_kept_are_not_made_again) {
+  while (content.misses_previews()) {
+    const auto [hash, make] = content.begin_preview();
+    content.end_preview(hash, make());
+  }
+  EXPECT_EQ(content.new_previews(), 40u);
+  const Previews kept = content.previews();
+  EXPECT_EQ(kept.size(), 40u);
+  EXPECT_EQ(content.new_previews(), 0u);
+
+  Content later(
+      kPage, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("not asked"); }, 1 << 20);
+  later.keep(kept);
+  EXPECT_TRUE(later.previews().empty()) << "nothing is shown yet";
+  ViewMaker more = fleet;
+  more.robot("r2", 0, 1);
+  more.view.nodes[40].submap_hash[0] = 41;
+  later.show(more.view);
+  EXPECT_EQ(later.previews().size(), 40u);
+  EXPECT_EQ(later.kept_previews(), 40u);
+  ASSERT_TRUE(later.misses_previews());
+  EXPECT_EQ(later.begin_preview().first, to_hex(more.view.nodes[40].submap_hash));
+  EXPECT_FALSE(later.misses_previews());
+  EXPECT_EQ(later.reply("/submaps?from=0&count=10&of=" + hash(3)).body, ask(10, {3}));
 }
 
 TEST_F(ManySubmaps, what_is_being_made_comes_later_unless_nothing_else_is_there) {
@@ -171,8 +199,8 @@ TEST_F(ManySubmaps, what_cannot_be_read_is_empty_and_what_is_not_shown_is_left_o
   EXPECT_EQ(ask(10, {3}).size(), 32 + kPointHeaderBytes);
   broken = false;
   EXPECT_EQ(ask(10, {3}).size(), 32 + kPointHeaderBytes + 80) << "a disk may recover";
-  EXPECT_EQ(content.reply("/submaps?count=1&of=" + std::string(32, '0')).body, "");
-  EXPECT_EQ(content.reply("/submaps?count=1&of=../../etc/passwd").status, 400u);
+  EXPECT_EQ(content.reply("/submaps?from=0&count=1&of=" + std::string(32, '0')).body, "");
+  EXPECT_EQ(content.reply("/submaps?from=0&count=1&of=../../etc/passwd").status, 400u);
 }
 
 TEST(PointCache, drops_what_was_used_longest_ago) {

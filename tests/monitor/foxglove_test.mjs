@@ -1,6 +1,6 @@
 // Opens a short run of the twin with `fleetmap monitor` as Foxglove does, by Foxglove's own packages: the client of the
-// WebSocket protocol, the parser of the schemas and the reader of the messages. The map's points are compared with those that the
-// page gets of the same submaps.
+// WebSocket protocol, the parser of the schemas and the reader of the messages. The map's points are compared with
+// those that the page gets of the same submaps.
 //   node foxglove_test.mjs FLEETMAP PAGE_FOLDER
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
@@ -44,9 +44,13 @@ function listen(url, subprotocol) {
   return new Promise((done, failed) => {
     const socket = new WebSocket(socketUrl(url), [subprotocol]);
     const client = new FoxgloveClient({ws: socket});
-    const bySubscription = new Map(), messages = {};
-    let info, bytes = 0;
-    client.on('serverInfo', (event) => { info = event; });
+    const bySubscription = new Map(),
+      messages = {};
+    let info,
+      bytes = 0;
+    client.on('serverInfo', (event) => {
+      info = event;
+    });
     client.on('error', failed);
     client.on('status', (event) => failed(new Error(event.message)));
     client.on('advertise', (channels) => {
@@ -70,32 +74,47 @@ function listen(url, subprotocol) {
 }
 
 const rotated = ([qx, qy, qz, qw], [x, y, z]) => {
-  const tx = 2 * (qy * z - qz * y), ty = 2 * (qz * x - qx * z), tz = 2 * (qx * y - qy * x);
+  const tx = 2 * (qy * z - qz * y),
+    ty = 2 * (qz * x - qx * z),
+    tz = 2 * (qx * y - qy * x);
   return [x + qw * tx + qy * tz - qz * ty, y + qw * ty + qz * tx - qx * tz, z + qw * tz + qx * ty - qy * tx];
 };
 
 /** A submap as the page gets it: its points in the node's frame, coarse to fine. */
 async function submapOf(url, hash) {
   const bytes = await (await fetch(new URL(`submap/${hash}?from=0&count=200000`, url))).arrayBuffer();
-  const head = new DataView(bytes), steps = new Int16Array(bytes, 36);
-  const centre = [4, 8, 12].map((at) => head.getFloat32(at, true)), scale = head.getFloat32(16, true);
+  const head = new DataView(bytes),
+    steps = new Int16Array(bytes, 36);
+  const centre = [4, 8, 12].map((at) => head.getFloat32(at, true)),
+    scale = head.getFloat32(16, true);
   const count = head.getUint32(28, true);
   assert.equal(count, head.getUint32(20, true), 'the whole submap');
-  return {count, point: (k) => centre.map((c, axis) => c + scale * steps[4 * k + axis]), intensity: (k) => steps[4 * k + 3]};
+  return {
+    count,
+    point: (k) => centre.map((c, axis) => c + scale * steps[4 * k + axis]),
+    intensity: (k) => steps[4 * k + 3],
+  };
 }
 
 /** The expected points of the map, by the page's data. */
 async function expectedMap(url, state) {
-  const sequence = (id) => Number(id.split('/')[1]), session = (id) => Number(id.match(/#(\d+)/)?.[1] ?? 0);
+  const sequence = (id) => Number(id.split('/')[1]),
+    session = (id) => Number(id.match(/#(\d+)/)?.[1] ?? 0);
   const placed = state.nodes.filter((node) => node.T && node.submap);
-  placed.sort((a, b) => (a.robot < b.robot ? -1 : a.robot > b.robot ? 1 : session(a.id) - session(b.id) || sequence(a.id) - sequence(b.id)));
+  placed.sort((a, b) =>
+    a.robot < b.robot ? -1 : a.robot > b.robot ? 1 : session(a.id) - session(b.id) || sequence(a.id) - sequence(b.id),
+  );
   const points = [];
   for (const [k, node] of placed.entries()) {
     const submap = await submapOf(url, node.submap);
     const share = Math.min(submap.count, Math.floor((kMaxPoints - points.length) / (placed.length - k)));
     for (let p = 0; p < share; ++p) {
       const turned = rotated(node.T.slice(3), submap.point(p));
-      points.push([...turned.map((value, axis) => value + node.T[axis]), submap.intensity(p), state.robots.findIndex((one) => one.id === node.robot)]);
+      points.push([
+        ...turned.map((value, axis) => value + node.T[axis]),
+        submap.intensity(p),
+        state.robots.findIndex((one) => one.id === node.robot),
+      ]);
     }
   }
   return points;
@@ -106,7 +125,10 @@ function checkMap(cloud, expected) {
   assert.equal(cloud.frame_id, 'enu');
   assert.deepEqual(cloud.pose.orientation, {x: 0, y: 0, z: 0, w: 1});
   const kinds = {3: (view, at) => view.getUint16(at, true), 7: (view, at) => view.getFloat32(at, true)};
-  assert.deepEqual(cloud.fields.map((field) => field.name), ['x', 'y', 'z', 'intensity', 'robot']);
+  assert.deepEqual(
+    cloud.fields.map((field) => field.name),
+    ['x', 'y', 'z', 'intensity', 'robot'],
+  );
   const count = cloud.data.length / cloud.point_stride;
   assert.equal(count, expected.length);
   assert.ok(count > 1000 && count <= kMaxPoints, `${count} points`);
@@ -117,29 +139,40 @@ function checkMap(cloud, expected) {
     for (let axis = 0; axis < 3; ++axis) worst = Math.max(worst, Math.abs(point[axis] - expected[k][axis]));
     assert.deepEqual(point.slice(3), expected[k].slice(3), `intensity and robot of point ${k}`);
   }
-  assert.ok(worst < 1e-3, `a point is off by ${worst} m`);  // the page's poses are rounded
+  assert.ok(worst < 1e-3, `a point is off by ${worst} m`); // the page's poses are rounded
   return count;
 }
 
 function checkRobots(messages, state) {
-  const transforms = Object.fromEntries(messages['/fleet/transforms'].transforms.map((one) => [one.child_frame_id, one]));
+  const transforms = Object.fromEntries(
+    messages['/fleet/transforms'].transforms.map((one) => [one.child_frame_id, one]),
+  );
   const trajectories = Object.fromEntries(messages['/fleet/trajectories'].entities.map((one) => [one.id, one]));
   for (const robot of state.robots) {
     const last = state.nodes.find((node) => node.id === robot.last_node);
     const {parent_frame_id: parent, translation, rotation} = transforms[robot.id];
     assert.equal(parent, 'enu');
-    for (const [axis, value] of [translation.x, translation.y, translation.z].entries()) assert.ok(Math.abs(value - last.T[axis]) < 1e-3);
+    for (const [axis, value] of [translation.x, translation.y, translation.z].entries())
+      assert.ok(Math.abs(value - last.T[axis]) < 1e-3);
     assert.ok(Math.abs(Math.hypot(rotation.x, rotation.y, rotation.z, rotation.w) - 1) < 1e-9);
     const fix = messages[`/${robot.id}/fix`];
     assert.equal(fix.schema, 'foxglove::LocationFix');
     // Metres per degree, which is good for the size of a farm.
-    assert.ok(Math.abs((fix.latitude - state.origin.latitude_deg) * 111_200 - last.T[1]) < 2, `${robot.id} at ${fix.latitude}°`);
+    assert.ok(
+      Math.abs((fix.latitude - state.origin.latitude_deg) * 111_200 - last.T[1]) < 2,
+      `${robot.id} at ${fix.latitude}°`,
+    );
     assert.ok(Math.abs(fix.altitude - state.origin.altitude_m - last.T[2]) < 0.5);
     assert.equal(fix.position_covariance.length, 9);
-    assert.equal(trajectories[robot.id].spheres.length, state.nodes.filter((node) => node.robot === robot.id && node.T).length);
+    assert.equal(
+      trajectories[robot.id].spheres.length,
+      state.nodes.filter((node) => node.robot === robot.id && node.T).length,
+    );
     assert.equal(trajectories[robot.id].lines[0].type, 0);
   }
-  const lines = messages['/fleet/alignments'].entities.flatMap((entity) => entity.lines.map((line) => [entity.id, line.points.length / 2]));
+  const lines = messages['/fleet/alignments'].entities.flatMap((entity) =>
+    entity.lines.map((line) => [entity.id, line.points.length / 2]),
+  );
   for (const [status, count] of lines) {
     assert.equal(count, state.alignments.filter((one) => one.status === status).length, status);
   }
@@ -150,7 +183,8 @@ async function testToken(run) {
   writeFileSync(tokenFile, kToken);
   const {server, url} = await serve(fleetmap, run, ['--token-file', tokenFile]);
   try {
-    const offered = ['foxglove.sdk.v1'], bare = new URL('/', url).href;
+    const offered = ['foxglove.sdk.v1'],
+      bare = new URL('/', url).href;
     assert.match(url, /\?token=/);
     assert.equal(await handshake(url, offered), 'foxglove.sdk.v1');
     assert.equal(await handshake(url, offered, {Origin: 'https://app.foxglove.dev'}), 'foxglove.sdk.v1');

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "monitor/foxglove/client_session.hpp"
 #include "monitor/viewer.hpp"
 
 namespace fleetmap::monitor {
@@ -10,6 +11,8 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+
+using Method = HttpRequest::Method;
 
 constexpr const char* kToken = "0123456789abcdef";
 constexpr std::uint8_t kFile[] = {1, 2, 3};
@@ -28,104 +31,108 @@ class HttpAnswer : public ::testing::Test {
             config(token), [](const NodeId&) { return Result<cloud::PointCloud>(); }, kPage) {
     state_.cookie = "fleetmap_80";
   }
-  static Request request(http::verb method, const std::string& target) {
-    Request request(method, target, 11);
-    request.set(http::field::host, "127.0.0.1:80");
+  static HttpRequest request(Method method, const std::string& target) {
+    HttpRequest request;
+    request.method = method;
+    request.target = target;
+    request.host = "127.0.0.1:80";
     return request;
   }
-  static Request upgrade(const std::string& target) {
-    Request asks = request(http::verb::get, target);
-    asks.set(http::field::connection, "Upgrade");
-    asks.set(http::field::upgrade, "websocket");
-    asks.set(http::field::sec_websocket_version, "13");
-    asks.set(http::field::sec_websocket_key, "dGhlIHNhbXBsZSBub25jZQ==");
+  static HttpRequest upgrade(const std::string& target) {
+    HttpRequest asks = request(Method::get, target);
+    asks.upgrade = true;
     return asks;
   }
-  unsigned status(const Request& asks) { return answer(state_, asks).result_int(); }
+  unsigned status(const HttpRequest& asks) { return answer(state_, asks).status; }
 
   ServerState state_;
 };
 
 TEST_F(HttpAnswer, a_page_comes_with_headers_that_keep_other_sites_out) {
-  const Response page = answer(state_, request(http::verb::get, "/"));
-  EXPECT_EQ(page.result_int(), 200u);
-  EXPECT_EQ(page[http::field::content_type], "text/html");
-  EXPECT_EQ(page[http::field::content_encoding], "gzip");
-  EXPECT_EQ(page[http::field::cache_control], "no-store");
-  EXPECT_EQ(page.body(), std::string({1, 2, 3}));
-  const auto policy_header = page["Content-Security-Policy"];
-  const std::string policy(policy_header.data(), policy_header.size());
+  const HttpResponse page = answer(state_, request(Method::get, "/"));
+  EXPECT_EQ(page.status, 200u);
+  EXPECT_EQ(page.header("Content-Type"), "text/html");
+  EXPECT_EQ(page.header("Content-Encoding"), "gzip");
+  EXPECT_EQ(page.header("Cache-Control"), "no-store");
+  EXPECT_EQ(page.body, std::string({1, 2, 3}));
+  const std::string policy(page.header("Content-Security-Policy"));
   for (const char* rule : {"default-src 'self';", "connect-src 'self' ws://127.0.0.1:80;",
                            "frame-ancestors 'none';", "base-uri 'none'", "form-action 'none'"})
     EXPECT_THAT(policy, HasSubstr(rule));
-  EXPECT_EQ(page["X-Content-Type-Options"], "nosniff");
-  EXPECT_EQ(page["X-Frame-Options"], "DENY");
-  EXPECT_EQ(page["Referrer-Policy"], "no-referrer");
-  EXPECT_EQ(page["Cross-Origin-Resource-Policy"], "same-origin");
-  EXPECT_EQ(state_.refused, 0u);
+  EXPECT_EQ(page.header("X-Content-Type-Options"), "nosniff");
+  EXPECT_EQ(page.header("X-Frame-Options"), "DENY");
+  EXPECT_EQ(page.header("Referrer-Policy"), "no-referrer");
+  EXPECT_EQ(page.header("Cross-Origin-Resource-Policy"), "same-origin");
+  EXPECT_EQ(state_.counters.refused, 0u);
 }
 
 TEST_F(HttpAnswer, what_is_not_there_and_what_would_change_something_is_refused_and_counted) {
-  EXPECT_EQ(status(request(http::verb::get, "/nothing")), 404u);
-  EXPECT_EQ(status(request(http::verb::put, "/")), 405u);
-  EXPECT_EQ(status(request(http::verb::post, "/")), 405u);
-  EXPECT_EQ(status(request(http::verb::head, "/")), 200u);
-  Request foreign = request(http::verb::get, "/");
-  foreign.set(http::field::host, "evil.example");
-  const Response refused = answer(state_, foreign);
-  EXPECT_EQ(refused.result_int(), 403u);
-  EXPECT_EQ(refused.body(), "the Host is no address of this program\n");
-  EXPECT_EQ(status(request(http::verb::get, "/?token=")), 200u)
-      << "without a token there is none to exchange";
-  EXPECT_EQ(state_.refused, 4u);
+  EXPECT_EQ(status(request(Method::get, "/nothing")), 404u);
+  EXPECT_EQ(status(request(Method::other, "/")), 405u);
+  EXPECT_EQ(status(request(Method::post, "/")), 405u);
+  EXPECT_EQ(status(request(Method::head, "/")), 200u);
+  HttpRequest foreign = request(Method::get, "/");
+  foreign.host = "evil.example";
+  const HttpResponse refused = answer(state_, foreign);
+  EXPECT_EQ(refused.status, 403u);
+  EXPECT_EQ(refused.body, "the Host is no address of this program\n");
+  EXPECT_EQ(status(request(Method::get, "/?token=")), 200u) << "without a token there is none to exchange";
+  EXPECT_EQ(state_.counters.refused, 4u);
 }
 
 TEST_F(HttpAnswer, a_web_socket_is_opened_at_its_place_for_so_many) {
   EXPECT_EQ(status(upgrade("/live")), 101u);
   EXPECT_EQ(status(upgrade("/")), 404u);
-  EXPECT_EQ(status(request(http::verb::get, "/live")), 404u) << "no page is there";
-  Viewer one(state_, beast::tcp_stream(state_.io), std::make_shared<CountedConnection>(state_));
-  state_.viewers.insert(&one);
-  ++state_.viewers_now;
-  EXPECT_EQ(status(upgrade("/live")), 503u);
-  EXPECT_EQ(state_.refused, 3u);
+  EXPECT_EQ(status(request(Method::get, "/live")), 404u) << "no page is there";
+  const HttpResponse opened = answer(state_, upgrade("/live"));
+  EXPECT_NE(opened.session, nullptr);
+  EXPECT_EQ(status(upgrade("/live")), 503u) << "while one is open";
+  EXPECT_EQ(state_.counters.refused, 3u);
+}
+
+TEST_F(HttpAnswer, a_web_socket_is_that_of_the_page_or_of_a_client_by_its_subprotocol) {
+  EXPECT_NE(dynamic_cast<Viewer*>(answer(state_, upgrade("/live")).session.get()), nullptr);
+  HttpRequest asks = upgrade("/");
+  asks.subprotocols = "chat,foxglove.websocket.v1,";
+  const HttpResponse opened = answer(state_, asks);
+  EXPECT_NE(dynamic_cast<foxglove::ClientSession*>(opened.session.get()), nullptr);
+  EXPECT_EQ(opened.header("Sec-WebSocket-Protocol"), "foxglove.websocket.v1");
 }
 
 TEST_F(HttpAnswer, nobody_gives_orders_without_a_token) {
   state_.give_order = [](const OrderRequest&) -> Status { return {}; };
-  Request order = request(http::verb::post, "/operator/hold");
-  order.set(http::field::origin, "http://127.0.0.1:80");
+  HttpRequest order = request(Method::post, "/operator/hold");
+  order.origin = "http://127.0.0.1:80";
   EXPECT_EQ(status(order), 403u);
 }
 
 class HttpAnswerWithToken : public HttpAnswer {
  protected:
   HttpAnswerWithToken() : HttpAnswer(kToken) {}
-  static Request with_cookie(Request asks) {
-    asks.set(http::field::cookie, std::string("fleetmap_80=") + kToken);
+  static HttpRequest with_cookie(HttpRequest asks) {
+    asks.cookie = std::string("fleetmap_80=") + kToken;
     return asks;
   }
 };
 
 TEST_F(HttpAnswerWithToken, the_token_of_the_address_becomes_a_cookie) {
-  const Response first = answer(state_, request(http::verb::get, std::string("/?token=") + kToken));
-  EXPECT_EQ(first.result_int(), 303u);
-  EXPECT_EQ(first[http::field::location], "/");
-  EXPECT_EQ(first[http::field::set_cookie],
-            "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Strict; Path=/");
-  EXPECT_EQ(status(request(http::verb::get, "/?token=0123456789abcdee")), 403u);
-  EXPECT_EQ(status(request(http::verb::get, "/")), 403u);
+  const HttpResponse first = answer(state_, request(Method::get, std::string("/?token=") + kToken));
+  EXPECT_EQ(first.status, 303u);
+  EXPECT_EQ(first.header("Location"), "/");
+  EXPECT_EQ(first.header("Set-Cookie"), "fleetmap_80=0123456789abcdef; HttpOnly; SameSite=Strict; Path=/");
+  EXPECT_EQ(status(request(Method::get, "/?token=0123456789abcdee")), 403u);
+  EXPECT_EQ(status(request(Method::get, "/")), 403u);
   EXPECT_EQ(status(upgrade("/live")), 403u);
-  EXPECT_EQ(status(with_cookie(request(http::verb::get, "/"))), 200u);
+  EXPECT_EQ(status(with_cookie(request(Method::get, "/"))), 200u);
   EXPECT_EQ(status(with_cookie(upgrade("/live"))), 101u);
-  Request foreign = request(http::verb::get, std::string("/?token=") + kToken);
-  foreign.set(http::field::host, "evil.example");
+  HttpRequest foreign = request(Method::get, std::string("/?token=") + kToken);
+  foreign.host = "evil.example";
   EXPECT_EQ(status(foreign), 403u) << "the cookie would go to a foreign name";
 }
 
 TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_told) {
-  Request order = with_cookie(request(http::verb::post, "/operator/resume?robot=r2"));
-  order.set(http::field::origin, "http://127.0.0.1:80");
+  HttpRequest order = with_cookie(request(Method::post, "/operator/resume?robot=r2"));
+  order.origin = "http://127.0.0.1:80";
   EXPECT_EQ(status(order), 403u) << "a finished run has no robot that would obey";
   std::vector<std::string> received;
   state_.give_order = [&](const OrderRequest& order) -> Status {
@@ -134,16 +141,16 @@ TEST_F(HttpAnswerWithToken, orders_are_passed_on_and_what_becomes_of_them_is_tol
     return received.size() > 1 ? failure("no radio") : Status{};
   };
   EXPECT_EQ(status(order), 202u);
-  order.target("/operator/hold");
-  const Response failed = answer(state_, order);
-  EXPECT_EQ(failed.result_int(), 503u);
-  EXPECT_EQ(failed.body(), "no radio\n");
-  order.erase(http::field::origin);
+  order.target = "/operator/hold";
+  const HttpResponse failed = answer(state_, order);
+  EXPECT_EQ(failed.status, 503u);
+  EXPECT_EQ(failed.body, "no radio\n");
+  order.origin.clear();
   EXPECT_EQ(status(order), 403u) << "who hides the page that posts";
-  order.erase(http::field::cookie);
-  order.set(http::field::authorization, std::string("Bearer ") + kToken);
+  order.cookie.clear();
+  order.authorization = std::string("Bearer ") + kToken;
   EXPECT_EQ(status(order), 503u) << "a program shows the token itself";
-  EXPECT_EQ(status(with_cookie(request(http::verb::get, "/operator/hold"))), 404u);
+  EXPECT_EQ(status(with_cookie(request(Method::get, "/operator/hold"))), 404u);
   EXPECT_THAT(received, ElementsAre("resume r2", "hold all", "hold all"));
 }
 

@@ -1,5 +1,5 @@
-// The pages of a fleet that is under way, in headless Chromium: that of an agent beside another one (fleet and radio, hold
-// and resume with a token, a robot that falls silent), and that of a run in virtual time.
+// The pages of a fleet that is under way, in headless Chromium: that of an agent beside another one (fleet and radio,
+// hold and resume with a token, a robot that falls silent), and that of a run in virtual time.
 //   node live_page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
@@ -8,10 +8,17 @@ import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {everythingIsNamed, fleetmap, folder, openBrowser, shot} from './browser.mjs';
 
-/** DDS domains that no other test has, as tests/bus/dds_domains.hpp gives them away; they are free again when the lock's process ends. */
+/**
+ * DDS domains that no other test has, as tests/bus/dds_domains.hpp gives them away; they are free again when the lock's
+ * process ends.
+ */
 async function testDomain() {
   for (let group = 15; group >= 0; --group) {
-    const lock = spawn('flock', ['--nonblock', `/tmp/fleetmap-test-domains-${group}`, 'sh', '-c', 'echo mine; exec cat'], {stdio: ['pipe', 'pipe', 'inherit']});
+    const lock = spawn(
+      'flock',
+      ['--nonblock', `/tmp/fleetmap-test-domains-${group}`, 'sh', '-c', 'echo mine; exec cat'],
+      {stdio: ['pipe', 'pipe', 'inherit']},
+    );
     const mine = await new Promise((found) => {
       lock.stdout.once('data', () => found(true));
       lock.once('exit', () => found(false));
@@ -25,9 +32,23 @@ async function testDomain() {
 const kToken = '0123456789abcdef';
 
 function agent(id, domain, more = []) {
-  const cwd = fileURLToPath(new URL('../..', import.meta.url));  // qos/ is looked for there
-  return spawn(fleetmap, ['agent', '-c', 'config/fleets/farm_small.yaml', '--as', id, '--out', join(folder, 'live'), '--set', `dds.base_domain=${domain}`, ...more],
-    {cwd, stdio: ['ignore', 'pipe', 'pipe']});
+  const cwd = fileURLToPath(new URL('../..', import.meta.url)); // qos/ is looked for there
+  return spawn(
+    fleetmap,
+    [
+      'agent',
+      '-c',
+      'config/fleets/farm_small.yaml',
+      '--as',
+      id,
+      '--out',
+      join(folder, 'live'),
+      '--set',
+      `dds.base_domain=${domain}`,
+      ...more,
+    ],
+    {cwd, stdio: ['ignore', 'pipe', 'pipe']},
+  );
 }
 
 /** The page's address, as the agent logs it. */
@@ -45,11 +66,20 @@ function addressOf(process) {
   });
 }
 
-const textIs = (page, selector, pattern) => page.waitForFunction(([where, what]) => new RegExp(what, 's').test(document.querySelector(where)?.textContent ?? ''),
-  [selector, pattern.source], {timeout: 60_000});
+const textIs = (page, selector, pattern) =>
+  page.waitForFunction(
+    ([where, what]) => new RegExp(what, 's').test(document.querySelector(where)?.textContent ?? ''),
+    [selector, pattern.source],
+    {timeout: 60_000},
+  );
 
 async function watchLive(browser, url, width, height, check) {
-  const context = await browser.newContext({viewport: {width, height}, hasTouch: width < 500, isMobile: width < 500, deviceScaleFactor: 1});
+  const context = await browser.newContext({
+    viewport: {width, height},
+    hasTouch: width < 500,
+    isMobile: width < 500,
+    deviceScaleFactor: 1,
+  });
   const page = await context.newPage();
   const said = [];
   page.on('pageerror', (error) => said.push(String(error)));
@@ -57,7 +87,8 @@ async function watchLive(browser, url, width, height, check) {
   await page.locator('#tab-radio').waitFor({timeout: 60_000});
   await check(page);
   await everythingIsNamed(page);
-  const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  // Not window.innerWidth: on a phone it grows with a page that is too wide.
+  const wider = (await page.evaluate(() => document.documentElement.scrollWidth)) - width;
   assert.ok(wider <= 0, `the live page is ${wider} px wider than the window`);
   assert.deepEqual(said, []);
   await context.close();
@@ -89,7 +120,11 @@ async function holdAndResume(page) {
   await page.getByRole('button', {name: 'Hold r2'}).waitFor({timeout: 60_000});
 }
 
-const rowsOf = (page, robot) => page.getByLabel(`Row of ${robot}`, {exact: true}).locator('option').evaluateAll((options) => options.map((option) => option.value));
+const rowsOf = (page, robot) =>
+  page
+    .getByLabel(`Row of ${robot}`, {exact: true})
+    .locator('option')
+    .evaluateAll((options) => options.map((option) => option.value));
 
 /** A row of r1 goes to r2, and r1 is called home and let go. */
 async function giveAndCallHome(page) {
@@ -100,31 +135,64 @@ async function giveAndCallHome(page) {
   await page.getByLabel('Robot that drives the row of r1').selectOption('r2');
   await page.getByRole('group', {name: 'Give a row of r1 away'}).getByRole('button', {name: 'Give'}).click();
   await textIs(page, '#fleet', new RegExp(`Ordered: r1 gives row ${row} to r2\\.`));
-  const options = ([name, value]) => [...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value);
+  const options = ([name, value]) =>
+    [...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value);
   await page.waitForFunction(options, ['r2', row], {timeout: 60_000});
-  await page.waitForFunction(([name, value]) => ![...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value), ['r1', row], {timeout: 60_000});
+  await page.waitForFunction(
+    ([name, value]) =>
+      ![...document.querySelectorAll(`[aria-label="Row of ${name}"] option`)].some((option) => option.value === value),
+    ['r1', row],
+    {timeout: 60_000},
+  );
   await page.getByRole('button', {name: 'Call r1 home'}).click();
   await textIs(page, '[data-robot=r1]', /r1 was called home and gave its rows away/);
   await shot(page, 'called_home');
   await page.getByRole('button', {name: 'Resume r1'}).click();
   await page.getByRole('button', {name: 'Call r1 home'}).waitFor({timeout: 60_000});
-  await page.waitForFunction(() => !/called home/.test(document.querySelector('[data-robot=r1]').textContent), null, {timeout: 60_000});
+  await page.waitForFunction(() => !/called home/.test(document.querySelector('[data-robot=r1]').textContent), null, {
+    timeout: 60_000,
+  });
 }
 
 /** `fleetmap run --monitor`: virtual time as it passes, with the same orders. */
 async function testVirtual(browser) {
   const tokenFile = join(folder, 'token');
   writeFileSync(tokenFile, kToken);
-  const run = spawn(fleetmap, ['run', '-c', 'config/fleets/farm_small.yaml', '--agents', '2', '--set', 'max_time=1800', '--out', join(folder, 'virtual'), '--monitor', '0',
-    '--monitor-token-file', tokenFile], {cwd: fileURLToPath(new URL('../..', import.meta.url)), stdio: ['ignore', 'pipe', 'pipe']});
+  const run = spawn(
+    fleetmap,
+    [
+      'run',
+      '-c',
+      'config/fleets/farm_small.yaml',
+      '--agents',
+      '2',
+      '--set',
+      'max_time=1800',
+      '--out',
+      join(folder, 'virtual'),
+      '--monitor',
+      '0',
+      '--monitor-token-file',
+      tokenFile,
+    ],
+    {cwd: fileURLToPath(new URL('../..', import.meta.url)), stdio: ['ignore', 'pipe', 'pipe']},
+  );
   try {
     await watchLive(browser, await addressOf(run), 1366, 768, async (page) => {
       await page.locator('#tab-fleet').click();
       await textIs(page, '[data-robot=r1]', /r1 drives row \d+ \(\d+ % of it\), \d+ % of the rows are driven/);
       await textIs(page, '[data-robot=r2]', /in contact.*Last heard \d+ s ago by (radio|Wi-Fi).*position known to/);
-      const held = () => page.locator('[data-robot=r1]').textContent().then((text) => Number(text.match(/holds (\d+) nodes/)?.[1] ?? 0));
+      const held = () =>
+        page
+          .locator('[data-robot=r1]')
+          .textContent()
+          .then((text) => Number(text.match(/holds (\d+) nodes/)?.[1] ?? 0));
       const first = await held();
-      await page.waitForFunction((n) => Number(document.querySelector('[data-robot=r1]').textContent.match(/holds (\d+) nodes/)?.[1] ?? 0) > n, first, {timeout: 60_000});
+      await page.waitForFunction(
+        (n) => Number(document.querySelector('[data-robot=r1]').textContent.match(/holds (\d+) nodes/)?.[1] ?? 0) > n,
+        first,
+        {timeout: 60_000},
+      );
       await page.locator('#tab-radio').click();
       await textIs(page, '#radio .headline', /Sends .*\/s of .*\/s that it may/);
       await textIs(page, '#radio [data-of=peers]', /r2(radio|Wi-Fi)/);

@@ -1,5 +1,5 @@
-// Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected registration
-// that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px.
+// Opens a finished run with `fleetmap monitor` in headless Chromium, as a person would: map, counts, a rejected
+// registration that explains itself, measuring, keyboard, and no error on the console; at 1366 px and at 390 px.
 //   node page_test.mjs FLEETMAP PAGE_FOLDER [SCREENSHOTS]     exit code 77: skipped, since Chromium is missing
 // FLEETMAP_RUN of the environment is a run to open instead of a new one.
 import assert from 'node:assert/strict';
@@ -9,56 +9,84 @@ import {makeRun, serve} from './shown_run.mjs';
 
 /** Number of colours and of covered pixels in the map's middle. */
 async function pixelsOfMap(page) {
-  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => {
-    const canvas = document.getElementById('canvas');
-    const copy = document.createElement('canvas');
-    Object.assign(copy, {width: canvas.width, height: canvas.height});
-    const context = copy.getContext('2d');
-    context.drawImage(canvas, 0, 0);
-    const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
-    const colours = new Set();
-    let covered = 0;
-    for (let k = 0; k < data.length; k += 4) {
-      if (data[k + 3] < 128) continue;
-      ++covered;
-      colours.add((data[k] >> 4 << 8) | (data[k + 1] >> 4 << 4) | (data[k + 2] >> 4));
-    }
-    done({covered: covered / (data.length / 4), colours: colours.size});
-  })));
+  return page.evaluate(
+    () =>
+      new Promise((done) =>
+        requestAnimationFrame(() => {
+          const canvas = document.getElementById('canvas');
+          const copy = document.createElement('canvas');
+          Object.assign(copy, {width: canvas.width, height: canvas.height});
+          const context = copy.getContext('2d');
+          context.drawImage(canvas, 0, 0);
+          const data = context.getImageData(0, 0, canvas.width, canvas.height).data;
+          const colours = new Set();
+          let covered = 0;
+          for (let k = 0; k < data.length; k += 4) {
+            if (data[k + 3] < 128) continue;
+            ++covered;
+            colours.add(((data[k] >> 4) << 8) | ((data[k + 1] >> 4) << 4) | (data[k + 2] >> 4));
+          }
+          done({covered: covered / (data.length / 4), colours: colours.size});
+        }),
+      ),
+  );
 }
 
 async function mapIsDrawn(page) {
-  await page.waitForFunction(() => {
-    const {drawn, loading} = document.getElementById('canvas').dataset;
-    return Number(drawn) > 20_000 && loading === 'false';
-  }, null, {timeout: 100_000});
+  await page.waitForFunction(
+    () => {
+      const {drawn, loading} = document.getElementById('canvas').dataset;
+      return Number(drawn) > 20_000 && loading === 'false';
+    },
+    null,
+    {timeout: 100_000},
+  );
   const pixels = await pixelsOfMap(page);
   assert.ok(pixels.covered > 0.1, `only ${pixels.covered} of the map's pixels are drawn`);
   assert.ok(pixels.colours > 50, `only ${pixels.colours} colours: the points are not shaded`);
 }
 
 async function visit(browser, url, width, height, state, check) {
-  const context = await browser.newContext({viewport: {width, height}, hasTouch: width < 500, isMobile: width < 500, deviceScaleFactor: 1});
+  const context = await browser.newContext({
+    viewport: {width, height},
+    hasTouch: width < 500,
+    isMobile: width < 500,
+    deviceScaleFactor: 1,
+  });
   const page = await context.newPage();
   const said = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && said.push(message.text()));
   page.on('pageerror', (error) => said.push(String(error)));
   const site = new URL('/', url).href;
-  page.on('request', (request) => assert.ok(request.url().startsWith(site) || request.url().startsWith('data:') || request.url().startsWith('ws:'), `asked another site: ${request.url()}`));
+  page.on('request', (request) =>
+    assert.ok(
+      request.url().startsWith(site) || request.url().startsWith('data:') || request.url().startsWith('ws:'),
+      `asked another site: ${request.url()}`,
+    ),
+  );
   await page.goto(url);
   await mapIsDrawn(page);
-  assert.equal(await page.locator('#summary').textContent(), `${state.robots.length} robots · ${state.nodes.length} nodes · ${state.alignments.length} alignments`);
-  const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+  assert.equal(
+    await page.locator('#summary').textContent(),
+    `${state.robots.length} robots · ${state.nodes.length} nodes · ${state.alignments.length} alignments`,
+  );
+  // Not window.innerWidth: on a phone it grows with a page that is too wide.
+  const wider = (await page.evaluate(() => document.documentElement.scrollWidth)) - width;
   assert.ok(wider <= 0, `the page is ${wider} px wider than the window`);
   await check(page);
   // Software rendering makes Chromium warn of its own slowness.
-  assert.deepEqual(said.filter((text) => !text.includes('GPU stall') && !text.includes('swiftshader')), []);
+  assert.deepEqual(
+    said.filter((text) => !text.includes('GPU stall') && !text.includes('swiftshader')),
+    [],
+  );
   await context.close();
 }
 
 async function rejectedExplainsItself(page, state) {
   const robotOf = (node) => node.split(/[#/]/)[0];
-  const rejected = state.registrations.filter((one) => one.verdict === 'rejected' && robotOf(one.target) !== robotOf(one.source));
+  const rejected = state.registrations.filter(
+    (one) => one.verdict === 'rejected' && robotOf(one.target) !== robotOf(one.source),
+  );
   assert.ok(rejected.length > 0, 'the run has no rejected registration to show');
   const answer = await page.locator('.answer').textContent();
   assert.match(answer, /Why are r1 and r2 not joined\?.*and none was accepted.*because inlier RMSE is/s);
@@ -78,8 +106,15 @@ async function onADesk(page, state) {
   await page.keyboard.press('Escape');
 
   // Its two clouds alone, before the registration and as placed.
-  const picture = () => page.locator('#canvas').evaluate((canvas) => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.toDataURL())))));
-  const pictures = [], all = Number(await page.locator('#canvas').getAttribute('data-drawn'));
+  const picture = () =>
+    page
+      .locator('#canvas')
+      .evaluate(
+        (canvas) =>
+          new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.toDataURL())))),
+      );
+  const pictures = [],
+    all = Number(await page.locator('#canvas').getAttribute('data-drawn'));
   await page.locator('.registration').first().click();
   for (const place of ['gps', 'placed', 'rejected']) {
     await page.locator(`[data-compare=${place}]`).click();
@@ -99,16 +134,26 @@ async function onADesk(page, state) {
   await page.keyboard.press('p');
   assert.equal(await page.locator('#view-plan').getAttribute('aria-pressed'), 'true');
   await page.keyboard.press('f');
-  for (const [mode, ends] of [['age', /\d:\d\d\d:\d\d/], ['sigma', /\d+\.\d\d m\d+\.\d\d m/], ['height', /-?\d+\.\d m-?\d+\.\d m/]]) {
+  for (const [mode, ends] of [
+    ['age', /\d:\d\d\d:\d\d/],
+    ['sigma', /\d+\.\d\d m\d+\.\d\d m/],
+    ['height', /-?\d+\.\d m-?\d+\.\d m/],
+  ]) {
     await page.locator(`[data-colour=${mode}]`).click();
     await mapIsDrawn(page);
-    await page.waitForFunction(([text]) => new RegExp(text).test(document.querySelector('#legend .ramp')?.textContent ?? ''), [ends.source]);
+    await page.waitForFunction(
+      ([text]) => new RegExp(text).test(document.querySelector('#legend .ramp')?.textContent ?? ''),
+      [ends.source],
+    );
   }
   await page.locator('#tab-fleet').click();
   const node = page.locator('.robot .link').first();
   const name = await node.textContent();
   await node.click();
-  assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${name}.*WGS84(38\\.999|39\\.000)\\d+°, -(2\\.999|3\\.000)\\d+°, (5|6)\\d\\d\\.`, 's'));
+  assert.match(
+    await page.locator('#card').textContent(),
+    new RegExp(`Node ${name}.*WGS84(38\\.999|39\\.000)\\d+°, -(2\\.999|3\\.000)\\d+°, (5|6)\\d\\d\\.`, 's'),
+  );
   assert.match(await page.locator('#fleet').textContent(), new RegExp(`${state.robots[0].nodes} nodes on \\d+`));
   await shot(page, 'desk_plan');
 
@@ -125,7 +170,8 @@ async function onADesk(page, state) {
   const measured = await page.locator('#card').textContent();
   const plan = Number(measured.match(/on the plan([\d.]+) m/)[1]);
   const expected = await page.evaluate(() => {
-    const bar = document.querySelector('#scale i').getBoundingClientRect().width, text = document.querySelector('#scale span').textContent;
+    const bar = document.querySelector('#scale i').getBoundingClientRect().width,
+      text = document.querySelector('#scale span').textContent;
     return (200 / bar) * (text.endsWith('cm') ? parseFloat(text) / 100 : parseFloat(text));
   });
   assert.ok(Math.abs(plan / expected - 1) < 0.12, `measured ${plan} m, the scale says ${expected} m`);
@@ -141,15 +187,26 @@ async function pointsAlone(page) {
   await page.locator('.layers summary').click();
   for (const layer of ['paths', 'nodes', 'used', 'unused', 'rejected']) await page.locator(`#layer-${layer}`).uncheck();
   await mapIsDrawn(page);
-  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
-    const canvas = document.getElementById('canvas'), copy = document.createElement('canvas');
-    Object.assign(copy, {width: canvas.width, height: canvas.height});
-    copy.getContext('2d').drawImage(canvas, 0, 0);
-    done([...copy.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data]);
-  }))));
+  return page.evaluate(
+    () =>
+      new Promise((done) =>
+        requestAnimationFrame(() =>
+          requestAnimationFrame(() => {
+            const canvas = document.getElementById('canvas'),
+              copy = document.createElement('canvas');
+            Object.assign(copy, {width: canvas.width, height: canvas.height});
+            copy.getContext('2d').drawImage(canvas, 0, 0);
+            done([...copy.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data]);
+          }),
+        ),
+      ),
+  );
 }
 
-/** The CPU draws points as WebGL does, so what the other tests see of one is true of the other. So small a screen asks for few points. */
+/**
+ * The CPU draws points as WebGL does, so what the other tests see of one is true of the other. So small a screen asks
+ * for few points.
+ */
 async function bothWaysDrawAlike(browser, url, state) {
   const pictures = [];
   for (const way of ['gl', 'cpu']) {
@@ -160,7 +217,9 @@ async function bothWaysDrawAlike(browser, url, state) {
   }
   const [gl, cpu] = pictures;
   assert.equal(gl.length, cpu.length);
-  let covered = 0, both = 0, difference = 0;
+  let covered = 0,
+    both = 0,
+    difference = 0;
   for (let k = 0; k < gl.length; k += 4) {
     const [a, b] = [gl[k + 3] > 127, cpu[k + 3] > 127];
     covered += a || b;

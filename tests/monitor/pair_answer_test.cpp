@@ -1,4 +1,4 @@
-#include "pair_answer.hpp"
+#include "fleetmap/monitor/pair_answer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

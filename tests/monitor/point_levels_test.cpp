@@ -138,6 +138,29 @@ TEST(PointLevels, a_prefix_is_told_from_a_whole_submap) {
   EXPECT_EQ(quick.scale, prefix.scale);
 }
 
+TEST(PointLevels, encoded_points_are_read_from_their_first_one_on_alone) {
+  const QuantisedCloud cloud = prefix_of(quantised(random_cloud(1000, 20.0f)), 300);
+  const Bytes bytes = encoded_points(cloud, 0, 300);
+  const auto read = decoded_points(bytes);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->values, cloud.values);
+  EXPECT_EQ(read->centre, cloud.centre);
+  EXPECT_EQ(read->scale, cloud.scale);
+  EXPECT_EQ(read->whole, 1000u);
+  EXPECT_FALSE(decoded_points(encoded_points(cloud, 10, 50))) << "a later part";
+  EXPECT_FALSE(decoded_points(ByteView(bytes).first(bytes.size() - 1)));
+  const auto with = [&](std::size_t at, auto value) {
+    Bytes other = bytes;
+    std::memcpy(other.data() + at, &value, sizeof value);
+    return decoded_points(other).has_value();
+  };
+  EXPECT_FALSE(with(0, 'X')) << "magic";
+  EXPECT_FALSE(with(8, std::numeric_limits<float>::quiet_NaN())) << "centre";
+  EXPECT_FALSE(with(16, 0.0f)) << "scale";
+  EXPECT_FALSE(with(20, std::uint32_t{299})) << "fewer in the submap than here";
+  EXPECT_FALSE(with(28, std::uint32_t{0xffffffff})) << "more here than there are";
+}
+
 TEST(PointLevels, clouds_without_extent_or_points) {
   EXPECT_EQ(quantised({}).size(), 0u);
   cloud::PointCloud one;

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <boost/asio/executor_work_guard.hpp>
 #include <chrono>
+#include <filesystem>
 
+#include "monitor/fake_loop.hpp"
 #include "monitor/views.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fleetmap::monitor {
 namespace {
 
+using testing::FakeLoop;
 using testing::ViewMaker;
 
 class PreviewMakerTest : public ::testing::TestWithParam<bool> {
@@ -23,9 +26,8 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
   }
   /// Does what is posted until all previews are there.
   void run() {
-    const auto working = boost::asio::make_work_guard(io_);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(300);
-    while (kept() < 30 && std::chrono::steady_clock::now() < end) io_.run_one_until(end);
+    while (kept() < fleet_.view.nodes.size() && loop_.wait_and_run_one(std::chrono::seconds(300))) {
+    }
   }
   std::size_t kept() {
     std::size_t all = 0;
@@ -34,28 +36,43 @@ class PreviewMakerTest : public ::testing::TestWithParam<bool> {
     return all;
   }
 
+  Content content() {
+    return {{},
+            [this](const NodeId&) -> Result<cloud::PointCloud> {
+              ++loads_;
+              const int now = ++at_once_;
+              int most = most_at_once_;
+              while (now > most && !most_at_once_.compare_exchange_weak(most, now)) {
+              }
+              cloud::PointCloud cloud;
+              for (int k = 0; k < 2000; ++k)
+                cloud.points.emplace_back(static_cast<float>(k % 50), static_cast<float>(k / 50), 0.0f);
+              --at_once_;
+              return cloud;
+            },
+            1 << 20};
+  }
+  /// Starts anew, shows the fleet with the previews of `file`, and returns how many submaps are decoded.
+  int decoded_with(const std::filesystem::path& file) {
+    content_ = content();
+    loads_ = 0;
+    PreviewMaker previews(loop_, content_, 2, GetParam(), file);
+    content_.show(fleet_.view);
+    previews.refresh();
+    run();
+    EXPECT_EQ(kept(), fleet_.view.nodes.size());
+    return loads_;
+  }
+
   ViewMaker fleet_;
+  testing::TemporaryFolder folder_;
   std::atomic<int> loads_ = 0, at_once_ = 0, most_at_once_ = 0;
-  Content content_{{},
-                   [this](const NodeId&) -> Result<cloud::PointCloud> {
-                     ++loads_;
-                     const int now = ++at_once_;
-                     int most = most_at_once_;
-                     while (now > most && !most_at_once_.compare_exchange_weak(most, now)) {
-                     }
-                     cloud::PointCloud cloud;
-                     for (int k = 0; k < 2000; ++k)
-                       cloud.points.emplace_back(static_cast<float>(k % 50), static_cast<float>(k / 50),
-                                                 0.0f);
-                     --at_once_;
-                     return cloud;
-                   },
-                   1 << 20};
-  boost::asio::io_context io_;
+  Content content_ = content();
+  FakeLoop loop_;
 };
 
 TEST_P(PreviewMakerTest, every_preview_is_made_once_on_so_many_threads_at_most) {
-  PreviewMaker previews(io_, content_, 2, GetParam());
+  PreviewMaker previews(loop_, content_, 2, GetParam(), {});
   previews.refresh();
   previews.refresh();  // a newer state while the first ones are made
   run();
@@ -64,8 +81,35 @@ TEST_P(PreviewMakerTest, every_preview_is_made_once_on_so_many_threads_at_most) 
   EXPECT_LE(most_at_once_, 2);
 }
 
+TEST_P(PreviewMakerTest, what_its_file_holds_is_not_decoded_again) {
+  const std::filesystem::path file = folder_ / "store.db.previews";
+  EXPECT_EQ(decoded_with(file), 30);
+  EXPECT_EQ(decoded_with(file), 0);
+  std::filesystem::resize_file(file, 5000);
+  EXPECT_EQ(decoded_with(file), 30) << "it was damaged";
+  EXPECT_EQ(decoded_with(file), 0) << "and was written again";
+  EXPECT_EQ(decoded_with(folder_ / "none" / "store.db.previews"), 30)
+      << "one that cannot be written is no end";
+}
+
+TEST_P(PreviewMakerTest, its_file_is_written_again_when_an_eighth_of_it_is_new) {
+  const std::filesystem::path file = folder_ / "store.db.previews";
+  decoded_with(file);
+  const auto bytes = std::filesystem::file_size(file);
+  fleet_.robot("r2", 0, 4);
+  for (std::size_t k = 30; k < 34; ++k)
+    fleet_.view.nodes[k].submap_hash[0] = static_cast<std::uint8_t>(k + 1);
+  EXPECT_EQ(decoded_with(file), 4);
+  EXPECT_EQ(std::filesystem::file_size(file), bytes);
+  fleet_.robot("r3", 0, 1);
+  fleet_.view.nodes[34].submap_hash[0] = 35;
+  EXPECT_EQ(decoded_with(file), 5);
+  EXPECT_GT(std::filesystem::file_size(file), bytes);
+  EXPECT_EQ(decoded_with(file), 0);
+}
+
 TEST_P(PreviewMakerTest, ends_while_it_is_at_work) {
-  PreviewMaker previews(io_, content_, 2, GetParam());
+  PreviewMaker previews(loop_, content_, 2, GetParam(), {});
   previews.refresh();
 }
 
@@ -75,8 +119,8 @@ TEST(PreviewMaker, without_threads_nothing_is_decoded_before_it_is_asked_for) {
   Content content(
       {}, [](const NodeId&) -> Result<cloud::PointCloud> { return failure("nobody asked"); }, 1000);
   content.show(fleet.view);
-  boost::asio::io_context io;
-  PreviewMaker previews(io, content, 0, false);
+  FakeLoop loop;
+  PreviewMaker previews(loop, content, 0, false, {});
   previews.refresh();
   EXPECT_TRUE(content.misses_previews());
 }

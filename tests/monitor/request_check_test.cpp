@@ -15,6 +15,13 @@ TEST(RequestCheck, hosts_are_addresses_or_localhost) {
     EXPECT_FALSE(is_own_host(foreign)) << foreign;
 }
 
+TEST(RequestCheck, addresses_are_of_ipv4_or_ipv6) {
+  for (const char* address : {"0.0.0.0", "192.168.1.5", "::", "fe80::1", "fe80::1%wlan0"})
+    EXPECT_TRUE(is_ip_address(address)) << address;
+  for (const char* none : {"", "localhost", "1.2.3", "1.2.3.4:80", "1.2.3.4%eth0", "[::1]", "::1%"})
+    EXPECT_FALSE(is_ip_address(none)) << none;
+}
+
 TEST(RequestCheck, only_the_own_page_may_ask) {
   EXPECT_TRUE(is_own_origin("", "127.0.0.1:8080"));
   EXPECT_TRUE(is_own_origin("http://127.0.0.1:8080", "127.0.0.1:8080"));
@@ -76,19 +83,22 @@ TEST(RequestCheck, submaps_are_asked_for_by_hash_alone) {
 
 TEST(RequestCheck, several_submaps_are_asked_for_by_their_hashes) {
   const std::string a(32, 'a'), b(32, '0');
-  const auto request = parse_submaps_request("/submaps?count=150&of=" + a + "," + b);
+  const auto request = parse_submaps_request("/submaps?from=64&count=150&of=" + a + "," + b);
   ASSERT_TRUE(request);
+  EXPECT_EQ(request->from, 64u);
   EXPECT_EQ(request->count, 150u);
   EXPECT_EQ(request->hashes, (std::vector{a, b}));
-  std::string longest = "/submaps?count=1&of=" + a;
+  std::string longest = "/submaps?from=0&count=1&of=" + a;
   for (std::size_t k = 1; k < kMaxSubmapsAtOnce; ++k) longest += "," + b;
   ASSERT_TRUE(parse_submaps_request(longest));
   EXPECT_EQ(parse_submaps_request(longest)->hashes.size(), kMaxSubmapsAtOnce);
   for (const std::string& wrong : std::initializer_list<std::string>{
-           longest + "," + a, "/submaps", "/submaps?", "/submaps?of=" + a, "/submaps?count=&of=" + a,
-           "/submaps?count=1&of=", "/submaps?count=1&of=" + a + ",", "/submaps?count=1&of=" + a + b,
-           "/submaps?count=1&of=" + a + ",," + b, "/submaps?count=1&of=" + a.substr(1),
-           "/submaps?count=-1&of=" + a, "/submaps?count=1&of=" + std::string(32, 'g')})
+           longest + "," + a, "/submaps", "/submaps?", "/submaps?of=" + a, "/submaps?count=1&of=" + a,
+           "/submaps?from=0&of=" + a, "/submaps?from=-1&count=1&of=" + a, "/submaps?from=0&count=&of=" + a,
+           "/submaps?from=0&count=1&of=", "/submaps?from=0&count=1&of=" + a + ",",
+           "/submaps?from=0&count=1&of=" + a + b, "/submaps?from=0&count=1&of=" + a + ",," + b,
+           "/submaps?from=0&count=1&of=" + a.substr(1), "/submaps?from=0&count=-1&of=" + a,
+           "/submaps?from=0&count=1&of=" + std::string(32, 'g')})
     EXPECT_FALSE(parse_submaps_request(wrong)) << wrong;
 }
 

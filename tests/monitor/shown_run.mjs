@@ -8,15 +8,31 @@ import {fileURLToPath} from 'node:url';
 export function makeRun(fleetmap, folder, settings = []) {
   const out = join(folder, 'run');
   const source = join(fileURLToPath(new URL('../..', import.meta.url)), 'config/fleets/farm_small.yaml');
-  const run = spawnSync(fleetmap, ['run', '-c', source, '--agents', '2', '--set', 'max_time=30', ...settings.flatMap((one) => ['--set', one]), '--out', out],
-    {encoding: 'utf8', timeout: 200_000});
+  const run = spawnSync(
+    fleetmap,
+    [
+      'run',
+      '-c',
+      source,
+      '--agents',
+      '2',
+      '--set',
+      'max_time=30',
+      ...settings.flatMap((one) => ['--set', one]),
+      '--out',
+      out,
+    ],
+    {encoding: 'utf8', timeout: 200_000},
+  );
   assert.equal(run.status, 0, run.stderr);
   return out;
 }
 
 /** Opens a run on any free port; `url` is where, with the token if there is one. */
 export async function serve(fleetmap, out, options = []) {
-  const server = spawn(fleetmap, ['monitor', '--run', out, '--port', '0', ...options], {stdio: ['ignore', 'pipe', 'inherit']});
+  const server = spawn(fleetmap, ['monitor', '--run', out, '--port', '0', ...options], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   const url = await new Promise((found, failed) => {
     let said = '';
     server.stdout.on('data', (text) => {

@@ -3,101 +3,110 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "monitor/wired_server.hpp"
+#include <optional>
 
 namespace fleetmap::monitor {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
-using testing::WiredServer;
 
 std::shared_ptr<const std::string> text(const std::string& content) {
   return std::make_shared<const std::string>(content);
 }
 
+class FakeSocket : public WebSocket {
+ public:
+  void write(Kind kind, Parts parts) override {
+    EXPECT_EQ(kind, Kind::text);
+    EXPECT_FALSE(writing_) << "one message after the other";
+    writing_ = true;
+    messages.push_back(std::string(parts[0]) + std::string(parts[1]));
+  }
+  void cut() override { is_cut = true; }
+  /// The other side took what is being written.
+  void take(WebSocketSession& session) {
+    writing_ = false;
+    session.on_written();
+  }
+
+  std::vector<std::string> messages;
+  bool is_cut = false;
+
+ private:
+  bool writing_ = false;
+};
+
 class ViewerTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    server_.get("/live",
-                "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n");
-    ASSERT_TRUE(server_.run_until([&] { return !messages().empty(); }));
-    server_.wait_until_idle();
-    ASSERT_EQ(server_.state().viewers.size(), 1u);
-  }
-  Viewer& viewer() { return **server_.state().viewers.begin(); }
-
-  /// Short text frames behind the handshake (RFC 6455, 5.2).
-  std::vector<std::string> messages() const {
-    std::vector<std::string> all;
-    std::size_t at = server_.got().find("\r\n\r\n");
-    if (at == std::string::npos) return all;
-    for (at += 4; at + 2 <= server_.got().size();) {
-      const auto length = static_cast<unsigned char>(server_.got()[at + 1]);
-      EXPECT_EQ(static_cast<unsigned char>(server_.got()[at]), 0x81) << "a whole text";
-      EXPECT_LT(length, 126);
-      all.push_back(server_.got().substr(at + 2, length));
-      at += 2u + length;
-    }
-    return all;
-  }
-  /// One masked text frame, as browsers send.
-  void say(std::size_t size) {
-    std::string frame = "\x81\xfe";
-    frame.push_back(static_cast<char>(size >> 8));
-    frame.push_back(static_cast<char>(size));
-    server_.send(frame + std::string(4, '\0') + std::string(size, 'x'));
-  }
-  bool ended() {
-    return server_.run_until([&] { return server_.closed() && server_.state().connections == 0; });
+  ViewerTest() { viewer_.emplace(state_); }
+  void open() {
+    viewer_->on_open(socket_);
+    socket_.take(*viewer_);
   }
 
-  WiredServer server_;
+  ServerState state_{ServerConfig{}, [](const NodeId&) { return Result<cloud::PointCloud>(); }, {}};
+  FakeSocket socket_;
+  std::optional<Viewer> viewer_;
 };
 
 TEST_F(ViewerTest, gets_the_present_state_when_it_opens) {
-  EXPECT_THAT(server_.got(), StartsWith("HTTP/1.1 101"));
-  EXPECT_THAT(messages(), ElementsAre("{}")) << "and no live status, as there is none yet";
-  EXPECT_EQ(server_.state().viewers_now, 1u);
+  viewer_->send(Viewer::kState, text("before it is open"));
+  EXPECT_THAT(socket_.messages, IsEmpty());
+  open();
+  EXPECT_THAT(socket_.messages, ElementsAre("{}")) << "and no live status, as there is none yet";
+  state_.content.show(LiveStatus{}, false);
+  FakeSocket other;
+  Viewer second(state_);
+  second.on_open(other);
+  other.take(second);
+  ASSERT_EQ(other.messages.size(), 2u);
+  EXPECT_EQ(other.messages[1], *state_.content.live());
+}
+
+TEST_F(ViewerTest, is_counted_as_long_as_it_exists) {
+  EXPECT_THAT(state_.viewers, ElementsAre(&*viewer_));
+  EXPECT_EQ(state_.counters.viewers, 1u);
+  viewer_.reset();
+  EXPECT_THAT(state_.viewers, IsEmpty());
+  EXPECT_EQ(state_.counters.viewers, 0u);
 }
 
 TEST_F(ViewerTest, that_is_slow_misses_states_and_gets_the_newest_of_each_kind) {
-  viewer().send(Viewer::kState, text("under way"));
-  viewer().send(Viewer::kState, text("missed"));
-  viewer().send(Viewer::kLive, text("live"));
-  viewer().send(Viewer::kState, text("newest"));
-  ASSERT_TRUE(server_.run_until([&] { return messages().size() >= 4; }));
-  server_.wait_until_idle();
-  EXPECT_THAT(messages(), ElementsAre("{}", "under way", "live", "newest"));
+  open();
+  viewer_->send(Viewer::kState, text("under way"));
+  viewer_->send(Viewer::kState, text("missed"));
+  viewer_->send(Viewer::kLive, text("live"));
+  viewer_->send(Viewer::kState, text("newest"));
+  for (int k = 0; k < 3; ++k) socket_.take(*viewer_);
+  EXPECT_THAT(socket_.messages, ElementsAre("{}", "under way", "live", "newest"));
 }
 
 TEST_F(ViewerTest, an_empty_text_is_not_sent) {
-  viewer().send(Viewer::kLive, text(""));
-  viewer().send(Viewer::kState, text("a"));
-  ASSERT_TRUE(server_.run_until([&] { return messages().size() >= 2; }));
-  EXPECT_THAT(messages(), ElementsAre("{}", "a"));
+  open();
+  viewer_->send(Viewer::kLive, text(""));
+  viewer_->send(Viewer::kState, text("a"));
+  EXPECT_THAT(socket_.messages, ElementsAre("{}", "a"));
 }
 
 TEST_F(ViewerTest, that_tells_a_little_stays_and_that_tells_more_is_cut) {
-  say(600);
-  server_.wait_until_idle();
-  viewer().send(Viewer::kState, text("still there"));
-  ASSERT_TRUE(server_.run_until([&] { return messages().size() >= 2; }));
-  EXPECT_EQ(server_.state().cut, 0u);
-  say(600);
-  ASSERT_TRUE(ended());
-  EXPECT_EQ(server_.state().cut, 1u);
-  EXPECT_THAT(server_.state().viewers, IsEmpty());
-  EXPECT_EQ(server_.state().viewers_now, 0u);
+  open();
+  viewer_->on_message(WebSocket::Kind::text, std::string(600, 'x'));
+  EXPECT_FALSE(socket_.is_cut);
+  viewer_->on_message(WebSocket::Kind::binary, std::string(600, 'x'));
+  EXPECT_TRUE(socket_.is_cut);
+  EXPECT_EQ(state_.counters.cut, 1u);
+  viewer_->send(Viewer::kState, text("too late"));
+  EXPECT_THAT(socket_.messages, ElementsAre("{}"));
+  EXPECT_LE(viewer_->limits().message_bytes, 1024u) << "or one long message would fill the memory";
 }
 
-TEST_F(ViewerTest, that_goes_without_a_word_is_forgotten) {
-  server_.hang_up();
-  ASSERT_TRUE(ended());
-  EXPECT_THAT(server_.state().viewers, IsEmpty());
-  EXPECT_EQ(server_.state().viewers_now, 0u);
+TEST_F(ViewerTest, that_has_gone_gets_nothing) {
+  open();
+  viewer_->on_closed();
+  viewer_->send(Viewer::kState, text("too late"));
+  EXPECT_THAT(socket_.messages, ElementsAre("{}"));
+  EXPECT_EQ(state_.counters.cut, 0u);
 }
 
 }  // namespace

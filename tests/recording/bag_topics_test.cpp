@@ -70,6 +70,33 @@ TEST(BagTopics, OurOwnNamesNeedNoChoice) {
   EXPECT_EQ(read_all(**reader).size(), 2u);
 }
 
+/// Its map, its fix and its odometry are no sensors, however few others there are.
+TEST(BagTopics, WhatTheProgramPublishedIsNoInput) {
+  const TemporaryFolder folder;
+  const auto bag = folder.path() / "b";
+  write_bag(bag, {{"/velodyne_points", kCloud},
+                  {"/fleetmap/map", kCloud},
+                  {"/fleetmap/submaps", kCloud},
+                  {"/odometry", "nav_msgs/msg/Odometry"}});
+  auto reader = open(bag);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto samples = read_all(**reader);
+  ASSERT_EQ(samples.size(), 1u) << "only the points of the LiDAR";
+  ReaderConfig config;
+  config.topics.wheel = "/odometry";
+  reader = open(bag, config);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 2u) << "unless it is named";
+}
+
+TEST(BagTopics, ALoneOdometryOfAnotherProgramIsTaken) {
+  const TemporaryFolder folder;
+  write_bag(folder.path() / "b", {{"/velodyne_points", kCloud}, {"/odometry", "nav_msgs/msg/Odometry"}});
+  auto reader = open(folder.path() / "b");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(read_all(**reader).size(), 2u);
+}
+
 TEST(BagTopics, MissingTopicsAreNamed) {
   const TemporaryFolder folder;
   const auto bag = folder.path() / "b";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/time.hpp"
@@ -43,17 +44,36 @@ struct UdpFrame {
   std::uint8_t protocol = 17;
 };
 
-inline std::string udp_frame(const UdpFrame& frame, const Bytes& payload) {
-  const std::string udp = number(50'000, 2, true) + number(frame.port, 2, true) +
-                          number(payload.size() + 8, 2, true) + number(0, 2, true) +
-                          std::string(payload.begin(), payload.end());
+inline std::string ip_frame(const UdpFrame& frame, const std::string& data) {
   const std::size_t header = 20 + frame.ip_options.size();
   std::string ip = number(0x40 + header / 4, 1, true) + number(0, 1, true) +
-                   number(header + udp.size(), 2, true) + number(1, 2, true) +
+                   number(header + data.size(), 2, true) + number(1, 2, true) +
                    number(frame.fragment, 2, true) + number(64, 1, true) + number(frame.protocol, 1, true) +
                    number(0, 2, true) + number(frame.source, 4, true) + number(0xffffffff, 4, true) +
                    frame.ip_options;
-  return std::string(12, '\x11') + frame.tags + number(0x0800, 2, true) + ip + udp;
+  return std::string(12, '\x11') + frame.tags + number(0x0800, 2, true) + ip + data;
+}
+
+inline std::string udp_datagram(const UdpFrame& frame, const Bytes& payload) {
+  return number(50'000, 2, true) + number(frame.port, 2, true) + number(payload.size() + 8, 2, true) +
+         number(0, 2, true) + std::string(payload.begin(), payload.end());
+}
+
+inline std::string udp_frame(const UdpFrame& frame, const Bytes& payload) {
+  return ip_frame(frame, udp_datagram(frame, payload));
+}
+
+/// In frames of at most 1500 bytes of IPv4.
+inline std::vector<std::string> udp_fragments(UdpFrame frame, const Bytes& payload) {
+  constexpr std::size_t kPart = 1480;
+  constexpr std::uint16_t kMoreFollow = 0x2000;
+  const std::string datagram = udp_datagram(frame, payload);
+  std::vector<std::string> frames;
+  for (std::size_t at = 0; at < datagram.size(); at += kPart) {
+    frame.fragment = static_cast<std::uint16_t>(at / 8 | (at + kPart < datagram.size() ? kMoreFollow : 0));
+    frames.push_back(ip_frame(frame, datagram.substr(at, kPart)));
+  }
+  return frames;
 }
 
 }  // namespace fleetmap::recording::testing

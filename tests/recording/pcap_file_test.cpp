@@ -92,6 +92,24 @@ TEST(PcapFile, OtherTrafficIsPassedOver) {
   ASSERT_TRUE(file);
   EXPECT_EQ(read(*file).payloads.size(), 1u);
   EXPECT_EQ(file->frames(), 6u);
+  EXPECT_EQ(file->cut_datagrams(), 1u) << "of which fragments are missing";
+}
+
+/// As a LiDAR's packet of more than 1500 bytes is sent, here the last part first.
+TEST(PcapFile, FragmentsArePutTogether) {
+  const TemporaryFolder folder;
+  Bytes payload(4'000);
+  for (std::size_t k = 0; k < payload.size(); ++k) payload[k] = static_cast<std::uint8_t>(k % 251);
+  const std::vector<std::string> frames = udp_fragments({}, payload);
+  ASSERT_EQ(frames.size(), 3u);
+  std::string bytes = pcap_header();
+  for (const std::size_t k : {2u, 0u, 1u}) bytes += pcap_record(kNow, frames[k]);
+  auto file = open_bytes(folder, bytes);
+  ASSERT_TRUE(file);
+  const auto datagram = file->next();
+  ASSERT_TRUE(datagram && *datagram);
+  EXPECT_EQ((*datagram)->port, 2368);
+  EXPECT_EQ(Bytes((*datagram)->payload.begin(), (*datagram)->payload.end()), payload);
   EXPECT_EQ(file->cut_datagrams(), 0u);
 }
 

@@ -10,6 +10,7 @@
 #include "fleetmap/ros_codec/point_cloud2.hpp"
 #include "fleetmap/ros_codec/samples.hpp"
 #include "fleetmap/ros_codec/velodyne_scan.hpp"
+#include "support/livox_message.hpp"
 
 namespace fleetmap::ros_codec {
 namespace {
@@ -132,6 +133,20 @@ TEST(Ros1, VelodyneScanWhosePacketsAreNoMultipleOfFourBytes) {
   }
 }
 
+TEST(Ros1, LivoxPointsWhoseNineteenBytesAreNoMultipleOfFour) {
+  for (const char* frame : {"", "a", "livox_frame"}) {
+    fleetmap::testing::LivoxMessage message{
+        .stamp = 5'250'000'000, .timebase = 5'250'000'000, .frame = frame};
+    for (std::uint8_t k = 0; k < 5; ++k)
+      message.points.push_back({.offset_time = k * 1'000'000u, .x = 0.5f + k, .reflectivity = k, .line = k});
+    for (const char* type : {"livox_ros_driver/msg/CustomMsg", "livox_ros_driver2/msg/CustomMsg"}) {
+      const auto cdr = cdr_from_ros1(type, message.ros1());
+      ASSERT_TRUE(cdr) << cdr.error().message;
+      EXPECT_EQ(*cdr, message.cdr());
+    }
+  }
+}
+
 TEST(Ros1, TfMessageWithNamesOfAnyLength) {
   for (const char* child : {"imu", "velodyne", "os_lidar"}) {
     Ros1Message message;
@@ -166,6 +181,7 @@ TEST(Ros1, WhatIsNoSuchMessageIsRefused) {
   EXPECT_FALSE(cdr_from_ros1("sensor_msgs/msg/PointCloud2", many)) << "4 billion fields";
   EXPECT_FALSE(cdr_from_ros1("tf2_msgs/msg/TFMessage", many)) << "4 billion transforms";
   EXPECT_FALSE(cdr_from_ros1("velodyne_msgs/msg/VelodyneScan", many)) << "4 billion packets";
+  EXPECT_FALSE(cdr_from_ros1("livox_ros_driver/msg/CustomMsg", many)) << "4 billion points";
 }
 
 }  // namespace

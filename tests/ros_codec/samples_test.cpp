@@ -89,12 +89,17 @@ TEST(WheelMessage, RoundTripWithAndWithoutYawRate) {
 
 TEST(OdometryMessage, RoundTripAndRefusals) {
   OdometryMsg odometry{stamp_from_ns(77), se3_exp((Vector6d() << 1, 2, 3, 0.1, 0.2, 3.0).finished()),
-                       0.5 * Matrix6d::Identity()};
+                       0.5 * Matrix6d::Identity(), (Vector6d() << 1, 2, 3, 4, 5, 6).finished(),
+                       0.125 * Matrix6d::Identity()};
   odometry.covariance(0, 5) = odometry.covariance(5, 0) = 0.25;
   const auto back = decode<OdometryMsg>(encode(odometry));
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_TRUE(back->T_odom_base.isApprox(odometry.T_odom_base, 1e-12));
   EXPECT_EQ(back->covariance, odometry.covariance);
+  EXPECT_EQ(back->twist, odometry.twist);
+  EXPECT_EQ(back->twist_covariance, odometry.twist_covariance);
+  odometry.twist[3] = kNan;
+  EXPECT_THAT(decode<OdometryMsg>(encode(odometry)).error().message, HasSubstr("twist is not finite"));
   odometry.T_odom_base.translation().y() = kNan;
   EXPECT_THAT(decode<OdometryMsg>(encode(odometry)).error().message,
               HasSubstr("pose.position is not finite"));

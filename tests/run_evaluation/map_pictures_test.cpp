@@ -42,6 +42,21 @@ TEST(MapPictures, RobotsHaveDifferentColours) {
   EXPECT_NE((*one)[0].png, (*both)[0].png);
 }
 
+TEST(MapPictures, PathsLieAboveTheMap) {
+  const cloud::PointCloud map = ground();
+  const std::vector<std::string> robots{"r1"};
+  const auto without = picture_with_paths(map, robots, {{}});
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_TRUE(is_png(without->png));
+  // Below the ground, where it would be hidden if it were drawn at its height.
+  const auto with = picture_with_paths(map, robots, {{{2.0, 2.0, -1.0}, {8.0, 8.0, -1.0}}});
+  ASSERT_TRUE(with);
+  EXPECT_NE(without->png, with->png);
+  const auto as_high = picture_with_paths(map, robots, {{{2.0, 2.0, 1.0}, {8.0, 8.0, 1.0}}});
+  ASSERT_TRUE(as_high);
+  EXPECT_EQ(with->png, as_high->png);
+}
+
 TEST(MapPictures, DensityByTilesIsThatOfTheWholeMap) {
   const cloud::PointCloud map = ground();
   const auto whole = picture_of_density(map, 2.0);

@@ -128,24 +128,24 @@ TEST(VelodynePacket, OthersAreRefusedWithTheReason) {
   for (const std::size_t size : {0u, 1u, 512u, 1205u, 1207u}) {
     Bytes bytes = whole;
     bytes.resize(size);
-    EXPECT_EQ(refusal(bytes).fault, VelodyneFault::kSize);
+    EXPECT_EQ(refusal(bytes).fault, PacketFault::kSize);
     EXPECT_THAT(refusal(bytes).what, HasSubstr(std::to_string(size) + " bytes, not 1206"));
   }
   Bytes flag = whole;
   put_u16(flag, 700, 0xddff);
-  EXPECT_EQ(refusal(flag).fault, VelodyneFault::kBlock);
+  EXPECT_EQ(refusal(flag).fault, PacketFault::kBlock);
   EXPECT_THAT(refusal(flag).what, HasSubstr("block 7 begins with 0xddff, not 0xeeff"));
   Bytes azimuth = whole;
   put_u16(azimuth, 302, 36000);
-  EXPECT_EQ(refusal(azimuth).fault, VelodyneFault::kBlock);
+  EXPECT_EQ(refusal(azimuth).fault, PacketFault::kBlock);
   EXPECT_THAT(refusal(azimuth).what, HasSubstr("block 3 has an azimuth of 36000/100 deg"));
   Bytes product = whole;
   product[1205] = 0xa1;
-  EXPECT_EQ(refusal(product).fault, VelodyneFault::kDevice);
+  EXPECT_EQ(refusal(product).fault, PacketFault::kDevice);
   EXPECT_THAT(refusal(product).what, HasSubstr("product id 0xa1"));
   Bytes mode = whole;
   mode[1204] = 0x3a;
-  EXPECT_EQ(refusal(mode).fault, VelodyneFault::kDevice);
+  EXPECT_EQ(refusal(mode).fault, PacketFault::kDevice);
   EXPECT_THAT(refusal(mode).what, HasSubstr("return mode 0x3a"));
 }
 

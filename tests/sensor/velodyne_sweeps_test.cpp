@@ -163,8 +163,8 @@ TEST(VelodyneSweeps, WhatIsRefusedChangesNothing) {
   VelodyneSweeps sweeps;
   VelodyneDevice device = device_at(kStart);
   const auto before = scans_of(sweeps, device, milliseconds(150));
-  EXPECT_EQ(sweeps.add(Bytes(1206), kStart).error().fault, VelodyneFault::kDevice);
-  EXPECT_EQ(sweeps.add(Bytes(512), kStart).error().fault, VelodyneFault::kSize);
+  EXPECT_EQ(sweeps.add(Bytes(1206), kStart).error().fault, PacketFault::kDevice);
+  EXPECT_EQ(sweeps.add(Bytes(512), kStart).error().fault, PacketFault::kSize);
   EXPECT_EQ(before.size() + scans_of(sweeps, device, milliseconds(120)).size(), 2u);
   EXPECT_EQ(sweeps.counters().incomplete_sweeps, 0u);
 }

@@ -42,7 +42,8 @@ const std::map<std::string, std::set<std::string>> kDirectArrows = {
     {"output", {"store"}},
     {"eval", {"output"}},
     {"agent", {"odometry", "localization", "loop_closure", "planning", "ros_codec", "output", "trust"}},
-    {"config", {"agent", "bus", "trust", "recording", "sim", "planning"}},
+    {"ros_output", {"monitor", "ros_codec"}},
+    {"config", {"agent", "ros_output", "bus", "trust", "recording", "sim", "planning"}},
     {"fault_injection", {"agent"}},
     {"run_evaluation", {"config", "eval"}},
     {"experiment", {"config", "eval"}},
@@ -60,12 +61,11 @@ const std::map<std::string, std::set<std::string>> kConfined = {
     {"^<draco/", {"src/cloud"}},
     {"^<sqlite3", {"src/store", "src/recording", "src/fault_injection"}},
     {"^<GeographicLib/", {"src/geometry"}},
+    {"^<(gdal|ogr|cpl)", {"src/output/geotiff_module.cpp"}},  // loaded when it is needed
     {"^<embree", {"src/sim"}},
     {"^<png", {"src/eval"}},
-    {"^<boost/",
-     {"src/experiment/student.cpp", "src/monitor/connection", "src/monitor/foxglove/client_session",
-      "src/monitor/preview_maker", "src/monitor/foxglove/feed", "src/monitor/http_", "src/monitor/server",
-      "src/monitor/viewer"}},
+    {"^<boost/", {"src/experiment/student.cpp", "src/monitor/web_server.cpp"}},
+    {"^<boost/(asio|beast)", {"src/monitor/web_server.cpp"}},  // seconds of CPU for each source
     {"^<openssl/", {"src/trust", "src/core/bytes.cpp", "src/core/file_hash.cpp"}},
 };
 
@@ -119,6 +119,14 @@ TEST(IncludeArrows, ThirdPartyHeadersStayWhereTheyBelong) {
       for (const std::string& place : places) at_home |= include.file.starts_with(place);
       EXPECT_TRUE(at_home) << include.file << ":" << include.line << ": " << include.target;
     }
+  }
+}
+
+TEST(IncludeArrows, OnlyTheWebServerCompilesBeast) {
+  for (const std::string& file : structure::cpp_files_below("tests")) {
+    for (const Include& include : structure::includes_of(file))
+      EXPECT_FALSE(std::regex_search(include.target, std::regex("^<boost/(asio|beast)")))
+          << file << ":" << include.line << ": " << include.target;
   }
 }
 

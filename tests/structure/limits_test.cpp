@@ -26,6 +26,18 @@ std::vector<std::string> cpp_files() {
   return files;
 }
 
+/// The monitor's page, and the tests that Node runs.
+std::vector<std::string> script_files() {
+  std::vector<std::string> files;
+  for (const char* root : {"src", "tests"}) {
+    for (const char* extension : {".ts", ".mjs"}) {
+      const auto more = files_below(root, extension);
+      files.insert(files.end(), more.begin(), more.end());
+    }
+  }
+  return files;
+}
+
 /// Counts the bytes that begin a character in UTF-8.
 std::ptrdiff_t characters(const std::string& line) {
   return std::ranges::count_if(line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
@@ -43,6 +55,16 @@ TEST(Limits, FilesHaveAtMost350Lines) {
   const auto files = cpp_files();
   ASSERT_GT(files.size(), 1000u) << "the scan found hardly any file: is FLEETMAP_SOURCE_DIR right?";
   for (const std::string& file : files) EXPECT_LE(lines_of(file).size(), kMaxFileLines) << file;
+}
+
+TEST(Limits, ScriptsHaveAtMost350LinesOf120Characters) {
+  const auto files = script_files();
+  ASSERT_GT(files.size(), 50u) << "the scan found hardly any script";
+  for (const std::string& file : files) {
+    EXPECT_LE(lines_of(file).size(), kMaxFileLines) << file;
+    expect_short_lines(file);
+  }
+  expect_short_lines("src/monitor/page/style.css");
 }
 
 TEST(Limits, FunctionsHaveAtMost50Lines) {

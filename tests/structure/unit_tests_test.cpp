@@ -1,7 +1,6 @@
 // Each unit with logic has a test of its name in the tests of its library.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -14,7 +13,6 @@ namespace fleetmap {
 namespace {
 
 using structure::files_below;
-using structure::library_of;
 using structure::unit_of;
 
 /// Returns in a header that make it a unit with logic of its own.
@@ -26,7 +24,7 @@ bool has_logic(const std::string& header) {
   return std::distance(std::sregex_iterator(text.begin(), text.end(), kReturn), {}) >= kMinReturns;
 }
 
-/// Every source, and every header without a source that has logic.
+/// Every source, every header without a source that has logic, and every module of the monitor's page.
 std::set<std::string> units() {
   std::set<std::string> all, with_source;
   for (const std::string& source : files_below("src", ".cpp")) {
@@ -38,18 +36,33 @@ std::set<std::string> units() {
       if (!with_source.contains(unit_of(header)) && has_logic(header)) all.insert(header);
     }
   }
+  for (const std::string& module : files_below("src", ".ts")) all.insert(module);
   return all;
 }
 
-/// "graph/placement" of tests/graph/solver/placement_test.cpp.
-std::set<std::string> tested() {
+/// "graph/placement" of tests/graph/solver/placement_test.cpp, for sources of that language.
+std::set<std::string> tested(const std::string& extension) {
   const std::string suffix = "_test";
   std::set<std::string> all;
-  for (const std::string& test : files_below("tests", ".cpp")) {
+  for (const std::string& test : files_below("tests", extension)) {
     const std::string unit = unit_of(test);
     if (unit.ends_with(suffix)) all.insert(unit.substr(0, unit.size() - suffix.size()));
   }
   return all;
+}
+
+/// The path of the test that a unit is to have: tests/graph/placement_test.cpp, or in a folder below that.
+std::string test_of(const std::string& unit) {
+  const std::string prefix = "src/", suffix = ".ts";
+  if (!unit.ends_with(suffix)) return "tests/" + unit_of(unit) + "_test.cpp";
+  const std::size_t length = unit.size() - prefix.size() - suffix.size();
+  return "tests/" + unit.substr(prefix.size(), length) + "_test.mjs";
+}
+
+/// Tests a unit's language: a .cpp of the same name does not test a module of the page.
+bool is_tested(const std::string& unit) {
+  static const std::set<std::string> kCpp = tested(".cpp"), kScripts = tested(".mjs");
+  return (unit.ends_with(".ts") ? kScripts : kCpp).contains(unit_of(unit));
 }
 
 std::set<std::string> excepted() {
@@ -61,21 +74,19 @@ std::set<std::string> excepted() {
 }
 
 TEST(UnitTests, EachUnitHasATestOfItsName) {
-  const std::set<std::string> all = units(), named = tested(), exceptions = excepted();
+  const std::set<std::string> all = units(), exceptions = excepted();
   ASSERT_GT(all.size(), 400u) << "the scan found hardly any unit: is FLEETMAP_SOURCE_DIR right?";
-  for (const std::string& unit : all) {
-    EXPECT_TRUE(named.contains(unit_of(unit)) || exceptions.contains(unit))
-        << unit << " has no tests/" << library_of(unit) << "/" << std::filesystem::path(unit).stem().string()
-        << "_test.cpp";
-  }
+  ASSERT_TRUE(all.contains("src/monitor/page/geodesy.ts"));
+  for (const std::string& unit : all)
+    EXPECT_TRUE(is_tested(unit) || exceptions.contains(unit)) << unit << " has no " << test_of(unit);
 }
 
 TEST(UnitTests, NoExceptionIsLeftOver) {
-  const std::set<std::string> all = units(), named = tested();
+  const std::set<std::string> all = units();
   for (const std::string& unit : excepted()) {
     EXPECT_TRUE(all.contains(unit)) << unit
                                     << " is listed in units_without_test.txt, but is no unit any more";
-    EXPECT_FALSE(named.contains(unit_of(unit))) << unit << " has a test now: strike it from the list";
+    EXPECT_FALSE(is_tested(unit)) << unit << " has a test now: strike it from the list";
   }
 }
 

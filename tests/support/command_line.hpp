@@ -24,6 +24,12 @@ class CommandLineTest : public ::testing::Test {
     exit_code_ = process.wait();
     output_ = process.output();
   }
+  /// The program refuses the arguments: exit code 2, and `reason` in its words.
+  void expect_usage_error(std::vector<std::string> arguments, const std::string& reason) {
+    run(std::move(arguments));
+    EXPECT_EQ(exit_code_, 2) << reason << '\n' << output_;
+    EXPECT_NE(output_.find(reason), std::string::npos) << "not \"" << reason << "\", but\n" << output_;
+  }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   const TemporaryFolder folder_;

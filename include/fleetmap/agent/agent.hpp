@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "fleetmap/agent/store_failures.hpp"
 #include "fleetmap/agent/track_recorder.hpp"
 #include "fleetmap/core/quantile_sketch.hpp"
+#include "fleetmap/graph/pose_now.hpp"
 #include "fleetmap/loop_closure/loop_closing.hpp"
 #include "fleetmap/store/sessions.hpp"
 
@@ -51,6 +53,14 @@ class Agent {
   Agent(const Agent&) = delete;
   Agent& operator=(const Agent&) = delete;
 
+  /// Calls `on_pose` with the poses of every scan that the odometry could use.
+  void observe_poses(std::function<void(const graph::PoseNow&)> on_pose) { on_pose_ = std::move(on_pose); }
+  /// The store's content as it was last placed while driving, with placement.method `graph`; null before.
+  std::shared_ptr<const graph::PlacedFleet> placed_fleet() const;
+  /// Configured mounts to be published in /tf_static, when there are new ones.
+  std::vector<sensor::FrameTransform> take_unpublished_mounts() {
+    return perception_->take_unpublished_mounts();
+  }
   /// Makes a node of the points since the last one, as at the end of a mission, and continues with the next
   /// scan.
   void freeze_rest();
@@ -168,6 +178,7 @@ class Agent {
   Stamp begun_{};          ///< when the program started
   Stamp session_begun_{};  ///< if it was not with the program's start
   StoreFailures store_failures_;
+  std::function<void(const graph::PoseNow&)> on_pose_;
 };
 
 }  // namespace fleetmap::agent

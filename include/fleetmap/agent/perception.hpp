@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "fleetmap/agent/odometry_messages.hpp"
 #include "fleetmap/agent/perception_config.hpp"
 #include "fleetmap/agent/sensor_mounts.hpp"
 #include "fleetmap/bus/bus.hpp"
@@ -67,6 +68,10 @@ class Perception {
   localization::EkfCounters localization_counters() const { return ekf_.counters(); }
   const sensor::ClockOffsets& clock_offsets() const { return clock_offsets_; }
   const sensor::SensorHealth& health() const { return health_; }
+  /// Mounts to be published in /tf_static, as SensorMounts has them.
+  std::vector<sensor::FrameTransform> take_unpublished_mounts() {
+    return mounts_.take_unpublished(bus_.now());
+  }
   /// By the configuration or by /tf_static; final with the first scan that is used.
   const Pose& T_base_lidar() const { return config_.odometry.T_base_lidar; }
 
@@ -109,6 +114,7 @@ class Perception {
   std::function<void()> on_scan_;
   odometry::Loam loam_;  ///< touched by the work item under way only
   odometry::LoamCounters loam_counters_;
+  OdometryMessages odometry_messages_;
   localization::Ekf ekf_;
   sensor::ClockOffsets clock_offsets_;
   sensor::SensorHealth health_;

@@ -7,10 +7,12 @@
 #include <string>
 
 #include "fleetmap/agent/device_config.hpp"
+#include "fleetmap/agent/ouster_config.hpp"
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/localization/ekf_config.hpp"
 #include "fleetmap/odometry/lidar_model.hpp"
 #include "fleetmap/odometry/loam_config.hpp"
+#include "fleetmap/ros_codec/points_type.hpp"
 #include "fleetmap/sensor/clock_offsets.hpp"
 
 namespace fleetmap::agent {
@@ -22,28 +24,30 @@ inline constexpr Duration kFramePatience = std::chrono::seconds(2);
 /// Names of the sensor topics on the onboard link, as on the wire ("rt/points" is ROS 2's "/points").
 struct SensorTopics {
   std::string points, imu, fix, wheel;
+  ros_codec::PointsType points_type = ros_codec::PointsType::kPointCloud2;
   SensorTopics();  ///< our own names
 };
 
 struct PerceptionConfig {
-  odometry::LidarModel lidar = odometry::vlp16();
   odometry::LoamConfig odometry;
+  OusterConfig ouster;
   localization::EkfConfig localization;
+  /// So long the first samples of a sensor without a stated mount wait for /tf_static.
+  Duration frame_patience = Duration::zero();
+  std::size_t waiting_scans = 50;  ///< scans that may wait for LOAM; the oldest gives way and is counted
+  /// Why the gyro is taken for one that reports deg/s; found in a recording before it is used.
+  std::optional<std::string> gyro_in_degrees;
+  odometry::LidarModel lidar = odometry::vlp16();
   SensorTopics topics;
+  DeviceConfig devices;
   /// UDP port at which the program receives a Velodyne LiDAR's packets, to publish its scans on topics.points
   /// itself; 0: a driver publishes them. Perception hears the topic either way.
   std::uint16_t velodyne_port = 0;
-  DeviceConfig devices;
+  bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
+  bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   /// The configuration states the mount of LiDAR, IMU and GPS (in the order of sensor::Source), so that
   /// /tf_static does not replace it.
   std::array<bool, sensor::kSources> mount_given{};
-  /// So long the first samples of a sensor without a stated mount wait for /tf_static.
-  Duration frame_patience = Duration::zero();
-  /// Why the gyro is taken for one that reports deg/s; found in a recording before it is used.
-  std::optional<std::string> gyro_in_degrees;
-  bool odometry_uses_imu = true;    ///< angular velocity as rotation prior of LOAM
-  bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
-  std::size_t waiting_scans = 50;   ///< scans that may wait for LOAM; the oldest gives way and is counted
 };
 
 }  // namespace fleetmap::agent

@@ -36,6 +36,11 @@ class SensorMounts {
   void apply_to(PerceptionConfig& config, sensor::Source source) const;
   void apply_to(PerceptionConfig& config) const;
 
+  /// From base_link to the frames of the sensors: the configured mounts that nobody else has published
+  /// `frame_patience` after the first message. All of them when there is a new one to be published in
+  /// /tf_static, else none. They are recognised when they come back.
+  std::vector<sensor::FrameTransform> take_unpublished(Stamp now);
+
   bool by_frames(sensor::Source source) const { return of(source).by_frames; }
   /// Its pose and what states it, in a line.
   std::string summary(sensor::Source source) const;
@@ -54,12 +59,16 @@ class SensorMounts {
   const Mount& of(sensor::Source source) const { return mounts_[static_cast<std::size_t>(source)]; }
   std::string name_of_frame(sensor::Source source) const;
   void decide(sensor::Source source, const Result<Pose>& by_frames);
+  bool published(const sensor::FrameTransform& transform) const;
+  /// A warning if another program publishes a frame that is published from here.
+  void check_parent(const sensor::FrameTransform& transform);
   void warn(const std::string& text);
   /// A warning if they differ.
   void compare(sensor::Source source, const Pose& by_frames, const std::string& decision);
 
   std::array<Mount, sensor::kSources> mounts_;
-  sensor::SensorFrames frames_;
+  sensor::SensorFrames frames_;                    ///< of others
+  std::vector<sensor::FrameTransform> published_;  ///< from here
   Duration patience_;
   std::optional<Stamp> waits_since_;  ///< the first message of any sensor
   std::vector<std::string> warnings_;

@@ -14,6 +14,7 @@
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/planning/mission/mission_config.hpp"
 #include "fleetmap/recording/reader.hpp"
+#include "fleetmap/ros_output/ros_output_config.hpp"
 #include "fleetmap/sim/robot_twin.hpp"
 #include "fleetmap/sim/robot_twin_config.hpp"
 
@@ -41,6 +42,7 @@ struct FleetConfig {
   struct Member {
     agent::AgentConfig agent;
     std::optional<RecordingConfig> recording;
+    ros_output::RosOutputConfig ros;
     sim::RobotTwinConfig robot;
     std::string robot_at;  ///< file, line and key of it or, without it, of the agent, for messages
     std::vector<SwitchedOff> switched_off;  ///< in the order of time, apart from each other

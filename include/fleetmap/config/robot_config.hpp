@@ -8,6 +8,7 @@
 #include "fleetmap/bus/dds_bus_config.hpp"
 #include "fleetmap/config/recording_config.hpp"
 #include "fleetmap/planning/mission/mission_config.hpp"
+#include "fleetmap/ros_output/ros_output_config.hpp"
 
 namespace fleetmap::config {
 
@@ -31,6 +32,7 @@ struct RobotConfig {
   std::optional<RobotMission> mission;
   bus::DdsBusConfig dds;
   std::optional<RecordingConfig> recording;
+  ros_output::RosOutputConfig ros;
 };
 
 }  // namespace fleetmap::config

@@ -9,7 +9,7 @@
 
 namespace fleetmap::eval {
 
-/// The first row names the columns. Every cell is escaped.
+/// The first row names the columns. Every cell is escaped; sentences wrap, short cells do not.
 using Table = std::vector<std::vector<std::string>>;
 
 /// One HTML page that needs no other file, light or dark as the reader's system is, for wide and narrow
@@ -20,6 +20,8 @@ class HtmlPage {
   HtmlPage& heading(const std::string& text);
   HtmlPage& paragraph(const std::string& text);
   HtmlPage& table(const Table& rows);
+  /// Sentences that stand out from the rest.
+  HtmlPage& warnings(const std::vector<std::string>& sentences);
   /// Figures that follow each other stand side by side where there is room.
   HtmlPage& figure(const std::string& svg, const std::string& caption = "");
   HtmlPage& picture(const std::vector<std::uint8_t>& png, const std::string& caption);

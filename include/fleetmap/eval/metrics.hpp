@@ -68,6 +68,8 @@ Result<MapMetrics> evaluate_registered_map(const cloud::PointCloud& map, const c
 
 /// Metrics that need no truth: density, area and number of points. The other fields stay 0.
 MapMetrics describe_map(const cloud::PointCloud& map, const MapMetricsConfig& config = {});
+/// MapMetrics::mapped_area alone.
+double mapped_area(const cloud::PointCloud& map);
 
 /// m, distance of each map point to the truth's surface as in MapMetrics, at most `cap`; `cap` for
 /// non-finite points and where there is no truth. `map` must already be registered to the truth.

@@ -108,15 +108,19 @@ struct AgentStatus {
 /// itself or for all, the one with the latest stamp is in force.
 struct HoldOrder {
   enum class Kind : std::uint8_t {
-    kResume,  ///< drive the mission
-    kHold,    ///< stand still
-    kHome,    ///< give all rows away and drive back to the start
+    kResume,    ///< drive the mission
+    kHold,      ///< stand still
+    kHome,      ///< give all rows away and drive back to the start
+    kHoldHome,  ///< stand still; the call home before stays in force
   };
   Stamp stamp;    ///< when it was given; raised above that of the order which it replaces, whatever the clock
   AgentId robot;  ///< empty: every robot
   AgentId issuer;  ///< for people
   Kind kind = Kind::kResume;
   bool operator==(const HoldOrder&) const = default;
+
+  bool stops() const { return kind == Kind::kHold || kind == Kind::kHoldHome; }
+  bool calls_home() const { return kind == Kind::kHome || kind == Kind::kHoldHome; }
 };
 
 /// An operator's order to give a row away. Of the orders for a row the one with the latest stamp is in force.

@@ -34,7 +34,7 @@ struct RobotNow {
   std::size_t nodes = 0, alignments = 0, submaps = 0;  ///< held
   std::size_t backlog_bytes = 0;                       ///< waiting for its radio
   bool ordered_to_hold = false;                        ///< an operator's order is in force
-  bool called_home = false;                            ///< likewise
+  bool called_home = false;                            ///< likewise, also while it is ordered to hold
   std::vector<std::uint32_t> rows;                     ///< ids of those that it still has to drive
   bool driven = false;  ///< orders are for it: it has not said that fleetmap does not drive it
 };
@@ -45,6 +45,7 @@ struct SensorNow {
   std::uint64_t samples = 0;
   double per_second = 0.0;
   std::optional<double> clock_behind_s, clock_slow_ppm;
+  double silent_s = 0.0;  ///< since the last sample, if there was one; to 1 s
 };
 
 /// Traffic of one kind of message, B/s on the wire.

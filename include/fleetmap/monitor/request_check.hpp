@@ -21,6 +21,8 @@ struct RequestHead {
 bool is_own_host(std::string_view host);
 /// No Origin, or that of this server: a page of another site may not read or open anything here.
 bool is_own_origin(std::string_view origin, std::string_view host);
+/// The address is one of IPv4 or IPv6, also with a zone: "fe80::1%wlan0".
+bool is_ip_address(const std::string& address);
 /// The address is one of this machine alone.
 bool is_loopback(std::string_view address);
 
@@ -45,10 +47,10 @@ struct SubmapRequest {
 };
 std::optional<SubmapRequest> parse_submap_request(std::string_view target);
 
-/// First points of several submaps: "/submaps?count=N&of=HASH,HASH", at most kMaxSubmapsAtOnce.
+/// Some first points of several submaps: "/submaps?from=N&count=N&of=HASH,HASH", at most kMaxSubmapsAtOnce.
 struct SubmapsRequest {
   std::vector<std::string> hashes;
-  std::size_t count = 0;  ///< of each
+  std::size_t from = 0, count = 0;  ///< of each
 };
 inline constexpr std::size_t kMaxSubmapsAtOnce = 128;
 std::optional<SubmapsRequest> parse_submaps_request(std::string_view target);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "fleetmap/core/result.hpp"
@@ -21,6 +22,7 @@ struct ServerConfig {
   std::size_t cached_bytes = 64u << 20;               ///< of submaps that were decoded
   unsigned preview_threads = 0;           ///< that decode first points before a viewer asks for them
   bool background = false;                ///< they run when nothing else does
+  std::filesystem::path preview_file;     ///< keeps what they made for the next start; empty: nothing does
   std::size_t foxglove_points = 300'000;  ///< of the map that Foxglove clients get, at most
   std::chrono::milliseconds foxglove_map_period{5'000};  ///< from one of these maps to the next
   Status validate() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ enum class RingSource {
   kPointOrder,  ///< points come ring by ring from the topmost one, each a full turn (KITTI files)
   kNone,        ///< no rings: non-repeating patterns
 };
+
+inline constexpr std::size_t kMaxRings = 256;
 
 /// Model of a LiDAR. Azimuth is atan2(y, x) in the LiDAR frame (x forward, z up).
 struct LidarModel {

@@ -30,6 +30,7 @@ struct Counters {
   std::uint64_t scans = 0, imus = 0, fixes = 0, wheels = 0;  ///< given out
   std::uint64_t non_finite_points = 0;                       ///< of the scans read
   std::uint64_t origin_points = 0;              ///< exactly (0, 0, 0): no return; of the scans read
+  std::uint64_t noise_points = 0;               ///< marked as noise by a Livox LiDAR; of the scans read
   std::uint64_t undecodable_messages = 0;       ///< truncated or contradictory; skipped
   std::uint64_t damaged_parts = 0;              ///< of an mcap or ROS 1 file; left out
   std::uint64_t empty_scans = 0;                ///< without a single return; skipped
@@ -38,8 +39,8 @@ struct Counters {
   std::uint64_t microsecond_scans = 0;          ///< point times in microseconds instead of nanoseconds
   std::uint64_t foreign_clock_scans = 0;        ///< point times in a clock unrelated to the scan's stamp
   std::uint64_t unstamped_messages = 0;         ///< header stamp 0: the time of recording was taken
-  std::uint64_t packets_of_wrong_size = 0;      ///< of a Velodyne LiDAR, as the next two; skipped
-  std::uint64_t packets_of_wrong_blocks = 0;    ///< a data block without its flag or with no azimuth; skipped
+  std::uint64_t packets_of_wrong_size = 0;      ///< of a LiDAR, as the next two; skipped
+  std::uint64_t packets_of_wrong_blocks = 0;    ///< they contradict the format or those before; skipped
   std::uint64_t packets_of_unknown_device = 0;  ///< product id or return mode; skipped
   std::uint64_t packets_of_other_devices = 0;   ///< of a capture with several LiDARs; skipped
   std::uint64_t incomplete_sweeps = 0;          ///< a part of a turn at an end or a pause; skipped
@@ -73,10 +74,10 @@ class Reader {
 };
 
 /// Opens a rosbag2 folder or a single file of one (.db3 or .mcap, plain, lz4 or zstd), a ROS 1 bag, a capture
-/// of a Velodyne LiDAR's packets (.pcap), a KITTI folder (raw: velodyne_points and oxts; odometry benchmark:
-/// velodyne and times.txt, scans that are motion compensated), or a bare folder of scans (.bin or .pcd, as
-/// everywhere also as .xz). Missing parts of such a folder are assumed with a warning. Errors name the remedy
-/// for other formats and topics that cannot be chosen.
+/// of the packets of a Velodyne or an Ouster LiDAR (.pcap), a KITTI folder (raw: velodyne_points and oxts;
+/// odometry benchmark: velodyne and times.txt, scans that are motion compensated), or a bare folder of scans
+/// (.bin or .pcd, as everywhere also as .xz). Missing parts of such a folder are assumed with a warning.
+/// Errors name the remedy for other formats and topics that cannot be chosen.
 Result<std::unique_ptr<Reader>> open(const std::filesystem::path& path, const ReaderConfig& config = {},
                                      ScanContent content = ScanContent::kPoints);
 

@@ -11,11 +11,12 @@
 
 namespace fleetmap::ros_codec {
 
-/// A decoded PointCloud2 and what was left out of it.
+/// A decoded message of points and what was left out of it.
 struct DecodedScan {
   sensor::Scan scan;
   std::size_t non_finite_points = 0;  ///< dropped: NaN or infinite coordinate
   std::size_t origin_points = 0;      ///< dropped: exactly (0, 0, 0), the mark of "no return"
+  std::size_t noise_points = 0;       ///< dropped: the device marks them as noise
   /// Point times were absolute in a clock more than 10 s away from the header's; they were counted from the
   /// earliest point instead.
   bool foreign_clock = false;

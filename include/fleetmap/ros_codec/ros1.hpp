@@ -8,8 +8,8 @@
 namespace fleetmap::ros_codec {
 
 /// A message as ROS 1 serialises it, as CDR of the ROS 2 type ("sensor_msgs/msg/Imu"), for decode(). Handles
-/// PointCloud2, Imu, NavSatFix, Odometry, TFMessage and VelodyneScan. Errors for other types and for bytes
-/// that are not exactly such a message.
+/// PointCloud2, Imu, NavSatFix, Odometry, TFMessage, VelodyneScan and CustomMsg of the Livox drivers. Errors
+/// for other types and for bytes that are not exactly such a message.
 Result<Bytes> cdr_from_ros1(std::string_view type, ByteView message);
 
 }  // namespace fleetmap::ros_codec

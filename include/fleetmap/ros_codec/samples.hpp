@@ -16,6 +16,8 @@ struct OdometryMsg {
   Pose T_odom_base = Pose::Identity();  ///< O
   /// Covariance of [translation (m), rotation (rad)], both in the axes of the odometry frame.
   Matrix6d covariance = Matrix6d::Zero();
+  Vector6d twist = Vector6d::Zero();             ///< of base_link in base_link, [m/s, rad/s]
+  Matrix6d twist_covariance = Matrix6d::Zero();  ///< in base_link
 };
 
 /// Command to the base; on the wire a geometry_msgs::msg::dds_::Twist_.

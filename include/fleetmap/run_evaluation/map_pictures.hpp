@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -21,6 +22,12 @@ struct MapPicture {
 /// map_top.png and map_perspective.png: each point in the colour of the robot that saw it first, brighter the
 /// higher it is above the ground.
 Result<std::vector<MapPicture>> pictures_by_robot(const store::MergedMap& map);
+/// Positions of a robot in the map's frame, in order.
+using Path = std::vector<Eigen::Vector3d>;
+/// map_plan.png: the map from above in grey, brighter the higher it is above the ground, under the paths of
+/// robots; `robots` runs parallel to `paths`.
+Result<MapPicture> picture_with_paths(const cloud::PointCloud& map, const std::vector<std::string>& robots,
+                                      const std::vector<Path>& paths);
 /// map_error.png: distance to the truth; `errors` (m) runs parallel to the points.
 Result<MapPicture> picture_of_errors(const cloud::PointCloud& points, const std::vector<float>& errors);
 /// map_density.png: points within `radius` (m), Eq. 4; of the whole map, or of points of it with their

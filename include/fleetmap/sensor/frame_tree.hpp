@@ -26,6 +26,9 @@ class FrameTree {
   /// not of length 1; the error names both frames.
   Status add(const FrameTransform& transform);
   bool empty() const { return by_child_.empty(); }
+  bool has_parent(const std::string& frame) const { return by_child_.contains(name_of(frame)); }
+  /// Without the leading slash.
+  static std::string name_of(const std::string& frame);
   /// T_base_frame by way of the common root of both. The error names the frames that do not connect, or those
   /// that form a cycle.
   Result<Pose> find(const std::string& base, const std::string& frame) const;

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <tl/expected.hpp>
 #include <vector>
 
 #include "fleetmap/core/bytes.hpp"
+#include "fleetmap/sensor/packet_refusal.hpp"
 #include "fleetmap/sensor/scan.hpp"
 #include "fleetmap/sensor/velodyne_model.hpp"
 
@@ -14,14 +14,6 @@ namespace fleetmap::sensor {
 
 /// UDP payload of a data packet: 12 blocks of 100 bytes, timestamp, return mode, product id.
 inline constexpr std::size_t kVelodynePacketBytes = 1206;
-
-enum class VelodyneFault : std::uint8_t { kSize, kBlock, kDevice };
-
-/// Why a packet is refused.
-struct VelodyneRefusal {
-  VelodyneFault fault = VelodyneFault::kSize;
-  std::string what;  ///< with the value that was found
-};
 
 /// A data block of returns.
 struct VelodyneBlock {
@@ -43,7 +35,7 @@ struct VelodynePacket {
 /// Refuses another size than 1206 bytes, a block without its flag (0xeeff) or with an azimuth of 360 deg or
 /// more, an unknown return mode (strongest 0x37, last 0x38, dual 0x39 are known) and an unknown product id.
 /// Packets of the HDL-32E from before it sent these two bytes are therefore refused.
-tl::expected<VelodynePacket, VelodyneRefusal> read_velodyne_packet(ByteView bytes);
+tl::expected<VelodynePacket, PacketRefusal> read_velodyne_packet(ByteView bytes);
 
 /// Appends the returns of a block, in order of firing: x forward, y left, z up; azimuth interpolated by the
 /// times at which the lasers fire. `start` is the time of its first firing, s after the scan's stamp.

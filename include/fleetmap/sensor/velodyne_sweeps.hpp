@@ -21,7 +21,7 @@ struct VelodyneCounters {
 class VelodyneSweeps {
  public:
   /// `arrival` is when the packet was received; it resolves the hour (HourClock).
-  tl::expected<void, VelodyneRefusal> add(ByteView packet, Stamp arrival);
+  tl::expected<void, PacketRefusal> add(ByteView packet, Stamp arrival);
   /// No more packets follow.
   void finish();
   /// The next scan that is complete.

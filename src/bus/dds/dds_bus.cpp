@@ -20,7 +20,6 @@
 namespace fleetmap::bus {
 namespace {
 
-constexpr std::array kLinks = {Link::kOnboard, Link::kLongRange, Link::kShortRange};
 constexpr auto kFlagPeriod = std::chrono::milliseconds(100);
 /// A scan takes some ms, a registration seconds on a slow computer.
 constexpr Duration kPerceptionStuckAfter = std::chrono::seconds(2);

@@ -6,12 +6,6 @@
 #include "participant_qos.hpp"
 
 namespace fleetmap::bus {
-namespace {
-
-constexpr std::array kLinks = {Link::kOnboard, Link::kLongRange, Link::kShortRange};
-
-}  // namespace
-
 const DdsLinkConfig& config_of(const DdsBusConfig& config, Link link) {
   switch (link) {
     case Link::kLongRange:

@@ -19,10 +19,11 @@ using eprosima::fastcdr::FastBuffer;
 
 constexpr std::uint8_t kSchema = 4;
 constexpr std::uint8_t kFirstWithHead = 2;
-constexpr std::size_t kEncapsulation = 4;
-constexpr std::size_t kHead = kEncapsulation + 28;  // to `port`, in every version
+constexpr std::size_t kEncapsulationBytes = 4;
+constexpr std::size_t kHead = kEncapsulationBytes + 28;  // to `port`, in every version
 constexpr std::size_t kIntroduction = 28;
-constexpr std::size_t kMaxBytes = kEncapsulation + 48 + 4 * kMaxReads + 8 + kIntroduction * kMaxIntroductions;
+constexpr std::size_t kMaxHelloBytes =
+    kEncapsulationBytes + 48 + 4 * kMaxReads + 8 + kIntroduction * kMaxIntroductions;
 constexpr std::size_t kVendorBytes = 2;
 const std::array<std::uint8_t, kVendorBytes> kVendor{eprosima::fastdds::rtps::c_VendorId_eProsima[0],
                                                      eprosima::fastdds::rtps::c_VendorId_eProsima[1]};
@@ -89,7 +90,7 @@ Bytes encode(const Hello& hello) {
   idl.joined_ago(to_units<std::uint8_t>(hello.joined_ago, kJoinedUnit));
   idl.seeks(hello.seeks);
   for (const Introduction& introduction : hello.introduces) idl.introduces().push_back(to_idl(introduction));
-  Bytes bytes(kEncapsulation + msg::Hello::getCdrSerializedSize(idl));
+  Bytes bytes(kEncapsulationBytes + msg::Hello::getCdrSerializedSize(idl));
   FastBuffer buffer(reinterpret_cast<char*>(bytes.data()), bytes.size());
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
   cdr.serialize_encapsulation();
@@ -99,7 +100,8 @@ Bytes encode(const Hello& hello) {
 }
 
 std::optional<Hello> decode_hello(const Bytes& bytes) {
-  if (bytes.size() <= kEncapsulation || bytes.size() > kMaxBytes || bytes[kEncapsulation] != kSchema)
+  if (bytes.size() <= kEncapsulationBytes || bytes.size() > kMaxHelloBytes ||
+      bytes[kEncapsulationBytes] != kSchema)
     return std::nullopt;
   msg::Hello idl;
   try {
@@ -136,10 +138,11 @@ std::optional<Hello> decode_hello(const Bytes& bytes) {
 }
 
 std::optional<OtherHello> decode_other_hello(const Bytes& bytes) {
-  if (bytes.size() < kHead || bytes[kEncapsulation] == kSchema || bytes[kEncapsulation] < kFirstWithHead)
+  if (bytes.size() < kHead || bytes[kEncapsulationBytes] == kSchema ||
+      bytes[kEncapsulationBytes] < kFirstWithHead)
     return std::nullopt;
   OtherHello hello;
-  hello.version = bytes[kEncapsulation];
+  hello.version = bytes[kEncapsulationBytes];
   try {
     FastBuffer buffer(reinterpret_cast<char*>(const_cast<std::uint8_t*>(bytes.data())), bytes.size());
     Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);

@@ -15,21 +15,22 @@
 namespace fleetmap::bus {
 namespace {
 
-namespace dds = eprosima::fastdds::rtps;
+namespace transport = eprosima::fastdds::rtps;
 namespace rtps = eprosima::fastrtps::rtps;
 
-struct RadioDescriptor final : dds::ChainingTransportDescriptor {
-  RadioDescriptor(std::shared_ptr<dds::TransportDescriptorInterface> low, std::shared_ptr<RadioGuard> keys)
+struct RadioDescriptor final : transport::ChainingTransportDescriptor {
+  RadioDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> low,
+                  std::shared_ptr<RadioGuard> keys)
       : ChainingTransportDescriptor(std::move(low)), guard(std::move(keys)) {}
-  dds::TransportInterface* create_transport() const override;
+  transport::TransportInterface* create_transport() const override;
   std::shared_ptr<RadioGuard> guard;  ///< null without keys
 };
 
-class RadioTransport final : public dds::ChainingTransport {
+class RadioTransport final : public transport::ChainingTransport {
  public:
   explicit RadioTransport(const RadioDescriptor& descriptor)
       : ChainingTransport(descriptor), descriptor_(descriptor) {}
-  dds::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
 
   bool send(rtps::SenderResource* low, const rtps::octet* buffer, std::uint32_t size,
             rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
@@ -41,7 +42,7 @@ class RadioTransport final : public dds::ChainingTransport {
     if (descriptor_.guard) return put(descriptor_.guard->seal(message));
     return put(ends_like_statistics(message) ? whole : message);
   }
-  void receive(dds::TransportReceiverInterface* next, const rtps::octet* buffer, std::uint32_t size,
+  void receive(transport::TransportReceiverInterface* next, const rtps::octet* buffer, std::uint32_t size,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
     if (!descriptor_.guard) return next->OnDataReceived(buffer, size, local, remote);
     const auto message = descriptor_.guard->open({buffer, size}, rtps::IPLocator::toIPv4string(remote));
@@ -53,7 +54,7 @@ class RadioTransport final : public dds::ChainingTransport {
   RadioDescriptor descriptor_;
 };
 
-dds::TransportInterface* RadioDescriptor::create_transport() const { return new RadioTransport(*this); }
+transport::TransportInterface* RadioDescriptor::create_transport() const { return new RadioTransport(*this); }
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace fleetmap::graph {
 namespace {
 
 constexpr std::size_t kMaxHypotheses = 32;  ///< bounds the cost
-constexpr std::size_t kMinPeers = 2;
+constexpr std::size_t kMinContradictedPeers = 2;
 
 constexpr double kMeanDistance = 3.0;  ///< squared Mahalanobis distance of a right hypothesis: its dimensions
 constexpr double kMinDifference = 13.8;  ///< of squared distances: a thousand times as likely
@@ -99,7 +99,7 @@ std::optional<AgentId> likeliest_cause(const BestHypotheses& best, const JointHy
   std::optional<AgentId> found;
   double min_distance = std::numeric_limits<double>::infinity(), second = distance_without_one(joint);
   for (const auto& entry : peers) {
-    if (entry.second.size() < kMinPeers) continue;
+    if (entry.second.size() < kMinContradictedPeers) continue;
     const auto distance = distance_of(joint, [&](std::size_t k) { return !best.concerns(k, entry.first); });
     if (!distance) continue;
     second = std::min(second, std::max(min_distance, *distance));
@@ -117,7 +117,7 @@ std::optional<AgentId> likeliest_cause(const BestHypotheses& best, const JointHy
 std::optional<AgentId> contradicting_agent(const RejectionProblem& problem, const PriorEvidence& evidence,
                                            const SolvedGraph& prior) {
   const BestHypotheses best = best_hypotheses(problem, evidence);
-  if (best.all.size() <= kMinPeers) return {};
+  if (best.all.size() <= kMinContradictedPeers) return {};
   const JointHypotheses joint(problem.candidates, best.all, prior, 1);
   if (joint.are_consistent(joint.select([](std::size_t) { return true; }))) return {};
   const Peers peers = peers_of(best);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <boost/beast/websocket.hpp>
 #include <deque>
 #include <memory>
 #include <string>
@@ -9,41 +8,43 @@
 #include "feed.hpp"
 #include "server_state.hpp"
 #include "subscriptions.hpp"
+#include "web_socket.hpp"
 
 namespace fleetmap::monitor::foxglove {
 
 /// The WebSocket of a Foxglove client. It gets the newest message of each channel that it subscribed to; what
 /// it is too slow for is left out.
-class ClientSession : public Client, public std::enable_shared_from_this<ClientSession> {
+class ClientSession : public Client, public WebSocketSession {
  public:
-  ClientSession(ServerState& state, beast::tcp_stream stream, std::shared_ptr<CountedConnection> counted)
-      : state_(state), counted_(std::move(counted)), socket_(std::move(stream)) {}
+  explicit ClientSession(ServerState& state);
   ~ClientSession() override;
+  ClientSession(const ClientSession&) = delete;
+  ClientSession& operator=(const ClientSession&) = delete;
 
-  /// Accepts the WebSocket that `request` opens, with a subprotocol of chosen_subprotocol().
-  void run(const Request& request, const std::string& subprotocol);
   void wake() override { write_next(); }
-  bool wants_map() const override { return open_ && subscriptions_.has(FleetChannels::kMapChannel); }
+  bool wants_map() const override {
+    return socket_ != nullptr && subscriptions_.has(FleetChannels::kMapChannel);
+  }
   void warn(const std::string& text) override { send_status(StatusLevel::warning, text); }
 
+  Limits limits() const override;
+  void on_open(WebSocket& socket) override;
+  void on_message(WebSocket::Kind kind, std::string_view message) override;
+  void on_written() override;
+  void on_closed() override { socket_ = nullptr; }
+
  private:
-  void read();
-  void on_message();
   void send_status(StatusLevel level, const std::string& text);
   void write_next();
   std::string next_text();
-  template <class Buffers>
-  void write(bool is_text, const Buffers& buffers);
-  void cut();
+  void write(WebSocket::Kind kind, WebSocket::Parts parts);
 
   ServerState& state_;
-  std::shared_ptr<CountedConnection> counted_;
-  beast::websocket::stream<beast::tcp_stream> socket_;
-  beast::flat_buffer buffer_;
+  WebSocket* socket_ = nullptr;  ///< while it is open
   Subscriptions subscriptions_;
   std::deque<std::string> texts_;  ///< that wait
   std::size_t advertised_ = 0;     ///< channels
-  bool open_ = false, writing_ = false;
+  bool writing_ = false;
   // These are being written, so they must stay.
   std::string text_;
   std::array<std::uint8_t, 13> header_{};

@@ -1,19 +1,17 @@
 #include "feed.hpp"
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 
 #include "fleetmap/monitor/request_check.hpp"
 
 namespace fleetmap::monitor::foxglove {
 
-Feed::Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const FeedConfig& config)
-    : io_(io),
+Feed::Feed(EventLoop& loop, Content& content, const std::set<Client*>& clients, const FeedConfig& config)
+    : loop_(loop),
       clients_(clients),
       config_(config),
       session_(random_token()),
-      map_(config.map_points, [&content](const graph::Node& node) { return content.cloud(node); }),
-      pause_(io, std::chrono::steady_clock::now()) {}
+      map_(config.map_points, [&content](const graph::Node& node) { return content.cloud(node); }) {}
 
 void Feed::show(std::shared_ptr<const FleetView> view) {
   view_ = view;
@@ -39,8 +37,7 @@ bool Feed::map_is_wanted() const {
 void Feed::build_map() {
   if (building_ || !outdated_ || !map_is_wanted()) return;
   building_ = true;
-  pause_.async_wait([this](error_code error) {
-    if (error) return;
+  loop_.post_at(next_map_, [this] {
     outdated_ = false;
     map_.begin(view_);
     next_submap();
@@ -55,12 +52,12 @@ void Feed::next_submap() {
   }
   if (!map_.step()) return finish_map();
   building_ = true;
-  net::post(io_, [this] { next_submap(); });
+  loop_.post([this] { next_submap(); });
 }
 
 void Feed::finish_map() {
   channels_.show_map(map_.message());
-  pause_.expires_after(config_.map_period);
+  next_map_ = EventLoop::Clock::now() + config_.map_period;
   const std::vector<NodeId>& unreadable = map_.unreadable();
   for (Client* client : clients_) {
     if (!unreadable.empty() && client->wants_map())

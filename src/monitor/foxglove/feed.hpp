@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <memory>
 #include <set>
@@ -8,9 +7,9 @@
 #include <string>
 
 #include "content.hpp"
+#include "event_loop.hpp"
 #include "feed_config.hpp"
 #include "fleet_channels.hpp"
-#include "http_types.hpp"
 #include "thinned_map.hpp"
 
 namespace fleetmap::monitor::foxglove {
@@ -32,7 +31,7 @@ class Client {
 /// which the thread serves others, and with a pause of `map_period` after each.
 class Feed {
  public:
-  Feed(net::io_context& io, Content& content, const std::set<Client*>& clients, const FeedConfig& config);
+  Feed(EventLoop& loop, Content& content, const std::set<Client*>& clients, const FeedConfig& config);
 
   void show(std::shared_ptr<const FleetView> view);
   void show(std::shared_ptr<const LiveStatus> status);
@@ -49,13 +48,13 @@ class Feed {
   void finish_map();
   void wake_all();
 
-  net::io_context& io_;
+  EventLoop& loop_;
   const std::set<Client*>& clients_;
   FeedConfig config_;
   std::string session_;
   FleetChannels channels_;
   ThinnedMap map_;
-  net::steady_timer pause_;  ///< expires when the next map may begin
+  EventLoop::Clock::time_point next_map_{};  ///< may begin then
   std::shared_ptr<const FleetView> view_;
   bool outdated_ = false;  ///< the map, by `view_`
   bool building_ = false;

@@ -1,13 +1,9 @@
 #pragma once
 
 #include "fleetmap/core/bytes.hpp"
-#include "fleetmap/core/time.hpp"
 #include "fleetmap/monitor/fleet_view.hpp"
 
 namespace fleetmap::monitor::foxglove {
-
-/// Stamp of the newest node; the epoch without any.
-Stamp newest_stamp(const FleetView& view);
 
 /// One entity a robot, named by it: its placed nodes as spheres, joined by a line within each session.
 /// foxglove::SceneUpdate as CDR.

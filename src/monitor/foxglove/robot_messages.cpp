@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "basic_types.hpp"
-#include "fleetmap/graph/located_nodes.hpp"
 
 namespace fleetmap::monitor::foxglove {
 namespace {
@@ -24,27 +23,6 @@ std::uint32_t clamped(std::size_t value) {
 }
 
 }  // namespace
-
-std::map<AgentId, LastNode> last_nodes(const FleetView& view) {
-  const auto floating = graph::not_georeferenced(view.nodes, view.placement.components);
-  std::map<AgentId, LastNode> last;
-  for (const graph::Node& node : view.nodes) {
-    const auto placed = view.placement.T_enu_node.find(node.id);
-    if (placed == view.placement.T_enu_node.end()) continue;
-    const auto [robot, first] = last.try_emplace(node.id.agent);
-    if (!first && std::pair(node.stamp, node.id) < std::pair(robot->second.stamp, robot->second.id)) continue;
-    robot->second = {.id = node.id,
-                     .stamp = node.stamp,
-                     .T_enu_node = placed->second,
-                     .georeferenced = std::ranges::find(floating, node.frame()) == floating.end(),
-                     .covariance = std::nullopt};
-  }
-  for (auto& [robot, node] : last) {
-    const auto C = view.placement.covariance.find(node.id);
-    if (C != view.placement.covariance.end()) node.covariance = C->second;
-  }
-  return last;
-}
 
 Bytes transforms_message(const std::map<AgentId, LastNode>& robots) {
   CdrWriter cdr;
@@ -92,6 +70,7 @@ Bytes status_message(const RobotNow& robot) {
   for (const std::size_t held : {robot.nodes, robot.alignments, robot.submaps, robot.backlog_bytes})
     cdr.number(clamped(held));
   cdr.flag(robot.ordered_to_hold);
+  cdr.flag(robot.called_home);
   cdr.flag(robot.driven);
   return std::move(cdr).message();
 }

@@ -1,23 +1,12 @@
 #pragma once
 
 #include <map>
-#include <optional>
 
 #include "fleetmap/core/bytes.hpp"
-#include "fleetmap/monitor/fleet_view.hpp"
+#include "fleetmap/monitor/fleet_drawing.hpp"
 #include "fleetmap/monitor/live_status.hpp"
 
 namespace fleetmap::monitor::foxglove {
-
-/// The newest placed node of a robot.
-struct LastNode {
-  NodeId id;
-  Stamp stamp;
-  Pose T_enu_node = Pose::Identity();
-  bool georeferenced = false;  ///< else its place on Earth is not known
-  std::optional<Matrix6d> covariance;
-};
-std::map<AgentId, LastNode> last_nodes(const FleetView& view);
 
 /// foxglove::FrameTransforms from "enu" to a frame with the name of each robot: its base_link at its last
 /// node.

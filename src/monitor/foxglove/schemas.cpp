@@ -146,6 +146,7 @@ const std::string kRobotStatus = R"(
     uint32 submaps;      // held
     uint32 backlog_bytes;
     boolean ordered_to_hold;
+    boolean called_home;  // also while it is ordered to hold
     boolean driven;
   };
 )";

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "basic_types.hpp"
-#include "fleet_scene.hpp"
+#include "fleetmap/monitor/fleet_drawing.hpp"
 
 namespace fleetmap::monitor::foxglove {
 namespace {

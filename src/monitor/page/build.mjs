@@ -12,7 +12,7 @@ const bundled = await build({
   target: 'es2020',
   outdir: 'bundle',
   write: false,
-  legalComments: 'eof',  // the licences of three.js and uPlot
+  legalComments: 'eof', // the licences of three.js and uPlot
 });
 const contentOf = (name) => bundled.outputFiles.find((file) => file.path.endsWith(name)).contents;
 const files = [
@@ -21,13 +21,30 @@ const files = [
   ['/style.css', 'text/css; charset=utf-8', contentOf('style.css')],
 ];
 
-const lines = ['#include <array>', '', '#include "fleetmap/monitor/server.hpp"', '', 'namespace fleetmap::monitor {', 'namespace {', ''];
+const lines = [
+  '#include <array>',
+  '',
+  '#include "fleetmap/monitor/server.hpp"',
+  '',
+  'namespace fleetmap::monitor {',
+  'namespace {',
+  '',
+];
 files.forEach(([, , content], k) => {
   const bytes = gzipSync(content, {level: 9});
   lines.push(`constexpr std::uint8_t kFile${k}[] = {${bytes.join(',')}};`);
 });
 lines.push('', `constexpr std::array<PageFile, ${files.length}> kPage{{`);
 files.forEach(([path, type], k) => lines.push(`    {"${path}", "${type}", kFile${k}},`));
-lines.push('}};', '', '}  // namespace', '', 'std::span<const PageFile> built_in_page() { return kPage; }',
-           'std::string why_no_page() { return {}; }', '', '}  // namespace fleetmap::monitor', '');
+lines.push(
+  '}};',
+  '',
+  '}  // namespace',
+  '',
+  'std::span<const PageFile> built_in_page() { return kPage; }',
+  'std::string why_no_page() { return {}; }',
+  '',
+  '}  // namespace fleetmap::monitor',
+  '',
+);
 writeFileSync(out, lines.join('\n'));

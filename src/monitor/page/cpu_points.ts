@@ -1,14 +1,16 @@
 import * as THREE from 'three';
+import {drawStrokes, type Stroke} from './cpu_lines';
 import {kPointSize, type PointStyle} from './point_material';
 import {kBlock, type PointPool} from './point_pool';
 import {rampOf, shaded, turbo} from './ramp';
 import type {PointPicture, View} from './shading';
 
-const kEmpty = 2;  // a depth behind everything
+const kEmpty = 2; // a depth behind everything
 
 /**
- * Draws points as gl_PointSize squares with a depth buffer, by the CPU, into textures. WebGL that runs on the CPU, as in a virtual
- * machine or over a remote desktop, takes about a microsecond a point; this takes some twenty nanoseconds.
+ * Draws points as gl_PointSize squares with a depth buffer, by the CPU, into textures. WebGL that runs on the CPU, as
+ * in a virtual machine or over a remote desktop, takes about a microsecond a point; this takes some twenty
+ * nanoseconds.
  */
 export class CpuPoints {
   private picture?: PointPicture;
@@ -16,20 +18,30 @@ export class CpuPoints {
   private pixels = new Uint32Array(0);
   private bytes = new Uint8Array(0);
   private depths = new Float32Array(0);
-  private ramps = new Map<string, Uint32Array>();
+  private VP = new THREE.Matrix4();
+  private ramps = new Map<number, Uint32Array>();
   private turbo = new Uint32Array(rampOf(turbo).buffer);
 
-  constructor(private pool: PointPool, private style: PointStyle) {}
+  constructor(
+    private pool: PointPool,
+    private style: PointStyle,
+  ) {}
 
   render({camera, width, height}: View, withDepths: boolean): PointPicture {
     const picture = this.resize(width, height);
     this.pixels.fill(0);
     this.depths.fill(kEmpty);
-    const VP = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
-    for (const {block, points} of this.pool.runs) this.drawBlock(block, points, VP.elements, width, height);
+    this.VP.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    for (const {block, points} of this.pool.runs) this.drawBlock(block, points, this.VP.elements, width, height);
     picture.colours.needsUpdate = true;
     if (withDepths) picture.depths.needsUpdate = true;
     return picture;
+  }
+
+  /** Lines over the last picture, which has no depths. */
+  stroke(strokes: Stroke[]): void {
+    const picture = {colours: this.pixels, width: this.width, height: this.depths.length / this.width};
+    drawStrokes(picture, this.VP.elements, strokes, this.style.ratio.value);
   }
 
   private resize(width: number, height: number): PointPicture {
@@ -40,7 +52,8 @@ export class CpuPoints {
     this.bytes = new Uint8Array(4 * width * height);
     this.pixels = new Uint32Array(this.bytes.buffer);
     this.depths = new Float32Array(width * height);
-    const colours = new THREE.DataTexture(this.bytes, width, height), depths = new THREE.DataTexture(this.depths, width, height, THREE.RedFormat, THREE.FloatType);
+    const colours = new THREE.DataTexture(this.bytes, width, height),
+      depths = new THREE.DataTexture(this.depths, width, height, THREE.RedFormat, THREE.FloatType);
     this.picture = {colours, depths};
     return this.picture;
   }
@@ -48,7 +61,7 @@ export class CpuPoints {
   /** The colours of a block: of height or intensity, or of the block as a whole. */
   private ramp(style: Float32Array): Uint32Array {
     if (this.style.mode.value !== 0) return this.turbo;
-    const key = style.slice(12, 15).join();
+    const key = (255 * style[12]) | ((255 * style[13]) << 8) | ((255 * style[14]) << 16);
     let ramp = this.ramps.get(key);
     if (!ramp) {
       const colour = new THREE.Color(style[12], style[13], style[14]);
@@ -59,32 +72,66 @@ export class CpuPoints {
   }
 
   private drawBlock(block: number, points: number, VP: number[], width: number, height: number): void {
-    const style = this.pool.styleOf(block), v = this.pool.values, ramp = this.ramp(style);
+    const style = this.pool.styleOf(block),
+      v = this.pool.values,
+      ramp = this.ramp(style);
     const {mode, low, high, pixelsPerMetre, planar, ratio} = this.style;
-    // Row r of VP times the block's matrix, of steps of 1/32767.
+    // Row r of VP times the block's matrix, of steps of 1/32767; pixels and depths from the middle of the picture.
     const row = (r: number, c: number) =>
-      (VP[r] * style[c] + VP[r + 4] * style[c + 4] + VP[r + 8] * style[c + 8] + (c === 3 ? VP[r + 12] : 0)) / (c === 3 ? 1 : 32767);
-    const [xx, xy, xz, x1] = [row(0, 0), row(0, 1), row(0, 2), row(0, 3)], [yx, yy, yz, y1] = [row(1, 0), row(1, 1), row(1, 2), row(1, 3)];
-    const [zx, zy, zz, z1] = [row(2, 0), row(2, 1), row(2, 2), row(2, 3)], [wx, wy, wz, w1] = [row(3, 0), row(3, 1), row(3, 2), row(3, 3)];
-    const per = 255 / Math.max(0.1, high.value - low.value), hx = (style[8] / 32767) * per, hy = (style[9] / 32767) * per, hz = (style[10] / 32767) * per;
-    const h1 = (style[11] - low.value) * per, byHeight = mode.value < 2, own = ramp[Math.round(255 * style[15])];
-    const size = kPointSize.metres * pixelsPerMetre.value * ratio.value, least = kPointSize.least * ratio.value, most = kPointSize.most * ratio.value;
-    const flat = planar.value > 0.5, pixels = this.pixels, depths = this.depths;
+      (VP[r] * style[c] + VP[r + 4] * style[c + 4] + VP[r + 8] * style[c + 8] + (c === 3 ? VP[r + 12] : 0)) /
+      (c === 3 ? 1 : 32767);
+    const halfWidth = 0.5 * width,
+      halfHeight = 0.5 * height;
+    const xx = halfWidth * row(0, 0),
+      xy = halfWidth * row(0, 1),
+      xz = halfWidth * row(0, 2),
+      x1 = halfWidth * row(0, 3);
+    const yx = halfHeight * row(1, 0),
+      yy = halfHeight * row(1, 1),
+      yz = halfHeight * row(1, 2),
+      y1 = halfHeight * row(1, 3);
+    const zx = 0.5 * row(2, 0),
+      zy = 0.5 * row(2, 1),
+      zz = 0.5 * row(2, 2),
+      z1 = 0.5 * row(2, 3);
+    const wx = row(3, 0),
+      wy = row(3, 1),
+      wz = row(3, 2),
+      w1 = row(3, 3);
+    const per = 255 / Math.max(0.1, high.value - low.value),
+      hx = (style[8] / 32767) * per,
+      hy = (style[9] / 32767) * per,
+      hz = (style[10] / 32767) * per;
+    const h1 = (style[11] - low.value) * per,
+      byHeight = mode.value < 2,
+      byIntensity = !byHeight && mode.value < 3,
+      own = ramp[Math.round(255 * style[15])];
+    const size = kPointSize.metres * pixelsPerMetre.value * ratio.value,
+      least = kPointSize.least * ratio.value,
+      most = kPointSize.most * ratio.value;
+    const flat = planar.value > 0.5,
+      pixels = this.pixels,
+      depths = this.depths;
     for (let at = 4 * kBlock * block, end = at + 4 * points; at < end; at += 4) {
-      const x = v[at], y = v[at + 1], z = v[at + 2];
+      const x = v[at],
+        y = v[at + 1],
+        z = v[at + 2];
       const w = wx * x + wy * y + wz * z + w1;
       if (w <= 0) continue;
-      const depth = 0.5 + (0.5 * (zx * x + zy * y + zz * z + z1)) / w;
+      const per_w = 1 / w;
+      const depth = 0.5 + (zx * x + zy * y + zz * z + z1) * per_w;
       if (depth < 0 || depth > 1) continue;
       // The pixels whose middles are within the square.
-      const half = 0.5 * Math.min(most, Math.max(least, flat ? size : size / Math.max(0.5, w)));
-      const cx = (0.5 + (0.5 * (xx * x + xy * y + xz * z + x1)) / w) * width - 0.5;
-      const cy = (0.5 + (0.5 * (yx * x + yy * y + yz * z + y1)) / w) * height - 0.5;
-      const left = Math.max(0, Math.ceil(cx - half)), right = Math.min(width, Math.ceil(cx + half));
-      const bottom = Math.max(0, Math.ceil(cy - half)), top = Math.min(height, Math.ceil(cy + half));
+      const half = 0.5 * Math.min(most, Math.max(least, flat ? size : size * Math.min(2, per_w)));
+      const cx = (xx * x + xy * y + xz * z + x1) * per_w + halfWidth - 0.5;
+      const cy = (yx * x + yy * y + yz * z + y1) * per_w + halfHeight - 0.5;
+      const left = Math.max(0, Math.ceil(cx - half)),
+        right = Math.min(width, Math.ceil(cx + half));
+      const bottom = Math.max(0, Math.ceil(cy - half)),
+        top = Math.min(height, Math.ceil(cy + half));
       let colour = own;
       if (byHeight) colour = ramp[Math.min(255, Math.max(0, (hx * x + hy * y + hz * z + h1) | 0))];
-      else if (mode.value < 3) colour = ramp[(20.4 + 214.2 * Math.max(0, v[at + 3] / 32767)) | 0];
+      else if (byIntensity) colour = ramp[(20.4 + 214.2 * Math.max(0, v[at + 3] / 32767)) | 0];
       for (let py = bottom; py < top; ++py) {
         for (let p = py * width + left, last = py * width + right; p < last; ++p) {
           if (depth >= depths[p]) continue;

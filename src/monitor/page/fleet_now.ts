@@ -1,5 +1,5 @@
 import {ago, bytes, colourOf, linkName, metres, type Live, type RobotNow, type Sensor, type State} from './model';
-import {el} from './panels';
+import {el} from './dom';
 
 interface Card {
   article: HTMLElement;
@@ -16,7 +16,9 @@ interface Card {
 
 type Order = 'hold' | 'resume' | 'home' | 'give';
 
-/** Each robot's present state in words. Cards stay and their texts change, so that focus and reading position stay too. */
+/**
+ * Each robot's present state in words. Cards stay and their texts change, so that focus and reading position stay too.
+ */
 export class FleetNow {
   readonly root = el('section', {'aria-label': 'Robots now', hidden: ''});
   private cards = new Map<string, Card>();
@@ -28,11 +30,23 @@ export class FleetNow {
   private live?: Live;
   private since = 0;
   private lost = new Set<string>();
+  private pressed = new Set<HTMLButtonElement>();
 
   constructor() {
-    this.all.append(this.orderButton('Hold all', () => this.order('hold')), this.orderButton('Call all home', () => this.order('home')),
-      this.orderButton('Resume all', () => this.order('resume')));
-    this.root.append(el('h2', {}, 'Now'), this.all, this.answer, this.list, el('h2', {id: 'sensors-title'}, 'Sensors'), this.sensors, this.said);
+    this.all.append(
+      this.orderButton('Hold all', () => this.order('hold')),
+      this.orderButton('Call all home', () => this.order('home')),
+      this.orderButton('Resume all', () => this.order('resume')),
+    );
+    this.root.append(
+      el('h2', {}, 'Now'),
+      this.all,
+      this.answer,
+      this.list,
+      el('h2', {id: 'sensors-title'}, 'Sensors'),
+      this.sensors,
+      this.said,
+    );
     setInterval(() => this.refresh(), 1000);
   }
 
@@ -47,6 +61,8 @@ export class FleetNow {
     }
     this.sensors.replaceChildren(this.sensorTable(live));
     this.refresh();
+    for (const button of this.pressed) button.disabled = false;
+    this.pressed.clear();
   }
 
   /** Also without a newer status: a robot that falls silent, or this one, turns to lost all the same. */
@@ -58,14 +74,34 @@ export class FleetNow {
   private cardOf(id: string): Card {
     const known = this.cards.get(id);
     if (known) return known;
-    const badge = el('span', {class: 'badge'}), activity = el('p', {class: 'activity'}), facts = el('p', {class: 'facts'}), problems = el('ul', {class: 'problems'});
+    const badge = el('span', {class: 'badge'}),
+      activity = el('p', {class: 'activity'}),
+      facts = el('p', {class: 'facts'}),
+      problems = el('ul', {class: 'problems'});
     const robot = () => this.live?.robots.find((one) => one.id === id);
     const hold = this.orderButton('Hold', () => this.order(robot()?.ordered_to_hold ? 'resume' : 'hold', id));
     const home = this.orderButton('Call home', () => this.order(robot()?.called_home ? 'resume' : 'home', id));
-    const row = el('select', {'aria-label': `Row of ${id}`}), to = el('select', {'aria-label': `Robot that drives the row of ${id}`});
-    const give = el('p', {class: 'give', role: 'group', 'aria-label': `Give a row of ${id} away`}, 'Give row ', row, ' to ', to, ' ',
-      this.orderButton('Give', () => this.order('give', id, {row: row.value, ...(to.value ? {to: to.value} : {})})));
-    const article = el('article', {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`}, el('h3', {}, id, badge, hold, home), activity, problems, facts, give);
+    const row = el('select', {'aria-label': `Row of ${id}`}),
+      to = el('select', {'aria-label': `Robot that drives the row of ${id}`});
+    const give = el(
+      'p',
+      {class: 'give', role: 'group', 'aria-label': `Give a row of ${id} away`},
+      'Give row ',
+      row,
+      ' to ',
+      to,
+      ' ',
+      this.orderButton('Give', () => this.order('give', id, {row: row.value, ...(to.value ? {to: to.value} : {})})),
+    );
+    const article = el(
+      'article',
+      {class: 'robot now', 'data-robot': id, 'aria-label': `${id} now`},
+      el('h3', {}, id, badge, hold, home),
+      activity,
+      problems,
+      facts,
+      give,
+    );
     const card = {article, badge, activity, facts, problems, hold, home, give, row, to};
     this.cards.set(id, card);
     this.list.append(article);
@@ -73,25 +109,40 @@ export class FleetNow {
   }
 
   private showRobot(live: Live, robot: RobotNow): void {
-    const card = this.cardOf(robot.id), later = (performance.now() - this.since) / 1000;
+    const card = this.cardOf(robot.id),
+      later = (performance.now() - this.since) / 1000;
     const isSelf = robot.id === live.self;
     const silence = isSelf ? later : robot.heard.length > 0 ? robot.heard[0].seconds_ago + later : undefined;
     const lost = silence !== undefined && silence > live.lost_after_s;
-    setText(card.badge, lost ? 'lost' : isSelf ? 'shows this page' : silence === undefined ? 'not heard yet' : 'in contact');
+    setText(
+      card.badge,
+      lost ? 'lost' : isSelf ? 'shows this page' : silence === undefined ? 'not heard yet' : 'in contact',
+    );
     card.badge.className = `badge ${lost ? 'bad' : silence === undefined || isSelf ? '' : 'good'}`;
-    setText(card.activity, lost ? `${robot.id} is lost. Known last: ${robot.activity}.` : `${robot.id} ${robot.activity}.`);
+    setText(
+      card.activity,
+      lost ? `${robot.id} is lost. Known last: ${robot.activity}.` : `${robot.id} ${robot.activity}.`,
+    );
     setText(card.facts, this.facts(robot, isSelf, later));
     card.problems.hidden = robot.problems.length === 0;
-    if (card.problems.textContent !== robot.problems.join('')) card.problems.replaceChildren(...robot.problems.map((text) => el('li', {}, text)));
+    if (card.problems.textContent !== robot.problems.join(''))
+      card.problems.replaceChildren(...robot.problems.map((text) => el('li', {}, text)));
     card.hold.hidden = !live.operated || !robot.driven;
     setText(card.hold, robot.ordered_to_hold ? 'Resume' : 'Hold');
-    card.hold.setAttribute('aria-label', `${robot.ordered_to_hold ? 'Resume' : 'Hold'} ${robot.id}`);
-    card.home.hidden = card.hold.hidden;
+    card.hold.setAttribute('aria-label', holdLabel(robot));
+    // If it is held on its way home, the other button lets it go on home.
+    card.home.hidden = card.hold.hidden || (robot.called_home && robot.ordered_to_hold);
     setText(card.home, robot.called_home ? 'Resume' : 'Call home');
     card.home.setAttribute('aria-label', robot.called_home ? `Resume ${robot.id}` : `Call ${robot.id} home`);
     card.give.hidden = card.hold.hidden || robot.rows.length === 0 || live.robots.length < 2;
-    setOptions(card.row, robot.rows.map((row) => [String(row), String(row)]));
-    setOptions(card.to, [['', 'any other robot'], ...live.robots.filter((one) => one.id !== robot.id).map((one): [string, string] => [one.id, one.id])]);
+    setOptions(
+      card.row,
+      robot.rows.map((row) => [String(row), String(row)]),
+    );
+    setOptions(card.to, [
+      ['', 'any other robot'],
+      ...live.robots.filter((one) => one.id !== robot.id).map((one): [string, string] => [one.id, one.id]),
+    ]);
     if (lost && !this.lost.has(robot.id)) this.said.textContent = `${robot.id} is lost.`;
     if (lost) this.lost.add(robot.id);
     else this.lost.delete(robot.id);
@@ -99,42 +150,84 @@ export class FleetNow {
 
   private facts(robot: RobotNow, isSelf: boolean, later: number): string {
     const facts: string[] = [];
-    if (!isSelf && robot.heard.length > 0) facts.push(`last heard ${robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`).join(', ')}`);
+    const heard = robot.heard.map((one) => `${ago(one.seconds_ago + later)} ago by ${linkName(one.link)}`);
+    if (!isSelf && heard.length > 0) facts.push(`last heard ${heard.join(', ')}`);
     if (robot.battery !== null) facts.push(`battery ${Math.round(100 * robot.battery)} %`);
     if (robot.sigma_m !== null) facts.push(`position known to ${metres(robot.sigma_m)} (1 σ)`);
     if (robot.clock) facts.push(clockWords(robot.clock));
-    if (robot.nodes > 0) facts.push(`holds ${robot.nodes} nodes, ${robot.submaps} submaps, ${robot.alignments} alignments`);
+    if (robot.nodes > 0)
+      facts.push(`holds ${robot.nodes} nodes, ${robot.submaps} submaps, ${robot.alignments} alignments`);
     if (robot.backlog_bytes > 0) facts.push(`${bytes(robot.backlog_bytes)} wait for its radio`);
     const text = facts.join('; ');
     return text && `${text[0].toUpperCase()}${text.slice(1)}.`;
   }
 
   private sensorTable(live: Live): HTMLElement {
-    const rows = live.sensors.map((one) => el('tr', {'data-sensor': one.name}, el('th', {scope: 'row'}, one.name),
-      el('td', {}, one.samples === 0 ? 'none yet' : `${one.per_second.toFixed(one.per_second < 10 ? 1 : 0)} /s`), el('td', {}, clockText(one))));
-    return el('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': 'sensors-title'},
-      el('table', {class: 'plain'}, el('thead', {}, el('tr', {}, ...['of ' + live.self, 'samples', 'clock'].map((name) => el('th', {scope: 'col'}, name)))), el('tbody', {}, ...rows)));
+    const rows = live.sensors.map((one) =>
+      el(
+        'tr',
+        {'data-sensor': one.name},
+        el('th', {scope: 'row'}, one.name),
+        el('td', {}, one.samples === 0 ? 'none yet' : `${one.per_second.toFixed(one.per_second < 10 ? 1 : 0)} /s`),
+        el('td', {}, clockText(one)),
+      ),
+    );
+    return el(
+      'div',
+      {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': 'sensors-title'},
+      el(
+        'table',
+        {class: 'plain'},
+        el(
+          'thead',
+          {},
+          el('tr', {}, ...['of ' + live.self, 'samples', 'clock'].map((name) => el('th', {scope: 'col'}, name))),
+        ),
+        el('tbody', {}, ...rows),
+      ),
+    );
   }
 
-  private orderButton(text: string, act: () => void): HTMLButtonElement {
+  /** Disabled from an order until the next status, since the robot's may call for another order then. */
+  private orderButton(text: string, order: () => Promise<boolean>): HTMLButtonElement {
     const button = el('button', {type: 'button', class: 'order'}, text);
-    button.onclick = act;
+    button.onclick = async () => {
+      button.disabled = true;
+      if (await order()) this.pressed.add(button);
+      else button.disabled = false;
+    };
     return button;
   }
 
-  /** The robot's next status shows what came of it. */
-  private async order(order: Order, robot?: string, more: Record<string, string> = {}): Promise<void> {
+  /** Whether it was ordered. The robot's next status shows what came of it. */
+  private async order(order: Order, robot?: string, more: Record<string, string> = {}): Promise<boolean> {
     const whom = robot ?? 'all robots';
-    const what = order === 'give' ? `${whom} gives row ${more.row} to ${more.to ?? 'any other robot'}` : order === 'home' ? `call ${whom} home` : `${order} ${whom}`;
+    const what =
+      order === 'give'
+        ? `${whom} gives row ${more.row} to ${more.to ?? 'any other robot'}`
+        : order === 'home'
+          ? `call ${whom} home`
+          : `${order} ${whom}`;
     const query = new URLSearchParams({...(robot ? {robot} : {}), ...more}).toString();
     const target = `/operator/${order}${query && `?${query}`}`;
+    const home = this.live?.robots.some((one) => one.id === robot && one.ordered_to_hold && one.called_home);
+    const then = order === 'resume' && home ? ' It goes on home; another resume, 60 s later, ends that.' : '';
     try {
       const answer = await fetch(target, {method: 'POST'});
-      this.answer.textContent = answer.ok ? `Ordered: ${what}.` : `Not ordered (${what}): ${(await answer.text()).trim()}`;
+      this.answer.textContent = answer.ok
+        ? `Ordered: ${what}.${then}`
+        : `Not ordered (${what}): ${(await answer.text()).trim()}`;
+      return answer.ok;
     } catch {
       this.answer.textContent = `Not ordered (${what}): the robot does not answer.`;
+      return false;
     }
   }
+}
+
+function holdLabel(robot: RobotNow): string {
+  if (!robot.ordered_to_hold) return `Hold ${robot.id}`;
+  return robot.called_home ? `Resume ${robot.id} on its way home` : `Resume ${robot.id}`;
 }
 
 function clockWords(clock: {sensor: string; behind_s: number}): string {
@@ -146,7 +239,8 @@ function clockWords(clock: {sensor: string; behind_s: number}): string {
 
 /** Keeps what is selected as long as it is still there; leaves a menu alone that shows the same already. */
 function setOptions(select: HTMLSelectElement, options: [string, string][]): void {
-  if (select.options.length === options.length && options.every(([value], k) => select.options[k].value === value)) return;
+  if (select.options.length === options.length && options.every(([value], k) => select.options[k].value === value))
+    return;
   const selected = select.value;
   select.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   if (options.some(([value]) => value === selected)) select.value = selected;
@@ -158,7 +252,11 @@ function setText(element: HTMLElement, text: string): void {
 
 function clockText(sensor: Sensor): string {
   const words: string[] = [];
-  if (sensor.clock_behind_s !== null) words.push(`${Math.abs(1000 * sensor.clock_behind_s).toFixed(0)} ms ${sensor.clock_behind_s < 0 ? 'ahead' : 'behind'}`);
-  if (sensor.clock_slow_ppm !== null) words.push(`${Math.abs(sensor.clock_slow_ppm).toFixed(0)} ppm ${sensor.clock_slow_ppm < 0 ? 'fast' : 'slow'}`);
+  if (sensor.clock_behind_s !== null)
+    words.push(
+      `${Math.abs(1000 * sensor.clock_behind_s).toFixed(0)} ms ${sensor.clock_behind_s < 0 ? 'ahead' : 'behind'}`,
+    );
+  if (sensor.clock_slow_ppm !== null)
+    words.push(`${Math.abs(sensor.clock_slow_ppm).toFixed(0)} ppm ${sensor.clock_slow_ppm < 0 ? 'fast' : 'slow'}`);
   return words.join(', ') || '–';
 }

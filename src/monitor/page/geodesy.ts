@@ -11,16 +11,22 @@ export interface Geo {
 }
 
 export function toGeo(origin: Geo, [e, n, u]: readonly number[]): Geo {
-  const lat0 = (origin.latitude_deg * Math.PI) / 180, lon0 = (origin.longitude_deg * Math.PI) / 180;
-  const sa = Math.sin(lat0), ca = Math.cos(lat0), so = Math.sin(lon0), co = Math.cos(lon0);
+  const lat0 = (origin.latitude_deg * Math.PI) / 180,
+    lon0 = (origin.longitude_deg * Math.PI) / 180;
+  const sa = Math.sin(lat0),
+    ca = Math.cos(lat0),
+    so = Math.sin(lon0),
+    co = Math.cos(lon0);
   const N0 = kA / Math.sqrt(1 - kE2 * sa * sa);
   const x = (N0 + origin.altitude_m) * ca * co - so * e - sa * co * n + ca * co * u;
   const y = (N0 + origin.altitude_m) * ca * so + co * e - sa * so * n + ca * so * u;
   const z = (N0 * (1 - kE2) + origin.altitude_m) * sa + ca * n + sa * u;
   const p = Math.hypot(x, y);
-  let lat = Math.atan2(z, p * (1 - kE2)), h = 0;
+  let lat = Math.atan2(z, p * (1 - kE2)),
+    h = 0;
   for (let k = 0; k < 8; ++k) {
-    const s = Math.sin(lat), N = kA / Math.sqrt(1 - kE2 * s * s);
+    const s = Math.sin(lat),
+      N = kA / Math.sqrt(1 - kE2 * s * s);
     // Without the division by cos(lat), which fails at the poles.
     h = p * Math.cos(lat) + z * s - (kA * kA) / N;
     lat = Math.atan2(z, p * (1 - (kE2 * N) / (N + h)));
@@ -49,7 +55,8 @@ function zoneOf(latitude_deg: number, longitude_deg: number): number {
 export function toUtm({latitude_deg, longitude_deg}: Geo): Utm | null {
   if (latitude_deg < -80 || latitude_deg >= 84) return null;
   const zone = zoneOf(latitude_deg, longitude_deg);
-  const n = kF / (2 - kF), e = Math.sqrt(kE2);
+  const n = kF / (2 - kF),
+    e = Math.sqrt(kE2);
   const radius = (kA / (1 + n)) * (1 + n ** 2 / 4 + n ** 4 / 64);
   const alpha = [
     n / 2 - (2 / 3) * n ** 2 + (5 / 16) * n ** 3 + (41 / 180) * n ** 4,
@@ -61,21 +68,31 @@ export function toUtm({latitude_deg, longitude_deg}: Geo): Utm | null {
   let east_deg = longitude_deg - (6 * zone - 183);
   east_deg = ((((east_deg + 180) % 360) + 360) % 360) - 180;
   const lambda = (east_deg * Math.PI) / 180;
-  const t = Math.sinh(Math.atanh(s) - e * Math.atanh(e * s));  // tangent of the conformal latitude
-  const xi0 = Math.atan2(t, Math.cos(lambda)), eta0 = Math.asinh(Math.sin(lambda) / Math.hypot(t, Math.cos(lambda)));
-  let xi = xi0, eta = eta0;
+  const t = Math.sinh(Math.atanh(s) - e * Math.atanh(e * s)); // tangent of the conformal latitude
+  const xi0 = Math.atan2(t, Math.cos(lambda)),
+    eta0 = Math.asinh(Math.sin(lambda) / Math.hypot(t, Math.cos(lambda)));
+  let xi = xi0,
+    eta = eta0;
   alpha.forEach((a, k) => {
     const j = 2 * (k + 1);
     xi += a * Math.sin(j * xi0) * Math.cosh(j * eta0);
     eta += a * Math.cos(j * xi0) * Math.sinh(j * eta0);
   });
-  const kScale = 0.9996, north = latitude_deg >= 0;
-  return {zone, north, easting_m: 500_000 + kScale * radius * eta, northing_m: kScale * radius * xi + (north ? 0 : 10_000_000)};
+  const kScale = 0.9996,
+    north = latitude_deg >= 0;
+  return {
+    zone,
+    north,
+    easting_m: 500_000 + kScale * radius * eta,
+    northing_m: kScale * radius * xi + (north ? 0 : 10_000_000),
+  };
 }
 
 export function utmText(geo: Geo): string {
   const utm = toUtm(geo);
-  return utm ? `UTM ${utm.zone}${utm.north ? 'N' : 'S'} ${utm.easting_m.toFixed(2)} ${utm.northing_m.toFixed(2)}` : 'no UTM at the poles';
+  return utm
+    ? `UTM ${utm.zone}${utm.north ? 'N' : 'S'} ${utm.easting_m.toFixed(2)} ${utm.northing_m.toFixed(2)}`
+    : 'no UTM at the poles';
 }
 
 export function geoText(geo: Geo): string {

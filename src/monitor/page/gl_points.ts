@@ -7,7 +7,10 @@ export class GlPoints {
   private target = new THREE.WebGLRenderTarget(1, 1, {minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter});
   private scene = new THREE.Scene();
 
-  constructor(pool: PointPool, private renderer: THREE.WebGLRenderer) {
+  constructor(
+    pool: PointPool,
+    private renderer: THREE.WebGLRenderer,
+  ) {
     this.target.depthTexture = new THREE.DepthTexture(1, 1, THREE.UnsignedIntType);
     this.scene.add(pool.object);
   }

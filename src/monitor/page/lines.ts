@@ -1,6 +1,7 @@
 import * as THREE from 'three';
+import type {Stroke} from './cpu_lines';
 import type {Edge} from './edges';
-import type {Hit} from './map';
+import type {Hit} from './hit';
 import {colourOf, type FleetNode, type State} from './model';
 import {WideLines} from './wide_lines';
 
@@ -19,10 +20,40 @@ const kSelected = '#ffffff';
 
 const rgb = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
 
+/** The bytes of an opaque pixel as they lie in memory. */
+const pixelOf = ({r, g, b}: THREE.Color) =>
+  new Uint32Array(new Uint8ClampedArray([255 * r, 255 * g, 255 * b, 255]).buffer)[0];
+
+const kDotVertex = /* glsl */ `
+attribute vec3 tint;
+attribute float size;
+uniform float ratio;
+varying vec3 vColour;
+varying float vSize;
+
+void main() {
+  vColour = tint;
+  vSize = size;
+  gl_PointSize = size * ratio;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+const kDotFragment = /* glsl */ `
+varying vec3 vColour;
+varying float vSize;
+
+void main() {
+  float r = vSize * length(gl_PointCoord - 0.5);
+  float edge = 0.5 * vSize;
+  vec3 colour = mix(vColour, vec3(1.0), smoothstep(edge - 2.4, edge - 1.4, r));
+  gl_FragColor = vec4(colour, 1.0 - smoothstep(edge - 0.8, edge, r));
+}`;
+
 /** Trajectories, edges and nodes, in front of all points. */
 export class Lines {
+  readonly strokes: Stroke[] = []; // the same without edges and nodes, for drawStrokes()
   private lines: WideLines[] = [];
-  private edges: WideLines[] = [];  // white ones below others
+  private edges: WideLines[] = []; // white ones below others
   private dots?: THREE.Points;
   private size = new THREE.Vector2(1, 1);
 
@@ -42,13 +73,16 @@ export class Lines {
     this.clear();
     if (marks.paths) for (const robot of marks.state.robots) this.path(marks, robot.id);
     for (const kind of ['rejected', 'unused', 'used'] as const) {
-      const positions = marks.edges.filter((edge) => edge.kind === kind).flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
+      const positions = marks.edges
+        .filter((edge) => edge.kind === kind)
+        .flatMap((edge) => [...marks.place(edge.a)!.toArray(), ...marks.place(edge.b)!.toArray()]);
       this.edge(positions, 4.5, 0.55);
       this.segments(positions, kEdgeColours[kind], 2.5, 1);
     }
     const selected = marks.selected;
     if (selected && 'edge' in selected) {
-      const a = marks.place(selected.edge.a), b = marks.place(selected.edge.b);
+      const a = marks.place(selected.edge.a),
+        b = marks.place(selected.edge.b);
       if (a && b) {
         this.segments([...a.toArray(), ...b.toArray()], '#10161d', 9, 1);
         this.segments([...a.toArray(), ...b.toArray()], kSelected, 6, 1);
@@ -65,6 +99,7 @@ export class Lines {
     }
     this.lines = [];
     this.edges = [];
+    this.strokes.length = 0;
     if (this.dots) {
       this.scene.remove(this.dots);
       this.dots.geometry.dispose();
@@ -76,9 +111,12 @@ export class Lines {
   /** From node to node of one session. */
   private path(marks: Marks, robot: string): void {
     const positions: number[] = [];
-    const own = marks.nodes.filter(({node}) => node.robot === robot).sort((a, b) => a.node.session - b.node.session || a.node.t - b.node.t);
+    const own = marks.nodes
+      .filter(({node}) => node.robot === robot)
+      .sort((a, b) => a.node.session - b.node.session || a.node.t - b.node.t);
     for (let k = 1; k < own.length; ++k) {
-      if (own[k].node.session === own[k - 1].node.session) positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
+      if (own[k].node.session === own[k - 1].node.session)
+        positions.push(...own[k - 1].p.toArray(), ...own[k].p.toArray());
     }
     this.edge(positions, 5, 0.7);
     this.segments(positions, colourOf(marks.state, robot), 3, 1);
@@ -96,10 +134,13 @@ export class Lines {
     line.object.renderOrder = this.lines.length;
     this.lines.push(line);
     this.scene.add(line.object);
+    if (opacity === 1) this.strokes.push({ends: positions, colour: pixelOf(rgb(colour)), width});
   }
 
   private points(marks: Marks): void {
-    const positions: number[] = [], colours: number[] = [], sizes: number[] = [];
+    const positions: number[] = [],
+      colours: number[] = [],
+      sizes: number[] = [];
     const chosen = new Set<string>();
     const selected = marks.selected;
     if (selected && 'node' in selected) chosen.add(selected.node);
@@ -114,13 +155,12 @@ export class Lines {
     geometry.setAttribute('tint', new THREE.Float32BufferAttribute(colours, 3));
     geometry.setAttribute('size', new THREE.Float32BufferAttribute(sizes, 1));
     const material = new THREE.ShaderMaterial({
-      transparent: true, depthTest: false, depthWrite: false,
+      transparent: true,
+      depthTest: false,
+      depthWrite: false,
       uniforms: {ratio: {value: Math.min(2, window.devicePixelRatio)}},
-      vertexShader: `attribute vec3 tint; attribute float size; uniform float ratio; varying vec3 vColour; varying float vSize;
-        void main() { vColour = tint; vSize = size; gl_PointSize = size * ratio; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
-      fragmentShader: `varying vec3 vColour; varying float vSize;
-        void main() { float r = vSize * length(gl_PointCoord - 0.5); float edge = 0.5 * vSize;
-          gl_FragColor = vec4(mix(vColour, vec3(1.0), smoothstep(edge - 2.4, edge - 1.4, r)), 1.0 - smoothstep(edge - 0.8, edge, r)); }`,
+      vertexShader: kDotVertex,
+      fragmentShader: kDotFragment,
     });
     this.dots = new THREE.Points(geometry, material);
     this.dots.frustumCulled = false;

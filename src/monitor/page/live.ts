@@ -17,7 +17,8 @@ export function follow(listener: Listener): void {
       if (content.live) {
         listener.onConnection(true);
         listener.onLive(content.live);
-      } else if (content.nodes) {  // else nothing was published yet
+      } else if (content.nodes) {
+        // else nothing was published yet
         listener.onConnection(true);
         listener.onState(content as State);
       }

@@ -1,13 +1,19 @@
-import {geoText, toGeo} from './geodesy';
+import {edgeCard, nodeCard} from './cards';
 import {follow} from './live';
-import {FleetMap, type ColourMode, type Hit, type Layer, type Picture} from './map';
-import type {Edge} from './edges';
+import type {Hit} from './hit';
+import {type Picture, rampEnds, scaleLength} from './legend';
+import {FleetMap, type Layer} from './map';
+import type {ColourMode} from './point_material';
+import {type Edge, edgeOfRegistration} from './edges';
 import {Measure} from './measure';
-import {colourOf, count, duration, metres, type State} from './model';
+import {colourOf, count, duration, type State} from './model';
 import {FleetNow} from './fleet_now';
 import {PairView} from './pair_view';
-import {el, FleetPanel, WhyPanel} from './panels';
+import {el} from './dom';
+import {FleetPanel} from './fleet_panel';
+import {WhyPanel} from './why_panel';
 import {RadioPanel} from './radio';
+import {joinTabs} from './tabs';
 
 const byId = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const canvas = byId<HTMLCanvasElement>('canvas');
@@ -18,7 +24,8 @@ try {
   map = new FleetMap(canvas);
 } catch {
   byId('no-map').hidden = false;
-  byId('no-map').textContent = 'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
+  byId('no-map').textContent =
+    'This browser draws no 3D graphics (WebGL 2 is off), so there is no map; the panel has all the rest.';
 }
 const measure = map && new Measure(map, document.getElementById('overlay') as unknown as SVGSVGElement, showCard);
 const pairView = map && new PairView(map);
@@ -34,7 +41,8 @@ function showState(next: State): void {
   state = next;
   document.title = `${next.title} – fleetmap`;
   byId('title').textContent = next.title;
-  byId('summary').textContent = `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`;
+  byId('summary').textContent =
+    `${next.robots.length} robots · ${next.nodes.length} nodes · ${next.alignments.length} alignments`;
   map?.show(next);
   setTime();
   why.show(next);
@@ -65,43 +73,26 @@ function select(hit: Hit | undefined, go = false): void {
 }
 
 function selectNode(id: string, go: boolean): void {
-  const node = state!.nodes.find((one) => one.id === id);
   const p = map?.place(id);
-  if (!node) return showCard(null);
-  const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
-  if (p) rows.push(['ENU', p.toArray().map((v) => v.toFixed(2)).join(', ') + ' m'], ['WGS84', geoText(toGeo(state!.origin, p.toArray()))]);
-  rows.push(['GPS', node.gps_sigma_m === undefined ? 'none' : `known to ${node.gps_sigma_m.toFixed(2)} m (1 σ) before alignment`]);
-  rows.push(['submap', node.submap ? `${Math.round(node.bytes / 1000)} kB, held` : node.bytes > 0 ? 'not held here' : 'empty']);
-  const tied = state!.alignments.filter((one) => one.i === id || one.j === id).length;
-  rows.push(['alignments', String(tied)]);
-  showCard([el('h2', {}, `Node ${id}`), table(rows)]);
-  if (go && p) map?.goTo(p);
+  showCard(nodeCard(state!, id, p));
+  if (go && p) map?.eye.goTo(p);
 }
 
 function selectEdge(edge: Edge, go: boolean): void {
-  const registration = edge.registration === undefined ? undefined : state!.registrations[edge.registration];
-  const alignment = edge.alignment === undefined ? undefined : state!.alignments[edge.alignment];
-  const kind = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'}[edge.kind];
-  const a = map?.place(edge.a), b = map?.place(edge.b);
-  const rows: [string, string][] = [];
-  if (a && b) rows.push(['nodes', `${metres(a.distanceTo(b))} apart as placed`]);
+  const a = map?.place(edge.a),
+    b = map?.place(edge.b);
   const both = pairView?.buttons(state!, edge);
-  if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
-  showCard([el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kind}: ${edge.b} → ${edge.a}`), el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''), table(rows), ...(both ? [both] : [])]);
+  showCard([...edgeCard(state!, edge, a && b?.distanceTo(a)), ...(both ? [both] : [])]);
   if (edge.registration !== undefined) why.mark(edge.registration);
-  if (go && a && b) map?.goTo(a.clone().add(b).multiplyScalar(0.5));
+  if (go && a && b) map?.eye.goTo(a.clone().add(b).multiplyScalar(0.5));
 }
 
 function selectRegistration(index: number): void {
   const one = state!.registrations[index];
   const known = map?.edges.find((edge) => edge.registration === index);
-  const edge: Edge = known ?? {kind: one.verdict === 'accepted' ? 'unused' : 'rejected', a: one.target, b: one.source, registration: index};
+  const edge: Edge = known ?? edgeOfRegistration(one, index);
   why.mark(index);
   select({edge}, true);
-}
-
-function table(rows: [string, string][]): HTMLElement {
-  return el('dl', {}, ...rows.flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, value)]));
 }
 
 function showCard(content: HTMLElement[] | null): void {
@@ -124,7 +115,7 @@ function pressed(id: string, on: boolean): void {
 }
 
 function setPlanar(planar: boolean): void {
-  map?.setPlanar(planar);
+  map?.eye.setPlanar(planar);
   pressed('view-plan', planar);
   pressed('view-3d', !planar);
 }
@@ -136,7 +127,8 @@ let colour: ColourMode = 'robot';
 for (const button of document.querySelectorAll<HTMLElement>('[data-colour]')) {
   button.onclick = () => {
     colour = button.dataset.colour as ColourMode;
-    for (const other of document.querySelectorAll('[data-colour]')) other.setAttribute('aria-pressed', String(other === button));
+    for (const other of document.querySelectorAll('[data-colour]'))
+      other.setAttribute('aria-pressed', String(other === button));
     map?.setColour(colour);
   };
 }
@@ -189,39 +181,38 @@ byId('time').oninput = setTime;
 if (map) map.onPicture = showPicture;
 function showPicture(picture: Picture): void {
   measure?.draw();
-  if (picture.moving) return;
-  byId('drawn').textContent = `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`;
   canvas.dataset.drawn = String(picture.drawn);
+  if (picture.moving) return;
+  byId('drawn').textContent =
+    `${count(picture.drawn)} of ${count(picture.total)} points drawn${picture.loading ? ', loading' : ''}`;
   canvas.dataset.loading = String(picture.loading);
-  canvas.setAttribute('aria-label', `Map of ${state?.title ?? 'the fleet'}: ${picture.planar ? 'plan' : '3D'} view, ${count(picture.drawn)} points`);
+  canvas.setAttribute(
+    'aria-label',
+    `Map of ${state?.title ?? 'the fleet'}: ${picture.planar ? 'plan' : '3D'} view, ${count(picture.drawn)} points`,
+  );
   showScale(picture);
   showLegend(picture);
 }
 
 function showScale(picture: Picture): void {
-  const most = 110 * picture.metresPerPixel, power = 10 ** Math.floor(Math.log10(most));
-  const length = [5, 2, 1].map((k) => k * power).find((one) => one <= most) ?? power;
+  const length = scaleLength(picture.metresPerPixel);
   byId('scale').querySelector('i')!.style.width = `${length / picture.metresPerPixel}px`;
   byId('scale').querySelector('span')!.textContent = length >= 1 ? `${length} m` : `${Math.round(100 * length)} cm`;
-}
-
-function rampEnds({heights, range}: Picture): string[] {
-  if (colour === 'height') return heights.map((h) => `${h.toFixed(1)} m`);
-  if (colour === 'age') return range.map(duration);
-  if (colour === 'sigma') return range.map(metres);
-  return ['weak', 'strong'];
 }
 
 let legendOf = '';
 function showLegend(picture: Picture): void {
   if (!state) return;
-  const ends = rampEnds(picture);
+  const ends = rampEnds(picture, colour);
   const key = colour + ends.join() + state.robots.length;
   if (key === legendOf) return;
   legendOf = key;
-  const robots = state.robots.map((robot) => el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id));
+  const robots = state.robots.map((robot) =>
+    el('span', {}, el('i', {class: 'dot', style: `background:${colourOf(state!, robot.id)}`}), robot.id),
+  );
   if (colour === 'robot') byId('legend').replaceChildren(...robots);
-  else byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]));
+  else
+    byId('legend').replaceChildren(...robots, el('span', {class: 'ramp'}, ends[0], el('i', {class: 'turbo'}), ends[1]));
 }
 
 // Pointer and keys.
@@ -238,13 +229,25 @@ canvas.addEventListener('pointerup', (event) => {
 });
 canvas.addEventListener('pointermove', (event) => {
   if (!map || event.buttons !== 0) return;
-  canvas.style.cursor = measure?.active ? 'crosshair' : map.hitAt(event.offsetX, event.offsetY, 10) ? 'pointer' : 'grab';
+  canvas.style.cursor = measure?.active
+    ? 'crosshair'
+    : map.hitAt(event.offsetX, event.offsetY, 10)
+      ? 'pointer'
+      : 'grab';
 });
 canvas.addEventListener('keydown', (event) => {
   if (!map || event.ctrlKey || event.metaKey || event.altKey) return;
   const keys: Record<string, () => void> = {
-    ArrowLeft: () => map.pan(-1, 0), ArrowRight: () => map.pan(1, 0), ArrowUp: () => map.pan(0, 1), ArrowDown: () => map.pan(0, -1),
-    '+': () => map.zoom(1.25), '=': () => map.zoom(1.25), '-': () => map.zoom(0.8), f: () => map.fit(), p: () => setPlanar(!map.planar), m: toggleMeasure,
+    ArrowLeft: () => map.eye.pan(-1, 0),
+    ArrowRight: () => map.eye.pan(1, 0),
+    ArrowUp: () => map.eye.pan(0, 1),
+    ArrowDown: () => map.eye.pan(0, -1),
+    '+': () => map.eye.zoom(1.25),
+    '=': () => map.eye.zoom(1.25),
+    '-': () => map.eye.zoom(0.8),
+    f: () => map.fit(),
+    p: () => setPlanar(!map.eye.planar),
+    m: toggleMeasure,
     Escape: () => {
       measure?.stop();
       pressed('measure', false);
@@ -257,33 +260,15 @@ canvas.addEventListener('keydown', (event) => {
   act();
 });
 
-// Tabs, as WAI-ARIA has them.
-
-const tabs = [byId('tab-why'), byId('tab-fleet'), byId('tab-radio')];
-function openTab(tab: HTMLElement): void {
-  for (const one of tabs) {
-    one.setAttribute('aria-selected', String(one === tab));
-    one.tabIndex = one === tab ? 0 : -1;
-    byId(one.getAttribute('aria-controls')!).hidden = one !== tab;
-  }
+const redraw = () => {
   fleet.redraw();
   radio.redraw();
-}
-for (const tab of tabs) {
-  tab.onclick = () => openTab(tab);
-  tab.onkeydown = (event) => {
-    if (event.key !== 'ArrowLeft' && event.key !== 'ArrowRight') return;
-    const shown = tabs.filter((one) => !one.hidden), step = event.key === 'ArrowRight' ? 1 : shown.length - 1;
-    const next = shown[(shown.indexOf(tab) + step) % shown.length];
-    openTab(next);
-    next.focus();
-  };
-}
+};
+joinTabs([byId('tab-why'), byId('tab-fleet'), byId('tab-radio')], redraw);
 
 byId('theme').onclick = () => {
   const dark = getComputedStyle(document.documentElement).colorScheme === 'dark';
   document.documentElement.dataset.theme = dark ? 'light' : 'dark';
-  fleet.redraw();
-  radio.redraw();
+  redraw();
   map?.draw();
 };

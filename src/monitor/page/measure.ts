@@ -2,7 +2,7 @@ import type * as THREE from 'three';
 import {geoText, toGeo, utmText, type Geo} from './geodesy';
 import type {FleetMap} from './map';
 import {metres} from './model';
-import {el} from './panels';
+import {el} from './dom';
 
 const kSvg = 'http://www.w3.org/2000/svg';
 
@@ -11,7 +11,11 @@ export class Measure {
   active = false;
   private picked: THREE.Vector3[] = [];
 
-  constructor(private map: FleetMap, private overlay: SVGSVGElement, private show: (content: HTMLElement[] | null) => void) {}
+  constructor(
+    private map: FleetMap,
+    private overlay: SVGSVGElement,
+    private show: (content: HTMLElement[] | null) => void,
+  ) {}
 
   start(): void {
     this.active = true;
@@ -33,14 +37,24 @@ export class Measure {
     if (!p) return;
     this.picked = this.picked.length === 2 ? [p] : [...this.picked, p];
     const rows = this.picked.flatMap((point, k) => {
-      const geo = toGeo(origin, point.toArray()), enu = point.toArray().map((v) => v.toFixed(2)).join(', ');
+      const geo = toGeo(origin, point.toArray()),
+        enu = point
+          .toArray()
+          .map((v) => v.toFixed(2))
+          .join(', ');
       return [el('dt', {}, 'AB'[k]), el('dd', {}, geoText(geo), el('br'), utmText(geo), el('br'), `ENU ${enu} m`)];
     });
     const [a, b] = this.picked;
     if (b) {
       const flat = Math.hypot(b.x - a.x, b.y - a.y);
-      rows.push(el('dt', {}, 'distance'), el('dd', {class: 'big'}, metres(a.distanceTo(b))), el('dt', {}, 'on the plan'), el('dd', {}, metres(flat)),
-        el('dt', {}, 'height'), el('dd', {}, `${b.z >= a.z ? '+' : '−'}${metres(Math.abs(b.z - a.z))}`));
+      rows.push(
+        el('dt', {}, 'distance'),
+        el('dd', {class: 'big'}, metres(a.distanceTo(b))),
+        el('dt', {}, 'on the plan'),
+        el('dd', {}, metres(flat)),
+        el('dt', {}, 'height'),
+        el('dd', {}, `${b.z >= a.z ? '+' : '−'}${metres(Math.abs(b.z - a.z))}`),
+      );
     }
     this.show([el('h2', {}, 'Measure'), el('dl', {}, ...rows)]);
     this.draw();

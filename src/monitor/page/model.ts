@@ -25,7 +25,7 @@ export interface FleetNode {
   t: number;
   bytes: number;
   T?: PoseValues;
-  gps?: PoseValues;  // its own G, which nothing aligned
+  gps?: PoseValues; // its own G, which nothing aligned
   submap?: string;
   gps_sigma_m?: number;
   sigma_m?: number;
@@ -37,7 +37,7 @@ export interface Alignment {
   by: string;
   status: string;
   modes: number;
-  poses: PoseValues[];  // T_i_j of each mode, best first
+  poses: PoseValues[]; // T_i_j of each mode, best first
   rmse_m: number;
   sentence: string;
 }
@@ -53,7 +53,7 @@ export interface Registration {
   overlap: number | null;
   reason: string;
   sentence: string;
-  pose?: PoseValues;  // T_target_source of its best mode, also where it was rejected
+  pose?: PoseValues; // T_target_source of its best mode, also where it was rejected
 }
 
 export interface Holding {
@@ -91,7 +91,18 @@ export interface State {
 }
 
 // Told apart by people with any colour vision, on light and on dark ground.
-const kRobotColours = ['#2f7de1', '#e8743b', '#1fa774', '#d1477a', '#b58900', '#7d5bd6', '#1598a8', '#8c6243', '#5f7488', '#7a8b2a'];
+const kRobotColours = [
+  '#2f7de1',
+  '#e8743b',
+  '#1fa774',
+  '#d1477a',
+  '#b58900',
+  '#7d5bd6',
+  '#1598a8',
+  '#8c6243',
+  '#5f7488',
+  '#7a8b2a',
+];
 
 export function colourOf(state: State, robot: string): string {
   const index = state.robots.findIndex((one) => one.id === robot);
@@ -101,7 +112,9 @@ export function colourOf(state: State, robot: string): string {
 export function duration(seconds: number): string {
   const whole = Math.round(seconds);
   const two = (n: number) => String(n).padStart(2, '0');
-  const h = Math.floor(whole / 3600), m = Math.floor(whole / 60) % 60, s = whole % 60;
+  const h = Math.floor(whole / 3600),
+    m = Math.floor(whole / 60) % 60,
+    s = whole % 60;
   return h > 0 ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
 }
 
@@ -115,6 +128,10 @@ export function metres(m: number): string {
   return m < 10 ? `${m.toFixed(2)} m` : m < 1000 ? `${m.toFixed(1)} m` : `${(m / 1000).toFixed(2)} km`;
 }
 
+export function findPair(state: State, a: string, b: string): Pair | undefined {
+  return state.pairs.find((pair) => (pair.a === a && pair.b === b) || (pair.a === b && pair.b === a));
+}
+
 // A running robot sends this once a second beyond its store (src/monitor/live_status.cpp).
 
 export type LinkName = 'long_range' | 'short_range';
@@ -126,14 +143,14 @@ export interface RobotNow {
   heard: {link: LinkName; seconds_ago: number}[];
   battery: number | null;
   sigma_m: number | null;
-  clock: {sensor: string; behind_s: number} | null;  // that is off most, within a factor of 1.4
+  clock: {sensor: string; behind_s: number} | null; // that is off most, within a factor of 1.4
   nodes: number;
   alignments: number;
   submaps: number;
   backlog_bytes: number;
-  ordered_to_hold: boolean;
+  ordered_to_hold: boolean; // with called_home: resume lets it go on home
   called_home: boolean;
-  rows: number[];  // that it still has to drive
+  rows: number[]; // that it still has to drive
   driven: boolean;
 }
 

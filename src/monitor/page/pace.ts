@@ -1,32 +1,36 @@
 /** A way to draw. */
 export interface Effort {
-  shaded: boolean;   // points
+  shaded: boolean; // points
   detailed: boolean; // nodes, and lines with an edge
-  ratio: number;     // device pixels per pixel of the page
-  share: number;     // of the points
+  ratio: number; // device pixels per pixel of the page
+  share: number; // of the points
 }
 
-const kSlow_ms = 33;  // 30 frames/s
+const kSlow_ms = 33; // 30 frames/s
 const kFast_ms = 18;
 const kGoal_ms = 25;
-const kSteady = 8;    // fast frames before the effort grows
+const kSteady = 8; // fast frames before the effort grows
 const kLevels = 3;
 const kMinShare = 1 / 4;
-const kCoarse = 0.6;  // pixels that are drawn along a side, of those that there are
-export const kStill_ms = 180;  // without a change: the view stands still
+const kCoarse = 0.6; // pixels that are drawn along a side, of those that there are
+export const kStill_ms = 180; // without a change: the view stands still
 
 /**
- * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than 33 ms, first
- * the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its coarser ones. Where drawing costs little,
- * as with a graphics card, nothing changes.
+ * Chooses the effort of a picture: all of it while the view stands still. While it moves and frames take longer than
+ * 33 ms, first the shading is left out, then the finer pixels and the nodes, then points; each submap then shows its
+ * coarser ones. If drawing costs little, as with a graphics card, nothing changes.
  */
 export class Pace {
-  private level = 0;  // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
+  private level = 0; // 1: without shading; 2: with fewer pixels and no nodes; 3: and with a share of the points
   private share = 1;
   private fast = 0;
   private last?: number;
 
-  constructor(private full: Effort) {}
+  /** `least`: share of the points that is drawn however long a frame takes. */
+  constructor(
+    private full: Effort,
+    private least = kMinShare,
+  ) {}
 
   /** The effort of the frame at `now`, ms. */
   effort(now: number, moving: boolean): Effort {
@@ -38,14 +42,19 @@ export class Pace {
     this.last = now;
     if (this.level === 0) return this.full;
     const ratio = Math.min(1, this.full.ratio);
-    return {shaded: false, detailed: this.level < 2, ratio: this.level < 2 ? ratio : kCoarse * ratio, share: this.share};
+    return {
+      shaded: false,
+      detailed: this.level < 2,
+      ratio: this.level < 2 ? ratio : kCoarse * ratio,
+      share: this.share,
+    };
   }
 
   /** To a frame that took so many ms. */
   private adapt(step: number): void {
     this.fast = step < kFast_ms ? this.fast + 1 : 0;
     if (step > kSlow_ms) {
-      if (this.level === kLevels) this.share = Math.max(kMinShare, this.share * Math.max(0.5, kGoal_ms / step));
+      if (this.level === kLevels) this.share = Math.max(this.least, this.share * Math.max(0.5, kGoal_ms / step));
       this.level = Math.min(kLevels, this.level + 1);
     } else if (this.fast >= kSteady) {
       this.fast = 0;
@@ -56,6 +65,9 @@ export class Pace {
     }
   }
 }
+
+/** All points are drawn while the view moves, too, if the page's address has `share=all`. */
+export const leastShare = () => (new URLSearchParams(location.search).get('share') === 'all' ? 1 : kMinShare);
 
 /** Whether WebGL draws on the CPU, where each sample of a pixel costs as much as the first. */
 export function drawsOnCpu(): boolean {

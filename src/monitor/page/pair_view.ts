@@ -2,10 +2,11 @@ import * as THREE from 'three';
 import type {Edge} from './edges';
 import type {FleetMap} from './map';
 import type {State} from './model';
-import {el} from './panels';
+import {el} from './dom';
 import {matrixOf, type Submap} from './submap';
 
-const kTarget = '#2f7de1', kSource = '#e8743b';
+const kTarget = '#2f7de1',
+  kSource = '#e8743b';
 
 /** The two clouds of a registration alone on the map: before it, at each pose that it found, and as placed. */
 export class PairView {
@@ -24,7 +25,8 @@ export class PairView {
 
   /** Buttons that choose where the source is drawn; null where a cloud is not here. */
   buttons(state: State, edge: Edge): HTMLElement | null {
-    const target = this.find(state, edge.a), source = this.find(state, edge.b);
+    const target = this.find(state, edge.a),
+      source = this.find(state, edge.b);
     if (!target || !source) return null;
     const alignment = edge.alignment === undefined ? undefined : state.alignments[edge.alignment];
     const places: [string, string, THREE.Matrix4 | undefined][] = [['placed', 'as placed', undefined]];
@@ -32,8 +34,11 @@ export class PairView {
       const T_target_source = matrixOf(target.node.gps).invert().multiply(matrixOf(source.node.gps));
       places.push(['gps', 'before, by GPS', T_target_source]);
     }
-    alignment?.poses.forEach((pose, k) => places.push([`pose-${k}`, alignment.poses.length > 1 ? `pose ${k + 1}` : 'as registered', matrixOf(pose)]));
-    const rejected = edge.registration === undefined || alignment ? undefined : state.registrations[edge.registration].pose;
+    alignment?.poses.forEach((pose, k) =>
+      places.push([`pose-${k}`, alignment.poses.length > 1 ? `pose ${k + 1}` : 'as registered', matrixOf(pose)]),
+    );
+    const rejected =
+      edge.registration === undefined || alignment ? undefined : state.registrations[edge.registration].pose;
     if (rejected) places.push(['rejected', 'as rejected', matrixOf(rejected)]);
     const buttons = places.map(([id, label, T]) => {
       const button = el('button', {type: 'button', 'data-compare': id, 'aria-pressed': 'false'}, label);
@@ -43,8 +48,14 @@ export class PairView {
       };
       return button;
     });
-    const key = (colour: string, id: string) => el('span', {}, el('i', {class: 'dot', style: `background:${colour}`}), id);
-    return el('div', {class: 'compare'}, el('p', {class: 'hint'}, 'Both clouds: ', key(kTarget, edge.a), ' ', key(kSource, edge.b)), el('div', {class: 'group'}, ...buttons));
+    const key = (colour: string, id: string) =>
+      el('span', {}, el('i', {class: 'dot', style: `background:${colour}`}), id);
+    return el(
+      'div',
+      {class: 'compare'},
+      el('p', {class: 'hint'}, 'Both clouds: ', key(kTarget, edge.a), ' ', key(kSource, edge.b)),
+      el('div', {class: 'group'}, ...buttons),
+    );
   }
 
   private find(state: State, id: string) {

@@ -1,20 +1,31 @@
 import * as THREE from 'three';
 import {turboTexture} from './ramp';
 
+export type ColourMode = 'robot' | 'height' | 'intensity' | 'age' | 'sigma';
+/** Values of PointStyle's mode; age and sigma put each submap as a whole on the ramp. */
+export const kModes: Record<ColourMode, number> = {robot: 0, height: 1, intensity: 2, age: 3, sigma: 3};
+
 /** The style that all points share. */
 export interface PointStyle {
-  mode: {value: number};       // 0 robot, 1 height, 2 intensity, 3 the submap's own share
-  low: {value: number};        // m, of the colours of height
+  mode: {value: number}; // 0 robot, 1 height, 2 intensity, 3 the submap's own share
+  low: {value: number}; // m, of the colours of height
   high: {value: number};
-  pixelsPerMetre: {value: number};  // in plan view; at 1 m in perspective
+  pixelsPerMetre: {value: number}; // in plan view; at 1 m in perspective
   planar: {value: number};
-  ratio: {value: number};      // device pixels per pixel
+  ratio: {value: number}; // device pixels per pixel
 }
 
-export const kPointSize = {metres: 0.11, least: 1.7, most: 6};  // the latter two in pixels
+export const kPointSize = {metres: 0.11, least: 1.7, most: 6}; // the latter two in pixels
 
 export function pointStyle(): PointStyle {
-  return {mode: {value: 0}, low: {value: 0}, high: {value: 1}, pixelsPerMetre: {value: 1}, planar: {value: 0}, ratio: {value: 1}};
+  return {
+    mode: {value: 0},
+    low: {value: 0},
+    high: {value: 1},
+    pixelsPerMetre: {value: 1},
+    planar: {value: 0},
+    ratio: {value: 1},
+  };
 }
 
 const kVertex = /* glsl */ `
@@ -52,5 +63,9 @@ void main() { gl_FragColor = vec4(vColour, 1.0); }`;
 export const rgbOf = (colour: string) => new THREE.Color().setStyle(colour, THREE.LinearSRGBColorSpace);
 
 export function pointMaterial(style: PointStyle): THREE.ShaderMaterial {
-  return new THREE.ShaderMaterial({vertexShader: kVertex, fragmentShader: kFragment, uniforms: {...style, styles: {value: null}, turbo: {value: turboTexture()}}});
+  return new THREE.ShaderMaterial({
+    vertexShader: kVertex,
+    fragmentShader: kFragment,
+    uniforms: {...style, styles: {value: null}, turbo: {value: turboTexture()}},
+  });
 }

@@ -1,23 +1,24 @@
 import * as THREE from 'three';
 import {pointMaterial, type PointStyle} from './point_material';
 
-export const kBlock = 256;  // points; the shader shifts by 8
-const kTexels = 4;          // of a block: three rows of its matrix, then colour and share
-const kAcross = 64;         // blocks in a row of the texture
-const kAtFirst = 1024;      // blocks
+export const kBlock = 256; // points; the shader shifts by 8
+const kTexels = 4; // of a block: three rows of its matrix, then colour and share
+const kAcross = 64; // blocks in a row of the texture
+const kAtFirst = 1024; // blocks
 
 /**
- * All points of the map in one buffer that WebGL draws by one call. Points lie in blocks; each block has its pose and colour in a
- * texture, so that a correction of the graph writes matrices and no point. An index names the points that are drawn.
+ * All points of the map in one buffer that WebGL draws by one call. Points lie in blocks; each block has its pose and
+ * colour in a texture, so that a correction of the graph writes matrices and no point. An index names the points that
+ * are drawn.
  */
 export class PointPool {
   readonly object: THREE.Points<THREE.BufferGeometry, THREE.ShaderMaterial>;
-  readonly runs: {block: number; points: number}[] = [];  // that are drawn: of each block the first points
-  values = new Int16Array(0);  // x, y, z, intensity of each point
+  readonly runs: {block: number; points: number}[] = []; // that are drawn: of each block the first points
+  values = new Int16Array(0); // x, y, z, intensity of each point
   private styles = new Float32Array(0);
   private indices = new Uint32Array(0);
   private free: number[] = [];
-  private blocks = 0;  // that there is room for
+  private blocks = 0; // that there is room for
 
   constructor(style: PointStyle) {
     this.object = new THREE.Points(new THREE.BufferGeometry(), pointMaterial(style));
@@ -50,7 +51,8 @@ export class PointPool {
 
   /** Pose (to the world, of steps of 1/32767) and style of a block. */
   dress(block: number, matrix: THREE.Matrix4, colour: THREE.Color, share: number): void {
-    const m = matrix.elements, start = 4 * kTexels * block;
+    const m = matrix.elements,
+      start = 4 * kTexels * block;
     for (let row = 0; row < 3; ++row) this.styles.set([m[row], m[row + 4], m[row + 8], m[row + 12]], start + 4 * row);
     this.styles.set([colour.r, colour.g, colour.b, share], start + 12);
     this.texture.needsUpdate = true;
@@ -93,7 +95,8 @@ export class PointPool {
 
   /** Point k of a block, in steps of its submap. */
   step(block: number, k: number, out: THREE.Vector3): THREE.Vector3 {
-    const v = this.values, at = 4 * (kBlock * block + k);
+    const v = this.values,
+      at = 4 * (kBlock * block + k);
     return out.set(v[at] / 32767, v[at + 1] / 32767, v[at + 2] / 32767);
   }
 
@@ -102,7 +105,8 @@ export class PointPool {
   }
 
   private grow(blocks: number): void {
-    const values = new Int16Array(4 * kBlock * blocks), styles = new Float32Array(4 * kTexels * blocks);
+    const values = new Int16Array(4 * kBlock * blocks),
+      styles = new Float32Array(4 * kTexels * blocks);
     values.set(this.values);
     styles.set(this.styles);
     [this.values, this.styles] = [values, styles];
@@ -114,7 +118,13 @@ export class PointPool {
     geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(buffer, 3, 0, true));
     geometry.setAttribute('intensity', new THREE.InterleavedBufferAttribute(buffer, 1, 3, true));
     material.uniforms.styles.value?.dispose();
-    const texture = new THREE.DataTexture(styles, kTexels * kAcross, blocks / kAcross, THREE.RGBAFormat, THREE.FloatType);
+    const texture = new THREE.DataTexture(
+      styles,
+      kTexels * kAcross,
+      blocks / kAcross,
+      THREE.RGBAFormat,
+      THREE.FloatType,
+    );
     texture.needsUpdate = true;
     material.uniforms.styles.value = texture;
   }

@@ -4,11 +4,18 @@ const kSteps = 256;
 
 /** Turbo (A. Mikhailov, 2019) by a polynomial, 0 to 1. */
 export function turbo(x: number): [number, number, number] {
-  const value = (...c: number[]) => Math.min(1, Math.max(0, c.reduceRight((sum, one) => sum * x + one, 0)));
+  const value = (...c: number[]) =>
+    Math.min(
+      1,
+      Math.max(
+        0,
+        c.reduceRight((sum, one) => sum * x + one, 0),
+      ),
+    );
   return [
-    value(0.13572138, 4.61539260, -42.66032258, 132.13108234, -152.94239396, 59.28637943),
+    value(0.13572138, 4.6153926, -42.66032258, 132.13108234, -152.94239396, 59.28637943),
     value(0.09140261, 2.19418839, 4.84296658, -14.18503333, 4.27729857, 2.82956604),
-    value(0.10667330, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973),
+    value(0.1066733, 12.64194608, -60.58204836, 110.36276771, -89.90310912, 27.34824973),
   ];
 }
 
@@ -21,7 +28,8 @@ export function shaded(colour: THREE.Color, height: number): [number, number, nu
 /** The colours of a function of 0 to 1, as bytes R, G, B, A. */
 export function rampOf(colourAt: (x: number) => [number, number, number]): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(4 * kSteps);
-  for (let k = 0; k < kSteps; ++k) bytes.set([...colourAt(k / (kSteps - 1)).map((c) => Math.round(255 * c)), 255], 4 * k);
+  for (let k = 0; k < kSteps; ++k)
+    bytes.set([...colourAt(k / (kSteps - 1)).map((c) => Math.round(255 * c)), 255], 4 * k);
   return bytes;
 }
 

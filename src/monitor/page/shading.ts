@@ -13,8 +13,8 @@ export interface View {
   height: number;
 }
 
-// Eye-dome lighting (C. Boucheny, 2009): a point is darkened by how far it lies behind its neighbours on the screen, in units
-// of a pixel's size there, so that edges and slopes read without normals.
+// Eye-dome lighting (C. Boucheny, 2009): a point is darkened by how far it lies behind its neighbours on the screen, in
+// units of a pixel's size there, so that edges and slopes read without normals.
 const kFragment = /* glsl */ `
 uniform sampler2D colours, depths;
 uniform vec2 texel;
@@ -61,8 +61,15 @@ export class Shading {
       depthTest: false,
       depthWrite: false,
       uniforms: {
-        colours: uniform(null), depths: uniform(null), texel: uniform(new THREE.Vector2()),
-        near: uniform(0), far: uniform(1), planar: uniform(0), pixelAtOne: uniform(1), radius: uniform(1), strength: uniform(0),
+        colours: uniform(null),
+        depths: uniform(null),
+        texel: uniform(new THREE.Vector2()),
+        near: uniform(0),
+        far: uniform(1),
+        planar: uniform(0),
+        pixelAtOne: uniform(1),
+        radius: uniform(1),
+        strength: uniform(0),
       },
     });
     const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.material);
@@ -71,7 +78,13 @@ export class Shading {
   }
 
   /** `pixelAtOne`: m that a pixel spans at a distance of 1 m. */
-  draw(renderer: THREE.WebGLRenderer, picture: PointPicture, {camera, width, height}: View, pixelAtOne: number, shaded: boolean): void {
+  draw(
+    renderer: THREE.WebGLRenderer,
+    picture: PointPicture,
+    {camera, width, height}: View,
+    pixelAtOne: number,
+    shaded: boolean,
+  ): void {
     const u = this.material.uniforms;
     u.colours.value = picture.colours;
     u.depths.value = picture.depths;

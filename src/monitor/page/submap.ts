@@ -52,19 +52,23 @@ export function parseParts(buffer: ArrayBuffer): Map<string, Part> {
 }
 
 export function matrixOf([x, y, z, qx, qy, qz, qw]: PoseValues): THREE.Matrix4 {
-  return new THREE.Matrix4().compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(qx, qy, qz, qw), new THREE.Vector3(1, 1, 1));
+  return new THREE.Matrix4().compose(
+    new THREE.Vector3(x, y, z),
+    new THREE.Quaternion(qx, qy, qz, qw),
+    new THREE.Vector3(1, 1, 1),
+  );
 }
 
 /** A submap on the map. Its points never change; a correction moves the matrix of its blocks alone. */
 export class Submap {
-  readonly centre = new THREE.Vector3();  // in the world, of the bounding sphere
+  readonly centre = new THREE.Vector3(); // in the world, of the bounding sphere
   radius = 30;
-  total = -1;   // points it has; -1: nobody has asked yet
-  loaded = 0;   // points that are here
-  wanted = 0;   // points that the budget leaves it
+  total = -1; // points it has; -1: nobody has asked yet
+  loaded = 0; // points that are here
+  wanted = 0; // points that the budget leaves it
   asked = false;
   failed = false;
-  sigma_m: number | undefined;  // of its node in ENU, horizontal
+  sigma_m: number | undefined; // of its node in ENU, horizontal
   visible = true;
   private blocks: number[] = [];
   private T = new THREE.Matrix4();
@@ -73,9 +77,15 @@ export class Submap {
   private matrix = new THREE.Matrix4();
   private tinted?: string;
   private share_ = 0;
-  private stale = true;  // its blocks do not show its pose and style yet
+  private stale = true; // its blocks do not show its pose and style yet
 
-  constructor(readonly hash: string, readonly robot: string, readonly t: number, private pool: PointPool, private colour: string) {}
+  constructor(
+    readonly hash: string,
+    readonly robot: string,
+    readonly t: number,
+    private pool: PointPool,
+    private colour: string,
+  ) {}
 
   place(T_enu_node: THREE.Matrix4): void {
     this.T.copy(T_enu_node);
@@ -140,7 +150,8 @@ export class Submap {
   /** Draws such a share of its points; returns how many these are. */
   draw(share: number): number {
     const points = Math.ceil(share * this.drawn);
-    for (let k = 0, left = points; left > 0; ++k, left -= kBlock) this.pool.draw(this.blocks[k], Math.min(kBlock, left));
+    for (let k = 0, left = points; left > 0; ++k, left -= kBlock)
+      this.pool.draw(this.blocks[k], Math.min(kBlock, left));
     return points;
   }
 

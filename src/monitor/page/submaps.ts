@@ -3,33 +3,37 @@ import type {PointStyle} from './point_material';
 import {kBlock, PointPool} from './point_pool';
 import {type Part, parsePart, parseParts, Submap} from './submap';
 
-const kCoarse = 1024;     // points of a submap that come with those of others, at most
-const kMin = 64;        // likewise, at least
-const kTogether = 64;     // submaps of one request
-const kCoarseAtOnce = 3;  // requests
+const kCoarse = 1024; // points of a submap that come with those of others, at most
+const kMin = 64; // likewise, at least
+const kTogether = 64; // submaps of one request
+const kCoarseAtOnce = 3; // requests
 const kFineAtOnce = 6;
-const kFineStep = 4096;   // points
+const kFineStep = 4096; // points
 const kAllocate_ms = 100; // while the view moves
-const kAgain_ms = 2000;   // after a request that nobody answered
+const kAgain_ms = 2000; // after a request that nobody answered
 
 /** All submaps: asks for those that are worth it, and divides the budget of points among them. */
 export class Submaps {
   readonly all = new Map<string, Submap>();
   readonly pool: PointPool;
   budget = 1_000_000;
-  only: ReadonlySet<string> | undefined;  // the hashes of those that are shown; undefined: all
+  only: ReadonlySet<string> | undefined; // the hashes of those that are shown; undefined: all
   drawn = 0;
-  listed = false;  // what is drawn has changed since this was set to false
+  listed = false; // what is drawn has changed since this was set to false
   private running = 0;
-  private seen: {submap: Submap; weight: number}[] = [];  // nearest first
+  private moving = false;
+  private seen: {submap: Submap; weight: number}[] = []; // nearest first
   private allocated = -Infinity;
   private share = 1;
   private stale = true;
   private heights_?: [number, number];
-  private heightsOf = 0;  // points loaded when they were taken
+  private heightsOf = 0; // points loaded when they were taken
   private loaded = 0;
 
-  constructor(style: PointStyle, private changed: () => void) {
+  constructor(
+    style: PointStyle,
+    private changed: () => void,
+  ) {
     this.pool = new PointPool(style);
   }
 
@@ -53,8 +57,12 @@ export class Submaps {
     this.stale = true;
   }
 
-  /** Prepares a picture of so large a share of the budget. While the view moves the budget is divided from time to time only. */
+  /**
+   * Prepares a picture of so large a share of the budget. While the view moves the budget is divided from time to time
+   * only.
+   */
   prepare(camera: THREE.Camera, planar: boolean, until: number, moving: boolean, share: number): void {
+    this.moving = moving;
     const now = performance.now();
     const due = this.stale || !moving || now - this.allocated > kAllocate_ms;
     if (due) {
@@ -68,7 +76,8 @@ export class Submaps {
 
   private allocate(camera: THREE.Camera, planar: boolean, until: number): void {
     const frustum = new THREE.Frustum().setFromProjectionMatrix(
-      new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+      new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse),
+    );
     const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
     const sphere = new THREE.Sphere();
     this.seen = [];
@@ -104,18 +113,24 @@ export class Submaps {
     }
     if (values.length === 0) return [0, 0];
     values.sort((a, b) => a - b);
-    const low = values[0], high = values[Math.floor(0.985 * (values.length - 1))];
+    const low = values[0],
+      high = values[Math.floor(0.985 * (values.length - 1))];
     for (const submap of shown) submap.share = ((value(submap) ?? high) - low) / Math.max(1e-9, high - low);
     return [low, high];
   }
 
-  /** Heights between which most of the points are; undefined while there are few. Taken anew when a tenth more points have come. */
+  /**
+   * Heights between which most of the points are; undefined while there are few. Taken anew when a tenth more points
+   * have come.
+   */
   heights(): [number, number] | undefined {
     if (this.heights_ && this.loaded < 1.1 * this.heightsOf) return this.heights_;
-    const heights: number[] = [], p = new THREE.Vector3();
+    const heights: number[] = [],
+      p = new THREE.Vector3();
     const each = Math.max(4, Math.min(40, Math.floor(40_000 / this.all.size)));
     for (const submap of this.all.values()) {
-      const known = Math.min(submap.loaded, 4096), step = Math.max(1, Math.floor(known / each));
+      const known = Math.min(submap.loaded, 4096),
+        step = Math.max(1, Math.floor(known / each));
       for (let k = 0; k < known; k += step) heights.push(submap.point(k, p).z);
     }
     if (heights.length < 10) return undefined;
@@ -132,7 +147,8 @@ export class Submaps {
 
   private trim(): void {
     if (kBlock * this.pool.used <= 3 * this.budget + 2 * kBlock * this.all.size) return;
-    for (const submap of this.all.values()) if (submap.wanted < submap.loaded) submap.trim(Math.max(kMin, submap.wanted));
+    for (const submap of this.all.values())
+      if (submap.wanted < submap.loaded) submap.trim(Math.max(kMin, submap.wanted));
   }
 
   /** Goes on where the last picture left off, so that loading does not wait for slow pictures. */
@@ -141,19 +157,41 @@ export class Submaps {
     const coarse = spread(open.filter((one) => one.total < 0));
     const share = Math.ceil(this.budget / Math.max(1, this.seen.length));
     for (let k = 0; k < coarse.length && this.running < kCoarseAtOnce; k += kTogether)
-      void this.fetchCoarse(coarse.slice(k, k + kTogether), Math.min(kCoarse, Math.max(kMin, share)));
+      void this.fetchTogether(coarse.slice(k, k + kTogether), 0, Math.min(kCoarse, Math.max(kMin, share)));
     if (coarse.length > 0) return;
+    let together: Submap[] = [];
     for (const submap of open) {
       if (this.running >= kFineAtOnce) return;
-      // A few points more are not worth a request while the view moves.
-      const missing = Math.min(submap.wanted, submap.total) - submap.loaded;
-      if (missing > 0 && (missing > 0.1 * submap.loaded || submap.wanted >= submap.total)) void this.fetchFine(submap);
+      if (!this.isWorthMore(submap)) continue;
+      if (useful(submap) > kCoarse) void this.fetchFine(submap);
+      else if (together.length === 0 || submap.loaded === together[0].loaded) together.push(submap);
+      if (together.length < kTogether) continue;
+      void this.fetchFew(together);
+      together = [];
     }
+    if (together.length > 0 && this.running < kFineAtOnce) void this.fetchFew(together);
   }
 
-  /** The first points of several submaps. The program decodes some at a time; the rest is asked for again. */
-  private async fetchCoarse(submaps: Submap[], points: number): Promise<void> {
-    await this.ask(submaps, `/submaps?count=${points}&of=${submaps.map((one) => one.hash).join()}`, (answer) => {
+  /** A few points more are not worth a request; while the view moves, it must be twice as many. */
+  private isWorthMore(submap: Submap): boolean {
+    const missing = useful(submap) - submap.loaded;
+    if (this.moving) return missing > submap.loaded;
+    return missing > 0 && (missing > 0.1 * submap.loaded || submap.wanted >= submap.total);
+  }
+
+  /** More points of several submaps of which as many are here, but not many. */
+  private async fetchFew(submaps: Submap[]): Promise<void> {
+    const from = submaps[0].loaded,
+      most = Math.max(...submaps.map(useful));
+    await this.fetchTogether(submaps, from, Math.min(kCoarse, Math.ceil(most / kMin) * kMin) - from);
+  }
+
+  /**
+   * Some of the first points of several submaps. The program decodes some at a time; the rest is asked for again.
+   */
+  private async fetchTogether(submaps: Submap[], from: number, points: number): Promise<void> {
+    const of = submaps.map((one) => one.hash).join();
+    await this.ask(submaps, `/submaps?from=${from}&count=${points}&of=${of}`, (answer) => {
       const parts = parseParts(answer);
       if (parts.size === 0) throw new Error('the program sent none of the submaps');
       for (const submap of submaps) {
@@ -165,7 +203,11 @@ export class Submaps {
 
   private async fetchFine(submap: Submap): Promise<void> {
     const points = Math.ceil((submap.wanted - submap.loaded) / kFineStep) * kFineStep;
-    await this.ask([submap], `/submap/${submap.hash}?from=${submap.loaded}&count=${Math.min(points, 262_144)}`, (answer) => this.put(submap, parsePart(answer)));
+    await this.ask(
+      [submap],
+      `/submap/${submap.hash}?from=${submap.loaded}&count=${Math.min(points, 262_144)}`,
+      (answer) => this.put(submap, parsePart(answer)),
+    );
   }
 
   private async ask(submaps: Submap[], address: string, take: (answer: ArrayBuffer) => void): Promise<void> {
@@ -176,7 +218,7 @@ export class Submaps {
       if (!answer.ok) throw new Error(await answer.text());
       take(await answer.arrayBuffer());
     } catch (error) {
-      for (const submap of submaps) submap.failed = true;  // the picture goes on without them
+      for (const submap of submaps) submap.failed = true; // the picture goes on without them
       console.warn(`submap ${submaps.map((one) => one.hash).join()}: ${(error as Error).message}`);
     } finally {
       for (const submap of submaps) submap.asked = false;
@@ -209,7 +251,10 @@ export class Submaps {
   }
 }
 
-/** In an order of which the first ones are spread over all (van der Corput), so that the first picture is of the whole site. */
+/**
+ * In an order of which the first ones are spread over all (van der Corput), so that the first picture is of the whole
+ * site.
+ */
 function spread(submaps: Submap[]): Submap[] {
   const bits = Math.max(1, Math.ceil(Math.log2(Math.max(2, submaps.length))));
   const order: Submap[] = [];
@@ -242,6 +287,9 @@ function divide(seen: {submap: Submap; weight: number}[], budget: number): void 
     open = open.filter((one) => !isFull.has(one));
   }
 }
+
+/** Points that its share of the budget would draw. */
+const useful = (submap: Submap) => Math.min(submap.wanted, submap.total);
 
 function size(submap: Submap): number {
   return submap.total < 0 ? kFineStep : submap.total;

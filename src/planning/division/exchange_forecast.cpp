@@ -121,11 +121,11 @@ class Simulation {
     demands_.clear();
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t map = 0; map < n; ++map) {
-        double most = holds_[k][map];
+        double held = holds_[k][map];
         for (std::size_t other = 0; other < n; ++other) {
-          if (other != k && holds_[other][map] > most && near(k, other)) most = holds_[other][map];
+          if (other != k && holds_[other][map] > held && near(k, other)) held = holds_[other][map];
         }
-        if (most > holds_[k][map]) demands_.push_back({k, map, most - holds_[k][map]});
+        if (held > holds_[k][map]) demands_.push_back({k, map, held - holds_[k][map]});
       }
     }
     std::ranges::stable_sort(demands_, {}, &Demand::bytes);

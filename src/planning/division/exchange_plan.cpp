@@ -224,10 +224,10 @@ class Planner {
   /// The gain does not hang on meeting somebody by chance at the right second.
   bool lasts(const std::vector<Itinerary>& drives, std::span<const double> late) const {
     for (std::size_t k = 0; k < std::size(kLate); ++k) {
-      const double most = late[k] - std::max(config_.min_gain, 1e-3);
+      const double bound = late[k] - std::max(config_.min_gain, 1e-3);
       const Forecast forecast = forecast_exchange(drives, plan_.stops.size() + 1, config_,
-                                                  std::min(most, 2.0 * now_.completion), kLate[k]);
-      if (!(forecast.completion < most)) return false;
+                                                  std::min(bound, 2.0 * now_.completion), kLate[k]);
+      if (!(forecast.completion < bound)) return false;
     }
     return true;
   }

@@ -7,12 +7,12 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 struct Choice {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();
-  double latest = kFar;
-  double sum = kFar;
+  double latest = kNever;
+  double sum = kNever;
   bool operator<(const Choice& o) const {
     return latest < o.latest - 1e-6 || (latest < o.latest + 1e-6 && sum < o.sum - 1e-6);
   }

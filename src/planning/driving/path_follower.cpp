@@ -171,11 +171,11 @@ Command PathFollower::State::follow(const Arc& arc, double limit) const {
 
 /// Within what the chassis can follow: speed rises no faster than `acceleration`.
 Command PathFollower::State::held(const Command& wanted, double speed, double dt) {
-  const double most = std::max(std::max(speed, last_speed), 0.0) + config.acceleration * dt;
+  const double fastest = std::max(std::max(speed, last_speed), 0.0) + config.acceleration * dt;
   Command command = wanted;
-  if (command.forward_speed > most) {
-    command.yaw_rate *= most / command.forward_speed;
-    command.forward_speed = most;
+  if (command.forward_speed > fastest) {
+    command.yaw_rate *= fastest / command.forward_speed;
+    command.forward_speed = fastest;
   }
   command.yaw_rate = std::clamp(command.yaw_rate, -config.max_yaw_rate, config.max_yaw_rate);
   last_speed = command.forward_speed;

@@ -7,7 +7,7 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kCovered = 0.9;       // share of a row that counts as driven
+constexpr double kDrivenShare = 0.9;   // share of a row that counts as driven
 constexpr double kInspectedGap = 8.0;  // m between the two places at which it was stopped, seen from both
 constexpr int kMaxFailedRoutes = 4;    // to one row, until the robot gives it up
 
@@ -32,7 +32,8 @@ RowAttempts::Outcome RowAttempts::blocked(std::size_t row, double driven, double
   reached = std::max(reached, std::clamp(driven, 0.0, length));
   const double left = length - from_first - from_last;
   const bool from_both_ends = from_first > 0.0 && from_last > 0.0;
-  if (left <= (1.0 - kCovered) * length || (from_both_ends && left <= kInspectedGap)) return Outcome::kDriven;
+  if (left <= (1.0 - kDrivenShare) * length || (from_both_ends && left <= kInspectedGap))
+    return Outcome::kDriven;
   if (++attempts_[row] < max_attempts) return Outcome::kRetry;
   char reason[192];
   std::snprintf(reason, sizeof reason,

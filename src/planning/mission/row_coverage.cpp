@@ -5,10 +5,10 @@
 namespace fleetmap::planning {
 namespace {
 
-constexpr double kStep = 2.0;     // m between samples of a row
-constexpr double kAlong = 12.0;   // m to the next node: nodes may be twice as far apart
-constexpr double kAcross = 3.0;   // m that a node's position may be off
-constexpr double kCovered = 0.8;  // share of a row, since robots stop short of its ends
+constexpr double kStep = 2.0;          // m between samples of a row
+constexpr double kAlong = 12.0;        // m to the next node: nodes may be twice as far apart
+constexpr double kAcross = 3.0;        // m that a node's position may be off
+constexpr double kCoveredShare = 0.8;  // share of a row, since robots stop short of its ends
 
 }  // namespace
 
@@ -45,7 +45,8 @@ void RowCoverage::add(const Eigen::Vector2d& position) {
       sample.near = true;
       ++row.near;
     }
-    if (static_cast<double>(row.near) >= kCovered * static_cast<double>(row.samples.size())) covered_.set(k);
+    if (static_cast<double>(row.near) >= kCoveredShare * static_cast<double>(row.samples.size()))
+      covered_.set(k);
   }
 }
 

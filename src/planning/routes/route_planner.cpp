@@ -7,7 +7,9 @@
 #include <string>
 
 #include "fleetmap/geometry/se3.hpp"
+#include "routes/heading.hpp"
 #include "routes/visibility_graph.hpp"
+#include "site/point_text.hpp"
 #include "site/site_grid.hpp"
 
 namespace fleetmap::planning {
@@ -15,14 +17,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-double heading(const Eigen::Vector2d& d) { return std::atan2(d.y(), d.x()); }
-
-std::string text(const Eigen::Vector2d& p) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "(%.1f, %.1f)", p.x(), p.y());
-  return buffer;
-}
 
 void append(Polyline& line, const Eigen::Vector2d& p) {
   if (line.empty() || (line.back() - p).norm() > 1e-3) line.push_back(p);
@@ -183,7 +177,8 @@ Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::V
   const Anchor goal = anchor(to);
   for (const Anchor* end : {&start, &goal}) {
     if (end->valid) continue;
-    const std::string no_way = "no way from " + text(from) + " to " + text(to) + " m: " + text(end->point);
+    const std::string no_way =
+        "no way from " + point_text(from) + " to " + point_text(to) + " m: " + point_text(end->point);
     if ((state_->grid.zone(end->point) & SiteGrid::kInside) != 0) {
       return failure(
           no_way +
@@ -196,7 +191,7 @@ Result<Polyline> RoutePlanner::route(const Eigen::Vector2d& from, const Eigen::V
   }
   Polyline line = unwind(search(start, blocked), start, goal, blocked);
   if (line.empty()) {
-    return failure("no way from " + text(from) + " to " + text(to) +
+    return failure("no way from " + point_text(from) + " to " + point_text(to) +
                    " m keeps the clearance to keep-outs; open a gate in them or lower `clearance`");
   }
   if (line.size() == 1) line.push_back(line.front());

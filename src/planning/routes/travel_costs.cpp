@@ -5,13 +5,13 @@
 #include <string>
 
 #include "fleetmap/geometry/se3.hpp"
+#include "routes/heading.hpp"
 
 namespace fleetmap::planning {
 namespace {
 
 constexpr double kNoLength = 0.05;  // m: pieces of one lane meet, there is no way between them
 
-double heading(const Eigen::Vector2d& d) { return std::atan2(d.y(), d.x()); }
 double angle(double a, double b) { return std::abs(wrap_angle(a - b)); }
 
 /// Turns at both ends of a leg that leaves in direction `out` and arrives for direction `in`.

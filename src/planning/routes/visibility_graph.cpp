@@ -54,7 +54,7 @@ void add_corner(const KeepOut& polygon, std::size_t k, double orientation, doubl
 }
 
 /// A shortest path touches a corner; one that would go through it can't leave it as a shortest one either.
-bool touches(const Corner& corner, const Eigen::Vector2d& direction) {
+bool touches_corner(const Corner& corner, const Eigen::Vector2d& direction) {
   const double a = cross(direction, corner.before);
   const double b = cross(direction, corner.behind);
   const double slack = 1e-3 * direction.norm();
@@ -112,7 +112,7 @@ VisibilityGraph VisibilityGraph::of(const Mission& mission, const SiteGrid& grid
       const Eigen::Vector2d d = corners[j].at - corners[i].at;
       if (d.x() > graph.reach) break;
       if (std::abs(d.y()) > graph.reach) continue;
-      if (!touches(corners[i], d) || !touches(corners[j], d)) continue;
+      if (!touches_corner(corners[i], d) || !touches_corner(corners[j], d)) continue;
       if (!grid.line_clear(corners[i].at, corners[j].at, SiteGrid::kNear)) continue;
       graph.edges[i].emplace_back(j, d.norm());
       graph.edges[j].emplace_back(i, d.norm());

@@ -44,7 +44,7 @@ std::optional<FileFrame> frame_of(const json& root) {
 
 class Reader {
  public:
-  Reader(const LocalFrame& site, const GeoJsonLimits& limits) : site_(site), limits_(limits) {}
+  Reader(const LocalFrame& site, const DrawingLimits& limits) : site_(site), limits_(limits) {}
 
   Mission read(const json& root) {
     if (!root.is_object() || root.value("type", json()) != "FeatureCollection") {
@@ -205,7 +205,7 @@ class Reader {
   }
 
   const LocalFrame& site_;
-  const GeoJsonLimits& limits_;
+  const DrawingLimits& limits_;
   bool enu_ = false;
   std::size_t total_ = 0;
   std::set<RowId> ids_;
@@ -241,7 +241,7 @@ bool too_deep(const std::string& text) {
 }  // namespace
 
 Result<Mission> parse_geojson(const std::string& text, const std::string& name, const LocalFrame& site,
-                              const GeoJsonLimits& limits) {
+                              const DrawingLimits& limits) {
   if (text.size() > limits.file_bytes) {
     return failure(name + ": larger than " + std::to_string(limits.file_bytes >> 20) +
                    " MB; simplify rows and keep-outs");
@@ -276,7 +276,7 @@ std::optional<GeoPoint> first_position(const std::string& text) {
 }
 
 Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame& site,
-                             const GeoJsonLimits& limits) {
+                             const DrawingLimits& limits) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
     return failure(file.string() + ": no such file; give the GeoJSON file of the site");

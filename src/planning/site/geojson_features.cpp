@@ -1,15 +1,14 @@
 #include "site/geojson_features.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "fleetmap/geometry/degree.hpp"
 
 namespace fleetmap::planning {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// To so many decimals; written as 0.1, not as 0.10000000000000001.
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string>
 #include <utility>
+
+#include "site/point_text.hpp"
 
 namespace fleetmap::planning {
 namespace {
@@ -29,12 +30,6 @@ Status check_starts(const std::vector<StartPoint>& starts) {
     if (!agents.insert(start.agent).second) return failure("mission: there are two points for the " + name);
   }
   return {};
-}
-
-std::string text(const Eigen::Vector2d& p) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "(%.1f, %.1f)", p.x(), p.y());
-  return buffer;
 }
 
 }  // namespace
@@ -106,10 +101,10 @@ Status check_within(const Mission& mission, const Eigen::Vector2d& low, const Ei
       const Eigen::Vector2d& p = row.waypoints[k];
       const double outside = (p - p.cwiseMax(low).cwiseMin(high)).norm();
       if (outside == 0.0) continue;
-      return failure("row " + std::to_string(row.id) + ", waypoint " + std::to_string(k) + " at " + text(p) +
-                     " m is " + std::to_string(std::llround(std::ceil(outside))) +
-                     " m outside the site, which reaches from " + text(low) + " to " + text(high) +
-                     " m (ENU); correct the waypoint, or the site origin if all are off");
+      return failure("row " + std::to_string(row.id) + ", waypoint " + std::to_string(k) + " at " +
+                     point_text(p) + " m is " + std::to_string(std::llround(std::ceil(outside))) +
+                     " m outside the site, which reaches from " + point_text(low) + " to " +
+                     point_text(high) + " m (ENU); correct the waypoint, or the site origin if all are off");
     }
   }
   return {};

@@ -1,6 +1,7 @@
-// Reads what `fleetmap map export` writes as LAS with a reader of others (npm's copc) and compares it with the PLY of the same
-// store: a point for each, the same shape, within its header's bounds.
-//   node las_readers_test.mjs FLEETMAP FOLDER     exit code 77: skipped, since npm cannot install the reader into FOLDER
+// Reads what `fleetmap map export` writes as LAS with a reader of others (npm's copc) and compares it with the PLY of
+// the same store: a point for each, the same shape, within its header's bounds.
+//   node las_readers_test.mjs FLEETMAP FOLDER
+// Exit code 77: skipped, since npm cannot install the reader into FOLDER.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
@@ -13,8 +14,19 @@ const [fleetmap, installed] = process.argv.slice(2);
 const here = dirname(fileURLToPath(import.meta.url));
 mkdirSync(installed, {recursive: true});
 for (const file of ['package.json', 'package-lock.json']) copyFileSync(join(here, file), join(installed, file));
-const npm = spawnSync('npm', ['ci', '--ignore-scripts', '--no-audit', '--no-fund', '--prefer-offline', '--fetch-retries=1', '--fetch-timeout=20000'],
-  {cwd: installed, encoding: 'utf8', timeout: 120_000});
+const npm = spawnSync(
+  'npm',
+  [
+    'ci',
+    '--ignore-scripts',
+    '--no-audit',
+    '--no-fund',
+    '--prefer-offline',
+    '--fetch-retries=1',
+    '--fetch-timeout=20000',
+  ],
+  {cwd: installed, encoding: 'utf8', timeout: 120_000},
+);
 if (npm.status !== 0) {
   console.log(`skipped: npm cannot install the reader: ${npm.stderr}`);
   process.exit(77);
@@ -48,7 +60,10 @@ function readPly(file) {
   const header = bytes.subarray(0, end).toString();
   const count = Number(header.match(/element vertex (\d+)/)[1]);
   const stride = 4 * header.match(/property float/g).length;
-  return {header, points: Array.from({length: count}, (_, k) => [0, 4, 8].map((at) => bytes.readFloatLE(end + k * stride + at)))};
+  return {
+    header,
+    points: Array.from({length: count}, (_, k) => [0, 4, 8].map((at) => bytes.readFloatLE(end + k * stride + at))),
+  };
 }
 
 function checkPoints({header, view}, bounds = header) {
@@ -56,7 +71,9 @@ function checkPoints({header, view}, bounds = header) {
   assert.equal(view.pointCount, header.pointCount);
   const points = Array.from({length: header.pointCount}, (_, k) => get.map((coordinate) => coordinate(k)));
   for (const point of points) {
-    point.forEach((value, axis) => assert.ok(value >= bounds.min[axis] - 1e-9 && value <= bounds.max[axis] + 1e-9, `${point}`));
+    point.forEach((value, axis) =>
+      assert.ok(value >= bounds.min[axis] - 1e-9 && value <= bounds.max[axis] + 1e-9, `${point}`),
+    );
   }
   return points;
 }
@@ -82,7 +99,9 @@ try {
   const points = checkPoints(utm);
 
   const enu = await readLas(join(folder, 'enu.las'));
-  checkPoints(enu).forEach((point, k) => point.forEach((value, axis) => assert.ok(Math.abs(value - ply[k][axis]) < 0.00051, `${point} ${ply[k]}`)));
+  checkPoints(enu).forEach((point, k) =>
+    point.forEach((value, axis) => assert.ok(Math.abs(value - ply[k][axis]) < 0.00051, `${point} ${ply[k]}`)),
+  );
   assert.match(enu.wkt, /^LOCAL_CS\["East-north-up frame at /);
 
   // Lengths on the map are those in ENU times the scale that is printed, to the curvature of the Earth over this site.
@@ -96,7 +115,10 @@ try {
   let count = 0;
   for (const name of readdirSync(join(folder, 'tiles'))) {
     const tile = await readLas(join(folder, 'tiles', name));
-    const [east, north] = name.match(/^(-?\d+)_(-?\d+)\.las$/).slice(1).map(Number);
+    const [east, north] = name
+      .match(/^(-?\d+)_(-?\d+)\.las$/)
+      .slice(1)
+      .map(Number);
     checkPoints(tile, {min: [east, north, -1e4], max: [east + 19.999, north + 19.999, 1e4]});
     count += tile.header.pointCount;
   }

@@ -3,8 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <boost/asio/post.hpp>
-
+#include "monitor/fake_loop.hpp"
 #include "monitor/foxglove/read_cloud.hpp"
 #include "monitor/views.hpp"
 
@@ -12,6 +11,7 @@ namespace fleetmap::monitor::foxglove {
 namespace {
 
 using ::testing::ElementsAre;
+using testing::FakeLoop;
 using ::testing::HasSubstr;
 using testing::node_id;
 using testing::read_cloud;
@@ -32,7 +32,7 @@ class FeedTest : public ::testing::Test {
  protected:
   FeedTest() { clients_.insert(&client_); }
   Feed feed(std::chrono::milliseconds period = std::chrono::hours(1)) {
-    return Feed(io_, content_, clients_, {100, period});
+    return Feed(loop_, content_, clients_, {100, period});
   }
   std::shared_ptr<const FleetView> view(int nodes) {
     ViewMaker fleet;
@@ -49,7 +49,7 @@ class FeedTest : public ::testing::Test {
 
   std::vector<NodeId> loaded_;
   bool readable_ = true;
-  net::io_context io_;
+  FakeLoop loop_;
   Content content_{{},
                    [this](const NodeId& id) -> Result<cloud::PointCloud> {
                      loaded_.push_back(id);
@@ -68,14 +68,14 @@ TEST_F(FeedTest, the_map_is_built_between_other_work) {
   Feed feed = this->feed();
   feed.show(view(3));
   EXPECT_TRUE(loaded_.empty()) << "the caller does not wait for it";
-  io_.run_one();
+  loop_.run_one();
   EXPECT_EQ(loaded_.size(), 1u);
   bool served = false;
-  net::post(io_, [&] { served = true; });
-  while (!served) io_.run_one();
+  loop_.post([&] { served = true; });
+  while (!served) loop_.run_one();
   EXPECT_LT(loaded_.size(), 3u) << "others are served between two submaps";
   EXPECT_EQ(points(feed), 0u);
-  io_.run();
+  loop_.run();
   EXPECT_EQ(points(feed), 30u);
   EXPECT_EQ(client_.wakes, 2) << "for the view and for the map";
 }
@@ -84,41 +84,39 @@ TEST_F(FeedTest, nobody_builds_a_map_that_no_client_wants) {
   Feed feed = this->feed();
   client_.wants = false;
   feed.show(view(3));
-  io_.run();
+  loop_.run();
   EXPECT_TRUE(loaded_.empty());
   client_.wants = true;
   feed.build_map();
-  io_.restart();
-  io_.run_one();
+  loop_.run_one();
   client_.wants = false;
-  io_.run();
+  loop_.run();
   EXPECT_EQ(loaded_.size(), 1u) << "it stops when the last client leaves";
   client_.wants = true;
   feed.build_map();
-  io_.restart();
-  io_.run();
+  loop_.run();
   EXPECT_EQ(points(feed), 30u);
 }
 
 TEST_F(FeedTest, a_map_of_a_newer_view_waits_for_the_period) {
   Feed feed = this->feed();
   feed.show(view(1));
-  io_.run();
+  loop_.run();
   feed.show(view(2));
-  io_.restart();
-  while (io_.poll() > 0) {
-  }
+  loop_.run();
   EXPECT_EQ(loaded_.size(), 1u);
   EXPECT_EQ(points(feed), 10u) << "the map before, for an hour";
 }
 
 TEST_F(FeedTest, a_newer_view_is_built_after_the_period_and_loads_what_is_new) {
-  Feed feed = this->feed(std::chrono::milliseconds(1));
+  Feed feed = this->feed(std::chrono::minutes(2));
   feed.show(view(1));
-  io_.run();
+  loop_.run();
   feed.show(view(2));
-  io_.restart();
-  io_.run();
+  const auto wait = loop_.skip_wait();
+  EXPECT_GT(wait, std::chrono::minutes(1));
+  EXPECT_LE(wait, std::chrono::minutes(2));
+  loop_.run();
   EXPECT_EQ(points(feed), 20u);
   EXPECT_THAT(loaded_, ElementsAre(node_id("r1", 0), node_id("r1", 1)));
 }
@@ -130,7 +128,7 @@ TEST_F(FeedTest, clients_of_the_map_are_told_of_submaps_that_are_missing) {
   other.wants = false;
   clients_.insert(&other);
   feed.show(view(2));
-  io_.run();
+  loop_.run();
   EXPECT_THAT(client_.warnings, ElementsAre(HasSubstr("2 submaps cannot be read")));
   EXPECT_TRUE(other.warnings.empty());
   EXPECT_EQ(points(feed), 0u);

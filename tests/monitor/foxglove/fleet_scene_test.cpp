@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fleetmap/monitor/fleet_drawing.hpp"
 #include "monitor/foxglove/read_scene.hpp"
 #include "monitor/views.hpp"
 

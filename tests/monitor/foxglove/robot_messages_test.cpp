@@ -16,18 +16,6 @@ using testing::ViewMaker;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-TEST(RobotMessages, the_newest_placed_node_counts) {
-  ViewMaker fleet;
-  fleet.robot("r1", 0.0, 3).robot("r2", 50.0, 2, false);
-  for (std::size_t k = 0; k < 3; ++k) fleet.view.nodes[k].stamp = stamp_from_ns(10 - static_cast<int>(k));
-  fleet.view.placement.T_enu_node.erase(node_id("r1", 0));
-  const auto last = last_nodes(fleet.view);
-  ASSERT_EQ(last.size(), 2u);
-  EXPECT_EQ(last.at(node_id("r1", 0).agent).id, node_id("r1", 1)) << "r1/0 is newer, but has no place";
-  EXPECT_TRUE(last.at(node_id("r1", 0).agent).georeferenced);
-  EXPECT_FALSE(last.at(node_id("r2", 0).agent).georeferenced) << "without GPS";
-}
-
 TEST(RobotMessages, transforms_lead_from_the_map_to_each_robot) {
   ViewMaker fleet;
   fleet.robot("r1", 0.0).robot("r2", 50.0);
@@ -85,7 +73,7 @@ TEST(RobotMessages, a_status_has_all_that_is_known_of_a_robot) {
   robot.alignments = 2;
   robot.submaps = 3;
   robot.backlog_bytes = std::size_t{1} << 40;
-  robot.driven = true;
+  robot.called_home = robot.driven = true;
   CdrReader read(status_message(robot));
   EXPECT_EQ(read.text(), "r2");
   EXPECT_EQ(read.text(), "drives row 7");
@@ -101,8 +89,9 @@ TEST(RobotMessages, a_status_has_all_that_is_known_of_a_robot) {
   EXPECT_EQ(read.count(), 2u);
   EXPECT_EQ(read.count(), 3u);
   EXPECT_EQ(read.count(), 4'294'967'295u) << "clamped";
-  EXPECT_FALSE(read.flag());
-  EXPECT_TRUE(read.flag());
+  EXPECT_FALSE(read.flag()) << "ordered to hold";
+  EXPECT_TRUE(read.flag()) << "called home";
+  EXPECT_TRUE(read.flag()) << "driven";
   EXPECT_TRUE(read.at_end());
 }
 

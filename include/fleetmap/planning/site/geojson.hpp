@@ -6,15 +6,10 @@
 
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/geometry/geodesy.hpp"
+#include "fleetmap/planning/site/drawing_limits.hpp"
 #include "fleetmap/planning/site/mission.hpp"
 
 namespace fleetmap::planning {
-
-struct GeoJsonLimits {
-  std::size_t file_bytes = 64u << 20;
-  /// m; a waypoint farther from the site's origin is taken for an error, not for a large site.
-  double reach = 10'000.0;
-};
 
 /// A site's drawing from a GeoJSON FeatureCollection:
 /// - LineString: a row (property "row" or "id" numbers it, else it gets the next number);
@@ -24,10 +19,10 @@ struct GeoJsonLimits {
 /// MultiLineString and MultiPolygon stand for their parts. WGS84 degrees unless a member "frame" (of the
 /// collection or its "properties") says "enu". Fails with file, line or feature, the problem and the remedy.
 Result<Mission> read_geojson(const std::filesystem::path& file, const LocalFrame& site,
-                             const GeoJsonLimits& limits = {});
+                             const DrawingLimits& limits = {});
 /// The same from text; problems are reported under `name`.
 Result<Mission> parse_geojson(const std::string& text, const std::string& name, const LocalFrame& site,
-                              const GeoJsonLimits& limits = {});
+                              const DrawingLimits& limits = {});
 
 /// The first position of a file in WGS84, at height 0: an origin for a site that names none. Nothing for a
 /// file in ENU or without positions; parse_geojson says what is wrong with the latter.

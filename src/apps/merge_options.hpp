@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fleetmap::apps {
+
+/// Stores that become one, as the command line has them.
+struct MergeOptions {
+  std::vector<std::string> stores;
+  std::string out;   ///< FILE.db, or a folder for store.db
+  std::string keys;  ///< folder of a member's keys; empty: signatures are not checked
+};
+
+}  // namespace fleetmap::apps

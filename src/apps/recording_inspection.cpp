@@ -1,0 +1,37 @@
+#include "recording_inspection.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "odometry_run.hpp"
+#include "recording_input.hpp"
+#include "stream_summary.hpp"
+
+namespace fleetmap::apps {
+
+CommandResult<ExitCode> inspect_recording(const RecordingOptions& options, std::ostream& out) {
+  const auto input = open_recording(options);
+  if (!input) return tl::unexpected(input.error());
+  StreamSummary streams;
+  const auto done = run_odometry(*input->reader, input->prepared.log_clock, input->config.agent.perception,
+                                 {[&](const recording::Sample& sample) { streams.add(sample); }, {}});
+  if (!done) return exit_with(kFailed, done.error());
+  std::vector<std::string> findings = input->prepared.findings;
+  std::ranges::copy(done->findings, std::back_inserter(findings));
+  if (!done->kept_its_way()) findings.emplace_back("odometry: it lost its way; see the findings before this");
+  if (done->poses.empty() && streams.scans() > 0)
+    findings.push_back("odometry: no scan could be used: " + done->first_refusal);
+  streams.print(out);
+  for (const std::string& mount : input->prepared.mounts) out << mount << '\n';
+  for (const auto& [name, count] : input->reader->counters().named()) {
+    if (count > 0) out << name << ' ' << count << '\n';
+  }
+  for (const std::string& finding : findings) out << "- " << finding << '\n';
+  if (findings.empty()) out << "nothing found in clocks, units, rates, mounts and motions\n";
+  return findings.empty() ? kDone : kFailed;
+}
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+
+#include "command_result.hpp"
+#include "fleetmap/config/robot_config.hpp"
+#include "fleetmap/recording/reader_config.hpp"
+#include "replay_options.hpp"
+
+namespace fleetmap::apps {
+
+/// A recording, and the robot on whose onboard link it stands for the sensors.
+struct Replay {
+  config::RobotConfig robot;
+  std::filesystem::path recording;
+  recording::ReaderConfig reader;
+};
+
+/// Reads the robot's file. Fails without a recording.
+CommandResult<Replay> replay_of(const ReplayOptions& options);
+
+/// Waits for an agent that listens, then plays the recording to its end or until a signal. Prints to `out`
+/// how many samples were played and left out.
+CommandResult<ExitCode> replay_recording(const ReplayOptions& options, std::ostream& out);
+
+}  // namespace fleetmap::apps

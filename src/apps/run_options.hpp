@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "monitor_access.hpp"
+
+namespace fleetmap::apps {
+
+/// A fleet in virtual time, as the command line has it.
+struct RunOptions {
+  std::string config;                   ///< FLEET.yaml, or
+  std::vector<std::string> recordings;  ///< NAME=PATH of each robot
+  std::string out;
+  std::string record;                 ///< folder of the bags to write; empty: none
+  std::optional<std::size_t> agents;  ///< the first so many of the file
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+  std::uint16_t first_session = 0;
+  std::vector<std::string> set;  ///< key=value
+  AccessOptions monitor;
+};
+
+}  // namespace fleetmap::apps

@@ -1,0 +1,43 @@
+import type {Vector3} from 'three';
+import {el} from './dom';
+import type {Edge} from './edges';
+import {geoText, toGeo} from './geodesy';
+import {duration, metres, type State} from './model';
+
+const kKinds = {used: 'Alignment in use', unused: 'Alignment not used', rejected: 'Rejected registration'};
+
+/** Describes a node, which the map has at `p` (m of ENU); null if there is no such node. */
+export function nodeCard(state: State, id: string, p: Vector3 | undefined): HTMLElement[] | null {
+  const node = state.nodes.find((one) => one.id === id);
+  if (!node) return null;
+  const rows: [string, string][] = [['made', `${duration(node.t)} after the first node, by ${node.robot}`]];
+  if (p) {
+    const enu = p.toArray().map((v) => v.toFixed(2));
+    rows.push(['ENU', `${enu.join(', ')} m`], ['WGS84', geoText(toGeo(state.origin, p.toArray()))]);
+  }
+  const sigma = node.gps_sigma_m;
+  rows.push(['GPS', sigma === undefined ? 'none' : `known to ${sigma.toFixed(2)} m (1 σ) before alignment`]);
+  const missing = node.bytes > 0 ? 'not held here' : 'empty';
+  rows.push(['submap', node.submap ? `${Math.round(node.bytes / 1000)} kB, held` : missing]);
+  const tied = state.alignments.filter((one) => one.i === id || one.j === id).length;
+  rows.push(['alignments', String(tied)]);
+  return [el('h2', {}, `Node ${id}`), table(rows)];
+}
+
+/** Describes an edge whose nodes are `apart` (m) on the map, if both are there. */
+export function edgeCard(state: State, edge: Edge, apart: number | undefined): HTMLElement[] {
+  const registration = edge.registration === undefined ? undefined : state.registrations[edge.registration];
+  const alignment = edge.alignment === undefined ? undefined : state.alignments[edge.alignment];
+  const rows: [string, string][] = [];
+  if (apart !== undefined) rows.push(['nodes', `${metres(apart)} apart as placed`]);
+  if (alignment && alignment.modes > 1) rows.push(['poses', `${alignment.modes} fit`]);
+  return [
+    el('h2', {}, el('i', {class: `key ${edge.kind}`}), `${kKinds[edge.kind]}: ${edge.b} → ${edge.a}`),
+    el('p', {}, registration?.sentence ?? alignment?.sentence ?? ''),
+    table(rows),
+  ];
+}
+
+function table(rows: [string, string][]): HTMLElement {
+  return el('dl', {}, ...rows.flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, value)]));
+}

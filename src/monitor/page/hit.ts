@@ -1,0 +1,45 @@
+import type {Edge} from './edges';
+
+/** A choice on the map. */
+export type Hit = {node: string} | {edge: Edge};
+
+export interface Pixel {
+  x: number;
+  y: number;
+}
+
+/**
+ * The node, else the edge, within `reach` pixels of a place. `nodes`: their pixels; a node behind the camera has none,
+ * and edges to nodes that are not among them are not there.
+ */
+export function hitAt(
+  at: Pixel,
+  nodes: ReadonlyMap<string, Pixel | undefined>,
+  nodesShown: boolean,
+  edges: readonly Edge[],
+  reach: number,
+): Hit | undefined {
+  let best: Hit | undefined;
+  let least = reach;
+  const take = (distance: number, hit: Hit) => {
+    if (distance < least) [least, best] = [distance, hit];
+  };
+  if (nodesShown) {
+    for (const [node, pixel] of nodes) if (pixel) take(Math.hypot(pixel.x - at.x, pixel.y - at.y), {node});
+  }
+  if (best) return best;
+  for (const edge of edges) {
+    const a = nodes.get(edge.a);
+    const b = nodes.get(edge.b);
+    if (a && b) take(distanceToSegment(at, a, b), {edge});
+  }
+  return best;
+}
+
+function distanceToSegment(p: Pixel, a: Pixel, b: Pixel): number {
+  const x = b.x - a.x;
+  const y = b.y - a.y;
+  const length2 = x * x + y * y;
+  const s = length2 > 0 ? Math.min(1, Math.max(0, ((p.x - a.x) * x + (p.y - a.y) * y) / length2)) : 0;
+  return Math.hypot(a.x + s * x - p.x, a.y + s * y - p.y);
+}

@@ -1,0 +1,31 @@
+import {duration, metres} from './model';
+import type {ColourMode} from './point_material';
+
+/** State of the map after each picture. */
+export interface Picture {
+  drawn: number;
+  total: number;
+  loading: boolean;
+  moving: boolean; // the view; what people read may wait until it stands still
+  metresPerPixel: number;
+  planar: boolean;
+  heights: [number, number];
+  range: [number, number]; // of the submaps' ages, s, or sigmas, m
+}
+
+const kScale_px = 110;
+
+/** The longest of 1, 2 and 5 times a power of ten, m, that the scale has room for. */
+export function scaleLength(metresPerPixel: number): number {
+  const most = kScale_px * metresPerPixel;
+  const power = 10 ** Math.floor(Math.log10(most));
+  return [5, 2, 1].map((k) => k * power).find((one) => one <= most) ?? power;
+}
+
+/** The words at both ends of the ramp of colours. */
+export function rampEnds({heights, range}: Picture, colour: ColourMode): string[] {
+  if (colour === 'height') return heights.map((h) => `${h.toFixed(1)} m`);
+  if (colour === 'age') return range.map(duration);
+  if (colour === 'sigma') return range.map(metres);
+  return ['weak', 'strong'];
+}

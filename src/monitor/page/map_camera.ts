@@ -1,0 +1,139 @@
+import * as THREE from 'three';
+import {MapControls} from 'three/examples/jsm/controls/MapControls.js';
+
+const kFov = 50; // degrees
+const kFar = 20_000; // m
+const kNearest = 60; // m, of the picture's height when it goes to a place
+const kBorder = 20; // m
+const kStep = 0.15; // of the picture's height
+
+type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
+
+/** The eye of the map, in 3D or above the plan: it looks at a target, and turns and moves as the pointer drags. */
+export class MapCamera {
+  planar = false;
+  fitted = false; // it has looked at the fleet
+  private perspective = new THREE.PerspectiveCamera(kFov, 1, 0.5, kFar);
+  private plan = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.5, kFar);
+  private controls: {perspective: MapControls; plan: MapControls};
+
+  /** `moved` is called after each change of the view. */
+  constructor(
+    private canvas: HTMLCanvasElement,
+    private moved: () => void,
+  ) {
+    for (const camera of [this.perspective, this.plan]) camera.up.set(0, 0, 1);
+    this.plan.up.set(0, 1, 0);
+    this.controls = {perspective: this.control(this.perspective), plan: this.control(this.plan)};
+    this.controls.plan.enableRotate = false;
+    this.controls.plan.screenSpacePanning = true;
+    this.controls.plan.enabled = false;
+    this.controls.perspective.maxPolarAngle = 0.49 * Math.PI;
+  }
+
+  private control(camera: THREE.Camera): MapControls {
+    const controls = new MapControls(camera, this.canvas);
+    controls.zoomToCursor = true;
+    controls.enableDamping = false;
+    controls.addEventListener('change', () => this.moved());
+    return controls;
+  }
+
+  get camera(): Camera {
+    return this.planar ? this.plan : this.perspective;
+  }
+  private get control_(): MapControls {
+    return this.planar ? this.controls.plan : this.controls.perspective;
+  }
+  get target(): THREE.Vector3 {
+    return this.control_.target;
+  }
+
+  /** `aspect`: width of the picture by its height. */
+  resize(aspect: number): void {
+    this.perspective.aspect = aspect;
+    this.perspective.updateProjectionMatrix();
+    Object.assign(this.plan, {left: -aspect, right: aspect, top: 1, bottom: -1});
+    this.plan.updateProjectionMatrix();
+  }
+
+  /** Size of a pixel at the target, m. */
+  metresPerPixel(): number {
+    if (this.planar) return this.pixelAtOne();
+    return this.perspective.position.distanceTo(this.controls.perspective.target) * this.pixelAtOne();
+  }
+
+  /** Size of a pixel at 1 m from the eye, above the plan at any distance, m. */
+  pixelAtOne(): number {
+    const height = Math.max(1, this.canvas.clientHeight);
+    if (this.planar) return (this.plan.top - this.plan.bottom) / this.plan.zoom / height;
+    return (2 * Math.tan((kFov * Math.PI) / 360)) / height;
+  }
+
+  private span(): number {
+    return this.metresPerPixel() * this.canvas.clientHeight;
+  }
+
+  /** The target and the scale stay. */
+  setPlanar(planar: boolean): void {
+    if (planar === this.planar) return;
+    const target = this.target.clone();
+    const span = this.span();
+    this.control_.enabled = false;
+    this.planar = planar;
+    this.control_.enabled = true;
+    this.aim(target, span);
+  }
+
+  /** Looks at `target` so that the picture is `span` metres high there. */
+  private aim(target: THREE.Vector3, span: number): void {
+    if (this.planar) {
+      this.plan.position.copy(target).add(new THREE.Vector3(0, 0, kFar / 2));
+      this.plan.zoom = 2 / span;
+      this.plan.updateProjectionMatrix();
+      this.controls.plan.target.copy(target);
+    } else {
+      const distance = span / (2 * Math.tan((kFov * Math.PI) / 360));
+      const away = this.perspective.position.clone().sub(this.controls.perspective.target);
+      const direction = away.length() > 1 ? away.normalize() : new THREE.Vector3(-0.45, -0.75, 0.62).normalize();
+      this.perspective.position.copy(target).addScaledVector(direction, distance);
+      this.controls.perspective.target.copy(target);
+    }
+    this.control_.update();
+    this.moved();
+  }
+
+  /** Shows all of these places. */
+  fit(places: THREE.Vector3[]): void {
+    const box = new THREE.Box3().setFromPoints(places);
+    if (box.isEmpty()) return;
+    this.fitted = true;
+    const size = box.getSize(new THREE.Vector3()),
+      aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    const span = Math.max(size.y, size.x / aspect) + kBorder;
+    this.aim(box.getCenter(new THREE.Vector3()), this.planar ? span : 1.2 * span);
+  }
+
+  /** Brings a place into the middle, and near enough to see it. */
+  goTo(p: THREE.Vector3): void {
+    this.aim(p, Math.min(this.span(), kNearest));
+  }
+
+  pan(right: number, up: number): void {
+    const step = kStep * this.span();
+    const forward = new THREE.Vector3(0, 1, 0);
+    if (!this.planar) this.perspective.getWorldDirection(forward).setZ(0).normalize();
+    const move = forward
+      .clone()
+      .multiplyScalar(up * step)
+      .add(new THREE.Vector3(forward.y, -forward.x, 0).multiplyScalar(right * step));
+    this.camera.position.add(move);
+    this.target.add(move);
+    this.control_.update();
+    this.moved();
+  }
+
+  zoom(factor: number): void {
+    this.aim(this.target.clone(), this.span() / factor);
+  }
+}

@@ -1,0 +1,246 @@
+import {type Actions, dot, el} from './dom';
+import {findPair, metres, type Pair, type Registration, type State} from './model';
+
+const kVerdicts = ['accepted', 'ambiguous', 'rejected', 'failed'] as const;
+const kRows = 100;
+
+/** Registrations and their reasons, and what joins each pair of robots. */
+export class WhyPanel {
+  private state?: State;
+  private pair?: [string, string];
+  private hasChosen = false; // the reader, a pair or none
+  private verdict: string = 'all';
+  private robot: string = 'all';
+  private rows = kRows;
+  private selected = -1;
+
+  constructor(
+    private root: HTMLElement,
+    private actions: Actions,
+  ) {}
+
+  show(state: State): void {
+    const apart = this.hasChosen || this.pair ? undefined : state.pairs.find((pair) => !pair.joined);
+    if (apart) this.pair = [apart.a, apart.b];
+    this.state = state;
+    this.render();
+  }
+
+  mark(index: number): void {
+    this.selected = index;
+    for (const row of this.root.querySelectorAll('.registration'))
+      row.setAttribute('aria-current', String(row.getAttribute('data-index') === String(index)));
+    this.root.querySelector(`.registration[data-index="${index}"]`)?.scrollIntoView({block: 'nearest'});
+  }
+
+  private render(): void {
+    const state = this.state!;
+    const focus = document.activeElement?.id;
+    const scroll = this.root.querySelector('.registrations')?.scrollTop ?? 0;
+    this.root.replaceChildren(
+      this.headline(state),
+      this.matrix(state),
+      this.answer(state),
+      this.filters(state),
+      this.list(state),
+    );
+    this.root.querySelector('.registrations')!.scrollTop = scroll;
+    if (focus) document.getElementById(focus)?.focus({preventScroll: true});
+  }
+
+  private headline(state: State): HTMLElement {
+    const apart = state.pairs.filter((pair) => !pair.joined).length;
+    const robots = state.robots.length,
+      used = state.alignments.filter((one) => one.status === 'used').length;
+    if (robots < 2) return el('p', {class: 'headline'}, `One robot: ${used} alignments of its own path are in use.`);
+    if (apart === 0)
+      return el('p', {class: 'headline good'}, `All ${robots} robots are joined: ${used} alignments are in use.`);
+    return el('p', {class: 'headline bad'}, `${apart} of ${state.pairs.length} pairs of robots are not joined.`);
+  }
+
+  private matrix(state: State): HTMLElement {
+    const names = state.robots.map((robot) => robot.id);
+    const head = el(
+      'tr',
+      {},
+      el('td'),
+      ...names.slice(0, -1).map((name) => el('th', {scope: 'col'}, dot(state, name), name)),
+    );
+    const rows = names
+      .slice(1)
+      .map((b, k) =>
+        el(
+          'tr',
+          {},
+          el('th', {scope: 'row'}, dot(state, b), b),
+          ...names.slice(0, k + 1).map((a) => el('td', {}, this.cell(state, a, b))),
+        ),
+      );
+    return el(
+      'table',
+      {class: 'pairs', 'aria-label': 'What joins each pair of robots'},
+      el('thead', {}, head),
+      el('tbody', {}, ...rows),
+    );
+  }
+
+  private cell(state: State, a: string, b: string): HTMLElement {
+    const pair = findPair(state, a, b)!;
+    const kind = pair.used > 0 ? 'used' : pair.joined ? 'through' : 'apart';
+    const apart = pair.attempts > 0 ? `✕ ${pair.attempts}` : '–';
+    const text = pair.used > 0 ? String(pair.used) : pair.joined ? '↷' : apart;
+    const button = el(
+      'button',
+      {
+        type: 'button',
+        id: `pair-${pair.a}-${pair.b}`,
+        class: `pair ${kind}`,
+        'aria-pressed': String(this.isPair(pair)),
+        'aria-label': `${pair.a} and ${pair.b}: ${pair.state}`,
+        title: pair.state,
+      },
+      text,
+    );
+    button.onclick = () => {
+      this.pair = this.isPair(pair) ? undefined : [pair.a, pair.b];
+      this.hasChosen = true;
+      this.rows = kRows;
+      this.render();
+    };
+    return button;
+  }
+
+  private isPair(pair: Pair): boolean {
+    return this.pair?.[0] === pair.a && this.pair[1] === pair.b;
+  }
+
+  private answer(state: State): HTMLElement {
+    const pair = this.pair && findPair(state, ...this.pair);
+    if (!pair)
+      return el(
+        'p',
+        {class: 'hint'},
+        state.pairs.length > 0 ? 'Choose a pair to see what joins it, or why nothing does.' : '',
+      );
+    const box = el(
+      'section',
+      {class: `answer ${pair.joined ? 'good' : 'bad'}`, 'aria-live': 'polite'},
+      el(
+        'h2',
+        {},
+        pair.joined ? `${pair.a} and ${pair.b}: ${pair.state}` : `Why are ${pair.a} and ${pair.b} not joined?`,
+      ),
+      el('p', {}, pair.text),
+    );
+    const facts = el(
+      'p',
+      {class: 'facts'},
+      `${pair.attempts} registrations, ${pair.accepted} accepted, ${pair.used} in use`,
+      pair.nearest_m !== null && `; nearest nodes ${metres(pair.nearest_m)} apart: `,
+    );
+    for (const id of pair.nearest ?? []) {
+      const button = el('button', {type: 'button', class: 'link'}, id);
+      button.onclick = () => this.actions.selectNode(id);
+      facts.append(button, ' ');
+    }
+    box.append(facts);
+    return box;
+  }
+
+  /** Those that the filters let through, but for the verdict: the chips count them. */
+  private chosen(state: State): [Registration, number][] {
+    const of = (id: string) => id.split(/[#/]/)[0];
+    return state.registrations
+      .map((one, k): [Registration, number] => [one, k])
+      .filter(([one]) => {
+        const robots = [of(one.target), of(one.source)];
+        if (this.pair && !(robots.includes(this.pair[0]) && robots.includes(this.pair[1]))) return false;
+        return this.robot === 'all' || robots.includes(this.robot) || one.by === this.robot;
+      });
+  }
+
+  private filters(state: State): HTMLElement {
+    const chosen = this.chosen(state);
+    const chips = ['all', ...kVerdicts].map((verdict) => {
+      const n = verdict === 'all' ? chosen.length : chosen.filter(([one]) => one.verdict === verdict).length;
+      if (n === 0 && verdict !== 'all' && verdict !== 'rejected' && this.verdict !== verdict) return null;
+      const chip = el(
+        'button',
+        {
+          type: 'button',
+          id: `verdict-${verdict}`,
+          class: `chip ${verdict}`,
+          'aria-pressed': String(this.verdict === verdict),
+        },
+        verdict === 'all' ? 'All' : verdict[0].toUpperCase() + verdict.slice(1),
+        el('b', {}, String(n)),
+      );
+      chip.onclick = () => {
+        this.verdict = verdict;
+        this.rows = kRows;
+        this.render();
+      };
+      return chip;
+    });
+    const select = el(
+      'select',
+      {id: 'robot-filter', 'aria-label': 'Robot'},
+      el('option', {value: 'all'}, 'any robot'),
+      ...state.robots.map((robot) => el('option', {value: robot.id}, robot.id)),
+    );
+    select.value = this.robot;
+    select.onchange = () => {
+      this.robot = select.value;
+      this.render();
+    };
+    return el(
+      'div',
+      {class: 'filters'},
+      el('h2', {}, this.pair ? `Registrations of ${this.pair.join(' and ')}` : 'Registrations'),
+      el('div', {class: 'chips'}, ...chips, select),
+    );
+  }
+
+  private list(state: State): HTMLElement {
+    const shown = this.chosen(state).filter(([one]) => this.verdict === 'all' || one.verdict === this.verdict);
+    const list = el('ul', {class: 'registrations', 'aria-label': 'Registrations'});
+    for (const [one, index] of shown.slice(0, this.rows)) {
+      const button = el(
+        'button',
+        {
+          type: 'button',
+          class: 'registration',
+          'data-index': String(index),
+          'data-verdict': one.verdict,
+          'aria-current': String(index === this.selected),
+        },
+        el('span', {class: `verdict ${one.verdict}`}, one.verdict),
+        el('span', {class: 'who'}, `${one.source} → ${one.target}`),
+        el('span', {class: 'sentence'}, one.sentence),
+      );
+      button.onclick = () => this.actions.selectRegistration(index);
+      list.append(el('li', {}, button));
+    }
+    if (shown.length > this.rows) {
+      const more = el(
+        'button',
+        {type: 'button', class: 'more'},
+        `Show ${Math.min(kRows, shown.length - this.rows)} more of ${shown.length}`,
+      );
+      more.onclick = () => {
+        this.rows += kRows;
+        this.render();
+      };
+      list.append(el('li', {}, more));
+    }
+    if (shown.length === 0)
+      list.append(
+        el(
+          'li',
+          {class: 'hint'},
+          state.registrations.length > 0 ? 'None of these.' : 'No registrations.csv lies beside the store.',
+        ),
+      );
+    return list;
+  }
+}

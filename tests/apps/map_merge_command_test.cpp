@@ -1,0 +1,18 @@
+#include <gtest/gtest.h>
+
+#include "support/command_line.hpp"
+
+namespace fleetmap {
+namespace {
+
+using MapMergeCommand = testing::CommandLineTest;
+
+TEST_F(MapMergeCommand, RefusesWhatItCannotTake) {
+  expect_usage_error({"map", "merge", "a.db", "--out", "m.db"}, "stores: At least 2 required but received 1");
+  expect_usage_error({"map", "merge", "a.db", "b.db"}, "--out is required");
+  expect_usage_error({"map", "merge", "a.db", "b.db", "--out", "m.db", "--keys", ""},
+                     "--keys: is empty; give a path");
+}
+
+}  // namespace
+}  // namespace fleetmap

@@ -1,0 +1,33 @@
+#include <gmock/gmock.h>
+
+#include "support/command_line.hpp"
+
+namespace fleetmap {
+namespace {
+
+using ::testing::HasSubstr;
+
+using MapOutput = testing::CommandLineTest;
+
+TEST_F(MapOutput, StoreThatIsNoneIsRefused) {
+  folder_.write("store.db", "this is no database, only text that is long enough to look at");
+  run({"map", "info", path("store.db")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("store.db: is no store; give the store.db of a robot\n"));
+  run({"map", "info", path(".")});
+  EXPECT_EQ(exit_code_, 1);
+  EXPECT_THAT(output_, HasSubstr("is a folder; give the store.db of a robot in it"));
+  run({"map", "export", path("none.db"), "--out", path("map.ply")});
+  EXPECT_EQ(exit_code_, 1);
+}
+
+TEST_F(MapOutput, OptionsThatDoNotFitTogetherExitWith2) {
+  expect_usage_error({"map", "info", "s.db", "--json", "--without", "r1"},
+                     "--json lists by robot, so it takes no --without");
+  expect_usage_error(
+      {"map", "export", "s.db", "--out", path("m.ply"), "--crs", "enu"},
+      "m.ply: --crs and --geoid are of LAS and GeoTIFF: end it with .las, or add --format geotiff");
+}
+
+}  // namespace
+}  // namespace fleetmap

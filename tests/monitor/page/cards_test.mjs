@@ -1,0 +1,55 @@
+// Descriptions of nodes and edges (src/monitor/page/cards.ts).
+import assert from 'node:assert/strict';
+import {openPage, textOf} from './fake_page.mjs';
+import {pageModule, three} from './page_module.mjs';
+import {alignment, node, registration, state} from './states.mjs';
+
+await openPage(process.argv[2]);
+const {edgeCard, nodeCard} = await pageModule(process.argv[2], 'cards');
+const {Vector3} = await three(process.argv[2]);
+/** Heading, sentence and rows of a card. */
+const content = (card) => {
+  const list = card.find((one) => one.tagName === 'DL');
+  const texts = [...list.children].map(textOf);
+  const rows = Object.fromEntries(texts.flatMap((text, k) => (k % 2 === 0 ? [[text, texts[k + 1]]] : [])));
+  return {heading: textOf(card[0]), sentence: textOf(card[1]), rows};
+};
+
+const shown = state({
+  nodes: [
+    node('r1', 0, [0, 0, 0], {gps_sigma_m: 0.256, bytes: 51_400}),
+    node('r1', 75, [10, 0, 0], {submap: undefined}),
+    node('r2', 0, [0, 10, 0], {submap: undefined, bytes: 0}),
+  ],
+  alignments: [
+    alignment('r1#0', 'r2#0', 'used', {modes: 3}),
+    alignment('r1#75', 'r1#0', 'unused'),
+    alignment('r1#75', 'r2#0', 'unused'),
+  ],
+  registrations: [registration('r1#0', 'r2#0', 'accepted', {sentence: 'they fit'})],
+});
+const first = content(nodeCard(shown, 'r1#0', new Vector3(0, 0, 0)));
+assert.equal(first.heading, 'Node r1#0');
+assert.equal(first.rows.ENU, '0.00, 0.00, 0.00 m');
+assert.match(first.rows.WGS84, /49\.0+.*8\.40+/);
+assert.equal(first.rows.GPS, 'known to 0.26 m (1 σ) before alignment');
+assert.equal(first.rows.submap, '51 kB, held');
+assert.equal(first.rows.alignments, '2');
+const second = content(nodeCard(shown, 'r1#75', undefined)).rows;
+assert.match(second.made, /^1:15 after the first node, by r1$|^1 min 15 s after the first node, by r1$/);
+assert.equal(second.ENU, undefined, 'it has no place on the map');
+assert.equal(second.GPS, 'none');
+assert.equal(second.submap, 'not held here');
+assert.equal(content(nodeCard(shown, 'r2#0', undefined)).rows.submap, 'empty');
+assert.equal(nodeCard(shown, 'r9#0', undefined), null);
+
+const edge = content(edgeCard(shown, {kind: 'used', a: 'r1#0', b: 'r2#0', registration: 0, alignment: 0}, 12.5));
+assert.equal(edge.heading, 'Alignment in use: r2#0 → r1#0');
+assert.equal(edge.sentence, 'they fit', 'the registration tells more than the alignment');
+assert.match(edge.rows.nodes, /^12\.5.* m apart as placed$/);
+assert.equal(edge.rows.poses, '3 fit');
+const other = content(edgeCard(shown, {kind: 'unused', a: 'r1#75', b: 'r1#0', alignment: 1}, undefined));
+assert.equal(other.heading, 'Alignment not used: r1#0 → r1#75');
+assert.equal(other.sentence, 'r1#0 onto r1#75: unused');
+assert.deepEqual(other.rows, {});
+assert.equal(content(edgeCard(shown, {kind: 'rejected', a: 'a', b: 'b'}, 1)).sentence, '');

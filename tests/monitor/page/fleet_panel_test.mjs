@@ -1,0 +1,68 @@
+// The robots' maps and who holds them (src/monitor/page/fleet_panel.ts).
+import assert from 'node:assert/strict';
+import {openPage, textOf} from './fake_page.mjs';
+import {pageModule} from './page_module.mjs';
+import {node, pair, robot, state} from './states.mjs';
+
+await openPage(process.argv[2], '<div id="fleet"></div>');
+const {FleetPanel} = await pageModule(process.argv[2], 'fleet_panel');
+const root = document.getElementById('fleet'),
+  now = document.createElement('section');
+const chosen = [];
+const panel = new FleetPanel(root, {selectNode: (id) => chosen.push(id)}, now);
+const holding = (holder, maker, nodes, submaps) => ({holder, maker, nodes, submaps, alignments: 0});
+const fleet = state({
+  robots: [
+    robot('r1', {first_s: 0, last_s: 61, last_node: 'r1#1', sigma_m: 0.021, alignments_used: 3}),
+    robot('r2', {sessions: 2, quarantined: true, georeferenced: false}),
+    robot('r3', {nodes: 0}),
+  ],
+  nodes: [node('r1', 0), node('r2', 1), node('r1', 2)],
+  pairs: [pair('r1', 'r2', true), pair('r1', 'r3', false), pair('r2', 'r3', false)],
+  holdings: [holding('r1', 'r1', 4, 4), holding('r2', 'r2', 4, 3), holding('r1', 'r2', 2, 1)],
+  notes: ['a file is missing'],
+});
+panel.show(fleet);
+assert.equal(root.firstElementChild, now, 'what the robots do now stays above');
+const cards = [...root.querySelectorAll('article')].map(textOf);
+assert.match(
+  cards[0],
+  /r1joined with r2its map is shown2 nodes on 12\.3 m of path, from 0:00 to 1:01\. Last at r1#1, known to 2\.1 cm/,
+);
+assert.match(cards[0], /3 of its alignments are in use, 0 contradict\./);
+assert.match(cards[1], /joined with r1no place on Earthquarantined.*, in 2 sessions/);
+assert.match(cards[2], /joined with nobody.*made no node that is held here/);
+root.querySelector('article button').click();
+assert.deepEqual(chosen, ['r1#1']);
+assert.equal(textOf(root.querySelector('.note')), 'a file is missing');
+
+// The matrix of holdings: shares are of the most that anyone holds.
+const cells = [...root.querySelectorAll('.holdings tbody td')].map((one) => [
+  textOf(one),
+  one.querySelector('i').style.width,
+]);
+assert.deepEqual(cells, [
+  ['4 / 4', '100.0%'],
+  ['2 / 1', '25.0%'],
+  ['–', '0.0%'],
+  ['0 / 0', '0.0%'],
+  ['4 / 3', '75.0%'],
+  ['–', '0.0%'],
+]);
+
+// Nodes over time are counted per robot at the times of all.
+const plot = FakePlot.shown.at(-1);
+assert.deepEqual(plot.data, [
+  [0, 1, 2],
+  [1, 1, 2],
+  [0, 1, 1],
+  [0, 0, 0],
+]);
+assert.deepEqual(
+  plot.options.series.slice(1).map((one) => one.label),
+  ['r1', 'r2', 'r3'],
+);
+panel.show(fleet);
+assert.ok(plot.destroyed, 'a newer state has one plot');
+panel.show(state({nodes: [], robots: [robot('r1')], pairs: []}));
+assert.match(textOf(root.querySelector('article')), /r1alone/);

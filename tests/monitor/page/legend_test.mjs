@@ -1,0 +1,22 @@
+// Scale and ramp beside the map (src/monitor/page/legend.ts).
+import assert from 'node:assert/strict';
+import {pageModule} from './page_module.mjs';
+
+const {rampEnds, scaleLength} = await pageModule(process.argv[2], 'legend');
+
+// A round number that takes 44 to 110 pixels, whatever the zoom.
+for (let metresPerPixel = 1e-3; metresPerPixel < 100; metresPerPixel *= 1.07) {
+  const length = scaleLength(metresPerPixel);
+  const pixels = length / metresPerPixel;
+  assert.ok(pixels <= 110 + 1e-9 && pixels >= 43.9, `${length} m takes ${pixels} pixels`);
+  assert.match(length.toExponential(), /^[125](\.0*)?e|^(1\.9{5}|4\.9{5}|9\.9{5})/, 'a round number');
+}
+assert.equal(scaleLength(1), 100);
+assert.equal(scaleLength(0.99), 100);
+assert.equal(scaleLength(0.9), 50);
+
+const picture = {heights: [-1.26, 7], range: [0.5, 125]};
+assert.deepEqual(rampEnds(picture, 'height'), ['-1.3 m', '7.0 m']);
+assert.deepEqual(rampEnds(picture, 'age'), ['0:01', '2:05']);
+assert.deepEqual(rampEnds(picture, 'sigma'), ['0.50 m', '125.0 m']);
+assert.deepEqual(rampEnds(picture, 'intensity'), ['weak', 'strong']);

@@ -1,0 +1,97 @@
+// The eye of the map (src/monitor/page/map_camera.ts).
+import assert from 'node:assert/strict';
+import {openPage} from './fake_page.mjs';
+import {pageModule, three} from './page_module.mjs';
+
+await openPage(process.argv[2], '<canvas></canvas>');
+const {MapCamera} = await pageModule(process.argv[2], 'map_camera');
+const {Vector3} = await three(process.argv[2]);
+const canvas = Object.assign(document.querySelector('canvas'), {clientWidth: 800, clientHeight: 400});
+let moves = 0;
+const made = () => {
+  const eye = new MapCamera(canvas, () => ++moves);
+  eye.resize(2);
+  return eye;
+};
+/** The pixel of a place, from the left and from the top. */
+const pixel = (eye, p) => {
+  eye.camera.updateMatrixWorld();
+  const {x, y} = p.clone().project(eye.camera);
+  return [400 + 400 * x, 200 - 200 * y];
+};
+const near = ([ax, ay], [bx, by], most = 0.5) => Math.hypot(ax - bx, ay - by) < most;
+const corners = [
+  [100, 200],
+  [400, 200],
+  [100, 260],
+  [400, 260],
+].map(([x, y]) => new Vector3(x, y, 5));
+const middle = new Vector3(250, 230, 5);
+
+for (const planar of [true, false]) {
+  const eye = made();
+  eye.setPlanar(planar);
+  assert.equal(eye.fitted, false);
+  eye.fit([]);
+  assert.equal(eye.fitted, false, 'there is nothing to look at');
+  moves = 0;
+  eye.fit(corners);
+  assert.ok(eye.fitted && moves > 0);
+
+  // All places are in the picture, and fill a good part of it.
+  assert.ok(near(pixel(eye, middle), [400, 200]));
+  const pixels = corners.map((p) => pixel(eye, p));
+  assert.ok(
+    pixels.every(([x, y]) => x > 0 && x < 800 && y > 0 && y < 400),
+    String(pixels),
+  );
+  const xs = pixels.map(([x]) => x);
+  assert.ok(Math.max(...xs) - Math.min(...xs) > 450, `${xs}`);
+
+  // A pixel is as many metres as it says, across the view at the target.
+  const right = new Vector3().setFromMatrixColumn(eye.camera.matrixWorld, 0);
+  const [x] = pixel(eye, middle.clone().addScaledVector(right, 100 * eye.metresPerPixel()));
+  assert.ok(Math.abs(x - 500) < 0.5, `${x}`);
+
+  // Twice as near, half the metres; the target stays.
+  const before = eye.metresPerPixel();
+  eye.zoom(2);
+  assert.ok(Math.abs(eye.metresPerPixel() / before - 0.5) < 1e-6);
+  assert.ok(near(pixel(eye, middle), [400, 200]));
+
+  // Panning to the right brings what was there towards the middle, by 15 % of the picture's height.
+  eye.pan(1, 0);
+  assert.ok(near(pixel(eye, middle), [400 - 0.15 * 400, 200], 1), `${pixel(eye, middle)}`);
+  eye.pan(-1, 0);
+  eye.pan(0, 1);
+  assert.ok(pixel(eye, middle)[1] > 205, 'what was in the middle is lower');
+
+  // Going to a place from afar comes near, from nearby it only turns there.
+  eye.fit(corners);
+  eye.goTo(corners[0]);
+  assert.ok(near(pixel(eye, corners[0]), [400, 200]));
+  assert.ok(Math.abs(400 * eye.metresPerPixel() - 60) < 1e-3);
+  eye.zoom(4);
+  eye.goTo(corners[3]);
+  assert.ok(Math.abs(400 * eye.metresPerPixel() - 15) < 1e-3);
+}
+
+// Plan and 3D look at the same place at the same scale; north is up on the plan.
+const eye = made();
+eye.fit(corners);
+eye.zoom(3);
+eye.pan(2, 1);
+const target = eye.target.clone(),
+  scale = eye.metresPerPixel();
+eye.setPlanar(true);
+assert.ok(eye.target.distanceTo(target) < 1e-6 && Math.abs(eye.metresPerPixel() - scale) < 1e-6);
+const [east, north] = [
+  pixel(eye, target.clone().add(new Vector3(1, 0, 0))),
+  pixel(eye, target.clone().add(new Vector3(0, 1, 0))),
+];
+assert.ok(near(east, [400 + 1 / scale, 200]) && near(north, [400, 200 - 1 / scale]));
+eye.setPlanar(false);
+assert.ok(eye.target.distanceTo(target) < 1e-6 && Math.abs(eye.metresPerPixel() - scale) < 1e-6);
+moves = 0;
+eye.setPlanar(false);
+assert.equal(moves, 0, 'nothing has changed');

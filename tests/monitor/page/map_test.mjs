@@ -1,0 +1,194 @@
+// The map's pictures: when one is drawn, and of what (src/monitor/page/map.ts). A renderer that only notes what it is
+// given takes the place of WebGL.
+import assert from 'node:assert/strict';
+import {openPage} from './fake_page.mjs';
+import {pageModule, three} from './page_module.mjs';
+import {alignment, node, registration, state} from './states.mjs';
+
+const page = await openPage(process.argv[2], '<div><canvas></canvas></div>');
+const {FleetMap} = await pageModule(process.argv[2], 'map');
+const {Vector3} = await three(process.argv[2]);
+const canvas = Object.assign(document.querySelector('canvas'), {clientWidth: 800, clientHeight: 400});
+canvas.parentElement.getBoundingClientRect = () => ({width: 800, height: 400});
+canvas.getBoundingClientRect = () => ({left: 0, top: 0, width: 800, height: 400});
+window.devicePixelRatio = 1;
+globalThis.location = {search: '?points=cpu'};
+
+class Renderer {
+  ratio = 1;
+  rendered = []; // the objects of each scene since the last look
+  setSize() {}
+  setPixelRatio(ratio) {
+    this.ratio = ratio;
+  }
+  getPixelRatio() {
+    return this.ratio;
+  }
+  getDrawingBufferSize(size) {
+    return size.set(800 * this.ratio, 400 * this.ratio);
+  }
+  setClearColor() {}
+  clear() {}
+  render(scene) {
+    this.rendered.push(scene.children.filter((one) => one.visible).map((one) => one.type));
+  }
+}
+
+/** A program whose submaps have 500 points, which it sends at once. */
+globalThis.fetch = async (address) => {
+  const url = new URL(address, 'http://x');
+  const parts = url.searchParams
+    .get('of')
+    .split(',')
+    .map((hash) => {
+      const bytes = Buffer.alloc(36 + 8 * 500);
+      bytes.write('FMP1');
+      bytes.writeFloatLE(1e-4, 16);
+      [500, 0, 500].forEach((value, k) => bytes.writeUInt32LE(value, 20 + 4 * k));
+      return Buffer.concat([Buffer.from(hash), bytes]);
+    });
+  return {ok: true, arrayBuffer: async () => new Uint8Array(Buffer.concat(parts)).buffer};
+};
+const {now} = performance,
+  timers = {set: globalThis.setTimeout, clear: globalThis.clearTimeout};
+let time = 0,
+  later;
+performance.now = () => time;
+globalThis.setTimeout = (act, ms) => (later = {act, at: time + ms});
+globalThis.clearTimeout = () => (later = undefined);
+try {
+  const renderer = new Renderer(),
+    pictures = [];
+  const map = new FleetMap(canvas, () => renderer);
+  map.onPicture = (picture) => pictures.push(picture);
+  /** Draws what is due, `ms` later; returns how many pictures that were. */
+  const frames = (ms = 16) => {
+    time += ms;
+    if (later && later.at <= time) {
+      const {act} = later;
+      later = undefined;
+      act();
+    }
+    const before = pictures.length;
+    for (const act of page.frames.splice(0)) act(time);
+    return pictures.length - before;
+  };
+  const settle = async () => {
+    for (let k = 0; k < 20; ++k) {
+      await new Promise((next) => setImmediate(next));
+      frames(100);
+    }
+  };
+  const fleet = (more = {}) =>
+    state({
+      alignments: [alignment('r1#0', 'r2#0', 'used')],
+      registrations: [registration('r1#1', 'r2#1', 'rejected')],
+      ...more,
+    });
+
+  // Its points come, all of them are drawn, and then nothing more is drawn.
+  assert.equal(frames(), 0, 'nothing is there');
+  map.show(fleet());
+  await settle();
+  const last = pictures.at(-1);
+  assert.equal(last.drawn, 4 * 500);
+  assert.equal(last.total, 4 * 500);
+  assert.ok(!last.loading && !last.moving && !last.planar);
+  assert.equal(frames(5000), 0, 'a picture of which nothing has changed');
+  map.draw();
+  map.draw();
+  assert.equal(frames(), 1);
+
+  // The whole fleet is in view, and a click finds nodes and edges where they are seen.
+  const at = (id) => map.project(map.place(id));
+  for (const {id} of fleet().nodes) {
+    const {x, y} = at(id);
+    assert.ok(x > 0 && x < 800 && y > 0 && y < 400, id);
+    assert.deepEqual(map.hitAt(x, y, 5), {node: id});
+  }
+  const between = (a, b) => [(at(a).x + at(b).x) / 2, (at(a).y + at(b).y) / 2];
+  assert.equal(map.hitAt(...between('r1#0', 'r2#0'), 5).edge.kind, 'used');
+  assert.equal(map.hitAt(...between('r1#1', 'r2#1'), 5).edge.kind, 'rejected');
+  map.layers.used = false;
+  assert.equal(map.hitAt(...between('r1#0', 'r2#0'), 5), undefined, 'what is not shown is not clicked');
+  map.layers.used = true;
+
+  // While the view moves slowly, lines are drawn with the points, in one picture of fewer pixels; none is left out.
+  renderer.rendered.length = 0;
+  map.draw();
+  frames();
+  const still = renderer.rendered.splice(0);
+  assert.equal(still.length, 2, 'points, then lines and nodes');
+  assert.ok(still[1].includes('Mesh') && still[1].includes('Points'));
+  for (let k = 0; k < 3; ++k) {
+    map.eye.pan(0.1, 0);
+    renderer.rendered.length = 0;
+    frames(60);
+  }
+  assert.ok(pictures.at(-1).moving);
+  assert.equal(pictures.at(-1).drawn, 4 * 500);
+  assert.equal(renderer.rendered.length, 1);
+  assert.ok(renderer.ratio < 1);
+
+  // When it stands still all is drawn again, by itself.
+  renderer.rendered.length = 0;
+  assert.equal(frames(500), 1);
+  assert.equal(renderer.rendered.length, 2);
+  assert.equal(renderer.ratio, 1);
+  assert.ok(!pictures.at(-1).moving);
+  assert.equal(frames(5000), 0);
+
+  // A correction moves nodes and asks for no point again.
+  const before = map.place('r2#1').clone();
+  const {fetch} = globalThis;
+  globalThis.fetch = () => assert.fail('points were asked for again');
+  map.show(
+    fleet({
+      nodes: fleet().nodes.map((one) => (one.robot === 'r2' ? {...one, T: [one.T[0] + 3, ...one.T.slice(1)]} : one)),
+    }),
+  );
+  await settle();
+  assert.ok(
+    map
+      .place('r2#1')
+      .clone()
+      .sub(before)
+      .distanceTo(new Vector3(3, 0, 0)) < 1e-9,
+  );
+  assert.equal(pictures.at(-1).drawn, 4 * 500);
+  globalThis.fetch = fetch;
+
+  // Time hides what came later; layers hide points; a pair is looked at alone.
+  map.until = 0;
+  map.remark();
+  frames();
+  assert.equal(pictures.at(-1).drawn, 2 * 500);
+  assert.equal(map.hitAt(at('r1#1').x, at('r1#1').y, 3), undefined);
+  map.until = Infinity;
+  map.layers.points = false;
+  map.remark();
+  renderer.rendered.length = 0;
+  frames();
+  assert.equal(pictures.at(-1).drawn, 0);
+  assert.equal(renderer.rendered.length, 1, 'lines alone');
+  map.layers.points = true;
+  map.showOnly(new Set([fleet().nodes[0].submap]));
+  frames();
+  assert.equal(pictures.at(-1).drawn, 500);
+  map.showOnly(undefined);
+
+  // Robots that are gone take their points with them, and the plan tells that it is one.
+  map.show(fleet({nodes: fleet().nodes.slice(0, 1), alignments: [], registrations: []}));
+  map.eye.setPlanar(true);
+  frames();
+  await settle();
+  assert.equal(pictures.at(-1).total, 500);
+  assert.ok(pictures.at(-1).planar);
+  assert.equal(map.place('r2#0'), undefined);
+  assert.deepEqual(map.edges, []);
+} finally {
+  performance.now = now;
+  globalThis.setTimeout = timers.set;
+  globalThis.clearTimeout = timers.clear;
+  globalThis.location = {search: ''};
+}

@@ -1,0 +1,46 @@
+// Words and numbers for people (src/monitor/page/model.ts).
+import assert from 'node:assert/strict';
+import {pageModule} from './page_module.mjs';
+import {pair, robot, state} from './states.mjs';
+
+const {ago, bytes, colourOf, count, duration, findPair, linkName, metres} = await pageModule(process.argv[2], 'model');
+const table = (act, cases) => {
+  for (const [value, words] of cases) assert.equal(act(value), words, `${act.name}(${value})`);
+};
+table(duration, [
+  [0, '0:00'],
+  [59.6, '1:00'],
+  [61, '1:01'],
+  [3725, '1:02:05'],
+]);
+table(count, [
+  [999, '999'],
+  [1234, '1,234'],
+  [12_345, '12 k'],
+  [1_234_567, '1.23 M'],
+]);
+table(metres, [
+  [0.123, '0.12 m'],
+  [10, '10.0 m'],
+  [1234, '1.23 km'],
+]);
+table(bytes, [
+  [950, '950 B'],
+  [1200, '1.2 kB'],
+  [3_400_000, '3.4 MB'],
+]);
+table(ago, [
+  [3.4, '3 s'],
+  [250, '4:10 min'],
+  [3725, '1:02:05 h'],
+]);
+assert.deepEqual(['long_range', 'short_range'].map(linkName), ['radio', 'Wi-Fi']);
+
+// Ten robots have ten colours, which stay with their places.
+const many = state({robots: Array.from({length: 10}, (_, k) => robot(`r${k}`))});
+assert.equal(new Set(many.robots.map((one) => colourOf(many, one.id))).size, 10);
+assert.equal(colourOf(many, 'stranger'), colourOf(many, 'r0'));
+
+const pairs = state({pairs: [pair('r1', 'r2', true), pair('r1', 'r3', false)]});
+assert.equal(findPair(pairs, 'r3', 'r1'), pairs.pairs[1]);
+assert.equal(findPair(pairs, 'r2', 'r3'), undefined);

@@ -1,0 +1,96 @@
+// Registrations and what joins each pair (src/monitor/page/why_panel.ts).
+import assert from 'node:assert/strict';
+import {openPage, textOf} from './fake_page.mjs';
+import {pageModule} from './page_module.mjs';
+import {alignment, pair, registration, robot, state} from './states.mjs';
+
+await openPage(process.argv[2], '<div id="why"></div>');
+const {WhyPanel} = await pageModule(process.argv[2], 'why_panel');
+const root = document.getElementById('why');
+const chosen = [];
+const actions = {
+  selectNode: (id) => chosen.push(id),
+  selectRegistration: (index) => {
+    chosen.push(index);
+  },
+};
+const panel = new WhyPanel(root, actions);
+const shown = () => [...root.querySelectorAll('.registration .who')].map((one) => one.textContent);
+const chip = (name) => root.querySelector(`#verdict-${name}`);
+const fleet = state({
+  robots: [robot('r1'), robot('r2'), robot('r3')],
+  alignments: [alignment('r1#0', 'r2#0', 'used')],
+  registrations: [
+    registration('r1#0', 'r2#0', 'accepted'),
+    registration('r1#0', 'r3#0', 'rejected'),
+    registration('r3#1', 'r1#1', 'rejected'),
+    registration('r2#0', 'r3#0', 'failed'),
+  ],
+  pairs: [
+    pair('r1', 'r2', true, {used: 1, attempts: 1}),
+    pair('r1', 'r3', false, {attempts: 2, nearest_m: 3.21, nearest: ['r1#1', 'r3#1']}),
+    pair('r2', 'r3', false, {attempts: 1}),
+  ],
+});
+panel.show(state({robots: [], pairs: []}));
+assert.equal(root.querySelector('.answer'), null, 'a page that is opened early has no pair yet');
+panel.show(fleet);
+
+// It begins with the first pair that is not joined, and answers why.
+assert.equal(textOf(root.querySelector('.headline')), '2 of 3 pairs of robots are not joined.');
+assert.match(
+  textOf(root.querySelector('.answer')),
+  /Why are r1 and r3 not joined\?.*r1 and r3: why.*nearest nodes 3\.21 m apart/,
+);
+assert.deepEqual(shown(), ['r3#0 → r1#0', 'r1#1 → r3#1']);
+root.querySelector('.facts button').click();
+assert.deepEqual(chosen, ['r1#1']);
+
+// Filters: of the pair, its verdicts, one robot. Numbers on the chips are of what the other filters let through.
+assert.equal(textOf(chip('rejected')), 'Rejected2');
+assert.equal(chip('accepted'), null, 'there is none to choose');
+root.querySelector('#pair-r1-r3').click();
+assert.equal(root.querySelector('.answer'), null);
+assert.deepEqual(shown().length, 4);
+assert.equal(textOf(chip('rejected')), 'Rejected2');
+chip('failed').click();
+assert.deepEqual(shown(), ['r3#0 → r2#0']);
+root.querySelector('#pair-r1-r2').click();
+assert.deepEqual(shown(), [], 'none of these failed');
+chip('all').click();
+assert.deepEqual(shown(), ['r2#0 → r1#0']);
+root.querySelector('#pair-r1-r2').click();
+const select = root.querySelector('#robot-filter');
+select.value = 'r2';
+select.onchange();
+assert.deepEqual(shown(), ['r2#0 → r1#0', 'r3#0 → r2#0']);
+
+// A choice here is one of all registrations, by its index; the mark follows it, also through a newer state.
+[...root.querySelectorAll('.registration')].at(-1).click();
+assert.equal(chosen.at(-1), 3);
+panel.mark(3);
+panel.show(fleet);
+const current = [...root.querySelectorAll('.registration')].filter(
+  (one) => one.getAttribute('aria-current') === 'true',
+);
+assert.deepEqual(
+  current.map((one) => one.getAttribute('data-index')),
+  ['3'],
+);
+
+assert.equal(root.querySelector('.answer'), null, 'who chose no pair is shown none');
+
+// Long lists come a hundred at a time.
+panel.show(
+  state({
+    registrations: Array.from({length: 250}, () => registration('r1#0', 'r2#0', 'accepted')),
+    pairs: [pair('r1', 'r2', true)],
+  }),
+);
+assert.equal(shown().length, 100);
+root.querySelector('.more').click();
+assert.equal(shown().length, 200);
+assert.equal(textOf(root.querySelector('.more')), 'Show 50 more of 250');
+
+const alone = new WhyPanel(document.createElement('div'), actions);
+assert.doesNotThrow(() => alone.show(state({robots: [robot('r1')], pairs: []})));
