@@ -41,7 +41,8 @@ SensorMounts::SensorMounts(const PerceptionConfig& config) : patience_(config.fr
   mounts_[index(Source::kLidar)].T_base_sensor = config.odometry.T_base_lidar;
   mounts_[index(Source::kImu)].T_base_sensor = config.localization.mounting.T_base_imu;
   mounts_[index(Source::kGps)].T_base_sensor.translation() = config.localization.mounting.p_base_antenna;
-  for (const Source source : kPlaced) mounts_[index(source)].given = config.mount_given[index(source)];
+  for (const Source source : kPlaced)
+    mounts_[index(source)].configured = config.mount_configured[index(source)];
 }
 
 std::string SensorMounts::name_of_frame(Source source) const {
@@ -69,7 +70,7 @@ SensorMounts::State SensorMounts::on_message(Source source, const std::string& f
   const Result<Pose> by_frames = frames_.tree.find(kBase, frame_id);
   // A publisher that is there is discovered in the same time by all.
   if (!waits_since_) waits_since_ = now;
-  const bool may_come = !mount.given && !by_frames && !frame_id.empty();
+  const bool may_come = !mount.configured && !by_frames && !frame_id.empty();
   if (may_come && now - *waits_since_ < patience_) return State::kWaits;
   decide(source, by_frames);
   return State::kDecided;
@@ -80,7 +81,7 @@ void SensorMounts::decide(Source source, const Result<Pose>& by_frames) {
   mount.decided = true;
   if (frames_.tree.empty()) return;
   const std::string key = kKeys[index(source)];
-  if (mount.given && by_frames) {
+  if (mount.configured && by_frames) {
     return compare(source, *by_frames,
                    "the configuration is used. Correct one of the two, or leave " + key +
                        ".translation and .rotation_rpy_deg away");
@@ -88,7 +89,7 @@ void SensorMounts::decide(Source source, const Result<Pose>& by_frames) {
   if (by_frames) {
     mount.T_base_sensor = *by_frames;
     mount.by_frames = true;
-  } else if (!mount.given) {
+  } else if (!mount.configured) {
     warn(name_of_frame(source) + ": its mount is unknown: in /tf_static " + by_frames.error().message +
          "; it is taken to be at base_link. Publish the transform, or set " + key + ".translation");
   }
@@ -102,9 +103,9 @@ void SensorMounts::compare(Source source, const Pose& by_frames, const std::stri
   if (apart < kSamePlace && turned < kSameTurn) return;
   char difference[80];
   std::snprintf(difference, sizeof difference, "%.3f m and %.1f deg apart", apart, turned / kDegree);
-  const std::string origin = of(source).by_frames ? "an earlier one "
-                             : of(source).given   ? "the configuration "
-                                                  : "the default ";
+  const std::string origin = of(source).by_frames    ? "an earlier one "
+                             : of(source).configured ? "the configuration "
+                                                     : "the default ";
   warn(name_of_frame(source) + ": its mount is " + text_of(source, by_frames) + " in /tf_static and " +
        text_of(source, used) + " by " + origin + "(" + difference + "); " + decision);
 }
@@ -132,7 +133,7 @@ std::vector<sensor::FrameTransform> SensorMounts::take_unpublished(Stamp now) {
     const std::string id = sensor::FrameTree::name_of(frames_.ids[index(source)]);
     const bool known = frames_.tree.has_parent(id) || frames_.tree.find(kBase, id).has_value();
     const bool stated = std::ranges::find(published_, id, &sensor::FrameTransform::child) != published_.end();
-    if (!of(source).decided || !of(source).given || id.empty() || known || stated) continue;
+    if (!of(source).decided || !of(source).configured || id.empty() || known || stated) continue;
     const Pose& T = of(source).T_base_sensor;
     published_.push_back({kBase, id, T.translation(), Eigen::Quaterniond(T.linear())});
   }
@@ -155,7 +156,7 @@ void SensorMounts::check_parent(const sensor::FrameTransform& transform) {
 
 std::string SensorMounts::summary(Source source) const {
   const Mount& mount = of(source);
-  const char* origin = mount.by_frames ? "/tf_static" : mount.given ? "the configuration" : "default";
+  const char* origin = mount.by_frames ? "/tf_static" : mount.configured ? "the configuration" : "default";
   return name_of_frame(source) + ": mounted at " + text_of(source, mount.T_base_sensor) +
          " in base_link, by " + origin;
 }

@@ -18,9 +18,9 @@ namespace {
 using Submaps = std::vector<const ObservedSubmap*>;
 
 Submaps every(std::span<const ObservedSubmap> submaps, std::size_t step, std::size_t first) {
-  Submaps chosen;
-  for (std::size_t k = first; k < submaps.size(); k += step) chosen.push_back(&submaps[k]);
-  return chosen;
+  Submaps sampled;
+  for (std::size_t k = first; k < submaps.size(); k += step) sampled.push_back(&submaps[k]);
+  return sampled;
 }
 
 /// One point a cell is enough, for surfaces and for rays.

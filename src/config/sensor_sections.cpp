@@ -64,7 +64,7 @@ void read_lidar(Section& top, agent::PerceptionConfig& perception) {
     lidar.problem("model", known.error().message);
   }
   lidar.read_mount(perception.odometry.T_base_lidar);
-  perception.mount_given[static_cast<std::size_t>(sensor::Source::kLidar)] = states_mount(lidar);
+  perception.mount_configured[static_cast<std::size_t>(sensor::Source::kLidar)] = states_mount(lidar);
   lidar.read("max_range", perception.odometry.max_range);
   lidar.read("min_range", perception.odometry.min_range);
   lidar.read("range_noise", perception.odometry.range_noise);
@@ -130,7 +130,7 @@ void read_imu(Section& top, agent::PerceptionConfig& perception) {
   localization::EkfConfig& ekf = perception.localization;
   Section imu = top.section("imu");
   imu.read_mount(ekf.mounting.T_base_imu);
-  perception.mount_given[static_cast<std::size_t>(sensor::Source::kImu)] = states_mount(imu);
+  perception.mount_configured[static_cast<std::size_t>(sensor::Source::kImu)] = states_mount(imu);
   perception.odometry.q_base_imu = Eigen::Quaterniond(ekf.mounting.T_base_imu.linear());
   imu.read("gyro_noise", ekf.imu.gyro_noise);
   imu.read("accel_noise", ekf.imu.accel_noise);
@@ -206,7 +206,7 @@ void read_gps(Section& top, agent::PerceptionConfig& perception) {
     gps.problem(devices.nmea ? "nmea_device" : "gpsd",
                 "the autopilot's GPS is used as well; set mavlink.gps: false, or leave this one out");
   gps.read("translation", ekf.mounting.p_base_antenna);
-  perception.mount_given[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
+  perception.mount_configured[static_cast<std::size_t>(sensor::Source::kGps)] = gps.has("translation");
   gps.read("correlation_time", ekf.gps.correlation_time);
   gps.read("correlated_share", ekf.gps.correlated_share);
   gps.read("default_sigma_h", ekf.gps.default_sigma_h);

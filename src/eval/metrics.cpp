@@ -176,12 +176,12 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   Pose T = to_middle.inverse() * T_truth_map * to_middle;
   if (!known) T = registered(cloud::transformed(thin, T), surface, config) * T;
   const cloud::PointCloud placed = cloud::transformed(thin, T);
-  const std::vector<Eigen::Vector3f> chosen = evenly(placed.points, config.max_distances);
-  const auto feet = surface.feet_of(chosen, static_cast<float>(config.inlier_distance));
+  const std::vector<Eigen::Vector3f> sampled = evenly(placed.points, config.max_distances);
+  const auto feet = surface.feet_of(sampled, static_cast<float>(config.inlier_distance));
   const auto inliers = std::count_if(feet.begin(), feet.end(), [](const Foot& foot) { return foot.found; });
-  if (static_cast<std::size_t>(inliers) < std::min(kMinInliers, chosen.size())) {
+  if (static_cast<std::size_t>(inliers) < std::min(kMinInliers, sampled.size())) {
     return failure("the map and the truth do not overlap: " + std::to_string(inliers) + " of " +
-                   std::to_string(chosen.size()) +
+                   std::to_string(sampled.size()) +
                    " points have truth nearby; are both in ENU of the same origin?");
   }
   EvaluatedMap evaluated;
@@ -192,14 +192,14 @@ Result<EvaluatedMap> evaluated_points(const cloud::PointCloud& map, const cloud:
   const double back =
       set_completeness(metrics, placed, evenly(surface.cloud().points, config.max_distances), config);
   metrics.chamfer = 0.5 * (there + back);
-  set_covariance(metrics, chosen, feet, surface, config.min_noise);
+  set_covariance(metrics, sampled, feet, surface, config.min_noise);
   // Each point taken stands for as many as were left out.
   metrics.det_covariance *=
-      std::pow(static_cast<double>(chosen.size()) / static_cast<double>(placed.size()), 6.0);
+      std::pow(static_cast<double>(sampled.size()) / static_cast<double>(placed.size()), 6.0);
   metrics.truth_spacing = static_cast<double>(surface.spacing());
   metrics.truth_points = surface.cloud().size();
   for (std::size_t i = 0; i < feet.size(); ++i) {
-    evaluated.points.points.push_back(chosen[i] + middle);
+    evaluated.points.points.push_back(sampled[i] + middle);
     evaluated.errors.push_back(feet[i].found ? feet[i].surface_distance
                                              : static_cast<float>(config.inlier_distance));
   }

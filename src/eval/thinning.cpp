@@ -42,10 +42,10 @@ std::vector<Eigen::Vector3f> usable(const cloud::PointCloud& cloud, const Eigen:
 std::vector<Eigen::Vector3f> evenly(const std::vector<Eigen::Vector3f>& points, std::size_t max_points) {
   const std::size_t step = points.size() / max_points + (points.size() % max_points != 0 ? 1u : 0u);
   if (step <= 1) return points;
-  std::vector<Eigen::Vector3f> chosen;
-  chosen.reserve(points.size() / step + 1);
-  for (std::size_t i = 0; i < points.size(); i += step) chosen.push_back(points[i]);
-  return chosen;
+  std::vector<Eigen::Vector3f> kept;
+  kept.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) kept.push_back(points[i]);
+  return kept;
 }
 
 void sort_by_place(std::vector<Eigen::Vector3f>& points) {

@@ -90,9 +90,9 @@ bool HoldOrders::give(const HoldOrder& order) {
   return changed;
 }
 
-bool HoldOrders::add_completed(const HoldOrder& order, Kind given) {
+bool HoldOrders::add_completed(const HoldOrder& order, Kind requested) {
   if (!add(order)) return false;
-  if (given == Kind::kResume && order.kind == Kind::kHome) resumed_[order.robot] = order.stamp;
+  if (requested == Kind::kResume && order.kind == Kind::kHome) resumed_[order.robot] = order.stamp;
   return true;
 }
 

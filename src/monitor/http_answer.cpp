@@ -55,7 +55,7 @@ std::optional<std::string_view> foxglove_refusal(const ServerState& state, const
 }
 
 HttpResponse answer_upgrade(ServerState& state, const HttpRequest& request, const RequestHead& head) {
-  const std::string subprotocol(foxglove::chosen_subprotocol(request.subprotocols));
+  const std::string subprotocol(foxglove::accepted_subprotocol(request.subprotocols));
   const std::string_view target = request.target;
   const auto why = subprotocol.empty() ? refusal(head, state.config.token, state.cookie)
                                        : foxglove_refusal(state, head, target);

@@ -35,8 +35,8 @@ PreviewMaker::PreviewMaker(EventLoop& loop, Content& content, unsigned threads, 
 }
 
 void PreviewMaker::refresh() {
-  while (given_ < kAheadPerThread * threads_ && content_.misses_previews()) start_one();
-  if (given_ == 0 && threads_ > 0 && !file_.empty()) save();
+  while (in_flight_ < kAheadPerThread * threads_ && content_.misses_previews()) start_one();
+  if (in_flight_ == 0 && threads_ > 0 && !file_.empty()) save();
 }
 
 void PreviewMaker::save() {
@@ -49,11 +49,11 @@ void PreviewMaker::save() {
 
 void PreviewMaker::start_one() {
   auto [hash, make] = content_.begin_preview();
-  ++given_;
+  ++in_flight_;
   pool_.run([this, hash = std::move(hash), make = std::move(make)] {
     if (background_) yield_to_all();
     loop_.post([this, hash, preview = make()] {
-      --given_;
+      --in_flight_;
       content_.end_preview(hash, preview);
       refresh();
     });

@@ -29,8 +29,8 @@ class PreviewMaker {
   unsigned threads_;
   bool background_;
   std::filesystem::path file_;
-  unsigned given_ = 0;  ///< to the pool, and not back yet
-  ThreadPool pool_;     ///< last: its threads end first
+  unsigned in_flight_ = 0;  ///< to the pool, and not back yet
+  ThreadPool pool_;         ///< last: its threads end first
 };
 
 }  // namespace fleetmap::monitor

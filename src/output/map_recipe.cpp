@@ -63,10 +63,10 @@ std::optional<MapRecipe> map_recipe(const store::Store& store) {
 
 std::optional<MapRecipe> recipe_or_default(const store::Store& store, const std::optional<GeoPoint>& origin) {
   const std::optional<MapRecipe> kept = map_recipe(store);
-  const auto chosen = origin || !kept ? site_origin(store, origin) : std::optional(kept->origin);
-  if (!chosen) return std::nullopt;
+  const auto found = origin || !kept ? site_origin(store, origin) : std::optional(kept->origin);
+  if (!found) return std::nullopt;
   MapRecipe recipe = kept.value_or(MapRecipe{});
-  recipe.origin = *chosen;
+  recipe.origin = *found;
   return recipe;
 }
 

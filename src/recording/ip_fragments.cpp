@@ -34,7 +34,7 @@ std::optional<Bytes> IpFragments::add(ByteView packet) {
   const std::size_t total = big_endian(packet, 2, 2);
   if (header < kLeastHeader || total <= header) return std::nullopt;
   if (total > packet.size()) {
-    ++given_up_;  // the capture holds a part of it
+    ++discarded_;  // the capture holds a part of it
     return std::nullopt;
   }
   const ByteView data = packet.subspan(header, total - header);
@@ -45,10 +45,10 @@ std::optional<Bytes> IpFragments::add(ByteView packet) {
   const Key key{big_endian(packet, 12, 4), big_endian(packet, 16, 4),
                 static_cast<std::uint16_t>(big_endian(packet, 4, 2)), packet[9]};
   ++added_;
-  while (!waiting_.empty() && added_ - waiting_.front().began > kMaxLater) waiting_.pop_front(), ++given_up_;
+  while (!waiting_.empty() && added_ - waiting_.front().began > kMaxLater) waiting_.pop_front(), ++discarded_;
   auto found = std::ranges::find(waiting_, key, &Waiting::key);
   if (found == waiting_.end()) {
-    if (waiting_.size() == kMaxWaiting) waiting_.pop_front(), ++given_up_;
+    if (waiting_.size() == kMaxWaiting) waiting_.pop_front(), ++discarded_;
     found = waiting_.insert(waiting_.end(),
                             Waiting{.key = key, .data = {}, .parts = {}, .size = {}, .began = added_});
   }
@@ -63,7 +63,7 @@ std::optional<Bytes> IpFragments::add(ByteView packet) {
     waiting_.erase(found);
     return whole;
   }
-  if (found->parts.size() > kMaxParts) waiting_.erase(found), ++given_up_;
+  if (found->parts.size() > kMaxParts) waiting_.erase(found), ++discarded_;
   return std::nullopt;
 }
 

@@ -19,7 +19,7 @@ class IpFragments {
   std::optional<Bytes> add(ByteView packet);
   /// Packets of which not all fragments came, or not whole, so far: given up, and those that are still waited
   /// for.
-  std::uint64_t incomplete() const { return given_up_ + waiting_.size(); }
+  std::uint64_t incomplete() const { return discarded_ + waiting_.size(); }
 
  private:
   struct Key {
@@ -41,7 +41,7 @@ class IpFragments {
   };
   std::deque<Waiting> waiting_;  ///< by `began`
   std::uint64_t added_ = 0;
-  std::uint64_t given_up_ = 0;
+  std::uint64_t discarded_ = 0;
 };
 
 }  // namespace fleetmap::recording

@@ -203,7 +203,7 @@ double delay_by_turn_rates(const std::vector<Imu>& imu, const std::vector<LidarP
     const double share = to_seconds(stamp - imu[k - 1].stamp) / to_seconds(imu[k].stamp - imu[k - 1].stamp);
     return Eigen::Vector3d(turned[k - 1] + share * (turned[k] - turned[k - 1]));
   };
-  double best = 0.0, least = std::numeric_limits<double>::infinity();
+  double best = 0.0, min_misfit = std::numeric_limits<double>::infinity();
   for (double delay = -kMaxDelay; delay <= kMaxDelay; delay += kDelayStep) {
     const Duration shift = from_seconds(delay);
     double misfit = 0.0;
@@ -211,8 +211,8 @@ double delay_by_turn_rates(const std::vector<Imu>& imu, const std::vector<LidarP
       const double by_imu = (until(knots[k + 1].stamp + shift) - until(knots[k].stamp + shift)).norm();
       misfit += std::abs(by_imu - rotation_between(knots[k], knots[k + 1]).norm());
     }
-    if (misfit < least) {
-      least = misfit;
+    if (misfit < min_misfit) {
+      min_misfit = misfit;
       best = delay;
     }
   }

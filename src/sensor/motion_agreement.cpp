@@ -14,13 +14,13 @@ namespace {
 constexpr Duration kLongestStep = std::chrono::milliseconds(700);
 constexpr std::size_t kMaxMotionsWaiting = 50;
 // A step that counts: the LiDAR's noise is a tenth of it.
-constexpr double kMinMove = 0.03, kMinTurn = 0.01;              // m, rad
-constexpr double kJudgedAfter = 10.0, kTurnsJudgedAfter = 1.2;  // m, rad
+constexpr double kMinMove = 0.03, kMinTurn = 0.01;                // m, rad
+constexpr double kCheckedAfter = 10.0, kTurnsCheckedAfter = 1.2;  // m, rad
 // Tyres, slip and skid steering explain less.
 constexpr double kSpeedScale = 1.25, kLidarYaw = 15.0 * kDegree;
 constexpr double kGyroScale = 1.4, kWheelTurnScale = 3.0;
-constexpr double kOtherAxis = 0.6;              // of the turn, on an axis that is not z
-constexpr double kWheelTurnsJudgedAfter = 2.0;  // rad
+constexpr double kOtherAxis = 0.6;               // of the turn, on an axis that is not z
+constexpr double kWheelTurnsCheckedAfter = 2.0;  // rad
 constexpr Duration kWheelStep = std::chrono::milliseconds(150);
 constexpr double kNothing = 0.2;  // of the motion
 // A lag that is one: as large, and leaving so little of the misfit.
@@ -77,15 +77,15 @@ void MotionAgreement::compare(const Step& step) {
 
 void MotionAgreement::compare_drive(const Step& step) {
   const auto wheels = wheels_.between(step.from, step.to);
-  if (drive_judged_ || !wheels || step.moved.norm() < kMinMove) return;
+  if (drive_checked_ || !wheels || step.moved.norm() < kMinMove) return;
   driven_ += step.moved.norm();
   drive_squares_ += step.moved.squaredNorm();
   drive_products_ += wheels->x() * step.moved;
-  if (driven_ > kJudgedAfter) judge_drive();
+  if (driven_ > kCheckedAfter) check_drive();
 }
 
-void MotionAgreement::judge_drive() {
-  drive_judged_ = true;
+void MotionAgreement::check_drive() {
+  drive_checked_ = true;
   const Eigen::Vector2d slope = drive_products_ / drive_squares_;
   const double scale = slope.norm();
   const std::string since = " over the first " + short_number(driven_) + " m";
@@ -114,7 +114,7 @@ void MotionAgreement::judge_drive() {
 }
 
 void MotionAgreement::compare_turn(const Step& step) {
-  if (turns_judged_ || std::abs(step.turned) < kMinTurn) return;
+  if (turns_checked_ || std::abs(step.turned) < kMinTurn) return;
   if (const auto gyro = gyro_.between(step.from, step.to)) {
     gyro_turned_ += std::abs(step.turned);
     gyro_squares_ += step.turned * step.turned;
@@ -126,13 +126,13 @@ void MotionAgreement::compare_turn(const Step& step) {
     wheel_squares_ += step.turned * step.turned;
     wheel_products_ += step.turned * wheels->y();
   }
-  if (std::max(gyro_turned_, wheel_turned_) > kTurnsJudgedAfter) judge_turns();
+  if (std::max(gyro_turned_, wheel_turned_) > kTurnsCheckedAfter) check_turns();
 }
 
-void MotionAgreement::judge_turns() {
-  turns_judged_ = true;
-  const bool with_gyro = gyro_turned_ > 0.5 * kTurnsJudgedAfter;
-  const bool with_wheels = wheel_turned_ > 0.5 * kTurnsJudgedAfter;
+void MotionAgreement::check_turns() {
+  turns_checked_ = true;
+  const bool with_gyro = gyro_turned_ > 0.5 * kTurnsCheckedAfter;
+  const bool with_wheels = wheel_turned_ > 0.5 * kTurnsCheckedAfter;
   const double gyro = with_gyro ? gyro_products_.z() / gyro_squares_ : 0.0;
   const double wheels = with_wheels ? wheel_products_ / wheel_squares_ : 0.0;
   if (with_gyro && with_wheels && gyro < -kNothing && wheels < -kNothing) {
@@ -154,11 +154,11 @@ void MotionAgreement::judge_turns() {
   }
   if (!with_gyro) return;
   const bool wheels_agree = with_wheels && agrees(wheels, kWheelTurnScale);
-  judge_gyro(gyro_products_ / gyro_squares_, wheels_agree ? "LiDAR and wheels" : "the LiDAR");
+  check_gyro(gyro_products_ / gyro_squares_, wheels_agree ? "LiDAR and wheels" : "the LiDAR");
 }
 
 void MotionAgreement::compare_gyro_and_wheels(Stamp to) {
-  if (turns_judged_) return;
+  if (turns_checked_) return;
   if (!compared_to_ || to - *compared_to_ > kLongestStep) compared_to_ = to;
   if (to - *compared_to_ < kWheelStep) return;
   const Stamp from = *compared_to_;
@@ -170,13 +170,13 @@ void MotionAgreement::compare_gyro_and_wheels(Stamp to) {
   wheels_turned_ += std::min(std::abs(wheels->y()), gyro->norm());
   wheels_squares_ += wheels->y() * wheels->y();
   gyro_by_wheels_ += wheels->y() * *gyro;
-  if (wheels_turned_ < kWheelTurnsJudgedAfter) return;
-  turns_judged_ = true;
+  if (wheels_turned_ < kWheelTurnsCheckedAfter) return;
+  turns_checked_ = true;
   const Eigen::Vector3d slope = gyro_by_wheels_ / wheels_squares_;
-  if (!agrees(slope.z(), kWheelTurnScale)) judge_gyro(slope, "the wheels");
+  if (!agrees(slope.z(), kWheelTurnScale)) check_gyro(slope, "the wheels");
 }
 
-void MotionAgreement::judge_gyro(const Eigen::Vector3d& slope, const std::string& others) {
+void MotionAgreement::check_gyro(const Eigen::Vector3d& slope, const std::string& others) {
   if (agrees(slope.z(), kGyroScale)) return;
   const std::string mount = ". Correct the driver, or state the IMU's mount (imu.rotation_rpy_deg)";
   int axis = 0;
@@ -194,7 +194,7 @@ void MotionAgreement::judge_gyro(const Eigen::Vector3d& slope, const std::string
 }
 
 void MotionAgreement::compare_stamps(const Step& step) {
-  if (stamps_judged_) return;
+  if (stamps_checked_) return;
   std::array<double, 2 * kLags + 1> misfits{};
   for (int k = -kLags; k <= kLags; ++k) {
     const Duration lag = from_seconds(k * kLagStep);
@@ -207,11 +207,11 @@ void MotionAgreement::compare_stamps(const Step& step) {
   // A lag shows where the turn rate changes; in steady turns and at standstill it does not.
   const auto [smallest, largest] = std::ranges::minmax_element(misfits);
   misfit_steps_ += *largest - *smallest > kMinTurn * kMinTurn / 4.0 ? 1 : 0;
-  if (misfit_steps_ >= kStampSteps) judge_stamps();
+  if (misfit_steps_ >= kStampSteps) check_stamps();
 }
 
-void MotionAgreement::judge_stamps() {
-  stamps_judged_ = true;
+void MotionAgreement::check_stamps() {
+  stamps_checked_ = true;
   const auto best = std::ranges::min_element(misfits_);
   const double lag = (static_cast<double>(best - misfits_.begin()) - kLags) * kLagStep;
   if (std::abs(lag) < kMinLag || *best > kMisfitLeft * misfits_.at(kLags)) return;

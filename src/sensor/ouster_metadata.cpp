@@ -43,31 +43,31 @@ class MetadataFields {
     problem(key, "a text");
     return otherwise;
   }
-  std::size_t count(const char* key, std::size_t otherwise, std::size_t most) {
+  std::size_t count(const char* key, std::size_t otherwise, std::size_t limit) {
     const json* value = find(key);
     if (value == nullptr) return otherwise;
     if (value->is_number_unsigned() && value->get<std::uint64_t>() >= 1 &&
-        value->get<std::uint64_t>() <= most)
+        value->get<std::uint64_t>() <= limit)
       return value->get<std::size_t>();
-    problem(key, "a number from 1 to " + std::to_string(most));
+    problem(key, "a number from 1 to " + std::to_string(limit));
     return otherwise;
   }
-  double number(const char* key, double otherwise, double most) {
+  double number(const char* key, double otherwise, double limit) {
     const json* value = find(key);
     if (value == nullptr) return otherwise;
-    if (value->is_number() && std::abs(value->get<double>()) <= most) return value->get<double>();
-    problem(key, "a number up to " + std::to_string(most));
+    if (value->is_number() && std::abs(value->get<double>()) <= limit) return value->get<double>();
+    problem(key, "a number up to " + std::to_string(limit));
     return otherwise;
   }
   /// Empty if there are none.
-  std::vector<double> numbers(const char* key, double most) {
+  std::vector<double> numbers(const char* key, double limit) {
     const json* value = find(key);
     if (value == nullptr) return {};
     std::vector<double> found;
     if (!value->is_array() || value->size() > kMaxColumns) return problem(key, "a list of numbers"), found;
     for (const json& one : *value) {
-      if (!one.is_number() || !(std::abs(one.get<double>()) <= most))
-        return problem(key, "numbers up to " + std::to_string(most)), std::vector<double>();
+      if (!one.is_number() || !(std::abs(one.get<double>()) <= limit))
+        return problem(key, "numbers up to " + std::to_string(limit)), std::vector<double>();
       found.push_back(one.get<double>());
     }
     return found;

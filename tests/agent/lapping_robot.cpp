@@ -111,7 +111,7 @@ agent::AgentConfig config_of(const LappingRobot::Options& options) {
   config.perception.lidar = few_columns(options.columns);
   config.perception.odometry.T_base_lidar = kT_base_lidar;
   for (const Source source : {Source::kLidar, Source::kImu, Source::kGps})
-    config.perception.mount_given[static_cast<std::size_t>(source)] = true;
+    config.perception.mount_configured[static_cast<std::size_t>(source)] = true;
   config.perception.localization.site_origin = kOrigin;
   config.perception.localization.wheel.turn_offset = 0.0;
   config.exchange.fleet = {config.id};

@@ -25,7 +25,7 @@ PerceptionConfig stated(double height) {
   PerceptionConfig config;
   config.odometry.T_base_lidar.translation() = Eigen::Vector3d(0.2, 0.0, height);
   config.odometry.T_base_lidar.linear() = kPitched.toRotationMatrix();
-  config.mount_given[0] = true;
+  config.mount_configured[0] = true;
   return config;
 }
 
@@ -81,7 +81,7 @@ PerceptionConfig patient(double height) {
 
 TEST(SensorMounts, ThoseConfiguredThatNobodyPublishesAreTakenOnce) {
   PerceptionConfig config = patient(0.8);
-  config.mount_given[1] = config.mount_given[2] = true;
+  config.mount_configured[1] = config.mount_configured[2] = true;
   SensorMounts mounts(config);
   EXPECT_THAT(mounts.take_unpublished(kStart + 9s), IsEmpty()) << "nothing is decided";
   mounts.on_message(Source::kLidar, "/velodyne", kStart);

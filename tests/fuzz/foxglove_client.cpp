@@ -6,7 +6,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace fleetmap;
   using namespace fleetmap::monitor::foxglove;
   const std::string_view text = fuzz::text_of({data, size});
-  const std::string_view chosen = chosen_subprotocol(text);
+  const std::string_view chosen = accepted_subprotocol(text);
   fuzz::require(chosen.empty() || text.find(chosen) != text.npos, "a subprotocol that was not offered");
   const auto request = parse_client_text(text);
   if (!request) {

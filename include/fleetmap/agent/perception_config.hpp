@@ -47,7 +47,7 @@ struct PerceptionConfig {
   bool odometry_uses_wheel = true;  ///< speed as prior of LOAM
   /// The configuration states the mount of LiDAR, IMU and GPS (in the order of sensor::Source), so that
   /// /tf_static does not replace it.
-  std::array<bool, sensor::kSources> mount_given{};
+  std::array<bool, sensor::kSources> mount_configured{};
 };
 
 }  // namespace fleetmap::agent

@@ -52,7 +52,7 @@ class SensorMounts {
  private:
   struct Mount {
     Pose T_base_sensor = Pose::Identity();
-    bool given = false;  ///< by the configuration
+    bool configured = false;
     bool decided = false;
     bool by_frames = false;
   };

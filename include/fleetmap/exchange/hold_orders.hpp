@@ -78,8 +78,8 @@ class HoldOrders {
   bool is_resumed(const HoldOrder& order) const;
   /// Whether the later `order` to drive on lets a robot that obeyed `before` drive home.
   bool goes_on_home(const HoldOrder& order, const HoldOrder& before) const;
-  /// Adds `order` as it was completed, which was of kind `given`.
-  bool add_completed(const HoldOrder& order, HoldOrder::Kind given);
+  /// Adds `order` as it was completed, which was of kind `requested`.
+  bool add_completed(const HoldOrder& order, HoldOrder::Kind requested);
   /// Completes the order that this robot obeys since another one repeated it; this robot obeyed `before`.
   bool complete_own(const std::optional<HoldOrder>& before);
   bool none() const { return registers_.empty() && rows_.all().empty(); }

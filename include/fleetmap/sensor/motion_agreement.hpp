@@ -45,11 +45,11 @@ class MotionAgreement {
   void compare_drive(const Step& step);
   void compare_turn(const Step& step);
   void compare_stamps(const Step& step);
-  void judge_drive();
-  void judge_turns();
-  void judge_gyro(const Eigen::Vector3d& slope, const std::string& others);
+  void check_drive();
+  void check_turns();
+  void check_gyro(const Eigen::Vector3d& slope, const std::string& others);
   void compare_gyro_and_wheels(Stamp to);
-  void judge_stamps();
+  void check_stamps();
 
   Eigen::Quaterniond q_base_imu_ = Eigen::Quaterniond::Identity();
   RunningIntegral gyro_;    ///< rad in base_link
@@ -72,7 +72,7 @@ class MotionAgreement {
   Eigen::Vector3d gyro_by_wheels_ = Eigen::Vector3d::Zero();
   std::array<double, 2 * kLags + 1> misfits_{};  ///< of gyro and LiDAR by lag, rad^2
   std::size_t misfit_steps_ = 0;
-  bool drive_judged_ = false, turns_judged_ = false, stamps_judged_ = false;
+  bool drive_checked_ = false, turns_checked_ = false, stamps_checked_ = false;
   std::vector<std::string> findings_;
 };
 

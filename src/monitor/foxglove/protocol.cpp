@@ -76,7 +76,7 @@ Result<ClientRequest> parse_unsubscribe(const json& message) {
 
 }  // namespace
 
-std::string_view chosen_subprotocol(std::string_view offered) {
+std::string_view accepted_subprotocol(std::string_view offered) {
   for (const std::string_view name : kSubprotocols) {
     if (offers(offered, name)) return name;
   }

@@ -19,7 +19,7 @@ namespace fleetmap::monitor::foxglove {
 
 /// The subprotocol that a WebSocket gets of those that its client offers, "a, b": the present name of this
 /// protocol before its former one, which has the same messages. Empty if neither is among them.
-std::string_view chosen_subprotocol(std::string_view offered);
+std::string_view accepted_subprotocol(std::string_view offered);
 
 /// A client asks for a channel's messages, which shall carry the number `id`.
 struct Subscription {

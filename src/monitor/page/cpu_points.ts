@@ -107,8 +107,8 @@ export class CpuPoints {
       byIntensity = !byHeight && mode.value < 3,
       own = ramp[Math.round(255 * style[15])];
     const size = kPointSize.metres * pixelsPerMetre.value * ratio.value,
-      least = kPointSize.least * ratio.value,
-      most = kPointSize.most * ratio.value;
+      min = kPointSize.min * ratio.value,
+      max = kPointSize.max * ratio.value;
     const flat = planar.value > 0.5,
       pixels = this.pixels,
       depths = this.depths;
@@ -122,7 +122,7 @@ export class CpuPoints {
       const depth = 0.5 + (zx * x + zy * y + zz * z + z1) * per_w;
       if (depth < 0 || depth > 1) continue;
       // The pixels whose middles are within the square.
-      const half = 0.5 * Math.min(most, Math.max(least, flat ? size : size * Math.min(2, per_w)));
+      const half = 0.5 * Math.min(max, Math.max(min, flat ? size : size * Math.min(2, per_w)));
       const cx = (xx * x + xy * y + xz * z + x1) * per_w + halfWidth - 0.5;
       const cy = (yx * x + yy * y + yz * z + y1) * per_w + halfHeight - 0.5;
       const left = Math.max(0, Math.ceil(cx - half)),

@@ -87,8 +87,8 @@ export class FleetPanel {
   private holdings(state: State): HTMLElement {
     const holders = [...new Set(state.holdings.map((one) => one.holder))],
       makers = state.robots.map((robot) => robot.id);
-    const most = new Map<string, number>();
-    for (const one of state.holdings) most.set(one.maker, Math.max(most.get(one.maker) ?? 0, one.nodes));
+    const nodesOf = new Map<string, number>();
+    for (const one of state.holdings) nodesOf.set(one.maker, Math.max(nodesOf.get(one.maker) ?? 0, one.nodes));
     const head = el(
       'tr',
       {},
@@ -102,7 +102,7 @@ export class FleetPanel {
         el('th', {scope: 'row'}, dot(state, holder), holder),
         ...makers.map((maker) => {
           const one = state.holdings.find((h) => h.holder === holder && h.maker === maker);
-          const all = most.get(maker) ?? 0,
+          const all = nodesOf.get(maker) ?? 0,
             share = all > 0 ? (one?.submaps ?? 0) / all : 0;
           return el(
             'td',

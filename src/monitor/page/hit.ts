@@ -20,9 +20,9 @@ export function hitAt(
   reach: number,
 ): Hit | undefined {
   let best: Hit | undefined;
-  let least = reach;
+  let nearest = reach;
   const take = (distance: number, hit: Hit) => {
-    if (distance < least) [least, best] = [distance, hit];
+    if (distance < nearest) [nearest, best] = [distance, hit];
   };
   if (nodesShown) {
     for (const [node, pixel] of nodes) if (pixel) take(Math.hypot(pixel.x - at.x, pixel.y - at.y), {node});

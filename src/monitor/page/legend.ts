@@ -17,9 +17,9 @@ const kScale_px = 110;
 
 /** The longest of 1, 2 and 5 times a power of ten, m, that the scale has room for. */
 export function scaleLength(metresPerPixel: number): number {
-  const most = kScale_px * metresPerPixel;
-  const power = 10 ** Math.floor(Math.log10(most));
-  return [5, 2, 1].map((k) => k * power).find((one) => one <= most) ?? power;
+  const max_m = kScale_px * metresPerPixel;
+  const power = 10 ** Math.floor(Math.log10(max_m));
+  return [5, 2, 1].map((k) => k * power).find((one) => one <= max_m) ?? power;
 }
 
 /** The words at both ends of the ramp of colours. */

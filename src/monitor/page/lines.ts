@@ -141,14 +141,14 @@ export class Lines {
     const positions: number[] = [],
       colours: number[] = [],
       sizes: number[] = [];
-    const chosen = new Set<string>();
+    const highlighted = new Set<string>();
     const selected = marks.selected;
-    if (selected && 'node' in selected) chosen.add(selected.node);
-    if (selected && 'edge' in selected) chosen.add(selected.edge.a).add(selected.edge.b);
+    if (selected && 'node' in selected) highlighted.add(selected.node);
+    if (selected && 'edge' in selected) highlighted.add(selected.edge.a).add(selected.edge.b);
     for (const {node, p} of marks.nodes) {
       positions.push(...p.toArray());
       colours.push(...rgb(colourOf(marks.state, node.robot)).toArray());
-      sizes.push(chosen.has(node.id) ? 16 : 8);
+      sizes.push(highlighted.has(node.id) ? 16 : 8);
     }
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));

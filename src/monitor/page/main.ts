@@ -167,7 +167,7 @@ setBudget();
 
 function setTime(): void {
   if (!state) return;
-  const end = state.nodes.reduce((most, node) => Math.max(most, node.t), 0);
+  const end = state.nodes.reduce((max, node) => Math.max(max, node.t), 0);
   const share = Number(byId<HTMLInputElement>('time').value) / 1000;
   byId('time-value').textContent = duration(share * end);
   byId('time').setAttribute('aria-valuetext', duration(share * end));

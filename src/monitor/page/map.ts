@@ -7,7 +7,7 @@ import {colourOf, type FleetNode, type State} from './model';
 import {MapCamera} from './map_camera';
 import {kModes, type ColourMode, pointStyle} from './point_material';
 import type {Picture} from './legend';
-import {drawsOnCpu, type Effort, kStill_ms, leastShare, Pace} from './pace';
+import {drawsOnCpu, type Effort, kStill_ms, drawnShare, Pace} from './pace';
 import {type Place, placeOf, pointAt} from './picking';
 import {Shading} from './shading';
 import {matrixOf} from './submap';
@@ -66,7 +66,7 @@ export class FleetMap {
     this.submaps = new Submaps(this.style, () => this.draw());
     this.points = onCpu ? new CpuPoints(this.submaps.pool, this.style) : new GlPoints(this.submaps.pool, this.renderer);
     const full = {shaded: true, detailed: true, ratio: Math.min(2, window.devicePixelRatio), share: 1};
-    this.pace = new Pace(full, leastShare());
+    this.pace = new Pace(full, drawnShare());
     this.lines = new Lines(this.marks);
     this.eye = new MapCamera(canvas, () => this.move());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);

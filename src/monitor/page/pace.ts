@@ -26,10 +26,10 @@ export class Pace {
   private fast = 0;
   private last?: number;
 
-  /** `least`: share of the points that is drawn however long a frame takes. */
+  /** `minShare`: share of the points that is drawn however long a frame takes. */
   constructor(
     private full: Effort,
-    private least = kMinShare,
+    private minShare = kMinShare,
   ) {}
 
   /** The effort of the frame at `now`, ms. */
@@ -54,7 +54,7 @@ export class Pace {
   private adapt(step: number): void {
     this.fast = step < kFast_ms ? this.fast + 1 : 0;
     if (step > kSlow_ms) {
-      if (this.level === kLevels) this.share = Math.max(this.least, this.share * Math.max(0.5, kGoal_ms / step));
+      if (this.level === kLevels) this.share = Math.max(this.minShare, this.share * Math.max(0.5, kGoal_ms / step));
       this.level = Math.min(kLevels, this.level + 1);
     } else if (this.fast >= kSteady) {
       this.fast = 0;
@@ -67,7 +67,7 @@ export class Pace {
 }
 
 /** All points are drawn while the view moves, too, if the page's address has `share=all`. */
-export const leastShare = () => (new URLSearchParams(location.search).get('share') === 'all' ? 1 : kMinShare);
+export const drawnShare = () => (new URLSearchParams(location.search).get('share') === 'all' ? 1 : kMinShare);
 
 /** Whether WebGL draws on the CPU, where each sample of a pixel costs as much as the first. */
 export function drawsOnCpu(): boolean {

@@ -30,7 +30,7 @@ export function pointAt(
   const w = canvas.clientWidth,
     h = canvas.clientHeight;
   let best: THREE.Vector3 | undefined,
-    least = Infinity;
+    minCost = Infinity;
   for (const submap of submaps) {
     for (let k = 0; k < submap.drawn; ++k) {
       submap.point(k, p);
@@ -41,7 +41,7 @@ export function pointAt(
       if (off2 > reach * reach || q.z < -1 || q.z > 1) continue;
       // A point in front wins by far; of those at one depth that under the pointer.
       const cost = q.z * 1e6 + off2;
-      if (cost < least) [least, best] = [cost, p.clone()];
+      if (cost < minCost) [minCost, best] = [cost, p.clone()];
     }
   }
   return best;

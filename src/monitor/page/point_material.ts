@@ -15,7 +15,7 @@ export interface PointStyle {
   ratio: {value: number}; // device pixels per pixel
 }
 
-export const kPointSize = {metres: 0.11, least: 1.7, most: 6}; // the latter two in pixels
+export const kPointSize = {metres: 0.11, min: 1.7, max: 6}; // the latter two in pixels
 
 export function pointStyle(): PointStyle {
   return {
@@ -47,7 +47,7 @@ void main() {
   vec4 view = viewMatrix * vec4(world, 1.0);
   gl_Position = projectionMatrix * view;
   float scale = planar > 0.5 ? pixelsPerMetre : pixelsPerMetre / max(0.5, -view.z);
-  gl_PointSize = ratio * clamp(${kPointSize.metres} * scale, ${kPointSize.least}, ${kPointSize.most.toFixed(1)});
+  gl_PointSize = ratio * clamp(${kPointSize.metres} * scale, ${kPointSize.min}, ${kPointSize.max.toFixed(1)});
   float height = clamp((world.z - low) / max(0.1, high - low), 0.0, 1.0);
   if (mode < 0.5) vColour = mix(own.rgb * 0.72, mix(own.rgb, vec3(1.0), 0.42), height);
   else if (mode < 1.5) vColour = ramp(height);

@@ -102,7 +102,7 @@ export class RadioPanel {
         width: this.width(),
         height: 170,
         cursor: {drag: {x: false, y: false}},
-        scales: {x: {time: false}, y: {range: (_, __, most) => [0, Math.max(100, 1.1 * most)]}},
+        scales: {x: {time: false}, y: {range: (_, __, max) => [0, Math.max(100, 1.1 * max)]}},
         axes: [
           {...axis, values: (_, values) => values.map((t) => `${Math.round(t)} s`), size: 28},
           {...axis, values: (_, values) => values.map(bytes), size: 56},

@@ -22,7 +22,7 @@ export class Submaps {
   listed = false; // what is drawn has changed since this was set to false
   private running = 0;
   private moving = false;
-  private seen: {submap: Submap; weight: number}[] = []; // nearest first
+  private visible: {submap: Submap; weight: number}[] = []; // nearest first
   private allocated = -Infinity;
   private share = 1;
   private stale = true;
@@ -80,16 +80,16 @@ export class Submaps {
     );
     const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
     const sphere = new THREE.Sphere();
-    this.seen = [];
+    this.visible = [];
     for (const submap of this.all.values()) {
       submap.visible = submap.t <= until && (this.only?.has(submap.hash) ?? true);
       submap.wanted = 0;
       if (!submap.visible || !frustum.intersectsSphere(sphere.set(submap.centre, submap.radius))) continue;
       const distance = planar ? 1 : Math.max(5, eye.distanceTo(submap.centre) - 0.5 * submap.radius);
-      this.seen.push({submap, weight: 1 / (distance * distance)});
+      this.visible.push({submap, weight: 1 / (distance * distance)});
     }
-    divide(this.seen, this.budget);
-    this.seen.sort((a, b) => b.weight - a.weight);
+    divide(this.visible, this.budget);
+    this.visible.sort((a, b) => b.weight - a.weight);
     this.trim();
     this.fetchMore();
   }
@@ -99,7 +99,7 @@ export class Submaps {
     this.share = share;
     this.pool.begin();
     this.drawn = 0;
-    for (const {submap} of this.seen) this.drawn += submap.draw(share);
+    for (const {submap} of this.visible) this.drawn += submap.draw(share);
     this.listed = true;
   }
 
@@ -142,7 +142,7 @@ export class Submaps {
 
   /** Some submap in view is not on the map at all yet. */
   get loading(): boolean {
-    return this.seen.some(({submap}) => submap.total < 0 && !submap.failed);
+    return this.visible.some(({submap}) => submap.total < 0 && !submap.failed);
   }
 
   private trim(): void {
@@ -153,9 +153,9 @@ export class Submaps {
 
   /** Goes on where the last picture left off, so that loading does not wait for slow pictures. */
   private fetchMore(): void {
-    const open = this.seen.map(({submap}) => submap).filter((one) => !one.asked && !one.failed);
+    const open = this.visible.map(({submap}) => submap).filter((one) => !one.asked && !one.failed);
     const coarse = spread(open.filter((one) => one.total < 0));
-    const share = Math.ceil(this.budget / Math.max(1, this.seen.length));
+    const share = Math.ceil(this.budget / Math.max(1, this.visible.length));
     for (let k = 0; k < coarse.length && this.running < kCoarseAtOnce; k += kTogether)
       void this.fetchTogether(coarse.slice(k, k + kTogether), 0, Math.min(kCoarse, Math.max(kMin, share)));
     if (coarse.length > 0) return;
@@ -182,8 +182,8 @@ export class Submaps {
   /** More points of several submaps of which as many are here, but not many. */
   private async fetchFew(submaps: Submap[]): Promise<void> {
     const from = submaps[0].loaded,
-      most = Math.max(...submaps.map(useful));
-    await this.fetchTogether(submaps, from, Math.min(kCoarse, Math.ceil(most / kMin) * kMin) - from);
+      max = Math.max(...submaps.map(useful));
+    await this.fetchTogether(submaps, from, Math.min(kCoarse, Math.ceil(max / kMin) * kMin) - from);
   }
 
   /**
@@ -268,9 +268,9 @@ function spread(submaps: Submap[]): Submap[] {
 }
 
 /** Points in proportion to the weights, no submap more than it has. */
-function divide(seen: {submap: Submap; weight: number}[], budget: number): void {
+function divide(visible: {submap: Submap; weight: number}[], budget: number): void {
   let left = budget;
-  let open = [...seen];
+  let open = [...visible];
   for (let round = 0; round < 8 && open.length > 0 && left > 0; ++round) {
     const sum = open.reduce((total, one) => total + one.weight, 0);
     const factor = left / sum;

@@ -148,7 +148,7 @@ export class WhyPanel {
   }
 
   /** Those that the filters let through, but for the verdict: the chips count them. */
-  private chosen(state: State): [Registration, number][] {
+  private filtered(state: State): [Registration, number][] {
     const of = (id: string) => id.split(/[#/]/)[0];
     return state.registrations
       .map((one, k): [Registration, number] => [one, k])
@@ -160,9 +160,9 @@ export class WhyPanel {
   }
 
   private filters(state: State): HTMLElement {
-    const chosen = this.chosen(state);
+    const filtered = this.filtered(state);
     const chips = ['all', ...kVerdicts].map((verdict) => {
-      const n = verdict === 'all' ? chosen.length : chosen.filter(([one]) => one.verdict === verdict).length;
+      const n = verdict === 'all' ? filtered.length : filtered.filter(([one]) => one.verdict === verdict).length;
       if (n === 0 && verdict !== 'all' && verdict !== 'rejected' && this.verdict !== verdict) return null;
       const chip = el(
         'button',
@@ -202,7 +202,7 @@ export class WhyPanel {
   }
 
   private list(state: State): HTMLElement {
-    const shown = this.chosen(state).filter(([one]) => this.verdict === 'all' || one.verdict === this.verdict);
+    const shown = this.filtered(state).filter(([one]) => this.verdict === 'all' || one.verdict === this.verdict);
     const list = el('ul', {class: 'registrations', 'aria-label': 'Registrations'});
     for (const [one, index] of shown.slice(0, this.rows)) {
       const button = el(

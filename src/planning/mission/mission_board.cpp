@@ -141,24 +141,24 @@ bool MissionBoard::idle(std::size_t robot, Stamp now) const {
 }
 
 void MissionBoard::set_row_orders(const std::vector<messages::RowOrder>& orders) {
-  given_.clear();
+  handovers_.clear();
   for (const messages::RowOrder& order : orders) {
     const auto row = std::ranges::find(plan_->mission.rows, order.row, &Row::id);
     const auto by = plan_->find(order.robot);
     const auto to = order.to.empty() ? std::nullopt : plan_->find(order.to);
     if (row == plan_->mission.rows.end() || !by || (!to && !order.to.empty())) continue;
-    given_[static_cast<std::size_t>(row - plan_->mission.rows.begin())] = {*by, to};
+    handovers_[static_cast<std::size_t>(row - plan_->mission.rows.begin())] = {*by, to};
   }
 }
 
 std::optional<std::size_t> MissionBoard::receiver(std::size_t row) const {
-  const auto given = given_.find(row);
-  return given == given_.end() ? std::nullopt : given->second.to;
+  const auto handover = handovers_.find(row);
+  return handover == handovers_.end() ? std::nullopt : handover->second.to;
 }
 
 bool MissionBoard::barred(std::size_t robot, std::size_t row, Stamp now) const {
-  const auto given = given_.find(row);
-  if (given == given_.end() || given->second.to || given->second.by != robot) return false;
+  const auto handover = handovers_.find(row);
+  if (handover == handovers_.end() || handover->second.to || handover->second.by != robot) return false;
   for (std::size_t other = 0; other < robots(); ++other) {
     if (other != robot && can_drive(other, row, now)) return true;
   }
@@ -168,8 +168,8 @@ bool MissionBoard::barred(std::size_t robot, std::size_t row, Stamp now) const {
 bool MissionBoard::lost_claim(std::size_t row, bool ours_under_way, Stamp now) const {
   for (std::size_t robot = 0; robot < robots(); ++robot) {
     if (robot == self_ || !peers_[robot].last || !available(robot, now) || !claims(robot, row)) continue;
-    if (const auto chosen = receiver(row); chosen == self_ || chosen == robot) {
-      if (chosen == robot) return true;
+    if (const auto assignee = receiver(row); assignee == self_ || assignee == robot) {
+      if (assignee == robot) return true;
       continue;
     }
     const bool theirs_under_way = under_way(robot, row);

@@ -87,7 +87,7 @@ class MissionBoard {
     return available(robot, now) && !failed(robot, row);
   }
 
-  struct Given {
+  struct Handover {
     std::size_t by = 0;
     std::optional<std::size_t> to;
   };
@@ -100,7 +100,7 @@ class MissionBoard {
   RowSet reported_;  ///< by anyone, ever
   RowSet surveyed_;
   RowSet done_;
-  std::map<std::size_t, Given> given_;  ///< by row
+  std::map<std::size_t, Handover> handovers_;  ///< by row
   Stamp begun_;
 };
 

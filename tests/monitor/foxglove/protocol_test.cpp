@@ -12,13 +12,13 @@ namespace {
 using nlohmann::json;
 
 TEST(Protocol, the_present_name_of_the_subprotocol_is_preferred) {
-  EXPECT_EQ(chosen_subprotocol("foxglove.websocket.v1"), "foxglove.websocket.v1");
-  EXPECT_EQ(chosen_subprotocol("foxglove.sdk.v1"), "foxglove.sdk.v1");
-  EXPECT_EQ(chosen_subprotocol("foxglove.websocket.v1, foxglove.sdk.v1"), "foxglove.sdk.v1");
-  EXPECT_EQ(chosen_subprotocol("chat ,\tfoxglove.websocket.v1 "), "foxglove.websocket.v1");
+  EXPECT_EQ(accepted_subprotocol("foxglove.websocket.v1"), "foxglove.websocket.v1");
+  EXPECT_EQ(accepted_subprotocol("foxglove.sdk.v1"), "foxglove.sdk.v1");
+  EXPECT_EQ(accepted_subprotocol("foxglove.websocket.v1, foxglove.sdk.v1"), "foxglove.sdk.v1");
+  EXPECT_EQ(accepted_subprotocol("chat ,\tfoxglove.websocket.v1 "), "foxglove.websocket.v1");
   for (const char* other : {"", ",", " , ,", "foxglove.websocket.v2", "foxglove.sdk.v1x", "xfoxglove.sdk.v1",
                             "foxglove.websocket", "foxglove.sdk.v1 foxglove.websocket.v1", "FOXGLOVE.SDK.V1"})
-    EXPECT_EQ(chosen_subprotocol(other), "") << other;
+    EXPECT_EQ(accepted_subprotocol(other), "") << other;
 }
 
 TEST(Protocol, subscriptions_are_read) {

@@ -157,4 +157,4 @@ const sizes = [0, 5, 8].map((z) => {
   Object.assign(one.style.pixelsPerMetre, {value: 20 / kPointSize.metres});
   return Math.sqrt(covered(one.picture(above(PerspectiveCamera))).length);
 });
-assert.deepEqual(sizes, [2, 4, kPointSize.most]);
+assert.deepEqual(sizes, [2, 4, kPointSize.max]);

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {pageModule} from './page_module.mjs';
 
-const {leastShare, Pace} = await pageModule(process.argv[2], 'pace');
+const {drawnShare, Pace} = await pageModule(process.argv[2], 'pace');
 const full = {shaded: true, detailed: true, ratio: 2, share: 1};
 let now = 0;
 /** The efforts of so many frames while the view moves, `step` ms apart. */
@@ -27,9 +27,9 @@ assert.deepEqual(slow.effort((now += 200), false), full);
 
 // A page that is to draw all points does so, however slow it is.
 globalThis.location = {search: '?share=all'};
-assert.ok(frames(new Pace(full, leastShare()), 50, 200).every(({share}) => share === 1));
+assert.ok(frames(new Pace(full, drawnShare()), 50, 200).every(({share}) => share === 1));
 globalThis.location = {search: ''};
-assert.equal(leastShare(), 0.25);
+assert.equal(drawnShare(), 0.25);
 
 // The time in which nothing moved is no slow frame.
 now += 60_000;

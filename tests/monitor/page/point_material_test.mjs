@@ -16,7 +16,7 @@ const declared = [...material.vertexShader.matchAll(/uniform \w+ ([\w, ]+);/g)].
   names.split(', '),
 );
 assert.deepEqual(declared.sort(), Object.keys(material.uniforms).sort());
-for (const size of [kPointSize.metres, kPointSize.least]) assert.ok(material.vertexShader.includes(String(size)));
+for (const size of [kPointSize.metres, kPointSize.min]) assert.ok(material.vertexShader.includes(String(size)));
 
 const {r, g, b} = rgbOf('#ff8000');
 assert.deepEqual(
