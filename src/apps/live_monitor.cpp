@@ -34,16 +34,21 @@ std::string fingerprint(const std::vector<fs::path>& stores) {
 }
 
 Result<std::unique_ptr<LiveMonitor>> open_page(const std::optional<monitor::ServerConfig>& config,
-                                               LiveMonitor::Stores stores, LiveMonitor::Read read) {
+                                               fs::path previews, LiveMonitor::Stores stores,
+                                               LiveMonitor::Read read) {
   if (!config) return nullptr;
   monitor::ServerConfig beside_robots = *config;
   beside_robots.background = true;
+  beside_robots.preview_file = std::move(previews);
   auto page = LiveMonitor::start(beside_robots, std::move(stores), std::move(read), true);
   if (page) spdlog::info("page: open {} in a browser", (*page)->server().url());
   return page;
 }
 
 }  // namespace
+
+fs::path previews_of_store(const fs::path& store) { return store.string() + ".previews"; }
+fs::path previews_of_run(const fs::path& directory) { return directory / "monitor.previews"; }
 
 LiveMonitor::LiveMonitor(Stores stores, Read read) : stores_(std::move(stores)), read_(std::move(read)) {}
 
@@ -118,13 +123,14 @@ Result<std::unique_ptr<LiveMonitor>> page_of_robot(const std::optional<monitor::
                                                    const fs::path& folder) {
   const fs::path file = folder / "store.db";
   return open_page(
-      config, [file] { return std::vector{file}; }, [file] { return open_one(file); });
+      config, previews_of_store(file), [file] { return std::vector{file}; },
+      [file] { return open_one(file); });
 }
 
 Result<std::unique_ptr<LiveMonitor>> page_of_run(const std::optional<monitor::ServerConfig>& config,
                                                  const fs::path& directory) {
   return open_page(
-      config, [directory] { return robot_stores(directory); },
+      config, previews_of_run(directory), [directory] { return robot_stores(directory); },
       [directory] { return open_run(directory, ""); });
 }
 

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPreviewFile = "monitor.previews";  ///< in the folder of a run
-
 void wait_for_signal() {
   const std::atomic<bool>& stop = stop_on_signals();
   std::mutex mutex;
@@ -34,7 +32,7 @@ CommandResult<ExitCode> serve_page(const MonitorOptions& options, std::ostream& 
   if (one != options.run.empty()) return exit_with(kUsage, {"give either --store FILE or --run DIR"});
   auto config = server_config(options.access);
   if (!config) return exit_with(kUsage, config.error());
-  config->preview_file = one ? fs::path(options.store + ".previews") : fs::path(options.run) / kPreviewFile;
+  config->preview_file = one ? previews_of_store(options.store) : previews_of_run(options.run);
   const auto without = robots_named(options.without);
   if (!without) return exit_with(kUsage, without.error());
   const LiveMonitor::Read read = [&] {

@@ -27,6 +27,12 @@ class LiveMonitor : public ::testing::Test {
     const Bytes submap = testing::random_bytes(2000, seq);
     ASSERT_TRUE(store.put_node_with_submap(testing::make_node(agent("r1"), seq, submap, 5.0 * seq), submap));
   }
+  static void put_node_with_points(store::Store& store) {
+    cloud::PointCloud cloud;
+    for (int k = 0; k < 500; ++k) cloud.points.emplace_back(0.1f * static_cast<float>(k), 1.0f, 0.0f);
+    const Bytes submap = cloud::encode(cloud, {}).value();
+    ASSERT_TRUE(store.put_node_with_submap(testing::make_node(agent("r1"), 0, submap, 0.0), submap));
+  }
   static std::size_t nodes_shown(std::uint16_t port) {
     testing::Browser browser(port);
     browser.get("/state.json");
@@ -88,16 +94,26 @@ TEST_F(LiveMonitor, shows_a_store_of_any_name) {
 
 TEST_F(LiveMonitor, keeps_first_points_beside_the_store_for_the_next_start) {
   const auto store = store_of("store.db");
-  cloud::PointCloud cloud;
-  for (int k = 0; k < 500; ++k) cloud.points.emplace_back(0.1f * static_cast<float>(k), 1.0f, 0.0f);
-  const Bytes submap = cloud::encode(cloud, {}).value();
-  ASSERT_TRUE(store->put_node_with_submap(testing::make_node(agent("r1"), 0, submap, 0.0), submap));
+  put_node_with_points(*store);
   const auto file = folder_ / "store.db.previews";
   testing::Process monitor(
       {testing::kProgram, "monitor", "--store", (folder_ / "store.db").string(), "--port", "0"});
   ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file); }, 60s)) << monitor.output();
   monitor.signal(SIGTERM);
   EXPECT_EQ(monitor.wait(), 0) << monitor.output();
+}
+
+TEST_F(LiveMonitor, of_robots_that_still_drive_keeps_first_points_for_the_start_after_them) {
+  monitor::ServerConfig any_port;
+  any_port.port = 0;
+  const auto store = store_of("out/r1/store.db");
+  put_node_with_points(*store);
+  const auto of_robot = apps::page_of_robot(any_port, folder_ / "out/r1");
+  ASSERT_TRUE(of_robot) << of_robot.error().message;
+  EXPECT_TRUE(eventually([&] { return std::filesystem::exists(folder_ / "out/r1/store.db.previews"); }, 60s));
+  const auto of_run = apps::page_of_run(any_port, folder_ / "out");
+  ASSERT_TRUE(of_run) << of_run.error().message;
+  EXPECT_TRUE(eventually([&] { return std::filesystem::exists(folder_ / "out/monitor.previews"); }, 60s));
 }
 
 TEST_F(LiveMonitor, of_a_run_that_only_begins_shows_the_robots_that_come) {
