@@ -47,6 +47,18 @@ install(FILES ${package}/fleetmapConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/Depend
               ${PROJECT_BINARY_DIR}/fleetmapConfigVersion.cmake DESTINATION ${fleetmap_cmake})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/fleetmap-dev RENAME copyright)
 
+# Each commit's package is newer than that of the commit before, or apt would not install it over that one.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env TZ=UTC git -c safe.directory=* log -1 --date=format-local:%Y%m%d%H%M%S
+                        "--format=+git%cd.%h" WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+execute_process(COMMAND git -c safe.directory=* diff --quiet HEAD WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                RESULT_VARIABLE changed ERROR_QUIET)
+if(commit AND changed)
+  string(TIMESTAMP now "%Y%m%d%H%M%S" UTC)
+  string(APPEND commit ".changed${now}")
+endif()
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION}${commit})
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_CONTACT "fleetmap <fleetmap@localhost>")
@@ -64,7 +76,7 @@ set(CPACK_DEBIAN_FLEETMAP_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FLEETMAP_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_FLEETMAP_PACKAGE_CONTROL_EXTRA ${package}/postinst ${package}/prerm ${package}/postrm)
 
-set(same_version "fleetmap (= ${PROJECT_VERSION})")
+set(same_version "fleetmap (= ${CPACK_PACKAGE_VERSION})")
 set(CPACK_COMPONENT_TWIN_DESCRIPTION "worlds and fleets that fleetmap simulates, and trials on network interfaces")
 set(CPACK_DEBIAN_TWIN_PACKAGE_NAME fleetmap-twin)
 set(CPACK_DEBIAN_TWIN_PACKAGE_SECTION science)

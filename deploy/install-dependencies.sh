@@ -9,7 +9,7 @@ packages=(
   libeigen3-dev libpcl-dev libnanoflann-dev libdraco-dev libgeographiclib-dev libsleef-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libexpected-dev nlohmann-json3-dev
   libsqlite3-dev libssl-dev liblzma-dev libzstd-dev liblz4-dev libbz2-dev zlib1g-dev libembree-dev libpng-dev libgdal-dev libboost-dev libsystemd-dev
-  libgtest-dev libgmock-dev libbenchmark-dev cyclonedds-dev cyclonedds-tools
+  libgtest-dev libgmock-dev libbenchmark-dev cyclonedds-dev cyclonedds-tools gdal-bin
   iproute2 procps python3
 )
 

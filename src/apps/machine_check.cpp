@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "fleetmap/core/paths.hpp"
+#include "fleetmap/core/receive_buffer.hpp"
 
 namespace fleetmap::apps {
 namespace {
@@ -34,9 +35,8 @@ MachineState machine_state(const std::filesystem::path& directory) {
 std::vector<std::string> machine_findings(const MachineState& state) {
   std::vector<std::string> findings;
   if (state.receive_buffer && *state.receive_buffer < kReceiveBuffer) {
-    findings.push_back(
-        "net.core.rmem_max is " + std::to_string(*state.receive_buffer) +
-        " bytes: large scans that come over UDP lose packets. Set it to 8388608 in /etc/sysctl.d");
+    findings.push_back("net.core.rmem_max is " + std::to_string(*state.receive_buffer) +
+                       " bytes, and large scans that come over UDP lose packets: " + kRaiseReceiveBuffer);
   }
   if (state.free_bytes && *state.free_bytes < kFreeBytes) {
     findings.push_back(state.directory.string() + ": " + std::to_string(*state.free_bytes / 1'000'000) +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fleetmap/core/receive_buffer.hpp"
 #include "fleetmap/geometry/degree.hpp"
 #include "fleetmap/geometry/se3.hpp"
 #include "short_number.hpp"
@@ -270,9 +271,8 @@ void SensorHealth::check_scan(Stamp stamp, Duration sweep) {
   scans_missing_ = true;
   state("LiDAR: " + std::to_string(missing_scans_) + " of " + std::to_string(scans_ + missing_scans_) +
         " scans are missing: a sweep takes " + short_number(to_seconds(sweep)) + " s, and one came every " +
-        short_number(to_seconds(sweep) * all / static_cast<double>(scans_)) +
-        " s. Raise net.core.rmem_max and rmem_default to 16 MB, or use a wire; if the driver crops the "
-        "cloud, ignore this");
+        short_number(to_seconds(sweep) * all / static_cast<double>(scans_)) + " s. Use a wire, or " +
+        kRaiseReceiveBuffer + "; if the driver crops the cloud, ignore this");
 }
 
 bool SensorHealth::ground_due() {

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <string>
 
+#include "fleetmap/core/receive_buffer.hpp"
+
 namespace fleetmap::bus {
 namespace {
 
@@ -57,7 +59,7 @@ Status check_room(std::size_t segment_bytes, const fs::path& folder) {
   const auto megabytes = [](std::uintmax_t bytes) { return std::to_string(bytes >> 20) + " MB"; };
   return failure(folder.string() + " has " + megabytes(error ? 0 : space.available) + " free and " +
                  megabytes(needed) + " are needed; give the container more (--shm-size=256m), or set " +
-                 "dds.onboard.shared_memory to false and net.core.rmem_max to 4194304");
+                 "dds.onboard.shared_memory to false and " + kRaiseReceiveBuffer);
 }
 
 }  // namespace fleetmap::bus
