@@ -104,8 +104,14 @@ async function onADesk(page, state) {
   await shot(page, 'desk_rejected');
   await page.locator('#verdict-all').click();
   await page.keyboard.press('Escape');
+  await comparesTheClouds(page);
+  await planByKeyboard(page);
+  await nodeTellsWhatItIs(page, state);
+  await measuresWhatTheScaleSays(page);
+}
 
-  // Its two clouds alone, before the registration and as placed.
+/** The two clouds of a registration alone, before it and as placed. */
+async function comparesTheClouds(page) {
   const picture = () =>
     page
       .locator('#canvas')
@@ -127,8 +133,9 @@ async function onADesk(page, state) {
     await shot(page, `desk_compare_${place}`);
   }
   assert.equal(new Set(pictures).size, 3, 'GPS, placement and the rejected pose show the clouds alike');
+}
 
-  // The map by keyboard, in plan view, with a node that tells what it is.
+async function planByKeyboard(page) {
   await page.locator('#canvas').focus();
   await page.keyboard.press('Escape');
   await page.keyboard.press('p');
@@ -146,6 +153,9 @@ async function onADesk(page, state) {
       [ends.source],
     );
   }
+}
+
+async function nodeTellsWhatItIs(page, state) {
   await page.locator('#tab-fleet').click();
   const node = page.locator('.robot .link').first();
   const name = await node.textContent();
@@ -162,8 +172,11 @@ async function onADesk(page, state) {
   const box = await page.locator('#canvas').boundingBox();
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   assert.match(await page.locator('#card').textContent(), new RegExp(`Node ${name}`));
+}
 
-  // A measurement across 200 pixels is what the scale makes of them.
+/** A measurement across 200 pixels. */
+async function measuresWhatTheScaleSays(page) {
+  const box = await page.locator('#canvas').boundingBox();
   await page.keyboard.press('Escape');
   await page.locator('#measure').click();
   for (const x of [-100, 100]) await page.mouse.click(box.x + box.width / 2 + x, box.y + box.height / 2 + 30);

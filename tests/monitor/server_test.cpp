@@ -323,19 +323,6 @@ TEST(Server, a_token_is_exchanged_for_a_cookie_once) {
   EXPECT_EQ(socket.status(), "403");
 }
 
-TEST(Server, addresses_that_others_reach_need_a_token) {
-  ServerConfig config;
-  EXPECT_TRUE(config.validate());
-  config.address = "0.0.0.0";
-  EXPECT_FALSE(config.validate());
-  config.token = "short";
-  EXPECT_FALSE(config.validate());
-  config.token = "0123456789abcdef";
-  EXPECT_TRUE(config.validate());
-  config.address = "robot.example";
-  EXPECT_FALSE(config.validate());
-}
-
 TEST(Server, a_port_in_use_is_an_error_that_names_it) {
   const auto server = start();
   ServerConfig config;

@@ -13,7 +13,7 @@
 namespace fleetmap::structure {
 namespace {
 
-constexpr std::size_t kMaxFileLines = 350;
+constexpr std::size_t kMaxFileLines = 349;
 constexpr int kMaxFunctionLines = 50;
 constexpr std::ptrdiff_t kMaxLineCharacters = 120;
 
@@ -51,13 +51,13 @@ void expect_short_lines(const std::string& file) {
   }
 }
 
-TEST(Limits, FilesHaveAtMost350Lines) {
+TEST(Limits, FilesHaveFewerThan350Lines) {
   const auto files = cpp_files();
   ASSERT_GT(files.size(), 1000u) << "the scan found hardly any file: is FLEETMAP_SOURCE_DIR right?";
   for (const std::string& file : files) EXPECT_LE(lines_of(file).size(), kMaxFileLines) << file;
 }
 
-TEST(Limits, ScriptsHaveAtMost350LinesOf120Characters) {
+TEST(Limits, ScriptsHaveFewerThan350LinesOf120Characters) {
   const auto files = script_files();
   ASSERT_GT(files.size(), 50u) << "the scan found hardly any script";
   for (const std::string& file : files) {
