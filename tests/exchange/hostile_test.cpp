@@ -18,23 +18,6 @@ using testing::SimFleet;
 
 const std::vector<std::string> kThree{"r1", "r2", "r3"};
 
-/// Every robot holds the same contents under the same names.
-bool equal_contents(const SimFleet& fleet) {
-  const auto& first = *fleet.robots().begin()->second.store;
-  return fleet.all([&](const SimFleet::Robot& robot) {
-    const auto same_print = [&](const SeqRange& range) {
-      return robot.store->node_print(range) == first.node_print(range) &&
-             robot.store->alignment_print(range) == first.alignment_print(range);
-    };
-    return robot.store->node_set() == first.node_set() &&
-           robot.store->alignment_set() == first.alignment_set() &&
-           robot.store->nodes().size() == first.nodes().size() &&
-           std::ranges::all_of(fleet.config().fleet, [&](const AgentId& a) {
-             return same_print({a, 0, kEndOfSeqs});
-           });
-  });
-}
-
 /// Every robot has a node with this place and submap, under whatever name.
 bool all_have(const SimFleet& fleet, const graph::Node& node) {
   return fleet.all([&](const SimFleet::Robot& robot) {
@@ -65,7 +48,7 @@ class Hostile : public ::testing::Test {
     return node;
   }
   void run_to_end(Duration time = std::chrono::minutes(5)) {
-    fleet_.run_for(time, [&] { return equal_contents(fleet_) && all_made_are_held() && all_complete(); });
+    fleet_.run_for(time, [&] { return fleet_.equal_contents() && all_made_are_held() && all_complete(); });
   }
   bool all_made_are_held() const {
     return std::ranges::all_of(made_, [&](const graph::Node& node) { return all_have(fleet_, node); });
@@ -74,7 +57,7 @@ class Hostile : public ::testing::Test {
     return fleet_.all([](const SimFleet::Robot& robot) { return robot.exchange->complete(); });
   }
   void expect_all_is_well() {
-    EXPECT_TRUE(equal_contents(fleet_));
+    EXPECT_TRUE(fleet_.equal_contents());
     EXPECT_TRUE(all_made_are_held());
     EXPECT_TRUE(all_complete());
   }

@@ -90,6 +90,18 @@ bool SimFleet::equal_sets(std::size_t nodes) const {
   });
 }
 
+bool SimFleet::equal_contents() const {
+  const auto& first = *robots().begin()->second.store;
+  return all([&](const Robot& robot) {
+    const auto same_print = [&](const AgentId& maker) {
+      const SeqRange range{maker, 0, kEndOfSeqs};
+      return robot.store->node_print(range) == first.node_print(range) &&
+             robot.store->alignment_print(range) == first.alignment_print(range);
+    };
+    return equal_sets(first.nodes().size()) && std::ranges::all_of(config_.fleet, same_print);
+  });
+}
+
 void SimFleet::on_sent(const fault_injection::Packet& packet) {
   sent_.push_back(packet);
   const bool queues = network_.short_range && packet.outgoing.reach == messages::Reach::kShortRange;

@@ -92,6 +92,8 @@ class SimFleet : private TemporaryFolder, public fault_injection::ExchangeFleet 
   bool all(const std::function<bool(const Robot&)>& holds) const;
   /// Every running robot holds the same nodes and alignments, and `nodes` of them.
   bool equal_sets(std::size_t nodes) const;
+  /// Every robot holds the same contents under the same names.
+  bool equal_contents() const;
 
  private:
   void on_sent(const fault_injection::Packet& packet) override;
