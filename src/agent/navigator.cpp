@@ -85,13 +85,13 @@ void Navigator::note(const std::optional<StopReason>& reason) {
   drove_ |= !reason;
   if (reason == stop_reason_) return;
   if (!reason) {
-    if (standing_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
+    if (stopped_since_ != Stamp{}) spdlog::info("{}: may be driven", self_.str());
   } else if ((drove_ && !done()) || reason == StopReason::kHeld) {  // else there is nothing to warn of
     spdlog::log(reason == StopReason::kStopping ? spdlog::level::info : spdlog::level::warn,
                 "{}: stands still: {}", self_.str(), to_string(*reason));
   }
   stop_reason_ = reason;
-  standing_since_ = bus_.now();
+  stopped_since_ = bus_.now();
 }
 
 void Navigator::watch() {
@@ -162,7 +162,7 @@ bool Navigator::all_rows_driven() const {
 /// A robot that is held may go on at any time; one that is blind for long is of no use to the mission.
 bool Navigator::stuck(Stamp now) const {
   if (stop_reason_ == StopReason::kHeld) return false;
-  const bool blind = stop_reason_ && now - standing_since_ > from_seconds(config_.follower.stuck_after);
+  const bool blind = stop_reason_ && now - stopped_since_ > from_seconds(config_.follower.stuck_after);
   return blind || follower_.stuck(now);
 }
 

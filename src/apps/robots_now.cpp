@@ -67,8 +67,8 @@ std::vector<std::uint32_t> rows_of(const MissionReport& report, const std::vecto
 }
 
 /// Orders that the robot has not confirmed by what it does.
-void add_unconfirmed(const FleetNow& fleet, bool stands, bool on_way_home, monitor::RobotNow& robot) {
-  if (robot.driven && robot.ordered_to_hold && !stands)
+void add_unconfirmed(const FleetNow& fleet, bool is_stationary, bool on_way_home, monitor::RobotNow& robot) {
+  if (robot.driven && robot.ordered_to_hold && !is_stationary)
     robot.problems.emplace_back("has not confirmed the order to stand still");
   if (robot.driven && robot.called_home && !robot.ordered_to_hold && !on_way_home)
     robot.problems.emplace_back("has not confirmed the order to drive home");

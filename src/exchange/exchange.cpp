@@ -160,7 +160,7 @@ std::vector<AgentId> Exchange::peers_in_reach(Stamp now) const {
   return state_->submap_receiver.neighbours().in_reach(now);
 }
 
-std::vector<AgentId> Exchange::asked_for_submaps() const { return state_->submap_receiver.asked(); }
+std::vector<AgentId> Exchange::submap_requesters() const { return state_->submap_receiver.asked(); }
 
 std::vector<AgentId> Exchange::in_sync_with(Stamp now) const {
   return state_->submap_receiver.neighbours().in_sync_with(state_->store, now);

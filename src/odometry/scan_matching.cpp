@@ -35,17 +35,17 @@ double longest_time(const std::vector<FeaturePoint>& points, double longest) {
   return longest;
 }
 
-/// Information of the points if the map may be bent within every sweep by a velocity e of these standard
+/// Information of the points if the map may be distorted within every sweep by a velocity e of these standard
 /// deviations (m/s, rad/s): a point fired at s moves with d_pose + s (d_twist + e), and e is marginalised.
-/// Otherwise the velocity would be measured against the map's own bend, which has no anchor, and both would
-/// drift away from the motion between the poses.
-NormalEquations with_bent_map(const NormalEquations& points, double speed, double turn_rate) {
+/// Otherwise the velocity would be measured against the map's own distortion, which has no anchor, and both
+/// would drift away from the motion between the poses.
+NormalEquations with_distorted_map(const NormalEquations& points, double speed, double turn_rate) {
   Vector6d known;
   known << Eigen::Vector3d::Constant(1.0 / square(speed)), Eigen::Vector3d::Constant(1.0 / square(turn_rate));
   const Eigen::Matrix<double, 12, 6> coupling = points.H.rightCols<6>();
-  Matrix6d of_bend = points.H.bottomRightCorner<6, 6>();
-  of_bend.diagonal() += known;
-  const Eigen::LDLT<Matrix6d> factor(of_bend);
+  Matrix6d of_distortion = points.H.bottomRightCorner<6, 6>();
+  of_distortion.diagonal() += known;
+  const Eigen::LDLT<Matrix6d> factor(of_distortion);
   NormalEquations result;
   result.H = points.H - coupling * factor.solve(coupling.transpose());
   result.H = (0.5 * (result.H + result.H.transpose())).eval();
@@ -80,7 +80,8 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
   lookups_.assign(planes.size(), {});
   const std::size_t some = std::clamp<std::size_t>(planes.size() / kEnoughPlanes, 1, kLongestStride);
   half_span_ = longest_time(edges, longest_time(planes, 1e-6));
-  const double bend_turn_rate = prior.has_gyro_rate() ? config_.gyro_noise : config_.map_bend_turn_rate;
+  const double distortion_turn_rate =
+      prior.has_gyro_rate() ? config_.gyro_noise : config_.map_distortion_turn_rate;
   double slack = initial_error;
   for (result.iterations = 1; result.iterations <= config_.max_iterations; ++result.iterations) {
     const bool last = slack <= kFinalSlack || result.iterations == config_.max_iterations;
@@ -89,7 +90,7 @@ MatchResult ScanMatcher::align(const std::vector<FeaturePoint>& planes,
     find_degeneracy(lidar.H, result);
     lidar.H /= config_.information_deflation;
     lidar.g /= config_.information_deflation;
-    lidar = with_bent_map(lidar, config_.map_bend_speed, bend_turn_rate);
+    lidar = with_distorted_map(lidar, config_.map_distortion_speed, distortion_turn_rate);
     const NormalEquations known = prior.linearised(result.state);
     if (result.degenerate_count > 0) remove_degenerate(result, lidar);
     const Vector12d step = -(lidar.H + known.H).ldlt().solve(lidar.g + known.g);

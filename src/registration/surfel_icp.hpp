@@ -28,7 +28,7 @@ struct MovingPoints {
   float patch_m = 4.0f;                   ///< m, edge of one
 };
 
-/// Models of the drift of the odometry, which bends both clouds.
+/// Models of the drift of the odometry, which deforms both clouds.
 struct DriftModels {
   DriftModel target, source;
 };

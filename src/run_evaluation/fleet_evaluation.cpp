@@ -187,7 +187,7 @@ json fleet_json(const RunFolder& run, const HeldFleet* held, const eval::TruePos
                 {"ate_unaligned", joint->unaligned},
                 {"georeference", joint->georeference},
                 {"between_robots", joint->between_robots},
-                {"bend", joint->bend}};
+                {"bend", joint->within_robots}};
   if (meetings > 0) {
     fleet["inter_robot_translation"] = std::sqrt(squares / static_cast<double>(meetings));
     fleet["inter_robot_rotation_deg"] = kDegrees * std::sqrt(turns / static_cast<double>(meetings));

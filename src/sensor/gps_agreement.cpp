@@ -15,7 +15,7 @@ constexpr double kUnknownSigma = 3.0;  // m
 constexpr double kMinJump = 10.0;      // m, more than its error changes from fix to fix
 constexpr double kSigmas = 5.0;
 constexpr double kSpacing = 2.0;  // m between places of the track
-constexpr std::size_t kFewest = 10, kMost = 100;
+constexpr std::size_t kMinTrack = 10, kMaxTrack = 100;
 constexpr double kCheckedEvery = 5.0;  // m
 constexpr double kMinMisfit = 3.0;     // m
 constexpr double kMisfitSigmas = 2.0;
@@ -90,19 +90,19 @@ void GpsAgreement::match(const Fix& fix, const Eigen::Vector2d& odom) {
   const double step = track_.empty() ? kSpacing : (odom - track_.back().odom).norm();
   if (step < kSpacing) return;
   track_.push_back(place);
-  if (track_.size() > kMost) track_.pop_front();
+  if (track_.size() > kMaxTrack) track_.pop_front();
   driven_ += step;
-  if (driven_ < kCheckedEvery || track_.size() < kFewest) return;
+  if (driven_ < kCheckedEvery || track_.size() < kMinTrack) return;
   driven_ = 0.0;
   check_track();
 }
 
 void GpsAgreement::check_jump(const Place& place) {
-  if (!last_place_ || jump_said_) return;
+  if (!last_place_ || jump_reported_) return;
   const double moved = (place.odom - last_place_->odom).norm();
   const double jump = (place.gps - last_place_->gps).norm() - moved;
   if (jump < std::max(kMinJump, kSigmas * (place.sigma + last_place_->sigma))) return;
-  jump_said_ = true;
+  jump_reported_ = true;
   findings_.push_back("GPS: it jumped by " + short_number(jump) + " m while the robot moved " +
                       short_number(moved) +
                       " m: reflections, a changed base station, or another receiver on the topic. Fixes that "
@@ -110,7 +110,7 @@ void GpsAgreement::check_jump(const Place& place) {
 }
 
 void GpsAgreement::check_track() {
-  if (track_said_) return;
+  if (track_reported_) return;
   const auto count = static_cast<Eigen::Index>(track_.size());
   Eigen::Matrix2Xd gps(2, count), odom(2, count);
   double sigma = 0.0;
@@ -123,7 +123,7 @@ void GpsAgreement::check_track() {
   const Fit fit = fit_of(gps, odom);
   contradictions_ = fit.rotated > std::max(kMinMisfit, kMisfitSigmas * sigma) ? contradictions_ + 1 : 0;
   if (contradictions_ < kContradictions) return;
-  track_said_ = true;
+  track_reported_ = true;
   std::string why = "it is of another robot or time, or the position is wrong";
   if (fit.width > kMinWidth && fit.mirrored < kMirroredFits * fit.rotated_sized) {
     why = "it is mirrored: latitude and longitude are swapped, or one of them has the wrong sign";

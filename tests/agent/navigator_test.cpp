@@ -40,7 +40,7 @@ class NavigatorTest : public ::testing::Test {
     config.plan = small_plan();
     ASSERT_TRUE(config.plan);
     auto made = Navigator::create(config, self_, site_, *bus_, [this](messages::MissionReport report) {
-      told_.push_back(std::move(report));
+      reports_.push_back(std::move(report));
     });
     ASSERT_TRUE(made) << made.error().message;
     navigator_ = std::move(*made);
@@ -94,7 +94,7 @@ class NavigatorTest : public ::testing::Test {
   bus::Bus* bus_ = nullptr;
   bus::Handle subscription_;
   std::vector<ros_codec::VelocityCommand> commands_;
-  std::vector<messages::MissionReport> told_;
+  std::vector<messages::MissionReport> reports_;
   std::unique_ptr<Navigator> navigator_;
 };
 
@@ -135,8 +135,8 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   };
   for (int k = 0; k < 3; ++k) led_at({0.0, 0.0});
   EXPECT_GT(commands_.back().forward_speed, 0.2) << "the row lies ahead";
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().position.x(), 0.0, 0.01);
 
   stay(at({30.0, 30.0}, 0.0), 1);
   bus_->publish(fleet_codec::topics::guide_pose(), Bytes(7, 0xff));
@@ -154,10 +154,10 @@ TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
   for (int k = 0; k < 8; ++k) {
     stay(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().position.x(), 1.0, 0.01);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().position.x(), 1.0, 0.01);
   stay(at({9.0, 4.0}, 0.0), 8);
-  EXPECT_NEAR(told_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
+  EXPECT_NEAR(reports_.back().position.x(), 9.0, 0.01) << "alone again, it goes by its own G";
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
@@ -165,7 +165,7 @@ TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
   broken.G->position.latitude = std::numeric_limits<double>::quiet_NaN();
   stay(broken, 2);
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0);
-  EXPECT_TRUE(told_.empty());
+  EXPECT_TRUE(reports_.empty());
 }
 
 TEST_F(NavigatorTest, StopsInFrontOfAWall) {
@@ -180,14 +180,14 @@ TEST_F(NavigatorTest, StopsInFrontOfAWall) {
 
 TEST_F(NavigatorTest, TellsTheOthersEveryFewSeconds) {
   stay({}, 6);
-  EXPECT_TRUE(told_.empty()) << "there is nothing to tell without a pose";
+  EXPECT_TRUE(reports_.empty()) << "there is nothing to tell without a pose";
   stay(at({0.0, 0.0}, 0.0), 16);
-  ASSERT_GE(told_.size(), 3u);
-  EXPECT_LE(told_.size(), 4u);
-  EXPECT_EQ(told_.back().from, self_);
-  EXPECT_NEAR(told_.back().position.x(), 0.0, 0.01);
-  EXPECT_EQ(told_.back().claimed.bytes().size(), 1u);
-  EXPECT_TRUE(told_.back().claimed.has(0)) << "it claims its row";
+  ASSERT_GE(reports_.size(), 3u);
+  EXPECT_LE(reports_.size(), 4u);
+  EXPECT_EQ(reports_.back().from, self_);
+  EXPECT_NEAR(reports_.back().position.x(), 0.0, 0.01);
+  EXPECT_EQ(reports_.back().claimed.bytes().size(), 1u);
+  EXPECT_TRUE(reports_.back().claimed.has(0)) << "it claims its row";
 }
 
 TEST_F(NavigatorTest, HearsOfItsBattery) {
@@ -197,8 +197,8 @@ TEST_F(NavigatorTest, HearsOfItsBattery) {
   ASSERT_TRUE(navigator_->battery());
   EXPECT_NEAR(*navigator_->battery(), 0.25, 1e-6);
   stay(at({0.0, 0.0}, 0.0), 2);
-  ASSERT_FALSE(told_.empty());
-  EXPECT_NEAR(told_.back().battery, 0.25, 1e-6);
+  ASSERT_FALSE(reports_.empty());
+  EXPECT_NEAR(reports_.back().battery, 0.25, 1e-6);
 }
 
 TEST_F(NavigatorTest, RowsThatOthersDroveAreDrivenIfTheirNodesLieAlongThem) {
@@ -309,7 +309,7 @@ TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
   EXPECT_EQ(navigator_->status().state, messages::MissionState::kDriving);
   EXPECT_EQ(navigator_->status().mine, 1u);
   EXPECT_EQ(navigator_->status().replans, 0u);
-  EXPECT_FALSE(told_.empty()) << "the others hear of it";
+  EXPECT_FALSE(reports_.empty()) << "the others hear of it";
   navigator_->obey(order(false));
   stay(at({0.0, 0.0}, 0.0), 5);
   EXPECT_GT(commands_.back().forward_speed, 0.2);

@@ -80,13 +80,13 @@ TEST(Introductions, FitIntoAHello) {
 
 TEST(Introductions, OfARobotThatIsGoneAreBelievedOnlyAfterItSpokeItself) {
   Introductions introductions;
-  EXPECT_TRUE(introductions.believes(robot(1)));
-  EXPECT_FALSE(introductions.believes(robot(1, seconds(11))));
+  EXPECT_TRUE(introductions.accepts(robot(1)));
+  EXPECT_FALSE(introductions.accepts(robot(1, seconds(11))));
   introductions.forget(prefix(1));
-  EXPECT_FALSE(introductions.believes(robot(1)));
-  EXPECT_TRUE(introductions.believes(robot(2)));
+  EXPECT_FALSE(introductions.accepts(robot(1)));
+  EXPECT_TRUE(introductions.accepts(robot(2)));
   introductions.meet(prefix(1));
-  EXPECT_TRUE(introductions.believes(robot(1)));
+  EXPECT_TRUE(introductions.accepts(robot(1)));
 }
 
 TEST(Introductions, RememberABoundedNumberOfRobots) {
@@ -99,7 +99,7 @@ TEST(Introductions, RememberABoundedNumberOfRobots) {
   }
   Introduction first = robot(0);
   first.prefix = {1};
-  EXPECT_TRUE(introductions.believes(first)) << "forgotten long ago";
+  EXPECT_TRUE(introductions.accepts(first)) << "forgotten long ago";
 }
 
 TEST(Introductions, TravelInAHello) {

@@ -141,13 +141,14 @@ TEST_F(Hostile, a_forged_next_node_that_comes_first_costs_the_name_and_not_the_n
     EXPECT_EQ(events<ItemConflict>(robot).front().id, node.id) << name.str();
   }
   const auto& store = *fleet_.robot("r3").store;
-  const auto tie = std::ranges::find_if(store.alignments(), [](const auto& entry) {
+  const auto joined = std::ranges::find_if(store.alignments(), [](const auto& entry) {
     return entry.second.i.agent == agent("r2") && entry.second.j.agent == agent("r2");
   });
-  ASSERT_NE(tie, store.alignments().end()) << "the node is tied to the one before by the odometry";
-  EXPECT_EQ(tie->second.i, made_[7].id);
+  ASSERT_NE(joined, store.alignments().end())
+      << "an alignment of the odometry joins the node to the one before";
+  EXPECT_EQ(joined->second.i, made_[7].id);
   const Pose T_before_named = made_[7].T_odom_base.inverse() * made_[10].T_odom_base;
-  EXPECT_LT((tie->second.best().T_i_j.matrix() - T_before_named.matrix()).norm(), 1e-9);
+  EXPECT_LT((joined->second.best().T_i_j.matrix() - T_before_named.matrix()).norm(), 1e-9);
 }
 
 /// Digests of names alone would show nothing.

@@ -92,7 +92,7 @@ class Agent {
   const exchange::Exchange& exchange() const { return *exchange_; }
   exchange::ExchangeStats exchange_stats() const { return exchange_->stats(); }
   /// Robots from which submaps are being fetched.
-  std::vector<AgentId> asked_for_submaps() const { return exchange_->asked_for_submaps(); }
+  std::vector<AgentId> submap_requesters() const { return exchange_->submap_requesters(); }
   const FleetLinkCounters& link_counters() const { return link_->counters(); }
   /// Writes that the disk refused.
   std::uint64_t store_failures() const { return store_failures_.total(); }

@@ -91,7 +91,7 @@ class Navigator {
   Stamp guided_at_{};
   DriveGuard guard_;
   std::optional<StopReason> stop_reason_;  ///< as of the last check
-  Stamp standing_since_{};
+  Stamp stopped_since_{};
   bool drove_ = false;             ///< the guard let a command pass
   bool called_home_ = false;       ///< by an operator
   std::optional<double> battery_;  ///< share left

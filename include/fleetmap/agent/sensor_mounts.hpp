@@ -72,7 +72,7 @@ class SensorMounts {
   Duration patience_;
   std::optional<Stamp> waits_since_;  ///< the first message of any sensor
   std::vector<std::string> warnings_;
-  std::set<std::string> told_;  ///< a publisher repeats its transforms
+  std::set<std::string> reported_;  ///< a publisher repeats its transforms
 };
 
 }  // namespace fleetmap::agent

@@ -12,8 +12,8 @@ struct GroundConfig {
   float thickness_m = 0.2f;    ///< m, points this close above the surface belong to it
   float step_m = 0.2f;         ///< m, roughness: height step between neighbouring cells that is still ground
   float max_slope_rad = 0.7f;  ///< rad, steeper is no ground
-  float max_bend_rad = 0.25f;  ///< rad, change of slope from cell to cell that is still ground
-  float min_area_m2 = 12.0f;   ///< m^2, smaller connected surfaces are no ground
+  float max_slope_change_rad = 0.25f;  ///< rad, change of slope from cell to cell that is still ground
+  float min_area_m2 = 12.0f;           ///< m^2, smaller connected surfaces are no ground
   Status validate() const;
 };
 

@@ -103,7 +103,7 @@ class Exchange {
   /// Robots heard on the short range within SubmapTransferConfig::peer_timeout.
   std::vector<AgentId> peers_in_reach(Stamp now) const;
   /// Robots that submaps are being fetched from.
-  std::vector<AgentId> asked_for_submaps() const;
+  std::vector<AgentId> submap_requesters() const;
   /// Robots in reach that hold the same submaps: nothing is left to be exchanged with them.
   std::vector<AgentId> in_sync_with(Stamp now) const;
 

@@ -42,7 +42,7 @@ struct EkfCounters {
   std::uint64_t fix_covariance_replaced = 0;  ///< used with gps.default_sigma_*
   std::uint64_t fix_recoveries = 0;      ///< rejected fixes that agreed for so long that they were accepted
   std::uint64_t heading_alignments = 0;  ///< heading taken from motion
-  std::uint64_t heading_resets = 0;      ///< of these, those that overruled a heading already held
+  std::uint64_t heading_resets = 0;      ///< of these, those that replaced an earlier heading
   std::uint64_t restarts = 0;            ///< the clock stepped back for good: everything began anew
   std::uint64_t heading_lost = 0;        ///< heading became too uncertain to go on with
 };

@@ -44,7 +44,7 @@ class GpsAgreement {
   std::deque<Place> track_;  ///< a place every 2 m
   double driven_ = 0.0;      ///< m, since the track was checked
   int contradictions_ = 0;   ///< windows in a row
-  bool jump_said_ = false, track_said_ = false;
+  bool jump_reported_ = false, track_reported_ = false;
   std::vector<std::string> findings_;
 };
 

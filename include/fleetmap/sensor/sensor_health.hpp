@@ -83,7 +83,7 @@ class SensorHealth {
   std::vector<std::string> findings_;
   int impossible_rates_ = 0;  ///< in a row
   bool speed_from_pose_ = false;
-  bool no_altitude_ = false, no_place_ = false, imu_gaps_said_ = false;
+  bool no_altitude_ = false, no_place_ = false, imu_gaps_reported_ = false;
   bool scans_missing_ = false;
 };
 

@@ -54,8 +54,8 @@ std::set<RadioLink::EntityKey> RadioLink::Hellos::reads_of(const AgentId& robot)
   return keys;
 }
 
-/// It could be introduced by its name and address alone.
-bool RadioLink::Hellos::is_alike(const Hello& hello) const {
+/// The sender has this robot's settings and topics, so its name and address suffice to introduce it.
+bool RadioLink::Hellos::shares_settings(const Hello& hello) const {
   return hello.settings && hello.settings == radio_.settings_ &&
          hello.multicast == radio_.config_.multicast &&
          std::set<EntityKey>(hello.reads.begin(), hello.reads.end()) == reads_of(hello.sender);
@@ -68,13 +68,13 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
   if (!remote.robot && remote.hellos_sent >= kIntroducing) return {};
   if (remote.robot) {
     const Peer& there = radio_.peers_.at(*remote.robot);
-    if (!there.alike || there.seeks == 0) return {};
+    if (!there.shares_settings || there.seeks == 0) return {};
     recipient = bytes_of(*remote.robot);
     joined_ago = std::chrono::duration_cast<Duration>(now - there.joined);
   }
   std::vector<Introduction> known;
   for (const auto& [robot, peer] : radio_.peers_) {
-    if (!peer.alike) continue;
+    if (!peer.shares_settings) continue;
     const auto heard = radio_.last_heard(robot);
     if (!heard) continue;
     Introduction& one = known.emplace_back();
@@ -90,10 +90,10 @@ std::vector<Introduction> RadioLink::Hellos::introductions_to(const RemoteLocato
 
 void RadioLink::Hellos::on_introductions(const Prefix& sender, const Hello& hello) {
   radio_.introductions_.note_known(bytes_of(sender), hello.introduces);
-  if (!radio_.peers_.at(sender).alike) return;
+  if (!radio_.peers_.at(sender).shares_settings) return;
   bool any = false;
   for (const Introduction& introduction : hello.introduces)
-    any |= radio_.introductions_.believes(introduction) && introduce(introduction, hello.sender);
+    any |= radio_.introductions_.accepts(introduction) && introduce(introduction, hello.sender);
   if (any) seek_sooner();
 }
 
@@ -153,7 +153,7 @@ bool RadioLink::Hellos::introduce(const Introduction& introduction, const AgentI
           .reads = reads_of(introduction.agent),
           .multicast = radio_.config_.multicast,
           .seeks = 0,  // `by` tells it whom it lacks
-          .alike = true,
+          .shares_settings = true,
           .joined = now - introduction.joined_ago,
           .introduced = heard,
           .last_sent = now,

@@ -35,7 +35,8 @@ class Introductions {
   void forget(const Prefix& robot);
   /// A Hello of the robot itself came.
   void meet(const Prefix& robot);
-  bool believes(const Introduction& introduction) const;
+  /// True for one that was heard lately, of a robot that has not left since.
+  bool accepts(const Introduction& introduction) const;
 
  private:
   std::map<Prefix, std::set<Prefix>> knows_;  ///< peers that each peer's Hellos listed
