@@ -15,7 +15,7 @@ json misbehaved_json(const exchange::ExchangeStats& stats) {
   return by_robot;
 }
 
-json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::LoopClosureStats& loops) {
+json exchange_json(const exchange::ExchangeStats& stats, const loop_closure::CandidateStats& loops) {
   const auto proofs = [&](exchange::ItemProof proof) {
     return stats.proofs[static_cast<std::size_t>(proof)];
   };
@@ -177,7 +177,7 @@ json agent_report(const agent::Agent& agent, const output::Results* results) {
                  {"refused_fleet_messages", agent.link_counters().refused_messages},
                  {"store_conflicts", agent.store().stats().conflicts},
                  {"store_failures", agent.store_failures()},
-                 {"exchange", exchange_json(agent.exchange_stats(), agent.loop_closure_stats())}};
+                 {"exchange", exchange_json(agent.exchange_stats(), agent.candidate_stats())}};
   add_holdings(report, agent.store(), results);
   return report;
 }

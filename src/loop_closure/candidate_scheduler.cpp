@@ -27,7 +27,7 @@ void fail(ScheduledCandidate& candidate, Stamp retry_at) {
 }  // namespace
 
 struct CandidateScheduler::State {
-  State(const AgentId& self, const LoopClosureConfig& config)
+  State(const AgentId& self, const CandidateConfig& config)
       : nodes(self, config.max_sigma_m),
         positions(self, config.proximity),
         descriptors(config.descriptors, config.proximity.max_radius),
@@ -43,7 +43,7 @@ struct CandidateScheduler::State {
   CandidateSelection selection;
 };
 
-CandidateScheduler::CandidateScheduler(const AgentId& self, const LoopClosureConfig& config)
+CandidateScheduler::CandidateScheduler(const AgentId& self, const CandidateConfig& config)
     : self_(self), config_(config), state_(std::make_unique<State>(self, config_)) {}
 
 CandidateScheduler::~CandidateScheduler() = default;
@@ -298,8 +298,8 @@ bool CandidateScheduler::has_good_alignment(const AgentId& peer) const {
   return state_->candidates.is_aligned(peer);
 }
 
-LoopClosureStats CandidateScheduler::stats() const {
-  LoopClosureStats all = stats_;
+CandidateStats CandidateScheduler::stats() const {
+  CandidateStats all = stats_;
   all.redundant = state_->candidates.redundant_count();
   all.crowded_out = state_->candidates.crowded_out_count();
   all.uninformative = state_->selection.uninformative_count();

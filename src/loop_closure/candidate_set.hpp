@@ -9,8 +9,8 @@
 
 #include "candidate_grid.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 #include "node_index.hpp"
 
 namespace fleetmap::loop_closure {
@@ -41,7 +41,7 @@ class CandidateSet {
   using Candidates = std::map<NodePair, ScheduledCandidate>;
 
   /// `config` and `nodes` outlive this.
-  CandidateSet(const LoopClosureConfig& config, const NodeIndex& nodes)
+  CandidateSet(const CandidateConfig& config, const NodeIndex& nodes)
       : config_(config), nodes_(nodes), grid_(largest_spacing(config), nodes) {}
 
   /// Those that are neither done nor abandoned. A long drive has many of these, and they only keep others
@@ -111,7 +111,7 @@ class CandidateSet {
   void count_redundant(std::uint64_t candidates = 1) { redundant_ += candidates; }
 
  private:
-  static double largest_spacing(const LoopClosureConfig& config) {
+  static double largest_spacing(const CandidateConfig& config) {
     return std::max({1.0, config.spacing_m, config.spacing_aligned_m, config.spacing_failed_m});
   }
   const ScheduledCandidate& held(const NodePair& pair) const;
@@ -127,7 +127,7 @@ class CandidateSet {
   /// Drops the oldest waiting candidate if too many wait.
   void crowd_out();
 
-  const LoopClosureConfig& config_;
+  const CandidateConfig& config_;
   const NodeIndex& nodes_;
   Candidates candidates_;
   Candidates done_;

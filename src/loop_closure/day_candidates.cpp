@@ -13,11 +13,11 @@ namespace {
 
 using Side = DescriptorCandidates::Side;
 
-bool located(const graph::Node& node, const LoopClosureConfig& config) {
+bool located(const graph::Node& node, const CandidateConfig& config) {
   return place::has_known_position(node.G, config.max_sigma_m);
 }
 
-void add_by_position(const Track& targets, const Track& sources, const LoopClosureConfig& config,
+void add_by_position(const Track& targets, const Track& sources, const CandidateConfig& config,
                      DayCandidates& found) {
   place::BallTree tree;
   Track in_tree;
@@ -36,7 +36,7 @@ void add_by_position(const Track& targets, const Track& sources, const LoopClosu
   }
 }
 
-void add_by_descriptor(const Track& targets, const Track& sources, const LoopClosureConfig& config,
+void add_by_descriptor(const Track& targets, const Track& sources, const CandidateConfig& config,
                        DayCandidates& found) {
   DescriptorCandidates descriptors(config.descriptors, config.proximity.max_radius);
   for (const graph::Node* target : targets)
@@ -65,8 +65,7 @@ std::vector<LoopCandidate> spaced(const std::vector<LoopCandidate>& candidates,
 
 }  // namespace
 
-DayCandidates candidates_between(const Track& targets, const Track& sources,
-                                 const LoopClosureConfig& config) {
+DayCandidates candidates_between(const Track& targets, const Track& sources, const CandidateConfig& config) {
   DayCandidates found;
   add_by_position(targets, sources, config, found);
   add_by_descriptor(targets, sources, config, found);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fleetmap/graph/node.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 #include "fleetmap/loop_closure/loop_candidate.hpp"
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
 
 namespace fleetmap::loop_closure {
 
@@ -17,6 +17,6 @@ struct DayCandidates {
 };
 
 /// Pairs of nodes of two tracks whose odometry frames lie anywhere to each other.
-DayCandidates candidates_between(const Track& targets, const Track& sources, const LoopClosureConfig& config);
+DayCandidates candidates_between(const Track& targets, const Track& sources, const CandidateConfig& config);
 
 }  // namespace fleetmap::loop_closure

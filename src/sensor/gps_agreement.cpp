@@ -59,7 +59,7 @@ Fit fit_of(const Eigen::Matrix2Xd& gps, const Eigen::Matrix2Xd& odom) {
 
 void GpsAgreement::interrupt() {
   last_.reset();
-  last_place_.reset();
+  last_matched_.reset();
   track_.clear();
   waiting_.clear();
 }
@@ -84,12 +84,12 @@ void GpsAgreement::add_motion(Stamp stamp, const Pose& T_odom_base) {
 
 void GpsAgreement::match(const Fix& fix, const Eigen::Vector2d& odom) {
   if (!frame_) frame_.emplace(fix.position);
-  const Place place{frame_->to_enu(fix.position).head<2>(), odom, sigma_of(fix)};
-  check_jump(place);
-  last_place_ = place;
+  const MatchedFix matched{frame_->to_enu(fix.position).head<2>(), odom, sigma_of(fix)};
+  check_jump(matched);
+  last_matched_ = matched;
   const double step = track_.empty() ? kSpacing : (odom - track_.back().odom).norm();
   if (step < kSpacing) return;
-  track_.push_back(place);
+  track_.push_back(matched);
   if (track_.size() > kMaxTrack) track_.pop_front();
   driven_ += step;
   if (driven_ < kCheckedEvery || track_.size() < kMinTrack) return;
@@ -97,11 +97,11 @@ void GpsAgreement::match(const Fix& fix, const Eigen::Vector2d& odom) {
   check_track();
 }
 
-void GpsAgreement::check_jump(const Place& place) {
-  if (!last_place_ || jump_reported_) return;
-  const double moved = (place.odom - last_place_->odom).norm();
-  const double jump = (place.gps - last_place_->gps).norm() - moved;
-  if (jump < std::max(kMinJump, kSigmas * (place.sigma + last_place_->sigma))) return;
+void GpsAgreement::check_jump(const MatchedFix& matched) {
+  if (!last_matched_ || jump_reported_) return;
+  const double moved = (matched.odom - last_matched_->odom).norm();
+  const double jump = (matched.gps - last_matched_->gps).norm() - moved;
+  if (jump < std::max(kMinJump, kSigmas * (matched.sigma + last_matched_->sigma))) return;
   jump_reported_ = true;
   findings_.push_back("GPS: it jumped by " + short_number(jump) + " m while the robot moved " +
                       short_number(moved) +
@@ -115,10 +115,10 @@ void GpsAgreement::check_track() {
   Eigen::Matrix2Xd gps(2, count), odom(2, count);
   double sigma = 0.0;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Place& place = track_[static_cast<std::size_t>(k)];
-    gps.col(k) = place.gps;
-    odom.col(k) = place.odom;
-    sigma = std::max(sigma, place.sigma);
+    const MatchedFix& matched = track_[static_cast<std::size_t>(k)];
+    gps.col(k) = matched.gps;
+    odom.col(k) = matched.odom;
+    sigma = std::max(sigma, matched.sigma);
   }
   const Fit fit = fit_of(gps, odom);
   contradictions_ = fit.rotated > std::max(kMinMisfit, kMisfitSigmas * sigma) ? contradictions_ + 1 : 0;

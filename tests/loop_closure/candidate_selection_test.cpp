@@ -35,7 +35,7 @@ class CandidateSelectionTest : public ::testing::Test {
     return selection_.ready([=](const AgentId&) { return heard; }, now);
   }
 
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   NodeIndex nodes_{kA, 15.0};
   CandidateSet candidates_{config_, nodes_};
   CandidateSelection selection_{config_, nodes_, candidates_};

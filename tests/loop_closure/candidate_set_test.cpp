@@ -30,7 +30,7 @@ class CandidateSetTest : public ::testing::Test {
     return {{agent("a"), seq}, {agent("b"), seq}, Origin::kDescriptor, 1.0, 30.0, score};
   }
 
-  LoopClosureConfig config_;
+  CandidateConfig config_;
   NodeIndex nodes_{agent("a"), 15.0};
   CandidateSet set_{config_, nodes_};
 };
@@ -155,7 +155,7 @@ TEST_F(CandidateSetTest, AnAbandonedOneIsBackOnceTheRedundancyIsGone) {
 
 /// After a start alignments come before their nodes.
 TEST(CandidateSetOrder, ACandidateIsFoundByItsPlaceOnceItsNodesAreThere) {
-  LoopClosureConfig config;
+  CandidateConfig config;
   NodeIndex nodes(agent("a"), 15.0);
   CandidateSet set(config, nodes);
   const auto add = [&](const char* name, std::uint32_t seq, bool located) {

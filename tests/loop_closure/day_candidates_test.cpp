@@ -43,7 +43,7 @@ class DayCandidatesTest : public ::testing::Test {
     }
   }
   DayCandidates find(double spacing_m = 10.0) const {
-    LoopClosureConfig config;
+    CandidateConfig config;
     config.spacing_m = spacing_m;
     Track first, second;
     for (const graph::Node& node : first_) first.push_back(&node);

@@ -41,8 +41,8 @@ std::vector<graph::Alignment> ties(std::uint32_t first, const Pose& T_site_other
   return used;
 }
 
-LoopClosureConfig at_once() {
-  LoopClosureConfig config;
+CandidateConfig at_once() {
+  CandidateConfig config;
   config.min_nodes_after = 0;
   config.max_wait = Duration::zero();
   config.max_active = 100;
@@ -156,7 +156,7 @@ TEST(TransformCandidates, WhereGTellsItIsG) {
 }
 
 TEST(TransformCandidates, TransformsThatFailAgainAndAgainAreDistrustedUntilOneIsRight) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   CandidateScheduler a(kA, config);
   a.on_heard(kB, kStart);
   add_nodes(a, 0, 60);
@@ -222,7 +222,7 @@ TEST(TransformCandidates, BehindAGapAreFoundWhenTheMissingNodeComes) {
 }
 
 TEST(TransformCandidates, WhatLooksAlikeButIsElsewhereIsNotTried) {
-  LoopClosureConfig config = at_once();
+  CandidateConfig config = at_once();
   config.min_nodes_after = 1000;
   config.max_wait = std::chrono::hours(1);
   CandidateScheduler a(kA, config);

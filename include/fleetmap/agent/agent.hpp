@@ -98,7 +98,7 @@ class Agent {
   std::uint64_t store_failures() const { return store_failures_.total(); }
   std::vector<bus::TopicStats> bus_stats() const { return bus_.stats(); }
   const loop_closure::RegistrationCounters& registrations() const { return loop_closing_.registrations(); }
-  loop_closure::LoopClosureStats loop_closure_stats() const { return loop_closing_.stats(); }
+  loop_closure::CandidateStats candidate_stats() const { return loop_closing_.stats(); }
   /// The driver of the robot; null if this agent does not drive.
   const Navigator* navigator() const { return navigator_.get(); }
   /// CPU seconds of LOAM a scan.

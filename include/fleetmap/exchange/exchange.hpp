@@ -11,10 +11,10 @@
 #include "fleetmap/core/bytes.hpp"
 #include "fleetmap/core/result.hpp"
 #include "fleetmap/core/time.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 #include "fleetmap/exchange/exchange_config.hpp"
 #include "fleetmap/exchange/exchange_events.hpp"
 #include "fleetmap/exchange/exchange_stats.hpp"
-#include "fleetmap/exchange/loop_closer.hpp"
 #include "fleetmap/exchange/send_queue.hpp"
 #include "fleetmap/messages/messages.hpp"
 #include "fleetmap/messages/routing.hpp"
@@ -36,9 +36,9 @@ using messages::RowOrder;
 /// take_events().
 class Exchange {
  public:
-  /// `store` and `loop_closer` outlive this. Starts from the items in the store; unfinished loop candidates
+  /// `store` and `cloud_client` outlive this. Starts from the items in the store; unfinished loop candidates
   /// are found again.
-  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, LoopCloser& loop_closer,
+  static Result<Exchange> make(const ExchangeConfig& config, store::Store& store, CloudClient& cloud_client,
                                Stamp now);
   Exchange(Exchange&&) noexcept;
   Exchange& operator=(Exchange&&) noexcept;

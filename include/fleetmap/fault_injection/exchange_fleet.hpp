@@ -32,7 +32,7 @@ class ExchangeFleet {
  public:
   struct Robot {
     std::unique_ptr<store::Store> store;
-    std::unique_ptr<loop_closure::CandidateScheduler> loop_closer;
+    std::unique_ptr<loop_closure::CandidateScheduler> cloud_client;
     std::unique_ptr<exchange::Exchange> exchange;
     std::uint16_t session = 0;
     Duration clock_offset = Duration::zero();  ///< of the robot's clock from virtual time
@@ -93,8 +93,8 @@ class ExchangeFleet {
   /// Passes on the events of the robot's exchange and loop closing.
   void pass_on(const AgentId& name, Robot& robot);
 
-  exchange::ExchangeConfig config_;              ///< of the robots that start from now on
-  loop_closure::LoopClosureConfig loop_config_;  ///< likewise
+  exchange::ExchangeConfig config_;            ///< of the robots that start from now on
+  loop_closure::CandidateConfig loop_config_;  ///< likewise
 
  private:
   struct Flight {

@@ -29,12 +29,13 @@ Bytes encode(const PoseMsg& pose);
 
 /// A nav_msgs/Path, stamped with its last pose.
 struct PathMsg {
-  struct Place {
+  /// A pose and its stamp.
+  struct StampedPose {
     Stamp stamp;
     Pose T_frame_base = Pose::Identity();
   };
   std::string frame;
-  std::vector<Place> places;
+  std::vector<StampedPose> poses;
 };
 Bytes encode(const PathMsg& path);
 

@@ -1,8 +1,8 @@
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 
 namespace fleetmap::loop_closure {
 
-Status LoopClosureConfig::validate() const {
+Status CandidateConfig::validate() const {
   if (auto status = proximity.validate(); !status) return status;
   if (auto status = descriptors.validate(); !status) return status;
   if (!(max_sigma_m > 0.0)) return failure("loop_candidates.max_sigma_m must be positive");

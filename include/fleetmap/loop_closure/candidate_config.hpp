@@ -11,9 +11,8 @@
 
 namespace fleetmap::loop_closure {
 
-/// Selection and timing of registrations between two robots. The configuration file names it
-/// `loop_candidates`.
-struct LoopClosureConfig {
+/// Selection and timing of registrations between two robots.
+struct CandidateConfig {
   place::ProximityConfig proximity;  ///< r^i of Eq. 1
   /// m, horizontal, of a G that proposes candidates; beyond it, and without G, descriptors do.
   double max_sigma_m = 15.0;

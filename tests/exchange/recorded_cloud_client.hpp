@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "fleetmap/exchange/loop_closer.hpp"
+#include "fleetmap/exchange/cloud_client.hpp"
 
 namespace fleetmap::exchange::testing {
 
 /// A loop closer that records what the transport reports and demands what the test has set.
-class RecordedLoopCloser final : public LoopCloser {
+class RecordedCloudClient final : public CloudClient {
  public:
   void on_node(const graph::Node& node, Stamp) override { nodes.push_back(node.id); }
   void on_contested(const NodeId& node) override { contested.push_back(node); }

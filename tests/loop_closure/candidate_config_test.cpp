@@ -1,4 +1,4 @@
-#include "fleetmap/loop_closure/loop_closure_config.hpp"
+#include "fleetmap/loop_closure/candidate_config.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,18 +11,18 @@ using testing::expect_accepted;
 using testing::expect_refused;
 using testing::kNaN;
 
-using Config = LoopClosureConfig;
+using Config = CandidateConfig;
 
-TEST(LoopClosureConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
+TEST(CandidateConfig, DefaultsAreValid) { EXPECT_TRUE(Config{}.validate()); }
 
-TEST(LoopClosureConfig, ItsPartsAreChecked) {
+TEST(CandidateConfig, ItsPartsAreChecked) {
   expect_refused(
       Config{}, [](Config& c) { c.proximity.radius_scale = 0.0; }, "radius_scale");
   expect_refused(
       Config{}, [](Config& c) { c.descriptors.kept = 0; }, "descriptor_match.kept");
 }
 
-TEST(LoopClosureConfig, DistancesAndInformationAreNotNegative) {
+TEST(CandidateConfig, DistancesAndInformationAreNotNegative) {
   expect_accepted(Config{}, &Config::max_sigma_m, {1e-6});
   expect_refused(Config{}, &Config::max_sigma_m, {0.0, -1.0, kNaN<double>}, "max_sigma_m");
   for (double Config::*spacing :
@@ -34,7 +34,7 @@ TEST(LoopClosureConfig, DistancesAndInformationAreNotNegative) {
   expect_refused(Config{}, &Config::min_information, {-0.1, kNaN<double>}, "loop_candidates.min_");
 }
 
-TEST(LoopClosureConfig, TimesAreBounded) {
+TEST(CandidateConfig, TimesAreBounded) {
   for (Duration Config::*time : {&Config::max_wait, &Config::retry_after}) {
     expect_accepted(Config{}, time, {Duration::zero()});
     expect_refused(Config{}, time, {Duration{-1}}, "retry_after");
@@ -45,7 +45,7 @@ TEST(LoopClosureConfig, TimesAreBounded) {
   }
 }
 
-TEST(LoopClosureConfig, CountsAreBounded) {
+TEST(CandidateConfig, CountsAreBounded) {
   for (std::size_t Config::*count : {&Config::max_active, &Config::max_waiting}) {
     expect_accepted(Config{}, count, {1});
     expect_refused(Config{}, count, {0}, "max_active and max_waiting");

@@ -35,9 +35,9 @@ struct CloudDemand {
 
 /// Interface of loop closing to the transport. The transport reports items, matches, requests and received
 /// clouds in the order of their arrival, and each complete cloud once.
-class LoopCloser {
+class CloudClient {
  public:
-  virtual ~LoopCloser() = default;
+  virtual ~CloudClient() = default;
 
   /// A node was stored, or is in the store at the start; in any order.
   virtual void on_node(const graph::Node& node, Stamp now) = 0;
