@@ -59,10 +59,10 @@ class CandidateSet {
   ScheduledCandidate& at(const NodePair& pair) { return candidates_.at(pair); }
   /// Makes it if there is none.
   ScheduledCandidate& find_or_make(const NodePair& pair);
-  /// The candidate is aligned.
+  /// Marks the candidate as aligned.
   void conclude(const NodePair& pair);
-  /// A failed candidate that has had its attempts, or that one which is done or abandoned makes redundant.
-  /// Only another one that is erased, or a node that is removed, can make it retryable().
+  /// True for a failed candidate that has used all its attempts, or that is redundant beside a done or an
+  /// abandoned one. It becomes retryable() only when such a candidate is erased or a node is removed.
   bool is_exhausted(const NodePair& pair, const ScheduledCandidate& candidate) const;
   /// Takes an exhausted candidate out of all().
   void abandon(const NodePair& pair) { abandoned_.insert(candidates_.extract(pair)); }

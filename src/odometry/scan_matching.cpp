@@ -16,16 +16,19 @@ constexpr double kStepTranslation = 5e-4;  // m, a smaller step ends the iterati
 constexpr double kStepRotation = 2e-5;     // rad
 constexpr double kAnnealing = 0.4;         // shrinkage of the kernel's slack in each iteration
 constexpr double kFinalSlack = 0.02;       // m
-/// While the slack shrinks, every so many features will do as leave this many plane points.
+/// Plane points that are used while the slack shrinks: a subset suffices until the last iteration.
 constexpr std::size_t kEnoughPlanes = 600;
 constexpr std::size_t kLongestStride = 4;
-/// Distances as large as assumed that the a posteriori variance begins with: a few cannot be sure of it.
+/// Pseudo-observations of the assumed variance in the a posteriori variance, which a few distances alone
+/// would estimate badly.
 constexpr double kAssumedDistances = 10.0;
-/// A direction is degenerate if its information is within this factor of what noisy normals feign ...
+/// A direction is degenerate if its information is within this factor of the spurious information of noisy
+/// normals ...
 constexpr double kSpuriousFactor = 6.0;
 /// ... or below this share of a direction that all surfaces face.
 constexpr double kMinShare = 5e-5;
-/// Within this factor noisy normals can still be most of what constrains a direction: it is weak.
+/// A direction is weak if its information is within this factor, because noisy normals may be the larger part
+/// of it.
 constexpr double kWeakFactor = 40.0;
 constexpr double kLevel = 0.7;             // upward part of the normal of what lies level, at least
 constexpr std::size_t kFeatureBlock = 16;  // features whose windows are fetched together

@@ -152,8 +152,8 @@ std::vector<FoundMode> aligned(const PreparedCloud::Data& target, const Prepared
   return modes;
 }
 
-/// Aligns anew what both sensors saw from the same side, once it is known which pose is meant. What would
-/// leave the prior stays as it was.
+/// Refines a mode with the surfaces alone that both sensors observed from the same side. A result that the
+/// prior contradicts is dropped, and the mode stays as it was.
 void refine(const PreparedCloud::Data& target, const MovingPoints& points, const IcpConfig& fine,
             const DriftModels& drift_models, const Window& window, double prior_sigmas, FoundMode& mode) {
   IcpConfig icp = fine;

@@ -19,7 +19,7 @@ struct HeldFleet {
 /// Fails when no map was made of the store yet.
 Result<HeldFleet> open_held(const std::filesystem::path& store_file);
 
-/// The map made again from the agent's store, so that it tells which robot saw what.
+/// The map made again from the agent's store, so that each point has the robot that observed it.
 store::MergedMap map_with_sources(HeldFleet& held);
 
 }  // namespace fleetmap::run_evaluation

@@ -47,7 +47,7 @@ struct AgentConfig {
   store::RegistrationLogConfig registration_log;
   store::MergeConfig map;
   store::Sessions::Draw draw_session = store::random_session;
-  std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: somebody else drives
+  std::shared_ptr<const NavigatorConfig> navigator;  ///< absent: the robot is driven by others
 
   /// The rules by which maps are made, and the rest that results depend on.
   output::RecipeConfig recipe() const { return {site_origin, placement, map}; }

@@ -12,11 +12,11 @@ namespace fleetmap::agent {
 /// The direction against gravity in the odometry frame, by a Kalman filter over blocks of some seconds.
 ///
 /// A single attitude of the EKF is off by a degree or two, since the EKF takes the acceleration of a bend for
-/// gravity. The odometry frame itself hardly tilts, so averages over a minute are far better. What remains is
-/// an offset that is constant in base_link (mount of the IMU, bias of its accelerometer); it turns with the
-/// robot and so becomes observable as soon as the heading changes. States: the tilt of the odometry frame, a
-/// slow random walk, and that offset. The noise of a block is estimated from the innovations (Mehra, "On the
-/// identification of variances and adaptive Kalman filtering", IEEE TAC 1970).
+/// gravity. The odometry frame itself hardly tilts, so averages over a minute are far better. The remaining
+/// error is an offset that is constant in base_link (mount of the IMU, bias of its accelerometer); it turns
+/// with the robot and so becomes observable as soon as the heading changes. States: the tilt of the odometry
+/// frame, a slow random walk, and that offset. The noise of a block is estimated from the innovations (Mehra,
+/// "On the identification of variances and adaptive Kalman filtering", IEEE TAC 1970).
 class LevelTrack {
  public:
   /// `up_in_base`: against gravity by the EKF at `stamp`, where the odometry has T_odom_base.

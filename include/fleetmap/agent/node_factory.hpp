@@ -41,8 +41,8 @@ class NodeFactory {
     Bytes submap;      ///< encoded
     std::size_t points = 0;
   };
-  /// The node at the last scan, under the name `id`; fails if there is none. What it holds stays gathered
-  /// until restart(): it goes into the next node where this one cannot be stored.
+  /// The node at the last scan, under the name `id`; fails if there is none. Its points are kept until
+  /// restart(), so that the next node contains them if this one cannot be stored.
   Result<Made> make(const NodeId& id);
   /// The node that was made is stored: the next one begins at it.
   void restart();

@@ -12,7 +12,7 @@
 namespace fleetmap::agent {
 
 /// Writes O, one file a session, and G of each scan into the agent's directory. A disk that fails later is
-/// logged and stops nobody.
+/// logged; the agent goes on.
 class TrackRecorder {
  public:
   /// `index` of the session, as of store::Sessions::index_of().

@@ -95,7 +95,7 @@ class Exchange {
   bool others_busy(Stamp now) const;
   /// The last status of each robot; that of this one is the present one.
   std::map<AgentId, AgentStatus> statuses() const;
-  /// Whether each robot stands by an order, by its last answer; without an order nobody answers.
+  /// Whether each robot is held by an order, by its last answer; without an order there are no answers.
   std::map<AgentId, messages::Hold::Driving> driving() const;
   ExchangeStats stats() const;
   TableSizes table_sizes() const;

@@ -26,8 +26,8 @@ struct Packet {
   std::size_t wire_bytes = 0;  ///< on the radio with overhead and copies, on the short range the payload
 };
 
-/// Stores and exchanges of a fleet on a network in virtual time. What the network does to a packet, and what
-/// the rest of a robot does about an event, is up to the derived class.
+/// Stores and exchanges of a fleet on a network in virtual time. The derived class decides which packets the
+/// network delivers and how a robot reacts to an event.
 class ExchangeFleet {
  public:
   struct Robot {

@@ -51,7 +51,7 @@ struct CloudFragment {
   Bytes payload;
 };
 
-/// `from` asks `to` for pieces of a cloud; no index means the whole.
+/// `from` requests pieces of a cloud of `to`; no index means the whole.
 struct CloudRequest {
   static constexpr std::size_t kMaxMissing = 256;
   AgentId from;
@@ -72,7 +72,7 @@ struct Digest {
   std::vector<std::uint32_t> alignment_prints = {};
 };
 
-/// `from` asks `to` for items that the digest of `to` offered.
+/// `from` requests items that the digest of `to` offered.
 struct ItemRequest {
   AgentId from;
   AgentId to;
@@ -127,7 +127,7 @@ struct HoldOrder {
 struct RowOrder {
   Stamp stamp;            ///< as that of a HoldOrder
   AgentId robot;          ///< is not to drive it
-  AgentId to;             ///< is to drive it; empty: whoever of the others is done with it first
+  AgentId to;             ///< is to drive it; empty: the first other robot that is free
   AgentId issuer;         ///< for people
   std::uint32_t row = 0;  ///< its id in the mission
   bool operator==(const RowOrder&) const = default;
@@ -140,7 +140,7 @@ struct Hold {
     kNoRobot,    ///< `from` is an operator
     kFree,       ///< `from` drives its mission
     kHeld,       ///< `from` stands by an order
-    kNoMission,  ///< `from` obeys nobody here: something else drives it
+    kNoMission,  ///< `from` obeys no orders: it is driven by another program
     kHome,       ///< `from` drives home by an order, or is there
   };
   AgentId from;
@@ -159,7 +159,7 @@ struct SubmapDigest {
   std::vector<AgentId> hears;
 };
 
-/// `from` asks `to` for bytes [offset, offset + length) of an encoded submap.
+/// `from` requests bytes [offset, offset + length) of an encoded submap of `to`.
 struct SubmapRequest {
   AgentId from;
   AgentId to;

@@ -22,10 +22,10 @@ const char* to_string(Source source);
 ///
 /// The clock that most sensors share (of equally many, the one nearest to the computer's) is taken as right.
 /// Stamps that are more than kWrong off are corrected: exactly, where the difference is one that time scales
-/// have, else to about 0.1 s, which drivers take to hand a sample on. What is off by less may be a slow
-/// driver and is only reported. A clock that drifts against the right one is reported in ppm, and followed.
-/// The stamps of a sensor that is the only one are compared with the arrivals, reported and used as they are:
-/// nothing shows which of the two clocks is wrong, and no other stamp contradicts them.
+/// have, else to about 0.1 s, which drivers take to hand a sample on. A smaller difference may come from a
+/// slow driver and is only reported. A clock that drifts against the right one is reported in ppm, and
+/// followed. The stamps of a sensor that is the only one are compared with the arrivals, reported and used as
+/// they are: nothing shows which of the two clocks is wrong, and no other stamp contradicts them.
 class ClockOffsets {
  public:
   static constexpr double kReportedOffset = 0.5;  ///< s

@@ -15,8 +15,8 @@
 namespace fleetmap::sensor {
 
 /// Finds drivers whose samples decode and are wrong all the same: units other than those of the message
-/// definitions, fields that are not filled. What is certain is corrected, the rest refused; either is said
-/// once. Clocks are the task of ClockOffsets.
+/// definitions, fields that are not filled. Errors whose correction is certain are corrected, samples with
+/// others are refused; each is reported once. Clocks are the task of ClockOffsets.
 class SensorHealth {
  public:
   /// Correct the sample, or return false: it must not be used.

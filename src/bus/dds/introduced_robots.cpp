@@ -17,7 +17,7 @@ using eprosima::fastrtps::rtps::IPLocator;
 
 /// A robot that joined at most so long before this one seeks it, too, so that a Hello to it can wait.
 constexpr auto kJoinsWithUs = std::chrono::seconds(10);
-/// Hellos to an address that introduce others; later ones are short, since nobody may be there.
+/// The first Hellos to an address introduce others; later ones are short, since no robot may be there.
 constexpr int kIntroducing = 2;
 constexpr int kSoughtFirst = 4;
 constexpr double kMinWait = 2.0, kMaxWait = 5.0;  // s
@@ -36,9 +36,9 @@ bool RadioLink::Hellos::introduces() const {
   return radio_.link_ == Link::kLongRange && !radio_.guard_ && radio_.settings_;
 }
 
-/// The least is sent a Hello first: answers, where each pair must meet by itself. Where robots are
-/// introduced, those that are sought, unless they have been silent so often that they may be off; then
-/// answers; then introduced ones.
+/// The remote of least rank gets the next Hello. Without introductions answers come first, because each pair
+/// must meet by itself. With introductions the order is: sought robots, unless they were silent so often that
+/// they may be off; answers; introduced robots.
 int RadioLink::Hellos::rank(const RemoteLocator& remote) const {
   if (!introduces()) return remote.robot || remote.claimed ? 0 : 1;
   if (!remote.robot) return remote.hellos_sent < kSoughtFirst ? 0 : 1;
@@ -152,7 +152,7 @@ bool RadioLink::Hellos::introduce(const Introduction& introduction, const AgentI
           .locator = remote->locator,
           .reads = reads_of(introduction.agent),
           .multicast = radio_.config_.multicast,
-          .seeks = 0,  // `by` tells it whom it lacks
+          .seeks = 0,  // `by` introduces the others to it
           .shares_settings = true,
           .joined = now - introduction.joined_ago,
           .introduced = heard,
