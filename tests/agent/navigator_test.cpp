@@ -47,27 +47,27 @@ class NavigatorTest : public ::testing::Test {
   }
 
   /// A scan at `p` (ENU) with the robot's nose to `yaw`.
-  Perceived at(const Eigen::Vector2d& p, double yaw) const {
-    Perceived perceived;
-    perceived.G.emplace();
-    perceived.G->position = LocalFrame(site_).to_geo({p.x(), p.y(), 0.0});
-    perceived.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
-    return perceived;
+  ScanEstimate at(const Eigen::Vector2d& p, double yaw) const {
+    ScanEstimate estimate;
+    estimate.G.emplace();
+    estimate.G->position = LocalFrame(site_).to_geo({p.x(), p.y(), 0.0});
+    estimate.G->q_enu_base = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+    return estimate;
   }
   /// Scans and ticks at one place for `seconds`; `told`: what who leads the robot tells it.
-  void stay(const Perceived& perceived, int seconds, const Bytes& told = {}) {
+  void stay(const ScanEstimate& estimate, int seconds, const Bytes& told = {}) {
     for (int k = 0; k < 10 * seconds; ++k) {
       if (!told.empty()) bus_->publish(fleet_codec::topics::guide_pose(), told);
       network_->run_until(network_->now() + std::chrono::milliseconds(100));
-      see(perceived);
+      see(estimate);
       if (k % 5 == 4) navigator_->tick(false);
     }
     network_->run_until(network_->now());
   }
-  void see(Perceived perceived) {
-    perceived.arrival = network_->now();
+  void see(ScanEstimate estimate) {
+    estimate.arrival = network_->now();
     navigator_->on_scan();
-    navigator_->on_perceived(perceived);
+    navigator_->on_estimate(estimate);
   }
   void expect_zeros() const {
     for (const auto& command : commands_) {
@@ -161,7 +161,7 @@ TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
 }
 
 TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
-  Perceived broken = at({0.0, 0.0}, 0.0);
+  ScanEstimate broken = at({0.0, 0.0}, 0.0);
   broken.G->position.latitude = std::numeric_limits<double>::quiet_NaN();
   stay(broken, 2);
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0);
@@ -169,11 +169,11 @@ TEST_F(NavigatorTest, APoseThatIsNotFiniteIsNone) {
 }
 
 TEST_F(NavigatorTest, StopsInFrontOfAWall) {
-  Perceived perceived = at({0.0, 0.0}, 0.0);
+  ScanEstimate estimate = at({0.0, 0.0}, 0.0);
   for (float y = -8.0f; y <= 8.0f; y += 0.05f) {
-    for (float z = 0.2f; z < 1.0f; z += 0.1f) perceived.odometry.points.points.emplace_back(0.55f, y, z);
+    for (float z = 0.2f; z < 1.0f; z += 0.1f) estimate.odometry.points.points.emplace_back(0.55f, y, z);
   }
-  stay(perceived, 3);
+  stay(estimate, 3);
   ASSERT_FALSE(commands_.empty());
   for (const auto& command : commands_) EXPECT_LE(command.forward_speed, 0.11);
 }
@@ -256,7 +256,7 @@ TEST_F(NavigatorTest, RepeatsZeroWhileItHasToStand) {
 
 TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
   stay(at({0.0, 0.0}, 0.0), 2);
-  Perceived uncertain = at({0.0, 0.0}, 0.0);
+  ScanEstimate uncertain = at({0.0, 0.0}, 0.0);
   uncertain.G->covariance = 4.9 * 4.9 * Matrix6d::Identity();
   commands_.clear();
   stay(uncertain, 1);
@@ -275,7 +275,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsGIsTooUncertain) {
 
 TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   stay(at({0.0, 0.0}, 0.0), 2);
-  Perceived lost = at({0.0, 0.0}, 0.0);
+  ScanEstimate lost = at({0.0, 0.0}, 0.0);
   lost.odometry.lost = true;
   commands_.clear();
   stay(lost, 1);

@@ -149,7 +149,7 @@ TEST_F(ResultsTest, ARobotInQuarantineIsShown) {
   config.recipe.placement.method = graph::PlacementMethod::graph;
   const auto results = write_results(store, config);
   ASSERT_TRUE(results) << results.error().message;
-  for (const auto& [agent, credit] : results->placement.credits)
+  for (const auto& [agent, credit] : results->placement.alignment_stats)
     EXPECT_EQ(credit.quarantined, agent == faulty) << agent.str();
 
   std::ifstream file(folder_.path() / "alignments.csv");

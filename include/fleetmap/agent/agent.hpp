@@ -113,7 +113,7 @@ class Agent {
   /// Robots of the mission that have been silent for long.
   std::set<AgentId> lost() const;
 
-  void on_perceived(Perceived&& perceived);
+  void on_estimate(ScanEstimate&& estimate);
   /// Makes a node at the last scan, stores it and sends it to the fleet.
   void freeze_node();
   /// Begins a session, since the odometry continues in another frame. `why` is for the log. Returns false if

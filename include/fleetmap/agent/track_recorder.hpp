@@ -18,7 +18,7 @@ class TrackRecorder {
   /// `index` of the session, as of store::Sessions::index_of().
   static Result<TrackRecorder> open(const std::filesystem::path& directory, std::size_t index);
 
-  void add(const Perceived& perceived);
+  void add(const ScanEstimate& estimate);
   /// The following poses are of another odometry frame and go into another file.
   void begin_session(std::size_t index);
 

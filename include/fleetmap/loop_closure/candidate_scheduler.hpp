@@ -30,7 +30,7 @@ struct CandidateStats {
   std::uint64_t ended_by_peer =
       0;                      ///< requested, and ended by the peer's good alignment before the cloud arrived
   std::uint64_t yielded = 0;  ///< requested, and dropped in favour of the pair that the peer had selected
-  std::uint64_t crowded_out = 0;    ///< dropped when too many waited
+  std::uint64_t overflowed = 0;     ///< dropped when too many waited
   std::uint64_t uninformative = 0;  ///< dropped while the radio was busy: below min_information
 };
 

@@ -20,7 +20,7 @@ class MotionCovariance {
   Matrix6d since_reference() const;
   /// The drift alone, which sums over successive motions. The noise of the end poses in the local map does
   /// not, since the end of one motion is the reference of the next.
-  Matrix6d lost_since_reference() const;
+  Matrix6d drift_since_reference() const;
 
  private:
   bool started_ = false, moved_ = false;

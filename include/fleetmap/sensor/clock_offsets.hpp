@@ -9,7 +9,7 @@
 
 #include "fleetmap/core/time.hpp"
 #include "fleetmap/sensor/clock_drift.hpp"
-#include "fleetmap/sensor/lag_envelope.hpp"
+#include "fleetmap/sensor/min_lag_filter.hpp"
 
 namespace fleetmap::sensor {
 
@@ -51,7 +51,7 @@ class ClockOffsets {
   struct Track {
     std::optional<Stamp> begun;  ///< arrival of the first sample
     Stamp last_stamp;
-    LagEnvelope envelope;
+    MinLagFilter envelope;
     ClockDrift drift;
     std::optional<double> behind_at_first;  ///< s, when the first bucket of `drift` was complete
     bool known = false;

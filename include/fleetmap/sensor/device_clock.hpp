@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fleetmap/core/time.hpp"
-#include "fleetmap/sensor/lag_envelope.hpp"
+#include "fleetmap/sensor/min_lag_filter.hpp"
 
 namespace fleetmap::sensor {
 
@@ -30,7 +30,7 @@ class DeviceClock {
   };
   const RoundTrip* shortest() const;
 
-  LagEnvelope envelope_;
+  MinLagFilter envelope_;
   std::deque<RoundTrip> round_trips_;
 };
 

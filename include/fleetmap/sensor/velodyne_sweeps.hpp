@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "fleetmap/sensor/hour_clock.hpp"
+#include "fleetmap/sensor/top_of_hour_clock.hpp"
 #include "fleetmap/sensor/velodyne_packet.hpp"
 
 namespace fleetmap::sensor {
@@ -20,7 +20,7 @@ struct VelodyneCounters {
 /// stamp is the time of its first firing, with ring and time of each point.
 class VelodyneSweeps {
  public:
-  /// `arrival` is when the packet was received; it resolves the hour (HourClock).
+  /// `arrival` is when the packet was received; it resolves the hour (TopOfHourClock).
   tl::expected<void, PacketRefusal> add(ByteView packet, Stamp arrival);
   /// No more packets follow.
   void finish();
@@ -28,7 +28,7 @@ class VelodyneSweeps {
   std::optional<Scan> take();
 
   const VelodyneCounters& counters() const { return counters_; }
-  const HourClock& clock() const { return clock_; }
+  const TopOfHourClock& clock() const { return clock_; }
 
  private:
   /// The sweep under way.
@@ -42,7 +42,7 @@ class VelodyneSweeps {
   void end_sweep(bool has_end);
   void discard();
 
-  HourClock clock_;
+  TopOfHourClock clock_;
   const VelodyneModel* model_ = nullptr;
   std::optional<Sweep> sweep_;
   std::deque<Scan> complete_;

@@ -113,7 +113,8 @@ TEST(FalseAlignments, WhereLuckWouldDecideWhichPairIsFalseNoneOfThemIsTied) {
     const Placement placement = place(fleet);
     expect_none_used(placement, false_ones, of(seed));
     expect_none_used(placement, names_from(fleet, known), of(seed));
-    for (const auto& [agent, credit] : placement.credits) EXPECT_FALSE(credit.quarantined) << agent.str();
+    for (const auto& [agent, credit] : placement.alignment_stats)
+      EXPECT_FALSE(credit.quarantined) << agent.str();
     if (placement.components.size() != 3) continue;
     ++apart;
     const auto status = statuses(placement);
@@ -169,9 +170,9 @@ TEST(FalseAlignments, ARobotThatComputesGarbageIsQuarantinedAndBendsNothing) {
       }
     }
     const Placement placement = place(fleet);
-    EXPECT_TRUE(placement.credits.at(faulty).quarantined) << "seed " << seed;
-    EXPECT_EQ(placement.credits.at(faulty).used, 0u);
-    for (const AgentId& other : others) EXPECT_FALSE(placement.credits.at(other).quarantined);
+    EXPECT_TRUE(placement.alignment_stats.at(faulty).quarantined) << "seed " << seed;
+    EXPECT_EQ(placement.alignment_stats.at(faulty).used, 0u);
+    for (const AgentId& other : others) EXPECT_FALSE(placement.alignment_stats.at(other).quarantined);
     EXPECT_NEAR(joint_error(fleet, placement, others), undisturbed, 0.02) << "seed " << seed;
   }
 }
