@@ -10,6 +10,7 @@
 
 namespace fleetmap::cloud {
 
+/// Indices of a cloud's points, divided into ground and the rest.
 struct GroundSplit {
   std::vector<std::size_t> kept;    ///< ascending
   std::vector<std::size_t> ground;  ///< ascending

@@ -6,6 +6,7 @@
 
 namespace fleetmap::cloud {
 
+/// Limits of the surfaces that count as ground.
 struct GroundConfig {
   Eigen::Vector3f up = Eigen::Vector3f::UnitZ();  ///< against gravity, in the cloud's frame, any length
   float cell_m = 1.0f;         ///< m, edge of the cells that each hold one piece of ground surface

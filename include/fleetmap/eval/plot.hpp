@@ -33,6 +33,7 @@ struct LineSeries {
   bool markers = true;
 };
 
+/// A series of a bar chart.
 struct Bars {
   std::string name;
   std::vector<double> values;  ///< one for each group

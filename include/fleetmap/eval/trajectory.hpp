@@ -17,6 +17,7 @@ using output::Trajectory;
 /// The pose at `stamp`, interpolated; nothing outside the trajectory or in a gap longer than a second.
 std::optional<Pose> pose_at(const Trajectory& trajectory, Stamp stamp);
 
+/// Absolute and relative errors of one trajectory (ATE and RPE, Sturm et al., IROS 2012).
 struct TrajectoryErrors {
   std::size_t pairs = 0;
   double ate_rmse = 0.0;          ///< m, without alignment: both are georeferenced

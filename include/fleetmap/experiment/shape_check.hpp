@@ -54,6 +54,7 @@ Trend check_trend(const Curve& curve, bool falling);
 /// by `by`: from the paired differences with residual_of()'s sigma.
 Trend check_limit(const Curve& curve, bool falling, double by);
 
+/// Result of the check of a curve's expected shape.
 enum class Verdict : std::uint8_t {
   kHolds,
   kHoldsWeakly,  ///< the means have the shape, but with these few seeds chance could have made it (p > 0.05)

@@ -6,6 +6,7 @@
 /// consistent results.)
 namespace fleetmap::portable {
 
+/// Sine and cosine of one angle.
 struct SinCos {
   double sin = 0.0;
   double cos = 1.0;

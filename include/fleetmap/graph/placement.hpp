@@ -25,6 +25,7 @@ enum class AlignmentStatus {
 };
 const char* to_string(AlignmentStatus status);
 
+/// Status of one alignment after the placement.
 struct AlignmentOutcome {
   NodeId i, j;
   AgentId computed_by;

@@ -15,8 +15,8 @@ namespace fleetmap::localization {
 
 /// Error state: position (m, ENU), velocity (m/s, ENU), attitude (rad, ENU axes: R_true = exp(theta) R), gyro
 /// bias (rad/s) and accelerometer bias (m/s^2) in the IMU frame: 15 states. Three more carry the slow part of
-/// the GPS error, in units of its standard deviation; with gps.correlation_time = 0 they stay at 0 and touch
-/// nothing.
+/// the GPS error as a first-order Gauss-Markov process (GpsModel), in units of its standard deviation; with
+/// gps.correlation_time = 0 they stay at 0 and touch nothing.
 inline constexpr int kStates = 18;
 enum StateOffset : int { kPos = 0, kVel = 3, kAtt = 6, kGyroBias = 9, kAccelBias = 12, kGpsError = 15 };
 using Covariance = Eigen::Matrix<double, kStates, kStates>;

@@ -18,6 +18,7 @@
 
 namespace fleetmap::loop_closure {
 
+/// Counters of the loop candidates with other robots since the start.
 struct CandidateStats {
   std::uint64_t by_position = 0;    ///< pairs within r^i (Alg. 2), or found so by a peer
   std::uint64_t by_descriptor = 0;  ///< descriptor matches, where not both nodes have a good G

@@ -8,6 +8,7 @@
 
 namespace fleetmap::loop_closure {
 
+/// Candidates, spherization and registration of one robot's loop closing.
 struct LoopClosingConfig {
   AgentId self;
   CandidateConfig candidates;  ///< with peers and earlier sessions

@@ -7,6 +7,7 @@
 
 namespace fleetmap::loop_closure {
 
+/// Candidates and registration of align_map_sessions().
 struct MapSessionConfig {
   CandidateConfig candidates;  ///< of these `proximity`, `max_sigma_m`, `descriptors`, `spacing_m`
   registration::SpherizeConfig spherize;

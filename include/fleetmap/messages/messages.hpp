@@ -168,6 +168,7 @@ struct SubmapRequest {
   std::uint32_t length = 0;
 };
 
+/// Bytes [offset, offset + payload) of an encoded submap of `from`, requested by `to`.
 struct SubmapChunk {
   static constexpr std::size_t kMaxPayload = 8192;
   AgentId from;

@@ -12,6 +12,7 @@
 
 namespace fleetmap::messages {
 
+/// Activity of a robot in a mission.
 enum class MissionState : std::uint8_t {
   kDriving,     ///< drives rows, or is ready to
   kMeeting,     ///< waits where all meet; takes over rows if there are any

@@ -10,6 +10,7 @@
 
 namespace fleetmap::odometry {
 
+/// Shape of the points in one window of the grid.
 enum class Shape : std::uint8_t {
   kUnknown,  ///< too few points, or only one line of a surface
   kPlane,

@@ -8,6 +8,7 @@
 
 namespace fleetmap::output {
 
+/// The two texts of an exported graph.
 struct GraphText {
   std::string graph;  ///< g2o
   std::string names;  ///< CSV: vertex,node,stamp_ns

@@ -22,6 +22,7 @@ store::MergedMap merged_map(store::Store& store, const std::map<NodeId, Pose>& T
 Result<store::TiledMerge> tiled_map(store::Store& store, const std::map<NodeId, Pose>& T_map_node,
                                     const store::MergeConfig& config);
 
+/// Outline and number of points of a map that was written.
 struct WrittenMap {
   store::MapOutline outline;
   std::size_t points = 0;

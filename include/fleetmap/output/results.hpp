@@ -20,6 +20,7 @@
 
 namespace fleetmap::output {
 
+/// Placement and files that write_results() left.
 struct Results {
   GeoPoint origin;
   graph::Placement placement;

@@ -10,6 +10,7 @@
 /// Poses for the tools of ROS 2: what goes out and is not read back.
 namespace fleetmap::ros_codec {
 
+/// A transform between two named frames at a time.
 struct StampedTransform {
   Stamp stamp;
   std::string parent, child;

@@ -13,6 +13,7 @@
 
 namespace fleetmap::sensor {
 
+/// A sensor whose stamps are compared with those of the others.
 enum class Source : std::uint8_t { kLidar, kImu, kGps, kWheel };
 inline constexpr std::size_t kSources = 4;
 const char* to_string(Source source);

@@ -12,6 +12,7 @@
 
 namespace fleetmap::sensor {
 
+/// Counters of the packets of one Ouster.
 struct OusterCounters {
   std::uint64_t packets = 0;  ///< decoded, of the LiDAR
   /// Left out, since more than a tenth of a turn is missing at their beginning or end: the packets begin or

@@ -9,6 +9,7 @@
 
 namespace fleetmap::sensor {
 
+/// Counters of the packets of one Velodyne.
 struct VelodyneCounters {
   std::uint64_t packets = 0;  ///< decoded
   /// Left out, since more than a tenth of a turn is missing at their beginning or end: the packets begin or

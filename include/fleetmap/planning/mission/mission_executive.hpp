@@ -41,6 +41,7 @@ struct MissionInput {
   RowSet surveyed = {};
 };
 
+/// The action that the executive orders at one time.
 struct MissionAction {
   enum class Kind : std::uint8_t {
     kFollow,  ///< drive `path`
