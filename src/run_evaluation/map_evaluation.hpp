@@ -24,7 +24,7 @@ class MapEvaluation {
 
   /// "map" (of the map that most robots hold) and, where they differ, "maps".
   Status add_to(nlohmann::json& evaluation, const std::vector<DistinctMap>& maps, StoredFleet* held);
-  /// The map of what is held as it is placed now, without pictures. Of one `held` only.
+  /// The map of what is held as it is placed now, without pictures. Call it with one `held` only.
   nlohmann::json of_held(StoredFleet& held);
 
   /// A map had more points than EvaluationInputs::max_map_points.

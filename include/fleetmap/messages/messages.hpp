@@ -104,8 +104,8 @@ struct AgentStatus {
   Health health = {};
 };
 
-/// An operator's order to stand still, to drive home or to drive on. Of the orders that concern a robot, for
-/// itself or for all, the one with the latest stamp is in force.
+/// An operator's order to stand still, to drive home or to drive on. The order with the latest stamp, among
+/// those for the robot and those for all, is in force.
 struct HoldOrder {
   enum class Kind : std::uint8_t {
     kResume,    ///< drive the mission
@@ -123,7 +123,7 @@ struct HoldOrder {
   bool calls_home() const { return kind == Kind::kHome || kind == Kind::kHoldHome; }
 };
 
-/// An operator's order to give a row away. Of the orders for a row the one with the latest stamp is in force.
+/// An operator's order to give a row away. The order with the latest stamp for a row is in force.
 struct RowOrder {
   Stamp stamp;            ///< as that of a HoldOrder
   AgentId robot;          ///< is not to drive it

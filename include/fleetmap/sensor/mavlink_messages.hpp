@@ -13,7 +13,7 @@
 
 namespace fleetmap::sensor {
 
-/// Types of messages of MAVLink's common.xml. Of heartbeats and attitudes in angles only the checksums are
+/// Types of messages of MAVLink's common.xml. For heartbeats and attitudes in angles only the checksums are
 /// used, to find frames.
 inline constexpr std::uint32_t kMavlinkHeartbeat = 0, kMavlinkSystemTime = 2, kMavlinkGpsRawInt = 24,
                                kMavlinkScaledImu = 26, kMavlinkAttitude = 30, kMavlinkAttitudeQuaternion = 31,
@@ -38,12 +38,12 @@ struct MavlinkGps {
   bool has_ellipsoid = false;
   double sigma_h = 0.0, sigma_v = 0.0;  ///< m; 0 where the device does not state them
 };
-/// ATTITUDE or ATTITUDE_QUATERNION: rotation from the body (FRD) to NED.
+/// ATTITUDE_QUATERNION: rotation from the body (FRD) to NED.
 struct MavlinkAttitude {
   Duration boot{};
   Eigen::Quaterniond q_ned_frd = Eigen::Quaterniond::Identity();
 };
-/// An IMU sample in the body's axes.
+/// SCALED_IMU or HIGHRES_IMU: a sample in the body's axes.
 struct MavlinkImu {
   MavlinkTime time;
   bool high_resolution = false;
