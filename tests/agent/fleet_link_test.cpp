@@ -105,7 +105,7 @@ std::uint64_t sent_beside(std::uint64_t bytes_a_tick) {
   return bytes;
 }
 
-TEST(FleetLink, WhatTheRadioItselfSaysCountsAgainstTheShare) {
+TEST(FleetLink, OverheadOfTheRadioCountsAgainstTheShare) {
   const std::uint64_t alone = sent_beside(0), beside = sent_beside(150);  // 7500 B/s of a part of 9062
   EXPECT_GT(alone, 100'000u);
   EXPECT_LT(beside, alone / 3);

@@ -150,7 +150,7 @@ TEST_F(NavigatorTest, WithoutGpsItIsLedByWhoKnowsWhereItIs) {
   for (const auto& command : commands_) EXPECT_EQ(command.forward_speed, 0.0) << "who led it fell silent";
 }
 
-TEST_F(NavigatorTest, WhoLeadsItIsBelievedBeforeGps) {
+TEST_F(NavigatorTest, GuidePoseReplacesGps) {
   for (int k = 0; k < 8; ++k) {
     stay(at({9.0, 4.0}, 0.0), 1, fleet_codec::encode(*at({1.0, 0.0}, 0.0).G));
   }
@@ -287,7 +287,7 @@ TEST_F(NavigatorTest, StandsAsSoonAsTheOdometryIsLost) {
   expect_zeros();  // whoever leads it does not see what is in the way
 }
 
-TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
+TEST_F(NavigatorTest, GuidedRobotObeysAnOrder) {
   const Bytes told = fleet_codec::encode(*at({0.0, 0.0}, 0.0).G);
   stay({}, 2, told);
   EXPECT_GT(commands_.back().forward_speed, 0.2);
@@ -298,7 +298,7 @@ TEST_F(NavigatorTest, WhoIsLedObeysAnOrder) {
   expect_zeros();
 }
 
-TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
+TEST_F(NavigatorTest, HeldRobotIsNotStuckAndKeepsItsRow) {
   stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   navigator_->obey(order(true));
@@ -316,7 +316,7 @@ TEST_F(NavigatorTest, WhoIsHeldIsNotStuckAndKeepsItsRow) {
   EXPECT_EQ(navigator_->status().mine, 1u) << "the time that it was held does not count";
 }
 
-TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
+TEST_F(NavigatorTest, RobotThatIsBlindForLongGivesItsRowsToOthers) {
   stay(at({0.0, 0.0}, 0.0), 2);
   ASSERT_EQ(navigator_->status().mine, 1u);
   for (int k = 0; k < 60; ++k) {
@@ -326,7 +326,7 @@ TEST_F(NavigatorTest, WhoIsBlindForLongGivesItsRowsToOthers) {
   EXPECT_EQ(navigator_->status().mine, 0u);
 }
 
-TEST_F(NavigatorTest, WhoIsNotInThePlanHasNoNavigator) {
+TEST_F(NavigatorTest, RobotThatIsNotInThePlanHasNoNavigator) {
   NavigatorConfig config;
   config.plan = small_plan();
   const auto none = Navigator::create(config, AgentId::parse("r7").value(), site_, *bus_, [](auto) {});

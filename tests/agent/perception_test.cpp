@@ -103,7 +103,7 @@ TEST_F(PerceptionTest, AScanBecomesOdometryHereAndOnTheBus) {
   EXPECT_EQ(perception_->odometry_counters().updates, 1u);
 }
 
-TEST_F(PerceptionTest, WhatCannotBeDecodedIsCountedAndNoEnd) {
+TEST_F(PerceptionTest, UndecodableMessagesAreCountedAndSkipped) {
   run_for(1s);
   for (const bus::Topic& topic : {topics::imu(), topics::fix(), topics::wheel_odometry()})
     bus_->publish(topic, kNoMessage);

@@ -54,7 +54,7 @@ TEST_F(ShownRunTest, OneStoreIsPlacedWithWhatItHolds) {
   EXPECT_THAT(view.notes, IsEmpty());
 }
 
-TEST_F(ShownRunTest, OfARunTheHoldingsOfAllAreShownAndDamagedStoresAreNotes) {
+TEST_F(ShownRunTest, RunShowsTheHoldingsOfAllAndNotesDamagedStores) {
   add_robot("r1", 0);
   add_robot("r2", 1);
   std::filesystem::create_directories(days_.path("run/r3"));

@@ -52,7 +52,7 @@ TEST_F(RobotsNow, EveryRobotOfTheFleetIsThereByNameAlsoUnheard) {
   EXPECT_THAT(of(kR2).heard, IsEmpty());
 }
 
-TEST_F(RobotsNow, WhatItDoesIsSaidByItsReport) {
+TEST_F(RobotsNow, ActivityFollowsFromTheMissionReport) {
   const auto words = [&](MissionState state, std::uint32_t current) {
     return activity_of(report(state, current, 4, 1), fleet_.rows, std::nullopt);
   };
@@ -169,7 +169,7 @@ TEST_F(RobotsNow, HealthAndClockOfAnotherRobotComeWithItsStatus) {
       << "of a robot whose insides are known, those";
 }
 
-TEST_F(RobotsNow, WhyThisRobotStandsIsKnownHere) {
+TEST_F(RobotsNow, StopReasonOfTheOwnRobotIsShown) {
   fleet_.reports[kR1] = report(MissionState::kDriving, 1, 4, 0);
   fleet_.stop_reason = "no scan comes";
   fleet_.problems[kR1] = {"no scan for 7 s"};

@@ -169,7 +169,7 @@ TEST(Fleet, kills_at_any_time_lose_nothing) {
   }
 }
 
-TEST(Fleet, what_only_a_lost_robot_had_is_not_waited_for) {
+TEST(Fleet, items_of_a_lost_robot_alone_are_not_waited_for) {
   SimFleet fleet(kThree, {}, 23);
   std::set<AgentId> near{agent("r2"), agent("r3")};
   fleet.reachable = [&](const AgentId& from, const AgentId& to, Reach reach) {

@@ -75,7 +75,7 @@ TEST_F(Shapes, SeedsAreComparedWithThemselves) {
   EXPECT_EQ(check.verdict, Verdict::kHolds) << check.detail;
 }
 
-TEST_F(Shapes, WhatChanceCouldMakeHoldsWeaklyAtBest) {
+TEST_F(Shapes, ShapeThatChanceExplainsHoldsWeaklyAtBest) {
   const ShapeCheck one = check_shape(config::Shape::kRises, 1, [](double x, int) { return x; });
   EXPECT_EQ(one.verdict, Verdict::kHoldsWeakly);
   EXPECT_THAT(one.detail, HasSubstr("one seed says nothing of chance"));

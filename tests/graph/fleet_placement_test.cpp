@@ -111,7 +111,7 @@ TEST(FleetPlacement, GpsOfTenMetresLeavesItToTheMajority) {
   }
 }
 
-TEST(FleetPlacement, OfWeakOrLostGpsTheAlignmentsAloneTieTheFleet) {
+TEST(FleetPlacement, AlignmentsAloneJoinTheFleetIfGpsIsWeakOrLost) {
   for (const double sigma : {10.0, 30.0, 100.0, 1000.0}) {
     for (unsigned seed = 1; seed <= seeds_to_run(8); ++seed) {
       SimulatedFleetConfig config;

@@ -101,7 +101,7 @@ TEST(CandidateScheduler, are_the_same_on_both_ends_without_talk) {
   EXPECT_TRUE(a.has_good_alignment(kB));
 }
 
-TEST(CandidateScheduler, of_one_place_are_not_repeated_until_the_spacing_is_left) {
+TEST(CandidateScheduler, candidates_of_one_place_are_not_repeated_within_the_spacing) {
   CandidateConfig config = at_once();
   config.spacing_aligned_m = 20.0;
   CandidateScheduler a(kA, config);

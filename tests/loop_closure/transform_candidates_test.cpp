@@ -134,7 +134,7 @@ TEST(TransformCandidates, BothEndsChooseTheSamePairs) {
   EXPECT_EQ(of_a, of_b);
 }
 
-TEST(TransformCandidates, WhereGTellsItIsG) {
+TEST(TransformCandidates, UsesGWhereBothNodesHaveIt) {
   CandidateScheduler a(kA, at_once());
   a.on_heard(kB, kStart);
   for (std::uint32_t seq = 0; seq < 4; ++seq) {
@@ -221,7 +221,7 @@ TEST(TransformCandidates, BehindAGapAreFoundWhenTheMissingNodeComes) {
   EXPECT_TRUE(std::ranges::any_of(wanted(a), beyond));
 }
 
-TEST(TransformCandidates, WhatLooksAlikeButIsElsewhereIsNotTried) {
+TEST(TransformCandidates, DescriptorMatchesElsewhereAreNotTried) {
   CandidateConfig config = at_once();
   config.min_nodes_after = 1000;
   config.max_wait = std::chrono::hours(1);

@@ -70,7 +70,7 @@ TEST(SurfaceGrid, ANormalIsOnTheSideFromWhichItWasSeen) {
   }
 }
 
-TEST(SurfaceGrid, WhatIsNeitherThinNorWideEnoughIsNoPlane) {
+TEST(SurfaceGrid, ThickOrNarrowSurfacesAreNoPlanes) {
   const auto shape_of = [](const std::vector<ObservedPoint>& points) {
     SurfaceGrid grid = planes(0.03);
     grid.add(points);

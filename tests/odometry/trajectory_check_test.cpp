@@ -27,7 +27,7 @@ class Drive {
   int number_ = 0;
 };
 
-TEST(TrajectoryCheck, OfNothingThereIsNoWarning) { EXPECT_TRUE(TrajectoryCheck().warnings().empty()); }
+TEST(TrajectoryCheck, EmptyTrajectoryHasNoWarning) { EXPECT_TRUE(TrajectoryCheck().warnings().empty()); }
 
 TEST(TrajectoryCheck, ADriveThatIsStatedWellIsKept) {
   Drive drive;

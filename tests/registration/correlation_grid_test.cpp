@@ -35,7 +35,7 @@ bool observed_at(const CorrelationGrid& map, const Vector2f& p) {
   return map.observed[static_cast<std::size_t>(c.y() * map.observed_size.x() + c.x())] != 0;
 }
 
-TEST(CorrelationGrid, OfNothingIsEmpty) {
+TEST(CorrelationGrid, EmptyInputGivesEmptyOutput) {
   const CorrelationGrid map = correlation_grid({}, {});
   EXPECT_TRUE(map.layers.empty());
   EXPECT_TRUE(map.cells.empty());
@@ -93,7 +93,7 @@ TEST(CorrelationGrid, NearABorderBothLayersAreOccupied) {
   }
 }
 
-TEST(CorrelationGrid, WhatIsSeenIsWhereAnyPointIs) {
+TEST(CorrelationGrid, CellsWithAnyPointAreObserved) {
   Points points = ground();
   points.emplace_back(40.0f, 0.0f, 1.0f);
   const CorrelationGrid map = correlation_grid(points, {});
