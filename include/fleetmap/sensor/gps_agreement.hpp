@@ -42,7 +42,7 @@ class GpsAgreement {
   std::optional<Instant> last_;
   std::deque<Fix> waiting_;
   std::optional<MatchedFix> last_matched_;
-  std::deque<MatchedFix> track_;  ///< a matched every 2 m
+  std::deque<MatchedFix> track_;  ///< one every 2 m
   double driven_ = 0.0;           ///< m, since the track was checked
   int contradictions_ = 0;        ///< windows in a row
   bool jump_reported_ = false, track_reported_ = false;
