@@ -144,8 +144,7 @@ TEST_F(Hostile, a_forged_next_node_that_comes_first_costs_the_name_and_not_the_n
   const auto joined = std::ranges::find_if(store.alignments(), [](const auto& entry) {
     return entry.second.i.agent == agent("r2") && entry.second.j.agent == agent("r2");
   });
-  ASSERT_NE(joined, store.alignments().end())
-      << "an alignment of the odometry joins the node to the one before";
+  ASSERT_NE(joined, store.alignments().end()) << "the odometry joins the node to the one before";
   EXPECT_EQ(joined->second.i, made_[7].id);
   const Pose T_before_named = made_[7].T_odom_base.inverse() * made_[10].T_odom_base;
   EXPECT_LT((joined->second.best().T_i_j.matrix() - T_before_named.matrix()).norm(), 1e-9);
